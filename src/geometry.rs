@@ -1,0 +1,234 @@
+//! Angles, directions, overlap, positions.
+//!
+//! The paper's basis: x and y horizontal, z **down**. A contact leans by θ from the vertical, and the
+//! unit vectors along the contacts point from the lower sphere to the upper one (eq. 1):
+//!
+//! ê_a = (sinθ sinφ, sinθ cosφ, −cosθ), ê_b = (sinθ sinφ, −sinθ cosφ, −cosθ), ê_c = (−sinθ, 0, −cosθ).
+//!
+//! With s = sin φ rational their components are rational in the *symbolic basis*
+//! (sinθ, 2cosφ·sinθ, cosθ): ê_a = (s, ½, −1), ê_b = (s, −½, −1), ê_c = (−1, 0, −1). A [`Vector`]
+//! holds such components in any scalar; the three roots come in at the edge only. sin²θ = q/3 with
+//! q = (a/R)², or q/4 for discs: rational whenever a/R is.
+
+mod clearance;
+mod spacing;
+mod vector;
+
+pub use clearance::{Apart, Clearance};
+pub(crate) use spacing::Bound;
+pub use spacing::Spacing;
+pub use vector::Vector;
+
+use alloc::boxed::Box;
+
+use num_rational::BigRational;
+use num_traits::One;
+
+use crate::Error;
+use crate::lattice::Dimension;
+use crate::scalar::{Algebra, Surd};
+
+/// ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
+///
+/// Paper, eq. (1). `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. Exact in exact
+/// scalars.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::{Vector, directions};
+///
+/// let [a, b, c] = directions(&0.5);
+/// assert_eq!(a, Vector { x: 0.5, y: 0.5, z: -1.0 });
+/// // On an equilateral base the horizontal parts cancel.
+/// assert_eq!(a + &b + &c, Vector { x: 0.0, y: 0.0, z: -3.0 });
+/// ```
+pub fn directions<T: Algebra>(s: &T) -> [Vector<T>; 3] {
+    let half = T::one().div_int(TWO);
+    let up = -T::one();
+    [
+        Vector {
+            x: s.clone(),
+            y: half.clone(),
+            z: up.clone(),
+        },
+        Vector {
+            x: s.clone(),
+            y: -half,
+            z: up.clone(),
+        },
+        Vector {
+            x: -T::one(),
+            y: T::zero(),
+            z: up,
+        },
+    ]
+}
+
+/// The contact directions of a pile of discs, in the basis (sinθ, 2sinθ, cosθ): ê_a = (1, 0, −1) and
+/// ê_b = (−1, 0, −1).
+///
+/// The plane of the discs is x–z. It is the pile of spheres with s = 0, whose γ contacts carry
+/// nothing, turned by a quarter about z; ê_c = (0, ½, −1) completes the three and is not used.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::{Vector, disc_directions};
+///
+/// let [a, b, _] = disc_directions();
+/// assert_eq!(a + &b, Vector { x: 0.0, y: 0.0, z: -2.0 });
+/// ```
+#[must_use]
+pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
+    let half = T::one().div_int(TWO);
+    let up = -T::one();
+    [
+        Vector {
+            x: T::one(),
+            y: T::zero(),
+            z: up.clone(),
+        },
+        Vector {
+            x: -T::one(),
+            y: T::zero(),
+            z: up.clone(),
+        },
+        Vector {
+            x: T::zero(),
+            y: half,
+            z: up,
+        },
+    ]
+}
+
+/// The position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
+///
+/// `above` are the counts of spheres above it on its lines ([`count::above`](crate::lattice::count::above)).
+/// THEORY §1: r = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. Exact in exact scalars.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::{Vector, directions, position};
+/// use cannonpile::lattice::count;
+///
+/// let r = position(&count::above(&1.0, &0.0, &1.0), &directions(&0.5));
+/// assert_eq!(r, Vector { x: -0.5, y: 0.5, z: 1.0 });
+/// ```
+pub fn position<T: Algebra>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<T> {
+    -Vector::combination(above, directions)
+}
+
+/// The squared distance of two sphere centres over 4R², for centres n_a ê_a + n_b ê_b + n_c ê_c apart
+/// (in 2R).
+///
+/// With the Gram matrix ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ,
+/// ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ (THEORY §2). s = 0 and n_c = 0 give discs. Two spheres overlap
+/// if it is below 1 and touch if it is 1. Exact in exact scalars.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::squared_distance;
+///
+/// // Neighbours of one layer in the FCC case a = R, sin²θ = 1/3, touch:
+/// let d = squared_distance(&[1.0, -1.0, 0.0], &0.5, &(1.0 / 3.0));
+/// assert!((d - 1.0_f64).abs() < 1e-15);
+/// ```
+pub fn squared_distance<T: Algebra>(n: &[T; 3], s: &T, sin2: &T) -> T {
+    let two = T::from_i128(2);
+    let cos2 = T::one() - sin2;
+    let ab = cos2.clone() + &((two.clone() * s * s - &T::one()) * sin2);
+    let ac = cos2 - &(s.clone() * sin2);
+    let [a, b, c] = n;
+    let squares = a.clone() * a + &(b.clone() * b) + &(c.clone() * c);
+    let mixed = a.clone() * b * &ab + &((a.clone() + b) * c * &ac);
+    squares + &(two * &mixed)
+}
+
+/// The angle θ between a contact and the vertical, known by its rational squares.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::{Inclination, Spacing};
+/// use cannonpile::lattice::Dimension;
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// let spacing = Spacing::new(ratio(6, 5))?;
+/// let angle = Inclination::new(&spacing, Dimension::Three)?;
+/// assert_eq!(angle.sin2(), &ratio(12, 25));
+/// assert_eq!(angle.tan2(), ratio(12, 13));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Inclination {
+    sin2: BigRational,
+}
+
+impl Inclination {
+    /// sin²θ = q(d−1)/(2d), with q = (a/R)².
+    ///
+    /// # Errors
+    /// [`Error::TooFlat`](crate::Error::TooFlat) if sin²θ ≥ 1: a sphere would fall between those below.
+    pub fn new(spacing: &Spacing, dimension: Dimension) -> Result<Self, Error> {
+        let sin2 = spacing.square() / square_per_sin2(dimension);
+        if sin2 < BigRational::one() {
+            Ok(Self { sin2 })
+        } else {
+            Err(Error::TooFlat {
+                spacing: Box::new(spacing.clone()),
+                limit: Box::new(Spacing::from_square(square_per_sin2(dimension))?),
+            })
+        }
+    }
+
+    /// sin²θ, between 0 and 1.
+    #[must_use]
+    pub fn sin2(&self) -> &BigRational {
+        &self.sin2
+    }
+
+    /// cos²θ = 1 − sin²θ, positive.
+    #[must_use]
+    pub fn cos2(&self) -> BigRational {
+        BigRational::one() - &self.sin2
+    }
+
+    /// tan²θ = sin²θ / cos²θ.
+    #[must_use]
+    pub fn tan2(&self) -> BigRational {
+        &self.sin2 / self.cos2()
+    }
+
+    /// sinθ, exactly.
+    #[must_use]
+    pub fn sin(&self) -> Surd {
+        root(self.sin2.clone())
+    }
+
+    /// cosθ, exactly.
+    #[must_use]
+    pub fn cos(&self) -> Surd {
+        root(self.cos2())
+    }
+
+    /// tanθ, exactly.
+    #[must_use]
+    pub fn tan(&self) -> Surd {
+        root(self.tan2())
+    }
+}
+
+/// q / sin²θ = 2d/(d−1): 4 for discs, 3 for spheres.
+pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
+    BigRational::from_i128(match dimension {
+        Dimension::Two => 4,
+        Dimension::Three => 3,
+    })
+}
+
+/// √r of a rational known to be positive.
+fn root(r: BigRational) -> Surd {
+    // The fallback is for a negative radicand, which the callers exclude.
+    Surd::sqrt(r).unwrap_or_else(|_| Surd::zero())
+}
+
+const TWO: core::num::NonZeroI64 = core::num::NonZeroI64::new(2).unwrap();

@@ -1,0 +1,200 @@
+//! Which spacings leave room for the spheres.
+//!
+//! # What has to be looked at
+//! Two spheres of a pile of L layers differ by n = (n_a, n_b, n_c) if both the positive and the negative
+//! parts of n sum to at most L−1. They overlap if the form [`squared_distance`] is below 1 at n. With
+//! σ = sin²θ it is m² + σ(h(n) − m²), linear in σ, where m = n_a+n_b+n_c counts the layers between them
+//! and σh(n) is the squared horizontal distance. So every n sets one bound on σ, and the allowed
+//! spacings are an interval.
+//!
+//! Finitely many n suffice:
+//! * m = 0. The neighbours (1,−1,0), (1,0,−1) and (0,1,−1) of a layer are the sides of a triangle
+//!   without an obtuse angle, so no other pair of the layer is closer. They give the lower bounds.
+//! * m > 0 (n and −n are one pair). A bound arises only where h(n) < m², and from above. Let the layers
+//!   be free of overlap, and n overlap. Its horizontal part is shorter than 1 while the neighbours
+//!   (1,−1,0) are at least 1 apart, so |n_a−n_b| ≤ 1; and |s·t − n_c| < 1/sinθ ≤ √(2(1+s)) < 2 with
+//!   t = n_a+n_b. If cosθ ≥ 1/4, then m·cosθ < 1 leaves m ≤ 3, and n_c = m−t gives
+//!   |(1+s)t − m| < 2, hence −1 ≤ t ≤ 4. If cosθ < 1/4, one of (1,1,0), (1,1,1), (1,0,1) overlaps
+//!   already: for s ≤ 0.17, between, and for s ≥ 0.83, in that order. The pile has it unless L ≤ 3,
+//!   where n has sums of at most 2 anyway and lies in the same range.
+
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::fmt;
+
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::{Inclination, Spacing, square_per_sin2, squared_distance};
+use crate::Error;
+use crate::lattice::Pyramid;
+use crate::scalar::Algebra;
+
+/// How far apart two spheres are that touch, or would overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Apart {
+    /// The number of layers between them, 0 for neighbours of one layer.
+    pub layers: u8,
+}
+
+impl fmt::Display for Apart {
+    /// `in one layer`, `3 layers apart`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.layers {
+            0 => f.write_str("in one layer"),
+            1 => f.write_str("1 layer apart"),
+            m => write!(f, "{m} layers apart"),
+        }
+    }
+}
+
+/// A pair of spheres that may come too close, with the q at which it touches.
+type Touch = (BigRational, Apart);
+
+/// The spacings a pile allows: those at which no two of its spheres overlap.
+///
+/// THEORY §2, "No overlap". On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the bounds
+/// further spheres touch.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::{Clearance, Spacing};
+/// use cannonpile::lattice::{Dimension, Pyramid};
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// let pyramid = Pyramid::new(10, Dimension::Three)?;
+/// let clearance = Clearance::new(&pyramid, &ratio(1, 2));
+/// assert!(clearance.check(&Spacing::new(ratio(163, 100))?).is_ok());
+/// assert!(clearance.check(&Spacing::new(ratio(164, 100))?).is_err());
+/// // a = R is the FCC stack: horizontal neighbours touch.
+/// let touching = clearance.check(&Spacing::new(ratio(1, 1))?)?;
+/// assert_eq!(touching[0].to_string(), "in one layer");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Clearance {
+    pyramid: Pyramid,
+    s: BigRational,
+    /// Pairs that come too close when q is too small.
+    lower: Vec<Touch>,
+    /// Pairs that come too close when q is too great.
+    upper: Vec<Touch>,
+}
+
+impl Clearance {
+    /// The bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
+    #[must_use]
+    pub fn new(pyramid: &Pyramid, s: &BigRational) -> Self {
+        let lines = pyramid.dimension().directions().len();
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for n in candidates() {
+            if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
+                continue;
+            }
+            let vector = n.map(BigRational::from_i128);
+            let at_zero = squared_distance(&vector, s, &BigRational::zero());
+            let slope = squared_distance(&vector, s, &BigRational::one()) - &at_zero;
+            if slope.is_zero() {
+                continue;
+            }
+            // at_zero + σ·slope ≥ 1
+            let sin2 = (BigRational::one() - at_zero) / &slope;
+            let layers: i128 = n.iter().sum();
+            let apart = Apart {
+                layers: u8::try_from(layers).unwrap_or(u8::MAX),
+            };
+            let bounds = if slope.is_positive() {
+                &mut lower
+            } else {
+                &mut upper
+            };
+            bounds.push((sin2 * square_per_sin2(pyramid.dimension()), apart));
+        }
+        Self {
+            pyramid: *pyramid,
+            s: s.clone(),
+            lower,
+            upper,
+        }
+    }
+
+    /// The least allowed spacing, or `None` where the pile sets no lower bound (one sphere).
+    #[must_use]
+    pub fn least(&self) -> Option<Spacing> {
+        let (bound, _) = self.lower.iter().max_by(|a, b| a.0.cmp(&b.0))?;
+        Spacing::from_square(bound.clone()).ok()
+    }
+
+    /// The greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers
+    /// on an equilateral base).
+    #[must_use]
+    pub fn most(&self) -> Option<Spacing> {
+        let flat = square_per_sin2(self.pyramid.dimension());
+        let (bound, _) = self.upper.iter().min_by(|a, b| a.0.cmp(&b.0))?;
+        (*bound < flat).then(|| Spacing::from_square(bound.clone()).ok())?
+    }
+
+    /// Decides exactly whether the spheres have room, and tells which ones touch beside the contacts
+    /// α, β, γ: none in general, some at the bounds.
+    ///
+    /// # Errors
+    /// [`Error::NoSpacing`] if no spacing at all fits this sin φ, [`Error::Overlap`] with the allowed
+    /// spacings, [`Error::TooFlat`] if θ would reach 90°.
+    pub fn check(&self, spacing: &Spacing) -> Result<Vec<Apart>, Error> {
+        let (least, most) = (self.least(), self.most());
+        if let Some(least) = &least {
+            let room = match &most {
+                Some(most) => least.square() <= most.square(),
+                None => *least.square() < square_per_sin2(self.pyramid.dimension()),
+            };
+            if !room {
+                return Err(Error::NoSpacing {
+                    sin_phi: self.s.clone(),
+                    layers: self.pyramid.layers(),
+                });
+            }
+        }
+        let mut touching = Vec::new();
+        for (bounds, wrong) in [
+            (&self.lower, Ordering::Less),
+            (&self.upper, Ordering::Greater),
+        ] {
+            for (bound, apart) in bounds {
+                let order = spacing.square().cmp(bound);
+                if order == wrong {
+                    let bounds = (least, most);
+                    return Err(Error::overlap(spacing, *apart, bounds));
+                }
+                if order.is_eq() {
+                    touching.push(*apart);
+                }
+            }
+        }
+        Inclination::new(spacing, self.pyramid.dimension())?;
+        touching.sort_unstable();
+        touching.dedup();
+        Ok(touching)
+    }
+}
+
+/// The differences that may overlap (module documentation), one of each ±n.
+fn candidates() -> impl Iterator<Item = [i128; 3]> {
+    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]];
+    let stacked = (1..=3).flat_map(|m| {
+        (-1..=4).flat_map(move |t: i128| {
+            (-1..=1)
+                .filter(move |d| (t + d) % 2 == 0)
+                .map(move |d| t.midpoint(d))
+                .map(move |a| [a, t - a, m - t])
+        })
+    });
+    neighbours.into_iter().chain(stacked)
+}
+
+/// Whether two spheres of a pile of L layers are n apart.
+fn occurs(n: [i128; 3], layers: i128) -> bool {
+    let rise: i128 = n.iter().filter(|c| **c > 0).sum();
+    let fall: i128 = n.iter().filter(|c| **c < 0).sum();
+    rise < layers && -fall < layers
+}

@@ -1,0 +1,115 @@
+//! a/R, the distance of neighbours in a layer over the diameter.
+
+use core::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use crate::Error;
+use crate::scalar::Surd;
+
+/// a/R: half the distance 2a of horizontal neighbours, over the radius. Positive; its square q is
+/// rational.
+///
+/// Whether spheres overlap depends on the pile too: [`Clearance`](super::Clearance).
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::Spacing;
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// assert_eq!(Spacing::new(ratio(6, 5))?.square(), &ratio(36, 25));
+/// // The bound √(8/3) of a tall pile is no rational, but its square is.
+/// assert_eq!(Spacing::from_square(ratio(8, 3))?.to_string(), "2/3*sqrt(6)");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spacing {
+    square: BigRational,
+}
+
+impl Spacing {
+    /// The spacing a/R.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless it is positive.
+    pub fn new(ratio: BigRational) -> Result<Self, Error> {
+        if ratio.is_positive() {
+            Ok(Self {
+                square: &ratio * &ratio,
+            })
+        } else {
+            Err(Error::NotPositive {
+                quantity: "spacing",
+                given: ratio,
+            })
+        }
+    }
+
+    /// The spacing √q.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless q is positive.
+    pub fn from_square(square: BigRational) -> Result<Self, Error> {
+        if square.is_positive() {
+            Ok(Self { square })
+        } else {
+            Err(Error::NotPositive {
+                quantity: "squared spacing",
+                given: square,
+            })
+        }
+    }
+
+    /// q = (a/R)².
+    #[must_use]
+    pub fn square(&self) -> &BigRational {
+        &self.square
+    }
+
+    /// a/R itself.
+    #[must_use]
+    pub fn ratio(&self) -> Surd {
+        // A square is not negative.
+        Surd::sqrt(self.square.clone()).unwrap_or_else(|_| Surd::zero())
+    }
+
+    /// a/R in millionths, rounded down, and whether that is exact.
+    pub(crate) fn millionths(&self) -> (BigInt, bool) {
+        let scaled = &self.square * BigRational::from_integer(1_000_000_000_000_i64.into());
+        let root = scaled.to_integer().sqrt();
+        let exact = BigRational::from_integer(&root * &root) == scaled;
+        (root, exact)
+    }
+}
+
+impl fmt::Display for Spacing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.ratio().fmt(f)
+    }
+}
+
+/// A bound on the spacing, exact and as a decimal that itself keeps the bound: `2/3*sqrt(6) =
+/// 1.632993…`, `1`.
+pub(crate) struct Bound<'a> {
+    pub(crate) spacing: &'a Spacing,
+    /// Round the decimal up, as a lower bound needs.
+    pub(crate) up: bool,
+}
+
+impl fmt::Display for Bound<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (down, exact) = self.spacing.millionths();
+        let decimal = down + u32::from(self.up && !exact);
+        let million = BigInt::from(1_000_000);
+        let (whole, rest) = (&decimal / &million, &decimal % &million);
+        write!(f, "{}", self.spacing)?;
+        match (exact, rest.is_zero()) {
+            (true, true) => Ok(()),
+            (true, false) => write!(f, " = {whole}.{rest:06}"),
+            (false, _) => write!(f, " = {whole}.{rest:06}…"),
+        }
+    }
+}

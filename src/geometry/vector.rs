@@ -1,0 +1,125 @@
+//! Vectors in the symbolic basis.
+
+use core::ops::{Add, Neg, Sub};
+
+use crate::scalar::Algebra;
+
+/// A vector by its components in the symbolic basis (sinθ, 2cosφ·sinθ, cosθ), z down.
+///
+/// x stands for x·sinθ, y for y·2cosφ·sinθ (√3·sinθ on an equilateral base), z for z·cosθ; the length
+/// or force it is measured in is said where it is returned. [`on`](Self::on) puts the basis in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Vector<T> {
+    /// The component along x̂ sinθ.
+    pub x: T,
+    /// The component along ŷ 2cosφ sinθ.
+    pub y: T,
+    /// The component along ẑ cosθ, down.
+    pub z: T,
+}
+
+impl<T: Algebra> Vector<T> {
+    /// The zero vector.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self {
+            x: T::zero(),
+            y: T::zero(),
+            z: T::zero(),
+        }
+    }
+
+    /// The vector times a number.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Vector;
+    ///
+    /// let v = Vector { x: 1.0, y: 2.0, z: 3.0 };
+    /// assert_eq!(v.scaled(&2.0), Vector { x: 2.0, y: 4.0, z: 6.0 });
+    /// ```
+    #[must_use]
+    pub fn scaled(self, factor: &T) -> Self {
+        self.map(|c| c * factor)
+    }
+
+    /// Σ c_m v_m.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Vector, directions};
+    ///
+    /// let sum = Vector::combination(&[1.0, 1.0, 0.0], &directions(&0.5));
+    /// assert_eq!(sum, Vector { x: 1.0, y: 0.0, z: -2.0 });
+    /// ```
+    #[must_use]
+    pub fn combination(coefficients: &[T; 3], vectors: &[Self; 3]) -> Self {
+        coefficients
+            .iter()
+            .zip(vectors)
+            .fold(Self::zero(), |sum, (c, v)| sum + &v.clone().scaled(c))
+    }
+
+    /// The Cartesian components, for a basis given in numbers: (x·b₀, y·b₁, z·b₂).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Vector;
+    ///
+    /// let (sin, cos, phi) = (0.6, 0.8, core::f64::consts::FRAC_PI_6);
+    /// let e_c = Vector { x: -1.0, y: 0.0, z: -1.0 };
+    /// assert_eq!(e_c.on(&[sin, 2.0 * phi.cos() * sin, cos]), [-0.6, 0.0, -0.8]);
+    /// ```
+    #[must_use]
+    pub fn on(self, basis: &[T; 3]) -> [T; 3] {
+        let [sin, across, cos] = basis;
+        [self.x * sin, self.y * across, self.z * cos]
+    }
+}
+
+impl<T> Vector<T> {
+    /// The vector with `f` applied to each component.
+    #[must_use]
+    pub fn map<U>(self, f: impl FnMut(T) -> U) -> Vector<U> {
+        let [x, y, z] = self.into_array().map(f);
+        Vector { x, y, z }
+    }
+
+    /// [x, y, z].
+    #[must_use]
+    pub fn into_array(self) -> [T; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+impl<T: Algebra> Add<&Self> for Vector<T> {
+    type Output = Self;
+
+    fn add(self, rhs: &Self) -> Self {
+        Self {
+            x: self.x + &rhs.x,
+            y: self.y + &rhs.y,
+            z: self.z + &rhs.z,
+        }
+    }
+}
+
+impl<T: Algebra> Sub<&Self> for Vector<T> {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        Self {
+            x: self.x - &rhs.x,
+            y: self.y - &rhs.y,
+            z: self.z - &rhs.z,
+        }
+    }
+}
+
+impl<T: Algebra> Neg for Vector<T> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.map(|c| -c)
+    }
+}

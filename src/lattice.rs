@@ -1,0 +1,165 @@
+//! Where the spheres sit: sites, directions, neighbours, symmetries, counts. Integers only.
+//!
+//! A pile of L layers has the layers k = 0 (the top) … L−1 (on the floor). Layer k of a triangular
+//! pile holds the sites (i, j, k) with 0 ≤ j ≤ k and 0 ≤ i ≤ k−j; a pile of discs holds those with
+//! j = 0. A sphere stands on three others, one in each [`Direction`]:
+//!
+//! | direction | below (i, j, k) | above (i, j, k) | spheres above on its line |
+//! |---|---|---|---|
+//! | α | A = (i, j, k+1) | A′ = (i, j, k−1) | k−i−j |
+//! | β | B = (i+1, j, k+1) | B′ = (i−1, j, k−1) | i |
+//! | γ | C = (i, j+1, k+1) | C′ = (i, j−1, k−1) | j |
+//!
+//! The three counts are the barycentric coordinates of the site in its layer: they sum to k. All
+//! symmetries of the pile permute them.
+//!
+//! The unit in which a pile is walked is the [`Row`]: fixed k and j, consecutive i.
+
+pub mod count;
+mod pyramid;
+mod rows;
+
+pub use pyramid::{Pyramid, Symmetry};
+pub use rows::{Row, Rows, Selection, Sites};
+
+use core::fmt;
+
+/// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
+pub const MAX_LAYERS: i128 = 10_i128.pow(36);
+
+/// A direction of contacts, named as in the paper's eq. (1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Direction {
+    /// α, along ê_a.
+    Alpha,
+    /// β, along ê_b.
+    Beta,
+    /// γ, along ê_c; piles of discs have none.
+    Gamma,
+}
+
+impl Direction {
+    /// α, β, γ: the order of every array indexed by direction.
+    pub const ALL: [Self; 3] = [Self::Alpha, Self::Beta, Self::Gamma];
+
+    /// 0, 1, 2 for α, β, γ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// assert_eq!(Direction::ALL[Direction::Beta.index()], Direction::Beta);
+    /// ```
+    #[must_use]
+    pub const fn index(self) -> usize {
+        match self {
+            Self::Alpha => 0,
+            Self::Beta => 1,
+            Self::Gamma => 2,
+        }
+    }
+
+    /// `alpha`, `beta`, `gamma`: the name in tables and on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Alpha => "alpha",
+            Self::Beta => "beta",
+            Self::Gamma => "gamma",
+        }
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// The number of dimensions a pile lives in: discs in the plane, or spheres in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// A pile of discs: each stands on two, α and β.
+    Two,
+    /// A pile of spheres: each stands on three.
+    Three,
+}
+
+impl Dimension {
+    /// 2 or 3, which is also the number of contacts below each sphere.
+    #[must_use]
+    pub const fn number(self) -> u32 {
+        match self {
+            Self::Two => 2,
+            Self::Three => 3,
+        }
+    }
+
+    /// The directions of contacts, in order.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Direction};
+    ///
+    /// assert_eq!(Dimension::Two.directions(), [Direction::Alpha, Direction::Beta]);
+    /// ```
+    #[must_use]
+    pub const fn directions(self) -> &'static [Direction] {
+        match self {
+            Self::Two => &[Direction::Alpha, Direction::Beta],
+            Self::Three => &Direction::ALL,
+        }
+    }
+}
+
+/// A place (i, j, k) for a sphere, k counted from the top.
+///
+/// Any three integers make a site; whether a pile has it is for [`Pyramid::contains`] to say. Sites
+/// are ordered as tables print them: by layer, row, place in the row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Site {
+    /// The place within the row.
+    pub i: i128,
+    /// The row within the layer.
+    pub j: i128,
+    /// The layer, 0 at the top.
+    pub k: i128,
+}
+
+impl Site {
+    /// The sphere on top of a pile, (0, 0, 0).
+    pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
+
+    /// The site one step further in `direction`, up (−1) or down (+1); `None` past `i128`.
+    pub(crate) fn step(self, direction: Direction, down: i128) -> Option<Self> {
+        let (di, dj) = match direction {
+            Direction::Alpha => (0, 0),
+            Direction::Beta => (down, 0),
+            Direction::Gamma => (0, down),
+        };
+        Some(Self {
+            i: self.i.checked_add(di)?,
+            j: self.j.checked_add(dj)?,
+            k: self.k.checked_add(down)?,
+        })
+    }
+}
+
+impl Ord for Site {
+    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
+        (self.k, self.j, self.i).cmp(&(other.k, other.j, other.i))
+    }
+}
+
+impl PartialOrd for Site {
+    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl fmt::Display for Site {
+    /// `(i,j,k)`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({},{},{})", self.i, self.j, self.k)
+    }
+}

@@ -1,0 +1,127 @@
+//! How many: sites above on a line, spheres, contacts, contacts of a given strength.
+//!
+//! One generic body each, so that an `i128` counts, a big rational counts without end, and a
+//! polynomial proves.
+
+use core::num::{NonZeroI64, NonZeroU32};
+use core::ops::Sub;
+
+use crate::scalar::Algebra;
+
+/// How many spheres lie above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
+///
+/// Paper, eq. (counts) and appendix. They are also the barycentric coordinates of the site: their
+/// sum is k, and none is negative on the pile. Exact in exact scalars.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::above(&2_i128, &1, &5), [2, 2, 1]);
+/// ```
+pub fn above<T>(i: &T, j: &T, k: &T) -> [T; 3]
+where
+    T: Clone + for<'a> Sub<&'a T, Output = T>,
+{
+    [k.clone() - i - j, i.clone(), j.clone()]
+}
+
+/// The binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::binomial(&5.0, 2), 10.0);
+/// assert_eq!(count::binomial(&1.0, 2), 0.0);
+/// ```
+pub fn binomial<T: Algebra>(x: &T, n: u32) -> T {
+    let mut product = T::one();
+    for t in 0..n {
+        let divisor = NonZeroU32::MIN.saturating_add(t);
+        let factor = x.clone() - &T::from_i128(t.into());
+        product = (product * &factor).div_int(NonZeroI64::from(divisor));
+    }
+    product
+}
+
+/// The spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
+///
+/// For d = 3 this is L(L+1)(L+2)/6 (THEORY §2). Domain: L ≥ 0.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::spheres(&10.0, 3), 220.0);
+/// assert_eq!(count::spheres(&10.0, 2), 55.0);
+/// ```
+pub fn spheres<T: Algebra>(layers: &T, d: u32) -> T {
+    binomial(&shifted(layers, i128::from(d) - 1), d)
+}
+
+/// The spheres of layer k alone: C(k+d−1, d−1). Domain: k ≥ 0, d ≥ 1.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::spheres_in_layer(&9.0, 3), 55.0);
+/// ```
+pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
+    let below = d.saturating_sub(1);
+    binomial(&shifted(k, below.into()), below)
+}
+
+/// The contacts between spheres: d below each sphere that is not on the floor, d·C(L+d−2, d).
+///
+/// For d = 3 this is L(L−1)(L+1)/2 (THEORY §2). Domain: L ≥ 1.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::contacts(&10.0, 3), 495.0);
+/// assert_eq!(count::contacts(&1.0, 3), 0.0);
+/// ```
+pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
+    spheres(&shifted(layers, -1), d) * &T::from_i128(d.into())
+}
+
+/// The contacts of one direction that carry n increments: C(L−n+d−2, d−1), for n = 1 … L−1.
+///
+/// For d = 3 this is (L−n)(L−n+1)/2 (THEORY §2).
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::contacts_of_strength(&10.0, &1.0, 3), 45.0);
+/// assert_eq!(count::contacts_of_strength(&10.0, &9.0, 3), 1.0);
+/// ```
+pub fn contacts_of_strength<T: Algebra>(layers: &T, n: &T, d: u32) -> T {
+    spheres_in_layer(&(shifted(layers, -1) - n), d)
+}
+
+/// How many spheres come before (i, j, k) in row order from the top; d is 2 (with j = 0) or 3.
+///
+/// Sphere numbers in tables are this plus one.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// assert_eq!(count::before(&0.0, &0.0, &0.0, 3), 0.0);
+/// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
+/// assert_eq!(count::before(&1.0, &1.0, &2.0, 3), 8.0);
+/// ```
+pub fn before<T: Algebra>(i: &T, j: &T, k: &T, d: u32) -> T {
+    // Rows 0 … j−1 hold k+1, k, …: the triangle number of the layer less that of what is left.
+    let rows = spheres_in_layer(k, 3) - &spheres_in_layer(&(k.clone() - j), 3);
+    spheres(k, d) + &rows + i
+}
+
+/// `n + by`.
+fn shifted<T: Algebra>(n: &T, by: i128) -> T {
+    n.clone() + &T::from_i128(by)
+}

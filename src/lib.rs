@@ -1,0 +1,84 @@
+//! Exact contact forces in regular piles of spheres.
+//!
+//! G. Oron and H. J. Herrmann ("Contact forces in regular 3D granular pile", 1998) solved the stack of
+//! cannonballs: identical, stiff, frictionless spheres piled on a triangle. Every contact force is an
+//! integer multiple of mg/(3 cosθ), and the pressure on the base is uniform. This crate gives their
+//! result as numbers of any precision, for whoever needs a many-contact static case with a known answer.
+//!
+//! # One pile in four scalars
+//! The formulas are written once, over [`scalar::Algebra`]; the scalar decides how exact they are.
+//! ```
+//! use cannonpile::lattice::{Direction, Site};
+//! use cannonpile::scalar::FixedRational;
+//! use cannonpile::{Error, Pile};
+//! use num_rational::BigRational;
+//!
+//! let pile = Pile::triangular(10)?;
+//! // Sphere (i, j) = (1, 2) of layer k = 5, and its contact with the sphere below it along α.
+//! let site = Site { i: 1, j: 2, k: 5 };
+//!
+//! // In units of mg/(3 cosθ): two spheres above on the line, and itself.
+//! assert_eq!(pile.statics::<f64>().contact(site, Direction::Alpha)?, 3.0);
+//! assert_eq!(pile.statics::<f32>().contact(site, Direction::Alpha)?, 3.0);
+//! let exact = pile.statics::<BigRational>().contact(site, Direction::Alpha)?;
+//! assert_eq!(exact.to_string(), "3");
+//! let fixed = pile.statics::<FixedRational<i64>>().contact(site, Direction::Alpha)?;
+//! assert_eq!(fixed.parts(), Some((3, 1)));
+//!
+//! // What the scalar cannot hold is an error, never a wrong number.
+//! let pile = Pile::triangular(10_i128.pow(30))?;
+//! let refused = pile.statics::<FixedRational<i64>>().on_floor(Site { k: pile.layers() - 1, ..site });
+//! assert!(matches!(refused, Err(Error::Overflow { .. })));
+//! # Ok::<(), Error>(())
+//! ```
+//! Forces in newtons and positions in metres carry roots. They are exact too: a [`Packing`] answers in
+//! numbers c·√n ([`scalar::Surd`]), which round to the nearest float.
+//!
+//! # Map
+//! Each room may use those above it, never one below.
+//!
+//! | room | what lives there |
+//! |---|---|
+//! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
+//! | [`lattice`] | sites, directions, neighbours, symmetries, rows, counts |
+//! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
+//! | [`closed_form`] | the paper's formulas, generic over the scalar |
+//! | [`Pile`], [`Statics`] | a validated pile; its forces in pile units, in any scalar |
+//! | [`Packing`] | the same in SI, exactly |
+//! | [`scene`] | a pile as a user describes it, and the parsers |
+//! | `export` | tables as csv, json and text (feature `export`) |
+//!
+//! # Guarantees
+//! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
+//!   [`MAX_LAYERS`](lattice::MAX_LAYERS) = 10³⁶ layers.
+//! * [`scalar::Surd::nearest`] is the float nearest to the exact value, decided in integers.
+//! * `f32` and `f64` as scalars round each operation; an answer takes a handful.
+//! * Nothing panics on any input. Errors are one enum, [`Error`], with the value and the remedy.
+//! * No `unsafe`; `no_std` with `alloc` (switch off the default feature `std`).
+//!
+//! # Notation
+//! θ is the angle of a contact with the vertical, φ the azimuth of the paper's eq. (1), s = sin φ, a half the
+//! distance of horizontal neighbours, R the radius, q = (a/R)², L the number of layers, k the layer counted
+//! from the top. f₀ = mg/(3 cosθ) is the unit of contact force, mg/(2(1+s) cosθ) in general. "THEORY §n" in
+//! these pages are the notes on the paper's mathematics that the crate is written after; the statements used
+//! are repeated where they are used.
+
+#![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+extern crate alloc;
+
+pub mod closed_form;
+mod error;
+pub mod geometry;
+pub mod lattice;
+mod packing;
+mod pile;
+mod query;
+pub mod scalar;
+pub mod scene;
+
+pub use error::Error;
+pub use packing::Packing;
+pub use pile::Pile;
+pub use query::{ContactForce, FloorForce, Statics};

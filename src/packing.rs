@@ -1,0 +1,322 @@
+//! A pile with a size and a weight: exact answers in SI.
+
+use alloc::vec::Vec;
+
+use num_rational::BigRational;
+use num_traits::{One, Signed};
+
+use crate::geometry::{Apart, Inclination, Spacing, Vector};
+use crate::lattice::{Direction, Site};
+use crate::scalar::{Algebra, Surd};
+use crate::{Error, FloorForce, Pile, Statics};
+
+/// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
+///
+/// Checked for overlap when it is made. Every answer is an exact [`Surd`]; [`Surd::nearest`] rounds it
+/// correctly.
+///
+/// The frame: x and y are the paper's, z points **up**, and z = 0 is the height of the centres of the
+/// bottom layer; x = y = 0 under the apex. Lengths are in the unit of the radius, forces in the unit of
+/// mass times gravity: with kg, m and m/s², in N.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::lattice::{Direction, Site};
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// let pile = Pile::triangular(10)?;
+/// let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?.with_mass(ratio(1, 10))?;
+///
+/// let force = packing.contact(Site::APEX, Direction::Alpha)?;
+/// assert_eq!(force.to_string(), "1/78*sqrt(13)");
+/// assert_eq!(force.nearest::<f64>(), Some(0.046225016352102424));
+///
+/// let [x, y, z] = packing.position(Site::APEX)?;
+/// assert!(x == 0.0 && y == 0.0);
+/// assert_eq!(z.to_string(), "18/5*sqrt(13)");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Packing<'p> {
+    statics: Statics<'p, BigRational>,
+    inclination: Inclination,
+    touching: Vec<Apart>,
+    /// (sinθ, 2cosφ·sinθ, cosθ).
+    lengths: [Surd; 3],
+    /// (tanθ, 2cosφ·tanθ, 1): the symbolic basis over cosθ.
+    forces: [Surd; 3],
+    /// 1/cosθ.
+    secant: Surd,
+    radius: BigRational,
+    mass: BigRational,
+    gravity: BigRational,
+}
+
+impl<'p> Packing<'p> {
+    /// The packing with R = m = g = 1.
+    ///
+    /// # Errors
+    /// [`Error::Overlap`], [`Error::TooFlat`] or [`Error::NoSpacing`] if the spheres have no room.
+    pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
+        let touching = pile.clearance().check(spacing)?;
+        let inclination = Inclination::new(spacing, pile.dimension())?;
+        let s = pile.sin_phi();
+        let twice_cos_phi = Surd::sqrt(BigRational::from_i128(4) * (BigRational::one() - s * s))?;
+        let (sin, tan) = (inclination.sin(), inclination.tan());
+        Ok(Self {
+            statics: pile.statics(),
+            touching,
+            lengths: [sin.clone(), sin * &twice_cos_phi, inclination.cos()],
+            forces: [tan.clone(), tan * &twice_cos_phi, BigRational::one().into()],
+            secant: Surd::sqrt(inclination.cos2().recip())?,
+            inclination,
+            radius: BigRational::one(),
+            mass: BigRational::one(),
+            gravity: BigRational::one(),
+        })
+    }
+
+    /// The same packing with spheres of this radius.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless it is positive.
+    pub fn with_radius(self, radius: BigRational) -> Result<Self, Error> {
+        let radius = positive("radius", radius)?;
+        Ok(Self { radius, ..self })
+    }
+
+    /// The same packing with spheres of this mass.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless it is positive.
+    pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
+        let mass = positive("mass", mass)?;
+        Ok(Self { mass, ..self })
+    }
+
+    /// The same packing in this gravity.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`] unless it is positive.
+    pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
+        let gravity = positive("gravity", gravity)?;
+        Ok(Self { gravity, ..self })
+    }
+
+    /// The pile that is packed.
+    #[must_use]
+    pub fn pile(&self) -> &'p Pile {
+        self.statics.pile()
+    }
+
+    /// The radius R.
+    #[must_use]
+    pub fn radius(&self) -> &BigRational {
+        &self.radius
+    }
+
+    /// The mass m of one sphere.
+    #[must_use]
+    pub fn mass(&self) -> &BigRational {
+        &self.mass
+    }
+
+    /// The gravity g.
+    #[must_use]
+    pub fn gravity(&self) -> &BigRational {
+        &self.gravity
+    }
+
+    /// The angle θ of the contacts with the vertical.
+    #[must_use]
+    pub fn inclination(&self) -> &Inclination {
+        &self.inclination
+    }
+
+    /// Which spheres touch beside the contacts α, β, γ, without a force being known there: none
+    /// strictly between the bounds of [`Clearance`](crate::geometry::Clearance).
+    #[must_use]
+    pub fn touching(&self) -> &[Apart] {
+        &self.touching
+    }
+
+    /// The weight mg of one sphere.
+    #[must_use]
+    pub fn sphere_weight(&self) -> BigRational {
+        &self.mass * &self.gravity
+    }
+
+    /// f₀ = mg/(W cosθ), the unit of contact forces: mg/(3 cosθ) on an equilateral base.
+    #[must_use]
+    pub fn unit_force(&self) -> Surd {
+        self.secant.scaled(&self.weight_per_sum())
+    }
+
+    /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
+    /// a sphere sum to this times its position from the apex (THEORY §2). In general f₀/(2R), and a
+    /// central force only where all directions are alike.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?;
+    /// assert_eq!(packing.central_constant().to_string(), "5/78*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn central_constant(&self) -> Surd {
+        self.unit_force().scaled(&self.diameter().recip())
+    }
+
+    /// The magnitude of the contact force between `site` and the sphere below it.
+    ///
+    /// # Errors
+    /// As for [`Statics::contact`].
+    pub fn contact(&self, site: Site, direction: Direction) -> Result<Surd, Error> {
+        let multiple = self.statics.contact(site, direction)?;
+        Ok(self.secant.scaled(&(multiple * self.weight_per_sum())))
+    }
+
+    /// The same force as a vector (x, y, z up), on the upper sphere.
+    ///
+    /// # Errors
+    /// As for [`Statics::contact`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let [x, _, z] = Packing::new(&pile, &spacing)?.contact_vector(Site::APEX, Direction::Gamma)?;
+    /// assert_eq!((x.to_string(), z.to_string()), ("-2/39*sqrt(39)".into(), "1/3".into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
+        let force = self.statics.contact_vector(site, direction)?;
+        Ok(on_basis(
+            &self.forces,
+            upwards(force),
+            &self.weight_per_sum(),
+        ))
+    }
+
+    /// Where `site` touches the sphere below it: halfway between the centres.
+    ///
+    /// # Errors
+    /// As for [`Statics::contact`].
+    pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
+        // Of a pair without contact there is no point either.
+        self.statics.contact(site, direction)?;
+        let lean = upwards(self.statics.direction(direction).clone());
+        let half = BigRational::new((-1).into(), 2.into());
+        let point = self.centre(site)? + &lean.scaled(&half);
+        Ok(on_basis(&self.lengths, point, &self.diameter()))
+    }
+
+    /// The centre of a sphere.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    pub fn position(&self, site: Site) -> Result<[Surd; 3], Error> {
+        Ok(on_basis(
+            &self.lengths,
+            self.centre(site)?,
+            &self.diameter(),
+        ))
+    }
+
+    /// The force of a bottom sphere on the floor: normal downwards, shear along x and y.
+    ///
+    /// # Errors
+    /// As for [`Statics::on_floor`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let force = Packing::new(&pile, &spacing)?.on_floor(Site { i: 0, j: 0, k: 9 })?;
+    /// assert_eq!(force.normal.to_string(), "4");
+    /// assert_eq!(force.shear_x.to_string(), "-3/13*sqrt(39)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on_floor(&self, site: Site) -> Result<FloorForce<Surd>, Error> {
+        let FloorForce {
+            site,
+            normal,
+            shear_x,
+            shear_y,
+        } = self.statics.on_floor(site)?;
+        let force = Vector {
+            x: shear_x,
+            y: shear_y,
+            z: normal,
+        };
+        let [shear_x, shear_y, normal] = on_basis(&self.forces, force, &self.sphere_weight());
+        Ok(FloorForce {
+            site,
+            normal,
+            shear_x,
+            shear_y,
+        })
+    }
+
+    /// The centre of a sphere, in 2R and the symbolic basis, z up from the bottom layer.
+    fn centre(&self, site: Site) -> Result<Vector<BigRational>, Error> {
+        let mut centre = upwards(self.statics.position(site)?);
+        centre.z += BigRational::from_i128(self.pile().layers() - 1);
+        Ok(centre)
+    }
+
+    fn diameter(&self) -> BigRational {
+        &self.radius + &self.radius
+    }
+
+    /// mg/W.
+    fn weight_per_sum(&self) -> BigRational {
+        self.sphere_weight() / self.statics.increment_sum()
+    }
+}
+
+/// `value`, if it is positive.
+fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
+    if value.is_positive() {
+        Ok(value)
+    } else {
+        Err(Error::NotPositive {
+            quantity,
+            given: value,
+        })
+    }
+}
+
+/// The vector with z turned up; x and y stay.
+fn upwards(v: Vector<BigRational>) -> Vector<BigRational> {
+    Vector { z: -v.z, ..v }
+}
+
+/// The components of a vector in the symbolic basis times a rational unit, as numbers.
+fn on_basis(basis: &[Surd; 3], v: Vector<BigRational>, unit: &BigRational) -> [Surd; 3] {
+    let [sin, across, cos] = basis;
+    [
+        sin.scaled(&(v.x * unit)),
+        across.scaled(&(v.y * unit)),
+        cos.scaled(&(v.z * unit)),
+    ]
+}

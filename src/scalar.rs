@@ -1,0 +1,210 @@
+//! The number traits every formula is written over, and the numbers that implement them.
+//!
+//! The traits are small, and say no more than a formula needs:
+//!
+//! | trait | what it promises | who stops here |
+//! |---|---|---|
+//! | [`Algebra`] | a commutative ring that contains ℚ: `+ − ×`, rationals in, division by a nonzero machine integer | polynomials |
+//! | [`Field`] | division by whatever is not zero | |
+//! | [`RealEmbeddable`] | a place on the real line: a sign, and rational bounds | |
+//!
+//! [`Field`] and [`RealEmbeddable`] are independent: the first is algebraic structure, the second
+//! is order. None of them is built on `num_traits::{Num, Float}`, none asks for `Copy`, and no
+//! formula contains a float literal, so that a polynomial runs through the same body as an `f64`.
+//!
+//! | scalar | exactness | for |
+//! |---|---|---|
+//! | `f32`, `f64` | [`Rounded`](Exactness::Rounded) | speed |
+//! | [`BigRational`](num_rational::BigRational) | [`Exact`](Exactness::Exact) | proof by computation, any size |
+//! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
+//!
+//! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
+//! [`Surd`] is not a scalar: it is the exact value c·√r at the edge, where roots come in.
+
+mod fixed;
+mod float;
+pub mod laws;
+mod nearest;
+mod rational;
+mod surd;
+
+pub use fixed::{FixedInteger, FixedRational};
+pub use nearest::NearestFloat;
+pub use surd::Surd;
+
+use core::fmt::Debug;
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+/// How the result of an operation relates to the true one.
+///
+/// It is part of the scalar's type ([`Algebra::EXACTNESS`]); the law suite reads it to know what to
+/// demand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Exactness {
+    /// Every operation gives the true value.
+    Exact,
+    /// Every operation gives the true value, or a fault that spreads to all that is computed from
+    /// it and is unequal to everything, itself included.
+    ExactOrFault,
+    /// Every single operation on finite operands that neither overflows nor underflows errs by at
+    /// most 2^(−`bits`) of the true value: 24 for `f32`, 53 for `f64`.
+    Rounded {
+        /// The precision p of the significand, in bits.
+        bits: u32,
+    },
+}
+
+/// A commutative algebra over ℚ: what the formulas of this crate are written over.
+///
+/// Operators take the right operand by reference, so that no big number is copied for nothing; in
+/// a generic body `Self` stays on the left.
+///
+/// # Laws
+/// For exact scalars, and for rounded ones as far as their precision goes ([`laws`] checks this):
+/// * `+` and `*` are commutative and associative, `*` distributes over `+`;
+/// * [`Zero::zero`] and [`One::one`] are their neutral elements, `a + &(-a)` is zero;
+/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and
+///   [`from_i128`](Self::from_i128) agrees with it;
+/// * `a.div_int(n)` is the one `b` with `b * n = a`.
+///
+/// # Examples
+/// A formula written once, evaluated in two scalars:
+/// ```
+/// use cannonpile::scalar::Algebra;
+/// use num_rational::BigRational;
+///
+/// fn triangle_number<T: Algebra>(n: &T) -> T {
+///     (n.clone() * &(n.clone() + &T::one())).div_int(2.try_into().unwrap())
+/// }
+///
+/// assert_eq!(triangle_number(&10.0), 55.0);
+/// let half = BigRational::new(1.into(), 2.into());
+/// assert_eq!(triangle_number(&half), BigRational::new(3.into(), 8.into()));
+/// ```
+pub trait Algebra:
+    Clone
+    + Debug
+    + PartialEq
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + for<'a> Add<&'a Self, Output = Self>
+    + for<'a> Sub<&'a Self, Output = Self>
+    + for<'a> Mul<&'a Self, Output = Self>
+{
+    /// How far results can be trusted.
+    const EXACTNESS: Exactness;
+
+    /// The scalar's name in messages, such as `f64`.
+    const NAME: &'static str;
+
+    /// The image of the integer `n`: exact, or rounded once.
+    fn from_i128(n: i128) -> Self;
+
+    /// The image of the rational `r`: exact, or rounded once to the nearest.
+    fn from_rational(r: &BigRational) -> Self;
+
+    /// `self / n`.
+    #[must_use]
+    fn div_int(self, n: NonZeroI64) -> Self;
+
+    /// False for a value that stands for no number: a fault, an infinity, not-a-number.
+    ///
+    /// It is asked once, at the edge of the library: arithmetic carries such values along.
+    fn is_defined(&self) -> bool;
+}
+
+/// An [`Algebra`] with division.
+///
+/// # Laws
+/// `a.checked_div(b)` is `None` if and only if `b` is zero or undefined; otherwise
+/// `a.checked_div(b) * b = a`.
+pub trait Field: Algebra {
+    /// `self / divisor`, or `None` if the divisor is zero or undefined.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Field;
+    ///
+    /// assert_eq!(3.0.checked_div(&4.0), Some(0.75));
+    /// assert_eq!(3.0.checked_div(&0.0), None);
+    /// ```
+    fn checked_div(&self, divisor: &Self) -> Option<Self>;
+}
+
+/// The sign of a value on the real line, as far as the scalar knows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sign {
+    /// Less than zero.
+    Negative,
+    /// Zero.
+    Zero,
+    /// Greater than zero.
+    Positive,
+    /// The scalar cannot tell, as for a fault or not-a-number.
+    Unknown,
+}
+
+/// Rational bounds of a value: `lower ≤ x ≤ upper`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Enclosure {
+    /// The greatest lower bound that is known.
+    pub lower: BigRational,
+    /// The least upper bound that is known.
+    pub upper: BigRational,
+}
+
+impl Enclosure {
+    /// The enclosure of a value known exactly.
+    #[must_use]
+    pub fn point(value: BigRational) -> Self {
+        Self {
+            lower: value.clone(),
+            upper: value,
+        }
+    }
+
+    /// Whether `value` lies within the bounds.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Enclosure;
+    /// use num_rational::BigRational;
+    ///
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// assert!(Enclosure::point(half.clone()).contains(&half));
+    /// ```
+    #[must_use]
+    pub fn contains(&self, value: &BigRational) -> bool {
+        &self.lower <= value && value <= &self.upper
+    }
+}
+
+/// A scalar whose values have a place on the real line.
+///
+/// Of a rounded scalar this is the place of the *stored* value, which says nothing certain about
+/// the quantity it approximates: a verdict needs a scalar that is exact.
+///
+/// # Laws
+/// The sign is that of every value in the enclosure, or [`Sign::Unknown`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{RealEmbeddable, Sign};
+///
+/// assert_eq!((-0.5).sign(), Sign::Negative);
+/// assert_eq!(f64::NAN.sign(), Sign::Unknown);
+/// assert!(f64::INFINITY.enclosure().is_none());
+/// ```
+pub trait RealEmbeddable {
+    /// The sign of the value.
+    fn sign(&self) -> Sign;
+
+    /// The tightest rational bounds known, or `None` for a value without finite bounds.
+    fn enclosure(&self) -> Option<Enclosure>;
+}

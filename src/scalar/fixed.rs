@@ -1,0 +1,304 @@
+//! Rationals of fixed width, reached through checked arithmetic only.
+//!
+//! `Ratio<i64>` wraps silently in release builds. [`FixedRational`] holds one, and does every
+//! operation in its checked form: the first that does not fit leaves a *fault*, which no later
+//! operation removes.
+
+use core::fmt;
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::{BigRational, Ratio};
+use num_traits::{Bounded, CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, One, Signed, Zero};
+
+use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Sign};
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A signed machine integer that [`FixedRational`] can be built on. Sealed.
+pub trait FixedInteger:
+    sealed::Sealed
+    + Copy
+    + fmt::Debug
+    + fmt::Display
+    + Integer
+    + Signed
+    + Bounded
+    + CheckedAdd
+    + CheckedSub
+    + CheckedMul
+    + TryFrom<i128>
+    + TryFrom<BigInt>
+    + Into<BigInt>
+{
+    /// The name of the rational over this integer.
+    const RATIONAL_NAME: &'static str;
+}
+
+macro_rules! fixed_integer {
+    ($($int:ident)*) => {$(
+        impl sealed::Sealed for $int {}
+        impl FixedInteger for $int {
+            const RATIONAL_NAME: &'static str = concat!("FixedRational<", stringify!($int), ">");
+        }
+    )*};
+}
+
+fixed_integer!(i8 i16 i32 i64 i128);
+
+/// A rational n/d in lowest terms with |n|, d ≤ `I::MAX`, or a fault.
+///
+/// `I::MIN` is not in the range, so that negation never overflows. A result whose computation
+/// leaves the range, be it in an intermediate product, is a fault: never a wrong number. A fault
+/// is sticky and unequal to everything, itself included.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{Algebra, FixedRational};
+/// use num_traits::One;
+///
+/// let third = FixedRational::<i64>::one().div_int(3.try_into().unwrap());
+/// assert_eq!(third.parts(), Some((1, 3)));
+///
+/// let huge = FixedRational::<i64>::from_i128(i128::from(i64::MAX));
+/// let fault = huge + &FixedRational::one();
+/// assert_eq!(fault.parts(), None);
+/// assert_ne!(fault, fault);
+/// ```
+#[derive(Clone, Copy)]
+pub struct FixedRational<I: FixedInteger>(Option<Ratio<I>>);
+
+impl<I: FixedInteger> FixedRational<I> {
+    /// The sticky result of an operation that did not fit.
+    pub const FAULT: Self = Self(None);
+
+    /// The rational `numer / denom`; a fault if the denominator is zero or either is `I::MIN`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::FixedRational;
+    ///
+    /// assert_eq!(FixedRational::new(4, -6).parts(), Some((-2, 3)));
+    /// assert_eq!(FixedRational::new(1, 0).parts(), None);
+    /// assert_eq!(FixedRational::new(i64::MIN, i64::MIN).parts(), None);
+    /// ```
+    #[must_use]
+    pub fn new(numer: I, denom: I) -> Self {
+        if denom.is_zero() || numer == I::min_value() || denom == I::min_value() {
+            return Self::FAULT;
+        }
+        Self(Some(Ratio::new(numer, denom)))
+    }
+
+    /// Numerator and positive denominator in lowest terms, or `None` for a fault.
+    #[must_use]
+    pub fn parts(&self) -> Option<(I, I)> {
+        self.0.as_ref().map(|r| (*r.numer(), *r.denom()))
+    }
+
+    /// The same number in big integers, or `None` for a fault.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::FixedRational;
+    ///
+    /// assert_eq!(FixedRational::new(7i32, 3).to_rational().unwrap().to_string(), "7/3");
+    /// ```
+    #[must_use]
+    pub fn to_rational(&self) -> Option<BigRational> {
+        // Already in lowest terms, with a positive denominator.
+        self.parts()
+            .map(|(n, d)| BigRational::new_raw(n.into(), d.into()))
+    }
+
+    /// Applies a checked operation to two numbers, and keeps `I::MIN` out of the result.
+    fn checked(self, rhs: &Self, op: impl Fn(&Ratio<I>, &Ratio<I>) -> Option<Ratio<I>>) -> Self {
+        let result = match (&self.0, &rhs.0) {
+            (Some(a), Some(b)) => op(a, b),
+            _ => None,
+        };
+        Self(result.filter(|r| *r.numer() != I::min_value() && *r.denom() != I::min_value()))
+    }
+}
+
+impl<I: FixedInteger> PartialEq for FixedRational<I> {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (Some(a), Some(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+impl<I: FixedInteger> fmt::Debug for FixedRational<I> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl<I: FixedInteger> fmt::Display for FixedRational<I> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.parts() {
+            None => f.write_str("overflow"),
+            Some((n, d)) if d.is_one() => write!(f, "{n}"),
+            Some((n, d)) => write!(f, "{n}/{d}"),
+        }
+    }
+}
+
+impl<I: FixedInteger> Add<&Self> for FixedRational<I> {
+    type Output = Self;
+
+    fn add(self, rhs: &Self) -> Self {
+        self.checked(rhs, CheckedAdd::checked_add)
+    }
+}
+
+impl<I: FixedInteger> Sub<&Self> for FixedRational<I> {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        self.checked(rhs, CheckedSub::checked_sub)
+    }
+}
+
+impl<I: FixedInteger> Mul<&Self> for FixedRational<I> {
+    type Output = Self;
+
+    fn mul(self, rhs: &Self) -> Self {
+        self.checked(rhs, CheckedMul::checked_mul)
+    }
+}
+
+impl<I: FixedInteger> Add for FixedRational<I> {
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        self.checked(&rhs, CheckedAdd::checked_add)
+    }
+}
+
+impl<I: FixedInteger> Mul for FixedRational<I> {
+    type Output = Self;
+
+    fn mul(self, rhs: Self) -> Self {
+        self.checked(&rhs, CheckedMul::checked_mul)
+    }
+}
+
+impl<I: FixedInteger> Neg for FixedRational<I> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        // |n| ≤ MAX: negation cannot overflow.
+        Self(self.0.map(|r| -r))
+    }
+}
+
+impl<I: FixedInteger> Zero for FixedRational<I> {
+    fn zero() -> Self {
+        Self(Some(Ratio::zero()))
+    }
+
+    fn is_zero(&self) -> bool {
+        self.0.as_ref().is_some_and(Zero::is_zero)
+    }
+}
+
+impl<I: FixedInteger> One for FixedRational<I> {
+    fn one() -> Self {
+        Self(Some(Ratio::one()))
+    }
+}
+
+impl<I: FixedInteger> Algebra for FixedRational<I> {
+    const EXACTNESS: Exactness = Exactness::ExactOrFault;
+    const NAME: &'static str = I::RATIONAL_NAME;
+
+    fn from_i128(n: i128) -> Self {
+        I::try_from(n).map_or(Self::FAULT, |n| Self::new(n, I::one()))
+    }
+
+    fn from_rational(r: &BigRational) -> Self {
+        match (
+            I::try_from(r.numer().clone()),
+            I::try_from(r.denom().clone()),
+        ) {
+            (Ok(n), Ok(d)) => Self::new(n, d),
+            _ => Self::FAULT,
+        }
+    }
+
+    fn div_int(self, n: NonZeroI64) -> Self {
+        let divisor = Self::from_i128(n.get().into());
+        self.checked(&divisor, CheckedDiv::checked_div)
+    }
+
+    fn is_defined(&self) -> bool {
+        self.0.is_some()
+    }
+}
+
+impl<I: FixedInteger> Field for FixedRational<I> {
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        (divisor.is_defined() && !divisor.is_zero())
+            .then(|| self.checked(divisor, CheckedDiv::checked_div))
+    }
+}
+
+impl<I: FixedInteger> RealEmbeddable for FixedRational<I> {
+    fn sign(&self) -> Sign {
+        match &self.0 {
+            None => Sign::Unknown,
+            Some(r) if r.is_positive() => Sign::Positive,
+            Some(r) if r.is_negative() => Sign::Negative,
+            Some(_) => Sign::Zero,
+        }
+    }
+
+    fn enclosure(&self) -> Option<Enclosure> {
+        self.to_rational().map(Enclosure::point)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every pair of the 8-bit rationals with small denominators and all extreme numerators,
+    /// against big integers: the result is the true one or a fault, and a fault only where an
+    /// intermediate of the textbook formula leaves the range.
+    #[test]
+    fn eight_bits_exhaustively() {
+        let mut values: Vec<FixedRational<i8>> = Vec::new();
+        for n in i8::MIN..=i8::MAX {
+            for d in [1, 2, 3, 5, 64, 126, 127, -1, -127, i8::MIN] {
+                values.push(FixedRational::new(n, d));
+            }
+        }
+        let mut held = 0_u32;
+        for a in &values {
+            for b in &values {
+                let (Some(x), Some(y)) = (a.to_rational(), b.to_rational()) else {
+                    assert!(!(*a + b).is_defined() && !(*a * b).is_defined());
+                    continue;
+                };
+                for (got, want) in [(*a + b, &x + &y), (*a - b, &x - &y), (*a * b, &x * &y)] {
+                    if let Some(got) = got.to_rational() {
+                        assert_eq!(got, want, "{a:?} {b:?}");
+                        held += 1;
+                    }
+                }
+                if let Some(q) = a.checked_div(b).and_then(|q| q.to_rational()) {
+                    assert_eq!(q, &x / &y, "{a:?} / {b:?}");
+                }
+                assert_eq!((-*a).to_rational(), Some(-x));
+            }
+        }
+        assert!(held > 1_000_000, "only {held} results were in range");
+    }
+}

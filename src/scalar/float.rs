@@ -1,0 +1,69 @@
+//! `f32` and `f64`: rounded, fast.
+
+use core::num::NonZeroI64;
+
+use num_rational::BigRational;
+
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Sign};
+
+macro_rules! float_scalar {
+    ($float:ident) => {
+        impl Algebra for $float {
+            const EXACTNESS: Exactness = Exactness::Rounded {
+                bits: $float::MANTISSA_DIGITS,
+            };
+            const NAME: &'static str = stringify!($float);
+
+            #[expect(
+                clippy::cast_precision_loss,
+                reason = "the nearest float is what is asked for"
+            )]
+            fn from_i128(n: i128) -> Self {
+                n as $float
+            }
+
+            fn from_rational(r: &BigRational) -> Self {
+                $float::nearest_to_rational(r).unwrap_or($float::NAN)
+            }
+
+            #[expect(
+                clippy::cast_precision_loss,
+                reason = "rounded, like every operation of this scalar"
+            )]
+            fn div_int(self, n: NonZeroI64) -> Self {
+                self / n.get() as $float
+            }
+
+            fn is_defined(&self) -> bool {
+                self.is_finite()
+            }
+        }
+
+        impl Field for $float {
+            fn checked_div(&self, divisor: &Self) -> Option<Self> {
+                (*divisor != 0.0 && divisor.is_finite()).then(|| self / divisor)
+            }
+        }
+
+        impl RealEmbeddable for $float {
+            fn sign(&self) -> Sign {
+                if *self > 0.0 {
+                    Sign::Positive
+                } else if *self < 0.0 {
+                    Sign::Negative
+                } else if *self == 0.0 {
+                    Sign::Zero
+                } else {
+                    Sign::Unknown
+                }
+            }
+
+            fn enclosure(&self) -> Option<Enclosure> {
+                BigRational::from_float(*self).map(Enclosure::point)
+            }
+        }
+    };
+}
+
+float_scalar!(f32);
+float_scalar!(f64);

@@ -1,0 +1,216 @@
+//! The laws of a scalar, as a suite that any scalar can be put through.
+//!
+//! Each function takes operands and says which law they break, if any. It demands of a scalar what its
+//! [`Algebra::EXACTNESS`] promises, no less: equality from an exact one, a fault or equality from a
+//! fixed-width one, and from a rounded one the laws that survive rounding and the true result within
+//! half a unit in the last place. The crate's own scalars are put through it with fixed, random and
+//! fuzzed operands; do the same with yours.
+//!
+//! # Examples
+//! ```
+//! use cannonpile::scalar::laws;
+//! use num_rational::BigRational;
+//!
+//! laws::algebra(&0.1, &0.2, &0.3)?;
+//! let third = BigRational::new(1.into(), 3.into());
+//! laws::embedding::<f32>(&third, &third)?;
+//! # Ok::<(), laws::Broken>(())
+//! ```
+
+use alloc::format;
+use alloc::string::String;
+use core::fmt;
+use core::num::NonZeroI64;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use super::{Algebra, Exactness, Field, RealEmbeddable, Sign};
+
+/// A law that does not hold, and the operands that show it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Broken {
+    /// The law, as a formula.
+    pub law: &'static str,
+    /// The scalar.
+    pub scalar: &'static str,
+    /// The operands, and what came out.
+    pub witness: String,
+}
+
+impl fmt::Display for Broken {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} breaks {}: {}", self.scalar, self.law, self.witness)
+    }
+}
+
+impl core::error::Error for Broken {}
+
+/// The laws of a commutative algebra over ℚ.
+///
+/// Commutativity, neutral elements and negation are demanded of every scalar; associativity,
+/// distributivity and division by integers of exact ones.
+///
+/// # Errors
+/// The first law that a, b, c break.
+pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
+    let law = |law: &'static str, left: T, right: T| {
+        // A fault or an overflow on either side excuses a scalar that may have them.
+        let excused =
+            T::EXACTNESS != Exactness::Exact && !(left.is_defined() && right.is_defined());
+        if left == right || excused {
+            return Ok(());
+        }
+        let witness = format!("a = {a:?}, b = {b:?}, c = {c:?}: {left:?} is not {right:?}");
+        Err(Broken {
+            law,
+            scalar: T::NAME,
+            witness,
+        })
+    };
+    let (a_, b_) = (|| a.clone(), || b.clone());
+    law("a + b = b + a", a_() + b, b_() + a)?;
+    law("a b = b a", a_() * b, b_() * a)?;
+    law("a + 0 = a", a_() + &T::zero(), a_())?;
+    law("1 a = a", T::one() * a, a_())?;
+    law("0 a = 0", T::zero() * a, T::zero())?;
+    law("a - a = 0", a_() - a, T::zero())?;
+    law("a + (-b) = a - b", a_() + &-b_(), a_() - b)?;
+    law("-(-a) = a", -(-a_()), a_())?;
+    if let Exactness::Rounded { .. } = T::EXACTNESS {
+        return Ok(());
+    }
+    law(
+        "(a + b) + c = a + (b + c)",
+        a_() + b + c,
+        a_() + &(b_() + c),
+    )?;
+    law("(a b) c = a (b c)", a_() * b * c, a_() * &(b_() * c))?;
+    law(
+        "a (b + c) = a b + a c",
+        a_() * &(b_() + c),
+        a_() * b + &(a_() * c),
+    )?;
+    for n in [1, -1, 2, 3, -7, i64::MAX, i64::MIN] {
+        let Some(n) = NonZeroI64::new(n) else {
+            continue;
+        };
+        let back = a_().div_int(n) * &T::from_i128(n.get().into());
+        law("(a / n) n = a", back, a_())?;
+    }
+    Ok(())
+}
+
+/// The laws that tie a field in the reals to the rationals: x and y are taken into the scalar, and
+/// every operation there is compared with the same one on the values stored.
+///
+/// A rounded scalar is only tested where |result| lies between 2^−64 and 2^64, clear of its limits.
+///
+/// # Errors
+/// The first law that x, y break.
+pub fn embedding<T: Field + RealEmbeddable>(
+    x: &BigRational,
+    y: &BigRational,
+) -> Result<(), Broken> {
+    let (a, b) = (T::from_rational(x), T::from_rational(y));
+    stands_for("the image of x is x", &a, x)?;
+    let (Some(p), Some(q)) = (point(&a), point(&b)) else {
+        return Ok(());
+    };
+    stands_for("a + b", &(a.clone() + &b), &(&p + &q))?;
+    stands_for("a - b", &(a.clone() - &b), &(&p - &q))?;
+    stands_for("a b", &(a.clone() * &b), &(&p * &q))?;
+    match a.checked_div(&b) {
+        Some(quotient) if !q.is_zero() => stands_for("a / b", &quotient, &(&p / &q))?,
+        None if q.is_zero() => {}
+        _ => {
+            let (law, witness) = ("a / b is undefined just for b = 0", format!("b = {b:?}"));
+            return Err(Broken {
+                law,
+                scalar: T::NAME,
+                witness,
+            });
+        }
+    }
+    for n in [3_i64, -10] {
+        let Some(n) = NonZeroI64::new(n) else {
+            continue;
+        };
+        let quotient = &p / BigInt::from(n.get());
+        stands_for("a / n", &a.clone().div_int(n), &quotient)?;
+    }
+    let sign = match p.numer().sign() {
+        num_bigint::Sign::Minus => Sign::Negative,
+        num_bigint::Sign::NoSign => Sign::Zero,
+        num_bigint::Sign::Plus => Sign::Positive,
+    };
+    if a.sign() == sign {
+        Ok(())
+    } else {
+        let witness = format!("{a:?} has sign {:?}", a.sign());
+        Err(Broken {
+            law: "the sign is that of the value",
+            scalar: T::NAME,
+            witness,
+        })
+    }
+}
+
+/// The integers go where the rationals with denominator 1 go.
+///
+/// # Errors
+/// The law, if n breaks it.
+pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
+    let (direct, by_rational) = (
+        T::from_i128(n),
+        T::from_rational(&BigRational::from_integer(n.into())),
+    );
+    if direct == by_rational || !(direct.is_defined() || by_rational.is_defined()) {
+        return Ok(());
+    }
+    let witness = format!("{n}: {direct:?} is not {by_rational:?}");
+    Err(Broken {
+        law: "n and n/1 have one image",
+        scalar: T::NAME,
+        witness,
+    })
+}
+
+/// The rational a scalar stands for, if it is one.
+fn point<T: RealEmbeddable>(a: &T) -> Option<BigRational> {
+    let enclosure = a.enclosure()?;
+    (enclosure.lower == enclosure.upper).then_some(enclosure.lower)
+}
+
+/// Whether `got` is as near to `want` as the scalar promises.
+fn stands_for<T: Algebra + RealEmbeddable>(
+    law: &'static str,
+    got: &T,
+    want: &BigRational,
+) -> Result<(), Broken> {
+    let holds = match (T::EXACTNESS, point(got)) {
+        (Exactness::Exact, value) => value.as_ref() == Some(want),
+        (Exactness::ExactOrFault, None) => !got.is_defined(),
+        (Exactness::ExactOrFault, Some(value)) => value == *want,
+        (Exactness::Rounded { .. }, None) => !in_range(want),
+        (Exactness::Rounded { bits }, Some(value)) => {
+            !in_range(want) || (value - want).abs() <= want.abs() / (BigInt::from(1) << bits)
+        }
+    };
+    if holds {
+        return Ok(());
+    }
+    let witness = format!("{got:?} stands for {want}");
+    Err(Broken {
+        law,
+        scalar: T::NAME,
+        witness,
+    })
+}
+
+/// Zero, or a magnitude that no scalar of the crate finds extreme.
+fn in_range(want: &BigRational) -> bool {
+    let limit = BigRational::from_integer(BigInt::from(1) << 64);
+    want.is_zero() || (want.abs() <= limit && want.abs() >= limit.recip())
+}

@@ -1,0 +1,142 @@
+//! The float nearest to an exact value: decided in integers, never guessed.
+//!
+//! A rational n/d, and a root √(n/d), are scaled by a power of two until their integer part has a
+//! few bits more than the float. What lies below that integer part is summed up in one *sticky* bit:
+//! is it zero or not? Together they decide every rounding, ties to even, through the subnormals
+//! down to zero (THEORY §4).
+
+use num_bigint::BigUint;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+/// A binary floating-point format to round to: `f32` or `f64`. Sealed.
+///
+/// `f32` is reached directly, never by way of `f64`: rounding twice can miss the nearest.
+pub trait NearestFloat: sealed::Sealed + Copy {
+    /// Bits of the significand, the leading one included.
+    const PRECISION: u32;
+
+    /// The exponent of the last bit of the smallest subnormal.
+    const LEAST_EXPONENT: i64;
+
+    /// The float ±`significand` · 2^`exponent`, which must be representable but for its size:
+    /// `None` when it is too large.
+    #[doc(hidden)]
+    fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
+
+    /// The float nearest to `r`, ties to even; `None` when it would be infinite.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::NearestFloat;
+    /// use num_rational::BigRational;
+    ///
+    /// let third = BigRational::new(1.into(), 3.into());
+    /// assert_eq!(f64::nearest_to_rational(&third), Some(1.0 / 3.0));
+    /// assert_eq!(f32::nearest_to_rational(&third), Some(1.0 / 3.0));
+    /// ```
+    #[must_use]
+    fn nearest_to_rational(r: &BigRational) -> Option<Self> {
+        let (n, d) = (r.numer().magnitude(), r.denom().magnitude());
+        let scale = guard_bits::<Self>() - (bits(n) - bits(d));
+        let (quotient, remainder) = shifted_quotient(n, d, scale);
+        round(r.is_negative(), &quotient, !remainder.is_zero(), -scale)
+    }
+}
+
+/// The float nearest to ±√(n/d), ties to even; `None` when it would be infinite. d is not zero.
+pub(super) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &BigUint) -> Option<F> {
+    // ⌊√(2^(2s) n/d)⌋ = ⌊√⌊2^(2s) n/d⌋⌋: one integer division, one integer root.
+    let scale = guard_bits::<F>() - (bits(n) - bits(d)).div_euclid(2);
+    let (quotient, remainder) = shifted_quotient(n, d, 2 * scale);
+    let root = quotient.sqrt();
+    let exact = remainder.is_zero() && &root * &root == quotient;
+    round(negative, &root, !exact, -scale)
+}
+
+macro_rules! nearest_float {
+    ($float:ident, $bits:ident) => {
+        impl NearestFloat for $float {
+            const PRECISION: u32 = $float::MANTISSA_DIGITS;
+            const LEAST_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
+
+            fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
+                let hidden = 1_u64 << (Self::PRECISION - 1);
+                // Rounding up may have carried into one bit more than there are.
+                let (significand, exponent) = if significand == 2 * hidden {
+                    (hidden, exponent + 1)
+                } else {
+                    (significand, exponent)
+                };
+                // Without the hidden bit the value is subnormal, and its exponent the least.
+                let biased = if significand < hidden {
+                    0
+                } else {
+                    exponent - Self::LEAST_EXPONENT + 1
+                };
+                let largest = i64::from($float::MAX_EXP) - i64::from($float::MIN_EXP) + 1;
+                if biased > largest {
+                    return None;
+                }
+                let field = $bits::try_from(biased).ok()? << (Self::PRECISION - 1);
+                let magnitude = field | $bits::try_from(significand & (hidden - 1)).ok()?;
+                let float = $float::from_bits(magnitude);
+                Some(if negative && significand != 0 {
+                    -float
+                } else {
+                    float
+                })
+            }
+        }
+    };
+}
+
+nearest_float!(f32, u32);
+nearest_float!(f64, u64);
+
+/// How many bits of a value are computed: enough for the significand, the half and some more.
+fn guard_bits<F: NearestFloat>() -> i64 {
+    i64::from(F::PRECISION) + 3
+}
+
+/// The bit length, as a signed number. No integer that fits in memory exceeds it.
+fn bits(n: &BigUint) -> i64 {
+    i64::try_from(n.bits()).unwrap_or(i64::MAX / 4)
+}
+
+/// Quotient and remainder of 2^`shift` · n / d, with d scaled instead where the shift is negative.
+fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) {
+    if shift >= 0 {
+        (n << shift).div_rem(d)
+    } else {
+        n.div_rem(&(d << -shift))
+    }
+}
+
+/// Rounds ±(m + ε) · 2^exponent, where 0 ≤ ε < 1 and `sticky` tells whether ε > 0.
+///
+/// A sticky value must come with at least two bits more than the significand has.
+fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i64) -> Option<F> {
+    if m.is_zero() && !sticky {
+        return F::assemble(false, 0, F::LEAST_EXPONENT);
+    }
+    let last_bit = (bits(m) + exponent - i64::from(F::PRECISION)).max(F::LEAST_EXPONENT);
+    let dropped = last_bit - exponent;
+    let Ok(dropped @ 1..) = u64::try_from(dropped) else {
+        // All bits are kept, and some zeros appended.
+        let significand = (m << -dropped).to_u64()?;
+        return F::assemble(negative, significand, last_bit);
+    };
+    let kept = (m >> dropped).to_u64()?;
+    let half = m.bit(dropped - 1);
+    let below_half = sticky || m.trailing_zeros().is_some_and(|zeros| zeros < dropped - 1);
+    let up = half && (below_half || kept % 2 == 1);
+    F::assemble(negative, kept + u64::from(up), last_bit)
+}

@@ -1,0 +1,328 @@
+//! c·√r: the form of every exact physical quantity of a pile.
+
+use core::cmp::Ordering;
+use core::fmt;
+use core::ops::{Mul, Neg};
+
+use num_bigint::BigUint;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::nearest::nearest_root;
+use super::{NearestFloat, Sign};
+use crate::Error;
+
+/// An exact number c·√n, with c rational and n a positive integer.
+///
+/// A contact force is n·mg/(3 cosθ) with cos²θ rational; heights carry cosθ, horizontal positions
+/// sinθ and √3 (THEORY §4): all of them are surds. Two surds multiply to a surd and compare exactly,
+/// through their squares. They do not add to a surd, so this is a value and not a
+/// [scalar](super::Algebra).
+///
+/// √(a/b) is kept as √(ab)/b, with the square factors taken out as far as they are found: the square
+/// of every prime below 1000, and the rest if it is a square as a whole. Equality and order do not
+/// depend on that form.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::Surd;
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// let x = Surd::new(ratio(7, 3), ratio(8, 17))?;
+/// assert_eq!(x.to_string(), "14/51*sqrt(34)");
+/// assert_eq!(x.square(), ratio(7 * 7 * 8, 3 * 3 * 17));
+/// // The float nearest to it; rounding after each operation gives the next one up.
+/// assert_eq!(x.nearest::<f64>(), Some(1.6006534613300825));
+/// assert_eq!(7.0 / 3.0 * (8.0 / 17.0_f64).sqrt(), 1.6006534613300827);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Surd {
+    coefficient: BigRational,
+    /// Positive; 1 where the value is rational, as far as that was found.
+    radicand: BigUint,
+}
+
+impl Surd {
+    /// The number `coefficient`·√`radicand`.
+    ///
+    /// # Errors
+    /// [`Error::NegativeRadicand`] if the radicand is negative: the root would not be real.
+    pub fn new(coefficient: BigRational, radicand: BigRational) -> Result<Self, Error> {
+        if radicand.is_negative() {
+            return Err(Error::NegativeRadicand { given: radicand });
+        }
+        // √(a/b) = √(ab)/b
+        let (a, b) = radicand.into_raw();
+        let (root, rest) = extract_squares((a * &b).into_parts().1);
+        let root = BigRational::new(root.into(), b);
+        Ok(Self::normal(coefficient * root, rest))
+    }
+
+    /// √`radicand`.
+    ///
+    /// # Errors
+    /// [`Error::NegativeRadicand`] if the radicand is negative.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::new(4.into(), 9.into()))?;
+    /// assert_eq!(root.to_rational().unwrap().to_string(), "2/3");
+    /// assert!(Surd::sqrt(BigRational::from_integer((-1).into())).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn sqrt(radicand: BigRational) -> Result<Self, Error> {
+        Self::new(BigRational::one(), radicand)
+    }
+
+    /// The number zero.
+    #[must_use]
+    pub fn zero() -> Self {
+        BigRational::zero().into()
+    }
+
+    /// Zero has one form.
+    fn normal(coefficient: BigRational, radicand: BigUint) -> Self {
+        if coefficient.is_zero() || radicand.is_zero() {
+            return Self {
+                coefficient: BigRational::zero(),
+                radicand: BigUint::one(),
+            };
+        }
+        Self {
+            coefficient,
+            radicand,
+        }
+    }
+
+    /// The rational factor c of c·√n.
+    #[must_use]
+    pub fn coefficient(&self) -> &BigRational {
+        &self.coefficient
+    }
+
+    /// The integer n ≥ 1 of c·√n.
+    #[must_use]
+    pub fn radicand(&self) -> &BigUint {
+        &self.radicand
+    }
+
+    /// The square c²n, always rational.
+    #[must_use]
+    pub fn square(&self) -> BigRational {
+        let radicand = BigRational::from_integer(self.radicand.clone().into());
+        &self.coefficient * &self.coefficient * radicand
+    }
+
+    /// The sign, always known.
+    #[must_use]
+    pub fn sign(&self) -> Sign {
+        super::RealEmbeddable::sign(&self.coefficient)
+    }
+
+    /// The value itself where it is rational, or `None`.
+    #[must_use]
+    pub fn to_rational(&self) -> Option<BigRational> {
+        let root = self.radicand.sqrt();
+        (&root * &root == self.radicand)
+            .then(|| &self.coefficient * BigRational::from_integer(root.into()))
+    }
+
+    /// This number times a rational, exactly; the root is not touched.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(3.into()))?;
+    /// assert_eq!(root.scaled(&BigRational::new(5.into(), 2.into())).to_string(), "5/2*sqrt(3)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn scaled(&self, factor: &BigRational) -> Self {
+        Self::normal(&self.coefficient * factor, self.radicand.clone())
+    }
+
+    /// 1 / `self`, or `None` for zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(3.into()))?;
+    /// assert_eq!(root.checked_recip().unwrap().to_string(), "1/3*sqrt(3)");
+    /// assert_eq!(Surd::zero().checked_recip(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn checked_recip(&self) -> Option<Self> {
+        // 1/(c√n) = √n/(cn)
+        let radicand = BigRational::from_integer(self.radicand.clone().into());
+        (!self.coefficient.is_zero()).then(|| Self {
+            coefficient: (&self.coefficient * radicand).recip(),
+            radicand: self.radicand.clone(),
+        })
+    }
+
+    /// The float nearest to the value, ties to even, subnormals included; `None` when it would be
+    /// infinite. Decided by one integer square root and a sticky bit, so it is never off.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(2.into()))?;
+    /// assert_eq!(root.nearest::<f64>(), Some(core::f64::consts::SQRT_2));
+    /// assert_eq!(root.nearest::<f32>(), Some(core::f32::consts::SQRT_2));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn nearest<F: NearestFloat>(&self) -> Option<F> {
+        if self.radicand.is_one() {
+            return F::nearest_to_rational(&self.coefficient);
+        }
+        let square = self.square();
+        let (n, d) = (square.numer().magnitude(), square.denom().magnitude());
+        nearest_root(self.coefficient.is_negative(), n, d)
+    }
+
+    /// The square with the sign of the number, which orders surds as the numbers are ordered.
+    fn signed_square(&self) -> BigRational {
+        if self.coefficient.is_negative() {
+            -self.square()
+        } else {
+            self.square()
+        }
+    }
+}
+
+/// `n` = root²·rest, with the squares of small primes and a rest that is a square taken out.
+fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
+    let mut root = BigUint::one();
+    if n.is_zero() {
+        return (root, n);
+    }
+    for p in (2_u32..1000).filter(|p| *p == 2 || p % 2 == 1) {
+        let square = p * p;
+        if n < BigUint::from(square) {
+            break;
+        }
+        loop {
+            let (quotient, remainder) = n.div_rem(&square.into());
+            if !remainder.is_zero() {
+                break;
+            }
+            n = quotient;
+            root *= p;
+        }
+    }
+    let rest = n.sqrt();
+    if &rest * &rest == n {
+        (root * rest, BigUint::one())
+    } else {
+        (root, n)
+    }
+}
+
+impl From<BigRational> for Surd {
+    fn from(value: BigRational) -> Self {
+        Self {
+            coefficient: value,
+            radicand: BigUint::one(),
+        }
+    }
+}
+
+impl Neg for Surd {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            coefficient: -self.coefficient,
+            radicand: self.radicand,
+        }
+    }
+}
+
+impl Mul<&Self> for Surd {
+    type Output = Self;
+
+    fn mul(self, rhs: &Self) -> Self {
+        // √(ga)·√(gb) = g·√(ab): factors the two radicands share come out.
+        let g = self.radicand.gcd(&rhs.radicand);
+        let radicand = (&self.radicand / &g) * (&rhs.radicand / &g);
+        let factor = BigRational::from_integer(g.into());
+        Self::normal(self.coefficient * &rhs.coefficient * factor, radicand)
+    }
+}
+
+impl PartialEq for Surd {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Surd {}
+
+impl PartialOrd for Surd {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Surd {
+    fn cmp(&self, other: &Self) -> Ordering {
+        if self.radicand == other.radicand {
+            return self.coefficient.cmp(&other.coefficient);
+        }
+        self.signed_square().cmp(&other.signed_square())
+    }
+}
+
+macro_rules! compare_with_float {
+    ($($float:ident)*) => {$(
+        /// Exact: the float is taken as the rational it is.
+        impl PartialEq<$float> for Surd {
+            fn eq(&self, other: &$float) -> bool {
+                self.partial_cmp(other).is_some_and(Ordering::is_eq)
+            }
+        }
+
+        /// Exact: the float is taken as the rational it is; `None` for not-a-number.
+        impl PartialOrd<$float> for Surd {
+            fn partial_cmp(&self, other: &$float) -> Option<Ordering> {
+                match BigRational::from_float(*other) {
+                    Some(value) => Some(self.cmp(&value.into())),
+                    None if other.is_nan() => None,
+                    None if *other > 0.0 => Some(Ordering::Less),
+                    None => Some(Ordering::Greater),
+                }
+            }
+        }
+    )*};
+}
+
+compare_with_float!(f32 f64);
+
+impl fmt::Display for Surd {
+    /// `7/3`, `sqrt(2)`, `-7/3*sqrt(2)`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.radicand.is_one() {
+            return write!(f, "{}", self.coefficient);
+        }
+        if (-&self.coefficient).is_one() {
+            f.write_str("-")?;
+        } else if !self.coefficient.is_one() {
+            write!(f, "{}*", self.coefficient)?;
+        }
+        write!(f, "sqrt({})", self.radicand)
+    }
+}
