@@ -70,6 +70,9 @@ extern crate alloc;
 
 pub mod closed_form;
 mod error;
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub mod export;
 pub mod geometry;
 pub mod lattice;
 mod packing;

@@ -3,7 +3,7 @@
 pub mod parse;
 
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Signed};
 
 use crate::geometry::Spacing;
 use crate::lattice::Dimension;
@@ -70,6 +70,26 @@ impl Scene {
             pile.clearance().check(&Spacing::new(spacing.clone())?)?;
         }
         Ok(pile)
+    }
+
+    /// That radius, mass and gravity are positive, whether they will be used or not.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`].
+    pub fn check_sizes(&self) -> Result<(), Error> {
+        for (quantity, value) in [
+            ("radius", &self.radius),
+            ("mass", &self.mass),
+            ("gravity", &self.gravity),
+        ] {
+            if !value.is_positive() {
+                return Err(Error::NotPositive {
+                    quantity,
+                    given: value.clone(),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// The pile with the sizes and weights of the scene.

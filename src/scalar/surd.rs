@@ -149,6 +149,33 @@ impl Surd {
         Self::normal(&self.coefficient * factor, self.radicand.clone())
     }
 
+    /// The sum, if the two are multiples of one root, or one of them is zero; `None` otherwise, since it
+    /// is then no surd (or its common root was not found).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = |n: i64| Surd::sqrt(BigRational::from_integer(n.into()));
+    /// assert_eq!(root(3)?.checked_add(&root(12)?).unwrap().to_string(), "3*sqrt(3)");
+    /// assert_eq!(root(3)?.checked_add(&root(2)?), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn checked_add(&self, other: &Self) -> Option<Self> {
+        if self.coefficient.is_zero() {
+            return Some(other.clone());
+        }
+        if other.coefficient.is_zero() {
+            return Some(self.clone());
+        }
+        (self.radicand == other.radicand).then(|| {
+            let coefficient = &self.coefficient + &other.coefficient;
+            Self::normal(coefficient, self.radicand.clone())
+        })
+    }
+
     /// 1 / `self`, or `None` for zero.
     ///
     /// # Examples

@@ -1,0 +1,123 @@
+//! Columns, and rows made as they are asked for.
+
+use std::io::Write;
+
+use super::{Cell, FileFormat, NumberFormat, WriteError, json, text};
+use crate::Error;
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its header in csv, and key in json.
+    pub name: &'static str,
+    /// Its unit, empty for none.
+    pub unit: &'static str,
+    /// Whether the text table shows its sum.
+    pub summed: bool,
+}
+
+impl Column {
+    /// A column without a unit or a sum.
+    pub(super) fn plain(name: &'static str) -> Self {
+        Self {
+            name,
+            unit: "",
+            summed: false,
+        }
+    }
+
+    /// A quantity in a unit.
+    pub(super) fn measured(name: &'static str, unit: &'static str) -> Self {
+        Self {
+            name,
+            unit,
+            summed: false,
+        }
+    }
+
+    /// A quantity in a unit whose sum means something.
+    pub(super) fn summed(name: &'static str, unit: &'static str) -> Self {
+        Self {
+            name,
+            unit,
+            summed: true,
+        }
+    }
+}
+
+/// A row, or why it could not be made.
+pub(super) type Row = Result<Vec<Cell>, Error>;
+
+/// How a text table is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// A line a row; the plural noun says what the rows are.
+    Rows(&'static str),
+    /// A line a column, for a table of one row.
+    Record,
+}
+
+/// A table: columns, and rows made as they are asked for. [`tables`](super::tables) makes them.
+pub struct Table<'a> {
+    pub(super) columns: Vec<Column>,
+    pub(super) layout: Layout,
+    /// The rows in which every column takes its extremes.
+    pub(super) extremes: Vec<Row>,
+    pub(super) rows: Box<dyn Iterator<Item = Row> + 'a>,
+}
+
+impl Table<'_> {
+    /// The columns, in order.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Writes the table. Memory does not grow with the number of rows.
+    ///
+    /// # Errors
+    /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit the format: found before
+    /// anything is written. [`WriteError::Io`] if the output refuses.
+    pub fn write(
+        self,
+        format: FileFormat,
+        numbers: NumberFormat,
+        out: &mut dyn Write,
+    ) -> Result<(), WriteError> {
+        for row in &self.extremes {
+            self.texts(row.as_ref().map_err(Clone::clone)?, numbers)?;
+        }
+        match format {
+            FileFormat::Text => text::write(self, numbers, out),
+            FileFormat::Csv => self.write_csv(numbers, out),
+            FileFormat::Json => json::write(self, numbers, out),
+        }
+    }
+
+    fn write_csv(self, numbers: NumberFormat, out: &mut dyn Write) -> Result<(), WriteError> {
+        let mut csv = csv::Writer::from_writer(out);
+        csv.write_record(self.columns.iter().map(|column| column.name))?;
+        let columns = self.columns;
+        for row in self.rows {
+            csv.write_record(texts(&columns, &row?, numbers)?)?;
+        }
+        Ok(csv.flush()?)
+    }
+
+    fn texts(&self, row: &[Cell], numbers: NumberFormat) -> Result<Vec<String>, Error> {
+        texts(&self.columns, row, numbers)
+    }
+}
+
+/// The texts of a row.
+pub(super) fn texts(
+    columns: &[Column],
+    row: &[Cell],
+    numbers: NumberFormat,
+) -> Result<Vec<String>, Error> {
+    columns
+        .iter()
+        .zip(row)
+        .map(|(column, cell)| cell.text(numbers, column.name))
+        .collect()
+}

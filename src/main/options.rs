@@ -1,0 +1,241 @@
+//! The options of the command line.
+
+use std::path::PathBuf;
+
+use cannonpile::export::{FileFormat, NumberFormat};
+use cannonpile::lattice::{Dimension, Selection};
+use cannonpile::scene::{Scene, parse};
+use cannonpile::{Error, Pile};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use num_rational::BigRational;
+
+/// Exact contact forces in regular piles of spheres.
+#[derive(Parser)]
+#[command(version, about, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// The pile in one row: counts, weight, extreme forces
+    Summary {
+        #[command(flatten)]
+        scene: SceneOptions,
+        #[command(flatten)]
+        output: Output,
+    },
+    /// The force of each bottom sphere on the floor
+    Base {
+        #[command(flatten)]
+        scene: SceneOptions,
+        #[command(flatten)]
+        at: BaseAt,
+        #[command(flatten)]
+        output: Output,
+    },
+    /// The force of each contact between two spheres
+    Contacts {
+        #[command(flatten)]
+        scene: SceneOptions,
+        #[command(flatten)]
+        part: Part,
+        #[command(flatten)]
+        output: Output,
+    },
+    /// The place, size and mass of each sphere, in SI units
+    Spheres {
+        #[command(flatten)]
+        scene: SceneOptions,
+        #[command(flatten)]
+        part: Part,
+        #[command(flatten)]
+        output: Output,
+    },
+}
+
+impl Command {
+    pub(crate) fn scene(&self) -> &SceneOptions {
+        match self {
+            Self::Summary { scene, .. }
+            | Self::Base { scene, .. }
+            | Self::Contacts { scene, .. }
+            | Self::Spheres { scene, .. } => scene,
+        }
+    }
+
+    pub(crate) fn output(&self) -> &Output {
+        match self {
+            Self::Summary { output, .. }
+            | Self::Base { output, .. }
+            | Self::Contacts { output, .. }
+            | Self::Spheres { output, .. } => output,
+        }
+    }
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Scene")]
+pub(crate) struct SceneOptions {
+    /// Number of layers, 1 to 10^36
+    #[arg(long, value_name = "L", default_value = "10", allow_hyphen_values = true, value_parser = parse::layers)]
+    layers: i128,
+    /// 2 for discs, 3 for spheres
+    #[arg(long, value_name = "D", default_value = "3", allow_hyphen_values = true, value_parser = parse::dimension)]
+    dimension: Dimension,
+    /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
+    sin_phi: Option<BigRational>,
+    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
+    spacing: Option<BigRational>,
+    /// Radius R of a sphere, in m
+    #[arg(long, value_name = "R", default_value = "1", allow_hyphen_values = true, value_parser = parse::rational)]
+    radius: BigRational,
+    /// Mass m of a sphere, in kg
+    #[arg(long, value_name = "M", default_value = "1", allow_hyphen_values = true, value_parser = parse::rational)]
+    mass: BigRational,
+    /// Gravity g, in m/s²
+    #[arg(long, value_name = "G", default_value = "1", allow_hyphen_values = true, value_parser = parse::rational)]
+    gravity: BigRational,
+}
+
+impl SceneOptions {
+    /// The scene described.
+    ///
+    /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
+    pub(crate) fn read(&self) -> Result<Scene, Error> {
+        let scene = Scene {
+            layers: self.layers,
+            dimension: self.dimension,
+            sin_phi: self.sin_phi.clone(),
+            spacing: self.spacing.clone(),
+            radius: self.radius.clone(),
+            mass: self.mass.clone(),
+            gravity: self.gravity.clone(),
+        };
+        scene.check_sizes()?;
+        Ok(scene)
+    }
+}
+
+/// One sphere of the base.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct BaseAt {
+    /// One bottom sphere only, as I,J (or K,I,J; discs: I or K,I)
+    #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
+    at: Option<String>,
+}
+
+impl BaseAt {
+    pub(crate) fn on_base(&self, pile: &Pile) -> Result<Selection, Error> {
+        Ok(one(self.at.as_deref(), pile)?.unwrap_or(Selection::Base))
+    }
+}
+
+/// A part of the pile.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct Part {
+    /// One sphere only, as K,I,J, or I,J on the base (discs: K,I or I)
+    #[arg(
+        long,
+        value_name = "K,I,J",
+        allow_hyphen_values = true,
+        conflicts_with = "layer"
+    )]
+    at: Option<String>,
+    /// One layer only, counted from 0 at the top
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer)]
+    layer: Option<i128>,
+}
+
+impl Part {
+    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Error> {
+        let whole = self.layer.map_or(Selection::All, Selection::Layer);
+        Ok(one(self.at.as_deref(), pile)?.unwrap_or(whole))
+    }
+}
+
+fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Selection>, Error> {
+    let Some(text) = at else { return Ok(None) };
+    let site = parse::at(text, pile.dimension())?.site(pile.layers());
+    Ok(Some(Selection::One(site)))
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct Output {
+    /// How numbers are printed
+    #[arg(long, value_enum, default_value = "exact")]
+    pub(crate) number: Number,
+    /// Multiples of mg and friends, or newtons and metres
+    #[arg(long, value_enum, default_value = "pile")]
+    pub(crate) units: UnitSystem,
+    /// For people, or for programs
+    #[arg(long, value_enum, default_value = "table")]
+    pub(crate) format: Format,
+    /// Write to a file, which is replaced only when all is written
+    #[arg(long = "output", value_name = "FILE")]
+    pub(crate) file: Option<PathBuf>,
+}
+
+impl Output {
+    /// Where the output goes, for messages.
+    pub(crate) fn target(&self) -> String {
+        match &self.file {
+            None => "to stdout".into(),
+            Some(path) => format!("--output {}", path.display()),
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Number {
+    /// Rationals and roots: 7/3, 2*sqrt(3)
+    Exact,
+    /// The nearest double-precision float
+    F64,
+    /// The nearest single-precision float
+    F32,
+}
+
+impl From<Number> for NumberFormat {
+    fn from(number: Number) -> Self {
+        match number {
+            Number::Exact => Self::Exact,
+            Number::F64 => Self::F64,
+            Number::F32 => Self::F32,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum UnitSystem {
+    /// Contact forces in mg/(3cosθ), the floor's in mg and mg·tanθ
+    Pile,
+    /// N and m, for a radius in m, mass in kg, gravity in m/s²
+    Si,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Format {
+    /// Aligned, with units and totals
+    Table,
+    /// Comma-separated values
+    Csv,
+    /// An array of objects
+    Json,
+}
+
+impl From<Format> for FileFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Table => Self::Text,
+            Format::Csv => Self::Csv,
+            Format::Json => Self::Json,
+        }
+    }
+}
