@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Direction, MAX_LAYERS, Site};
-use cannonpile::scalar::{Algebra, Field, FixedRational};
+use cannonpile::scalar::{Algebra, Field};
 use num_rational::BigRational;
 
 fn main() {
@@ -21,7 +21,6 @@ fn main() {
     println!("scalar        query        L = 10 (ns)  L = 10^36 (ns)");
     let mut ratios = Vec::new();
     measure::<f64>(&small, &great, pairs, &mut ratios);
-    measure::<FixedRational<i128>>(&small, &great, pairs, &mut ratios);
     measure::<BigRational>(&small, &great, pairs, &mut ratios);
     for (name, value) in ratios {
         println!("ratio {name} {value:.2}");
@@ -30,7 +29,7 @@ fn main() {
 
 /// Times both queries on both piles in turn, and keeps the ratio of the medians.
 fn measure<T: Field>(small: &Pile, great: &Pile, pairs: usize, ratios: &mut Vec<(String, f64)>) {
-    let queries: [(&str, fn(&Pile) -> Duration); 2] = [
+    let queries: [(&str, Timer); 2] = [
         ("contact", time_contact::<T>),
         ("on_floor", time_floor::<T>),
     ];
@@ -45,6 +44,9 @@ fn measure<T: Field>(small: &Pile, great: &Pile, pairs: usize, ratios: &mut Vec<
         ratios.push((format!("{query}_great_over_small_{}", T::NAME), b / a));
     }
 }
+
+/// Times one query of a pile.
+type Timer = fn(&Pile) -> Duration;
 
 const CALLS: u32 = 2000;
 
@@ -76,7 +78,8 @@ fn time_floor<T: Field>(pile: &Pile) -> Duration {
         j: 2,
         k: pile.layers() - 1,
     };
-    let want = T::from_i128(pile.layers() + 2).div_int(3.try_into().expect("not zero"));
+    let third = 3.try_into().expect("not zero");
+    let want = T::from_i128(pile.layers() + 2).div_int(third);
     // In floats L + 2 and the sum of the counts may round apart.
     let normal = statics.on_floor(site).expect("a base sphere").normal;
     let off = (normal.clone() - &want)

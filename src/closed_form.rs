@@ -18,7 +18,7 @@
 use core::array;
 
 use crate::geometry::Vector;
-use crate::scalar::Algebra;
+use crate::scalar::Ring;
 
 /// What a sphere adds to each of its D lines of contacts, in f₀ = mg/(W cosθ).
 ///
@@ -29,7 +29,7 @@ pub struct Increments<T, const D: usize> {
     sum: T,
 }
 
-impl<T: Algebra> Increments<T, 3> {
+impl<T: Ring> Increments<T, 3> {
     /// (1, 1, 2s) on an isosceles base with s = sin φ, 0 < s < 1; s = ½ is the equilateral one, and
     /// s = 0 a pile of discs, whose γ lines carry nothing.
     ///
@@ -46,8 +46,10 @@ impl<T: Algebra> Increments<T, 3> {
     }
 }
 
-impl<T: Algebra, const D: usize> Increments<T, D> {
-    fn new(per_line: [T; D]) -> Self {
+impl<T: Ring, const D: usize> Increments<T, D> {
+    /// Any increments, such as integer numerators of these.
+    #[must_use]
+    pub fn new(per_line: [T; D]) -> Self {
         let sum = per_line.iter().fold(T::zero(), |sum, w| sum + w);
         Self { per_line, sum }
     }
@@ -78,6 +80,23 @@ impl<T: Algebra, const D: usize> Increments<T, D> {
         &self.sum
     }
 
+    /// The force of a contact with `n` spheres above its lower end on the line, in f₀: n w_m.
+    ///
+    /// Paper, eq. (forces1). A sphere receives N w_m from above and passes (N+1) w_m on below; zero past
+    /// the last line.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::closed_form::Increments;
+    ///
+    /// let increments = Increments::isosceles(&0.25);
+    /// assert_eq!(increments.force(3.0, 2), 1.5);
+    /// ```
+    #[must_use]
+    pub fn force(&self, n: T, line: usize) -> T {
+        self.per_line.get(line).map_or_else(T::zero, |w| n * w)
+    }
+
     /// The force from the sphere above, by direction, in f₀: N_m w_m.
     ///
     /// Paper, eq. (forces2): (k−i−j, i, j) on an equilateral base. Zero at the surface.
@@ -91,7 +110,7 @@ impl<T: Algebra, const D: usize> Increments<T, D> {
     /// ```
     #[must_use]
     pub fn from_above(&self, above: &[T; D]) -> [T; D] {
-        array::from_fn(|m| above[m].clone() * &self.per_line[m])
+        array::from_fn(|m| self.force(above[m].clone(), m))
     }
 
     /// The force to the sphere below, by direction, in f₀: (N_m + 1) w_m, one increment more.
@@ -105,7 +124,7 @@ impl<T: Algebra, const D: usize> Increments<T, D> {
     /// ```
     #[must_use]
     pub fn to_below(&self, above: &[T; D]) -> [T; D] {
-        array::from_fn(|m| (above[m].clone() + &T::one()) * &self.per_line[m])
+        array::from_fn(|m| self.force(above[m].clone() + &T::one(), m))
     }
 
     /// The weight that passes through a sphere, its own included, in mg/W: Σ N_m w_m + W.
@@ -144,7 +163,7 @@ impl<T: Algebra, const D: usize> Increments<T, D> {
 /// let force = resultant_above(&above, &Increments::isosceles(&0.5), &e);
 /// assert_eq!(force, position(&above, &e));
 /// ```
-pub fn resultant_above<T: Algebra>(
+pub fn resultant_above<T: Ring>(
     above: &[T; 3],
     increments: &Increments<T, 3>,
     directions: &[Vector<T>; 3],
@@ -154,6 +173,9 @@ pub fn resultant_above<T: Algebra>(
 
 /// The force of a bottom sphere on the floor, in f₀ and the symbolic basis: the resultant from above
 /// and the weight, F_s = a′ + b′ + c′ + w.
+///
+/// `weight` is w in the same unit, [`Increments::sum`]; times the scale of the directions, if they are
+/// integer numerators.
 ///
 /// Paper, eq. (F_s): f₀·(−(L−1−3j)/2·sinθ, −√3/2·(L−1−2i−j)·sinθ, (L+2)·cosθ) on an equilateral base;
 /// with y in units of √3·sinθ its coefficient is −(L−1−2i−j)/2. Exact in exact scalars.
@@ -166,18 +188,19 @@ pub fn resultant_above<T: Algebra>(
 ///
 /// // The corner i = j = 0 of 10 layers, k = 9.
 /// let above = count::above(&0.0, &0.0, &9.0);
-/// let force = force_on_floor(&above, &Increments::isosceles(&0.5), &directions(&0.5));
+/// let force = force_on_floor(&above, &Increments::isosceles(&0.5), &directions(&0.5), &3.0);
 /// assert_eq!(force, Vector { x: -4.5, y: -4.5, z: 12.0 });
 /// ```
-pub fn force_on_floor<T: Algebra>(
+pub fn force_on_floor<T: Ring>(
     above: &[T; 3],
     increments: &Increments<T, 3>,
     directions: &[Vector<T>; 3],
+    weight: &T,
 ) -> Vector<T> {
     let weight = Vector {
         x: T::zero(),
         y: T::zero(),
-        z: increments.sum().clone(),
+        z: weight.clone(),
     };
     resultant_above(above, increments, directions) + &weight
 }
@@ -185,23 +208,25 @@ pub fn force_on_floor<T: Algebra>(
 /// What is left over of all forces on a sphere that stands on others, in f₀: the zero vector.
 ///
 /// The supports push with (N_m+1)w_m ê_m, the spheres above with −N_m w_m ê_m, and there is the
-/// weight: the paper's equilibrium equation with the terms a′ + b′ + c′ that it leaves out.
+/// weight: the paper's equilibrium equation with the terms a′ + b′ + c′ that it leaves out. `weight` is as
+/// for [`force_on_floor`].
 ///
 /// # Examples
 /// ```
 /// use cannonpile::closed_form::{Increments, unbalanced};
 /// use cannonpile::geometry::{Vector, directions};
 ///
-/// let left = unbalanced(&[1.0, 2.0, 3.0], &Increments::isosceles(&0.5), &directions(&0.5));
+/// let left = unbalanced(&[1.0, 2.0, 3.0], &Increments::isosceles(&0.5), &directions(&0.5), &3.0);
 /// assert_eq!(left, Vector::zero());
 /// ```
-pub fn unbalanced<T: Algebra>(
+pub fn unbalanced<T: Ring>(
     above: &[T; 3],
     increments: &Increments<T, 3>,
     directions: &[Vector<T>; 3],
+    weight: &T,
 ) -> Vector<T> {
     let supports = Vector::combination(&increments.to_below(above), directions);
-    supports + &force_on_floor(above, increments, directions)
+    supports + &force_on_floor(above, increments, directions, weight)
 }
 
 /// The greatest ratio of shear to normal force that one line can cause on the base, in tanθ, as
@@ -217,7 +242,7 @@ pub fn unbalanced<T: Algebra>(
 /// let increments = Increments::<f64, 3>::regular();
 /// assert_eq!(corner_shear_ratio(&10.0, &increments, 0), (9.0, 12.0));
 /// ```
-pub fn corner_shear_ratio<T: Algebra, const D: usize>(
+pub fn corner_shear_ratio<T: Ring, const D: usize>(
     layers: &T,
     increments: &Increments<T, D>,
     line: usize,

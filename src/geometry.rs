@@ -26,7 +26,7 @@ use num_traits::One;
 
 use crate::Error;
 use crate::lattice::Dimension;
-use crate::scalar::{Algebra, Surd};
+use crate::scalar::{Algebra, Ring, Surd};
 
 /// ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
@@ -113,7 +113,7 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
 /// let r = position(&count::above(&1.0, &0.0, &1.0), &directions(&0.5));
 /// assert_eq!(r, Vector { x: -0.5, y: 0.5, z: 1.0 });
 /// ```
-pub fn position<T: Algebra>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<T> {
+pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<T> {
     -Vector::combination(above, directions)
 }
 
@@ -132,7 +132,7 @@ pub fn position<T: Algebra>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vect
 /// let d = squared_distance(&[1.0, -1.0, 0.0], &0.5, &(1.0 / 3.0));
 /// assert!((d - 1.0_f64).abs() < 1e-15);
 /// ```
-pub fn squared_distance<T: Algebra>(n: &[T; 3], s: &T, sin2: &T) -> T {
+pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
     let two = T::from_i128(2);
     let cos2 = T::one() - sin2;
     let ab = cos2.clone() + &((two.clone() * s * s - &T::one()) * sin2);

@@ -85,3 +85,8 @@ pub use error::Error;
 pub use packing::Packing;
 pub use pile::Pile;
 pub use query::{ContactForce, FloorForce, Statics};
+
+/// The examples of README.md, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -7,7 +7,7 @@ use num_traits::{One, Signed};
 
 use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Algebra, Surd};
+use crate::scalar::{Ring, Surd};
 use crate::{Error, FloorForce, Pile, Statics};
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
@@ -50,6 +50,8 @@ pub struct Packing<'p> {
     forces: [Surd; 3],
     /// 1/cosθ.
     secant: Surd,
+    /// W.
+    increment_sum: BigRational,
     radius: BigRational,
     mass: BigRational,
     gravity: BigRational,
@@ -66,8 +68,10 @@ impl<'p> Packing<'p> {
         let s = pile.sin_phi();
         let twice_cos_phi = Surd::sqrt(BigRational::from_i128(4) * (BigRational::one() - s * s))?;
         let (sin, tan) = (inclination.sin(), inclination.tan());
+        let statics = pile.statics::<BigRational>();
         Ok(Self {
-            statics: pile.statics(),
+            increment_sum: statics.increment_sum()?,
+            statics,
             touching,
             lengths: [sin.clone(), sin * &twice_cos_phi, inclination.cos()],
             forces: [tan.clone(), tan * &twice_cos_phi, BigRational::one().into()],
@@ -219,7 +223,7 @@ impl<'p> Packing<'p> {
     pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
         // Of a pair without contact there is no point either.
         self.statics.contact(site, direction)?;
-        let lean = upwards(self.statics.direction(direction).clone());
+        let lean = upwards(self.statics.direction(direction)?);
         let half = BigRational::new((-1).into(), 2.into());
         let point = self.centre(site)? + &lean.scaled(&half);
         Ok(on_basis(&self.lengths, point, &self.diameter()))
@@ -290,7 +294,7 @@ impl<'p> Packing<'p> {
 
     /// mg/W.
     fn weight_per_sum(&self) -> BigRational {
-        self.sphere_weight() / self.statics.increment_sum()
+        self.sphere_weight() / &self.increment_sum
     }
 }
 

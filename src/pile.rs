@@ -9,7 +9,7 @@ use crate::closed_form::{self, Increments};
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, Pyramid, Rows, Selection, count};
 use crate::query::Statics;
-use crate::scalar::Algebra;
+use crate::scalar::{Algebra, Ring};
 
 /// A straight pile under one sphere: which sites it has, and sin φ.
 ///

@@ -7,18 +7,30 @@
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
 use crate::lattice::{Direction, Rows, Site, count};
-use crate::scalar::{Algebra, Field};
+use num_rational::BigRational;
+use num_traits::One;
+
+use crate::scalar::{Algebra, Ring};
 use crate::{Error, Pile};
 
 /// The forces of a pile in the scalar `T`, each by closed form: O(1), whatever the number of layers.
 ///
 /// Exact scalars give exact answers. Of rounded ones, each answer is a few roundings away from the
 /// true one. A number that the scalar cannot hold is [`Error::Overflow`], never a wrong value.
+///
+/// Inside, formulas run on the scalar's [numerators](Algebra::Numerator): for rationals on integers over a
+/// denominator known beforehand, reduced once at the end.
 #[derive(Clone, Debug)]
-pub struct Statics<'p, T> {
+pub struct Statics<'p, T: Algebra> {
     pile: &'p Pile,
-    increments: Increments<T, 3>,
-    directions: [Vector<T>; 3],
+    /// Numerators over r, the denominator of sin φ.
+    increments: Increments<T::Numerator, 3>,
+    /// 1 over r.
+    increment_scale: T::Numerator,
+    /// Numerators over 2r.
+    directions: [Vector<T::Numerator>; 3],
+    /// 1 over 2r.
+    direction_scale: T::Numerator,
 }
 
 /// The force of contact between a sphere and the one below it.
@@ -49,10 +61,19 @@ pub struct FloorForce<T> {
 
 impl<'p, T: Algebra> Statics<'p, T> {
     pub(crate) fn new(pile: &'p Pile) -> Self {
+        let r = pile.sin_phi().denom();
+        let twice_r = r * 2;
+        let increments = pile.increments();
         Self {
             pile,
-            increments: pile.increments(),
-            directions: pile.directions(),
+            increments: Increments::new(
+                increments.per_line().each_ref().map(|w| T::numerator(w, r)),
+            ),
+            increment_scale: T::numerator(&BigRational::one(), r),
+            directions: pile
+                .directions()
+                .map(|e| e.map(|c| T::numerator(&c, &twice_r))),
+            direction_scale: T::numerator(&BigRational::one(), &twice_r),
         }
     }
 
@@ -64,9 +85,15 @@ impl<'p, T: Algebra> Statics<'p, T> {
 
     /// W, the unit mg/W in which a contact's vertical force is a sum of increments: 3 on an equilateral
     /// base, 2(1+s) on an isosceles one, 2 for discs.
-    #[must_use]
-    pub fn increment_sum(&self) -> &T {
-        self.increments.sum()
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] if the scalar cannot hold it.
+    pub fn increment_sum(&self) -> Result<T, Error> {
+        edge(
+            "the sum of increments",
+            self.increments.sum().clone(),
+            &self.increment_scale,
+        )
     }
 
     /// The forces from the spheres above on `site`, by direction, in f₀; zero where there is none.
@@ -87,7 +114,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// ```
     pub fn from_above(&self, site: Site) -> Result<[T; 3], Error> {
         let forces = self.increments.from_above(&self.counts(site)?);
-        defined_all("a contact force", forces)
+        edge_all("a contact force", forces, &self.increment_scale)
     }
 
     /// The magnitude of the contact force between `site` and the sphere below it, in f₀.
@@ -106,22 +133,25 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<T, Error> {
-        let above = self.counts(site)?;
-        if site.k == self.floor() {
+        edge(
+            "a contact force",
+            self.contact_numerator(site, direction)?,
+            &self.increment_scale,
+        )
+    }
+
+    /// The force as a numerator over r.
+    fn contact_numerator(&self, site: Site, direction: Direction) -> Result<T::Numerator, Error> {
+        let Site { i, j, k } = self.pile.pyramid().check(site)?;
+        if k == self.floor() {
             return Err(Error::OnFloor { site });
         }
         if !self.pile.dimension().directions().contains(&direction) {
             return Err(Error::NoSuchDirection { direction });
         }
-        let [alpha, beta, gamma] = self.increments.to_below(&above);
-        defined(
-            "a contact force",
-            match direction {
-                Direction::Alpha => alpha,
-                Direction::Beta => beta,
-                Direction::Gamma => gamma,
-            },
-        )
+        let line = direction.index();
+        let n = count::above(&i, &j, &k)[line] + 1;
+        Ok(self.increments.force(T::Numerator::from_i128(n), line))
     }
 
     /// The same force as a vector, on the upper sphere, in f₀ and the symbolic basis: f·ê.
@@ -143,20 +173,19 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
-        let force = self.contact(site, direction)?;
-        let [x, y, z] = self
-            .direction(direction)
-            .clone()
-            .scaled(&force)
-            .into_array();
-        let [x, y, z] = defined_all("a contact force", [x, y, z])?;
-        Ok(Vector { x, y, z })
+        let force = self.contact_numerator(site, direction)?;
+        let vector = self.directions[direction.index()].clone().scaled(&force);
+        self.edge_vector("a contact force", vector)
     }
 
     /// ê of a direction, in the symbolic basis.
-    #[must_use]
-    pub fn direction(&self, direction: Direction) -> &Vector<T> {
-        &self.directions[direction.index()]
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] if the scalar cannot hold it.
+    pub fn direction(&self, direction: Direction) -> Result<Vector<T>, Error> {
+        let numerators = self.directions[direction.index()].clone().into_array();
+        let [x, y, z] = edge_all("a direction", numerators, &self.direction_scale)?;
+        Ok(Vector { x, y, z })
     }
 
     /// The sum of the forces from above on `site`, in f₀ and the symbolic basis.
@@ -179,8 +208,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
     pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
         let above = self.counts(site)?;
         let force = closed_form::resultant_above(&above, &self.increments, &self.directions);
-        let [x, y, z] = defined_all("a resultant force", force.into_array())?;
-        Ok(Vector { x, y, z })
+        self.edge_vector("a resultant force", force)
     }
 
     /// The position of a sphere from the apex, in 2R and the symbolic basis, z down.
@@ -189,7 +217,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// [`Error::SiteOutside`], [`Error::Overflow`].
     pub fn position(&self, site: Site) -> Result<Vector<T>, Error> {
         let r = position(&self.counts(site)?, &self.directions);
-        let [x, y, z] = defined_all("a position", r.into_array())?;
+        let [x, y, z] = edge_all("a position", r.into_array(), &self.direction_scale)?;
         Ok(Vector { x, y, z })
     }
 
@@ -216,9 +244,9 @@ impl<'p, T: Algebra> Statics<'p, T> {
         if site.k == self.floor() {
             return Err(Error::OnFloor { site });
         }
-        let left = closed_form::unbalanced(&above, &self.increments, &self.directions);
-        let [x, y, z] = defined_all("a resultant force", left.into_array())?;
-        Ok(Vector { x, y, z })
+        let left =
+            closed_form::unbalanced(&above, &self.increments, &self.directions, &self.weight());
+        self.edge_vector("a resultant force", left)
     }
 
     /// The contact forces of the spheres in `rows`, each with the spheres below it, lazily.
@@ -260,13 +288,27 @@ impl<'p, T: Algebra> Statics<'p, T> {
     }
 
     /// (N_α, N_β, N_γ) of a site, counted in integers, then taken into the scalar.
-    fn counts(&self, site: Site) -> Result<[T; 3], Error> {
+    fn counts(&self, site: Site) -> Result<[T::Numerator; 3], Error> {
         let Site { i, j, k } = self.pile.pyramid().check(site)?;
-        Ok(count::above(&i, &j, &k).map(T::from_i128))
+        Ok(count::above(&i, &j, &k).map(T::Numerator::from_i128))
     }
-}
 
-impl<T: Field> Statics<'_, T> {
+    /// mg in the scale of forces along directions.
+    fn weight(&self) -> T::Numerator {
+        self.increments.sum().clone() * &self.direction_scale
+    }
+
+    /// A force in f₀, from numerators of increments times directions.
+    fn edge_vector(
+        &self,
+        quantity: &'static str,
+        vector: Vector<T::Numerator>,
+    ) -> Result<Vector<T>, Error> {
+        let scale = self.increment_scale.clone() * &self.direction_scale;
+        let [x, y, z] = edge_all(quantity, vector.into_array(), &scale)?;
+        Ok(Vector { x, y, z })
+    }
+
     /// The force of a bottom sphere on the floor.
     ///
     /// Normal mg(L+2)/3 under every sphere on an equilateral base (paper, eq. (result-normal)), and
@@ -289,21 +331,14 @@ impl<T: Field> Statics<'_, T> {
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
         let above = self.counts(site)?;
         if site.k != self.floor() {
-            return Err(Error::NotOnFloor {
-                site,
-                floor: self.floor(),
-            });
+            let floor = self.floor();
+            return Err(Error::NotOnFloor { site, floor });
         }
-        let force = closed_form::force_on_floor(&above, &self.increments, &self.directions);
-        let overflow = || overflow::<T>("a force on the floor");
-        let in_mg = force.map(|c| c.checked_div(self.increments.sum()));
-        let [x, y, z] = in_mg.into_array();
-        let parts = [
-            x.ok_or_else(overflow)?,
-            y.ok_or_else(overflow)?,
-            z.ok_or_else(overflow)?,
-        ];
-        let [shear_x, shear_y, normal] = defined_all("a force on the floor", parts)?;
+        let weight = self.weight();
+        let force =
+            closed_form::force_on_floor(&above, &self.increments, &self.directions, &weight);
+        let [shear_x, shear_y, normal] =
+            edge_all("a force on the floor", force.into_array(), &weight)?;
         Ok(FloorForce {
             site,
             normal,
@@ -332,30 +367,25 @@ impl<T: Field> Statics<'_, T> {
     }
 }
 
-/// `value`, unless it stands for no number.
-fn defined<T: Algebra>(quantity: &'static str, value: T) -> Result<T, Error> {
-    if value.is_defined() {
-        Ok(value)
-    } else {
-        Err(overflow::<T>(quantity))
-    }
-}
-
-/// `values`, unless one of them stands for no number.
-fn defined_all<T: Algebra, const N: usize>(
-    quantity: &'static str,
-    values: [T; N],
-) -> Result<[T; N], Error> {
-    if values.iter().all(T::is_defined) {
-        Ok(values)
-    } else {
-        Err(overflow::<T>(quantity))
-    }
-}
-
-fn overflow<T: Algebra>(quantity: &'static str) -> Error {
-    Error::Overflow {
+/// `n / d`, unless that is no number.
+fn edge<T: Algebra>(quantity: &'static str, n: T::Numerator, d: &T::Numerator) -> Result<T, Error> {
+    let value = T::from_ratio(n, d).filter(T::is_defined);
+    value.ok_or(Error::Overflow {
         quantity,
         scalar: T::NAME,
-    }
+    })
+}
+
+/// Each of `n` over `d`, unless one of them is no number.
+fn edge_all<T: Algebra>(
+    quantity: &'static str,
+    n: [T::Numerator; 3],
+    d: &T::Numerator,
+) -> Result<[T; 3], Error> {
+    let [x, y, z] = n;
+    Ok([
+        edge(quantity, x, d)?,
+        edge(quantity, y, d)?,
+        edge(quantity, z, d)?,
+    ])
 }

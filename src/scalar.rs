@@ -4,7 +4,8 @@
 //!
 //! | trait | what it promises | who stops here |
 //! |---|---|---|
-//! | [`Algebra`] | a commutative ring that contains ℚ: `+ − ×`, rationals in, division by a nonzero machine integer | polynomials |
+//! | [`Ring`] | `+ − ×` and the integers | integers |
+//! | [`Algebra`] | a ring that contains ℚ: rationals in, division by a nonzero machine integer | polynomials |
 //! | [`Field`] | division by whatever is not zero | |
 //! | [`RealEmbeddable`] | a place on the real line: a sign, and rational bounds | |
 //!
@@ -36,6 +37,7 @@ use core::fmt::Debug;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -59,7 +61,7 @@ pub enum Exactness {
     },
 }
 
-/// A commutative algebra over ℚ: what the formulas of this crate are written over.
+/// A commutative ring with the integers in it: all that most formulas need.
 ///
 /// Operators take the right operand by reference, so that no big number is copied for nothing; in
 /// a generic body `Self` stays on the left.
@@ -68,9 +70,38 @@ pub enum Exactness {
 /// For exact scalars, and for rounded ones as far as their precision goes ([`laws`] checks this):
 /// * `+` and `*` are commutative and associative, `*` distributes over `+`;
 /// * [`Zero::zero`] and [`One::one`] are their neutral elements, `a + &(-a)` is zero;
-/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and
-///   [`from_i128`](Self::from_i128) agrees with it;
-/// * `a.div_int(n)` is the one `b` with `b * n = a`.
+/// * [`from_i128`](Self::from_i128) respects `+`, `*` and 1.
+pub trait Ring:
+    Clone
+    + Debug
+    + PartialEq
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + for<'a> Add<&'a Self, Output = Self>
+    + for<'a> Sub<&'a Self, Output = Self>
+    + for<'a> Mul<&'a Self, Output = Self>
+{
+    /// The image of the integer `n`: exact, or rounded once.
+    fn from_i128(n: i128) -> Self;
+}
+
+/// The integers themselves, of any size: numerators over a denominator known beforehand.
+impl Ring for BigInt {
+    fn from_i128(n: i128) -> Self {
+        n.into()
+    }
+}
+
+/// A commutative algebra over ℚ: what the formulas of this crate are evaluated in.
+///
+/// # Laws
+/// * those of a [`Ring`];
+/// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with
+///   [`from_i128`](Ring::from_i128);
+/// * `a.div_int(n)` is the one `b` with `b * n = a`;
+/// * [`from_ratio`](Self::from_ratio) of the numerators of r and of 1 over the same denominator is the
+///   image of r.
 ///
 /// # Examples
 /// A formula written once, evaluated in two scalars:
@@ -86,25 +117,16 @@ pub enum Exactness {
 /// let half = BigRational::new(1.into(), 2.into());
 /// assert_eq!(triangle_number(&half), BigRational::new(3.into(), 8.into()));
 /// ```
-pub trait Algebra:
-    Clone
-    + Debug
-    + PartialEq
-    + Zero
-    + One
-    + Neg<Output = Self>
-    + for<'a> Add<&'a Self, Output = Self>
-    + for<'a> Sub<&'a Self, Output = Self>
-    + for<'a> Mul<&'a Self, Output = Self>
-{
+pub trait Algebra: Ring {
     /// How far results can be trusted.
     const EXACTNESS: Exactness;
 
     /// The scalar's name in messages, such as `f64`.
     const NAME: &'static str;
 
-    /// The image of the integer `n`: exact, or rounded once.
-    fn from_i128(n: i128) -> Self;
+    /// The ring in which a formula is cheapest before one final division: the scalar itself, or for
+    /// rationals their integers, where nothing is reduced along the way.
+    type Numerator: Ring;
 
     /// The image of the rational `r`: exact, or rounded once to the nearest.
     fn from_rational(r: &BigRational) -> Self;
@@ -117,6 +139,34 @@ pub trait Algebra:
     ///
     /// It is asked once, at the edge of the library: arithmetic carries such values along.
     fn is_defined(&self) -> bool;
+
+    /// A numerator that stands for `r` over `denominator`, a common denominator of all that is taken
+    /// together. For integers this is r·`denominator`, which must be one; a scalar that is its own ring
+    /// of numerators ignores the denominator and takes r itself.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Algebra;
+    /// use num_rational::BigRational;
+    ///
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// assert_eq!(BigRational::numerator(&half, &6.into()), 3.into());
+    /// assert_eq!(f64::numerator(&half, &6.into()), 0.5);
+    /// ```
+    fn numerator(r: &BigRational, denominator: &BigInt) -> Self::Numerator;
+
+    /// `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Algebra;
+    /// use num_rational::BigRational;
+    ///
+    /// let third = BigRational::from_ratio(2.into(), &6.into());
+    /// assert_eq!(third, Some(BigRational::new(1.into(), 3.into())));
+    /// assert_eq!(f64::from_ratio(2.0, &0.0), None);
+    /// ```
+    fn from_ratio(n: Self::Numerator, d: &Self::Numerator) -> Option<Self>;
 }
 
 /// An [`Algebra`] with division.

@@ -8,7 +8,7 @@ use super::table::{Layout, Row};
 use super::{Cell, Column, Table};
 use crate::geometry::Apart;
 use crate::lattice::{Dimension, Direction, Selection, Site, count};
-use crate::scalar::{Algebra, Surd};
+use crate::scalar::{Ring, Surd};
 use crate::{Error, FloorForce, Packing, Pile, Statics};
 
 /// The most rows that are written.

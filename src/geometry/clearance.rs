@@ -28,7 +28,7 @@ use num_traits::{One, Signed, Zero};
 use super::{Inclination, Spacing, square_per_sin2, squared_distance};
 use crate::Error;
 use crate::lattice::Pyramid;
-use crate::scalar::Algebra;
+use crate::scalar::Ring;
 
 /// How far apart two spheres are that touch, or would overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -87,6 +87,7 @@ impl Clearance {
     #[must_use]
     pub fn new(pyramid: &Pyramid, s: &BigRational) -> Self {
         let lines = pyramid.dimension().directions().len();
+        let flat = square_per_sin2(pyramid.dimension());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for n in candidates() {
             if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
@@ -104,12 +105,12 @@ impl Clearance {
             let apart = Apart {
                 layers: u8::try_from(layers).unwrap_or(u8::MAX),
             };
-            let bounds = if slope.is_positive() {
-                &mut lower
-            } else {
-                &mut upper
-            };
-            bounds.push((sin2 * square_per_sin2(pyramid.dimension()), apart));
+            if slope.is_positive() {
+                lower.push((sin2 * &flat, apart));
+            } else if sin2 < BigRational::one() {
+                // Other bounds are not reached before the contacts are horizontal.
+                upper.push((sin2 * &flat, apart));
+            }
         }
         Self {
             pyramid: *pyramid,
@@ -130,9 +131,8 @@ impl Clearance {
     /// on an equilateral base).
     #[must_use]
     pub fn most(&self) -> Option<Spacing> {
-        let flat = square_per_sin2(self.pyramid.dimension());
         let (bound, _) = self.upper.iter().min_by(|a, b| a.0.cmp(&b.0))?;
-        (*bound < flat).then(|| Spacing::from_square(bound.clone()).ok())?
+        Spacing::from_square(bound.clone()).ok()
     }
 
     /// Decides exactly whether the spheres have room, and tells which ones touch beside the contacts

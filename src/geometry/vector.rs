@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Neg, Sub};
 
-use crate::scalar::Algebra;
+use crate::scalar::Ring;
 
 /// A vector by its components in the symbolic basis (sinθ, 2cosφ·sinθ, cosθ), z down.
 ///
@@ -18,7 +18,7 @@ pub struct Vector<T> {
     pub z: T,
 }
 
-impl<T: Algebra> Vector<T> {
+impl<T: Ring> Vector<T> {
     /// The zero vector.
     #[must_use]
     pub fn zero() -> Self {
@@ -92,7 +92,7 @@ impl<T> Vector<T> {
     }
 }
 
-impl<T: Algebra> Add<&Self> for Vector<T> {
+impl<T: Ring> Add<&Self> for Vector<T> {
     type Output = Self;
 
     fn add(self, rhs: &Self) -> Self {
@@ -104,7 +104,7 @@ impl<T: Algebra> Add<&Self> for Vector<T> {
     }
 }
 
-impl<T: Algebra> Sub<&Self> for Vector<T> {
+impl<T: Ring> Sub<&Self> for Vector<T> {
     type Output = Self;
 
     fn sub(self, rhs: &Self) -> Self {
@@ -116,7 +116,7 @@ impl<T: Algebra> Sub<&Self> for Vector<T> {
     }
 }
 
-impl<T: Algebra> Neg for Vector<T> {
+impl<T: Ring> Neg for Vector<T> {
     type Output = Self;
 
     fn neg(self) -> Self {

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 
 use super::{Dimension, Direction, Pyramid, Site, count};
 use crate::Error;
-use crate::scalar::Algebra;
+use crate::scalar::Ring;
 
 /// A part of a pile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

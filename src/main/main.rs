@@ -94,7 +94,10 @@ fn option_of(error: &Error) -> String {
         }
         Error::Overlap { .. } | Error::TooFlat { .. } => "--spacing: ".into(),
         Error::NotPositive { quantity, .. } => format!("--{quantity}: "),
-        Error::SiteOutside { .. } | Error::NotOnFloor { .. } => "--at: ".into(),
+        // The other texts are read, and named, by the parser of the options.
+        Error::Syntax { .. } | Error::SiteOutside { .. } | Error::NotOnFloor { .. } => {
+            "--at: ".into()
+        }
         Error::LayerOutside { .. } => "--layer: ".into(),
         Error::Overflow { .. } => "--number: ".into(),
         _ => String::new(),

@@ -11,7 +11,7 @@ use num_rational::BigRational;
 
 /// Exact contact forces in regular piles of spheres.
 #[derive(Parser)]
-#[command(version, about, max_term_width = 100)]
+#[command(version, about, max_term_width = 100, arg_required_else_help = false)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -13,7 +13,7 @@ use num_integer::Integer;
 use num_rational::{BigRational, Ratio};
 use num_traits::{Bounded, CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, One, Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
 
 mod sealed {
     pub trait Sealed {}
@@ -58,7 +58,7 @@ fixed_integer!(i8 i16 i32 i64 i128);
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{Algebra, FixedRational};
+/// use cannonpile::scalar::{Algebra, FixedRational, Ring};
 /// use num_traits::One;
 ///
 /// let third = FixedRational::<i64>::one().div_int(3.try_into().unwrap());
@@ -215,13 +215,17 @@ impl<I: FixedInteger> One for FixedRational<I> {
     }
 }
 
-impl<I: FixedInteger> Algebra for FixedRational<I> {
-    const EXACTNESS: Exactness = Exactness::ExactOrFault;
-    const NAME: &'static str = I::RATIONAL_NAME;
-
+impl<I: FixedInteger> Ring for FixedRational<I> {
     fn from_i128(n: i128) -> Self {
         I::try_from(n).map_or(Self::FAULT, |n| Self::new(n, I::one()))
     }
+}
+
+impl<I: FixedInteger> Algebra for FixedRational<I> {
+    type Numerator = Self;
+
+    const EXACTNESS: Exactness = Exactness::ExactOrFault;
+    const NAME: &'static str = I::RATIONAL_NAME;
 
     fn from_rational(r: &BigRational) -> Self {
         match (
@@ -240,6 +244,14 @@ impl<I: FixedInteger> Algebra for FixedRational<I> {
 
     fn is_defined(&self) -> bool {
         self.0.is_some()
+    }
+
+    fn numerator(r: &BigRational, _: &BigInt) -> Self {
+        Self::from_rational(r)
+    }
+
+    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+        n.checked_div(d)
     }
 }
 

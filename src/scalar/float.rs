@@ -2,18 +2,14 @@
 
 use core::num::NonZeroI64;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
 
 macro_rules! float_scalar {
     ($float:ident) => {
-        impl Algebra for $float {
-            const EXACTNESS: Exactness = Exactness::Rounded {
-                bits: $float::MANTISSA_DIGITS,
-            };
-            const NAME: &'static str = stringify!($float);
-
+        impl Ring for $float {
             #[expect(
                 clippy::cast_precision_loss,
                 reason = "the nearest float is what is asked for"
@@ -21,6 +17,15 @@ macro_rules! float_scalar {
             fn from_i128(n: i128) -> Self {
                 n as $float
             }
+        }
+
+        impl Algebra for $float {
+            type Numerator = Self;
+
+            const EXACTNESS: Exactness = Exactness::Rounded {
+                bits: $float::MANTISSA_DIGITS,
+            };
+            const NAME: &'static str = stringify!($float);
 
             fn from_rational(r: &BigRational) -> Self {
                 $float::nearest_to_rational(r).unwrap_or($float::NAN)
@@ -36,6 +41,14 @@ macro_rules! float_scalar {
 
             fn is_defined(&self) -> bool {
                 self.is_finite()
+            }
+
+            fn numerator(r: &BigRational, _: &BigInt) -> Self {
+                Self::from_rational(r)
+            }
+
+            fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+                n.checked_div(d)
             }
         }
 

@@ -3,18 +3,23 @@
 use core::num::NonZeroI64;
 
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
 
-impl Algebra for BigRational {
-    const EXACTNESS: Exactness = Exactness::Exact;
-    const NAME: &'static str = "BigRational";
-
+impl Ring for BigRational {
     fn from_i128(n: i128) -> Self {
         Self::from_integer(n.into())
     }
+}
+
+impl Algebra for BigRational {
+    type Numerator = BigInt;
+
+    const EXACTNESS: Exactness = Exactness::Exact;
+    const NAME: &'static str = "BigRational";
 
     fn from_rational(r: &BigRational) -> Self {
         r.clone()
@@ -26,6 +31,21 @@ impl Algebra for BigRational {
 
     fn is_defined(&self) -> bool {
         true
+    }
+
+    fn numerator(r: &BigRational, denominator: &BigInt) -> BigInt {
+        r.numer() * (denominator / r.denom())
+    }
+
+    fn from_ratio(n: BigInt, d: &BigInt) -> Option<Self> {
+        if d.is_zero() {
+            return None;
+        }
+        // One step of Euclid first: the gcd that is left works on numbers no longer than d, which here
+        // is short, however long n is.
+        let divisor = (&n % d).gcd(d);
+        let divisor = if d.is_negative() { -divisor } else { divisor };
+        Some(Self::new_raw(n / &divisor, d / &divisor))
     }
 }
 
