@@ -167,7 +167,7 @@ impl Inclination {
     /// sin²θ = q(d−1)/(2d), with q = (a/R)².
     ///
     /// # Errors
-    /// [`Error::TooFlat`](crate::Error::TooFlat) if sin²θ ≥ 1: a sphere would fall between those below.
+    /// [`Error::TooFlat`] if sin²θ ≥ 1: a sphere would fall between those below.
     pub fn new(spacing: &Spacing, dimension: Dimension) -> Result<Self, Error> {
         let sin2 = spacing.square() / square_per_sin2(dimension);
         if sin2 < BigRational::one() {

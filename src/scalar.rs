@@ -16,7 +16,7 @@
 //! | scalar | exactness | for |
 //! |---|---|---|
 //! | `f32`, `f64` | [`Rounded`](Exactness::Rounded) | speed |
-//! | [`BigRational`](num_rational::BigRational) | [`Exact`](Exactness::Exact) | proof by computation, any size |
+//! | [`BigRational`] | [`Exact`](Exactness::Exact) | proof by computation, any size |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
 //!
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
