@@ -229,7 +229,7 @@ impl fmt::Display for Error {
             ),
             Self::NoSpacing { sin_phi, layers } => write!(
                 f,
-                "no spacing keeps the spheres of {layers} layers apart at sin phi = {sin_phi}: use sin phi at most 5/6, or at most 2 layers"
+                "no spacing keeps the spheres of {layers} layers apart at sin phi = {sin_phi}: use sin phi at most 5/6"
             ),
             Self::Overflow { quantity, scalar } => write!(
                 f,
