@@ -1,0 +1,99 @@
+//! The claims that each fuzz target makes.
+//!
+//! Generators and claims are those of the property tests; here libFuzzer chooses the bytes. A crash file
+//! is such a byte string: it fails the same claim in `tests/properties.rs`.
+
+#[path = "../../tests/claims/mod.rs"]
+mod claims;
+#[path = "../../tests/generators/mod.rs"]
+mod generators;
+
+use arbitrary::Unstructured;
+use libfuzzer_sys::Corpus;
+
+use claims::{Claim, Failure};
+
+/// Every sphere of a small pile and one of any pile, any sin φ, are in exact equilibrium; other sites are none.
+#[must_use]
+pub fn equilibrium(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::equilibrium::one_sphere,
+            claims::equilibrium::small_pile,
+            claims::equilibrium::on_floor,
+            claims::sites::anywhere,
+            claims::sites::numbered,
+        ],
+    )
+}
+
+/// A spacing is allowed just if no two spheres overlap, and answers in SI have its geometry.
+#[must_use]
+pub fn overlap(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::overlap::of_a_spacing,
+            claims::overlap::of_two_spheres,
+            claims::packing::one_sphere,
+        ],
+    )
+}
+
+/// No parser panics, each reads what is printed, and a scene is a pile or is refused.
+#[must_use]
+pub fn parsers(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::parsers::any_text,
+            claims::parsers::a_number,
+            claims::parsers::a_value,
+            claims::scene::any_scene,
+        ],
+    )
+}
+
+/// Roots round to the nearest float and keep their order; float statics are a few roundings off.
+#[must_use]
+pub fn rounding(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::nearest::of_a_root,
+            claims::nearest::of_a_rational,
+            claims::order::of_two_roots,
+            claims::order::of_a_square,
+            claims::floats::any_pile,
+            claims::floats::real_pile,
+        ],
+    )
+}
+
+/// Every scalar keeps its laws; fixed-width answers are right or overflow.
+#[must_use]
+pub fn scalar_laws(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::laws::every_scalar,
+            claims::laws::ratios_of_integers,
+            claims::fixed::results_can_be_negated,
+            claims::fixed::any_pile,
+            claims::fixed::small_pile,
+        ],
+    )
+}
+
+/// Makes each claim about the input that it draws from the same bytes.
+fn all_hold(bytes: &[u8], claims: &[Claim]) -> Corpus {
+    for claim in claims {
+        match claim(&mut Unstructured::new(bytes)) {
+            Ok(()) => {}
+            Err(Failure::NoInput(_)) => return Corpus::Reject,
+            Err(refuted) => panic!("{refuted}"),
+        }
+    }
+    Corpus::Keep
+}

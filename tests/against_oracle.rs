@@ -1,0 +1,32 @@
+//! Every contact and every base sphere of every pile up to 12 layers, against the naive oracle.
+
+mod answers;
+mod oracle;
+mod theorems;
+
+use answers::{Answers, Shape};
+
+fn agrees(shape: &Shape) {
+    for layers in 1..=12 {
+        let library = Answers::of(shape, layers);
+        let verdict = theorems::agree(&library, &oracle::solve(shape, layers));
+        assert_eq!(verdict, Ok(()), "{shape:?}, {layers} layers");
+    }
+}
+
+#[test]
+fn equilateral() {
+    agrees(&Shape::equilateral());
+}
+
+#[test]
+fn isosceles() {
+    for shape in Shape::isosceles() {
+        agrees(&shape);
+    }
+}
+
+#[test]
+fn discs() {
+    agrees(&Shape::Discs);
+}

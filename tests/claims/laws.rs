@@ -1,0 +1,91 @@
+//! Every scalar passes the law suite, whatever the operands.
+//!
+//! That the suite refuses flawed scalars is shown where it is tested with fixed operands.
+
+use arbitrary::Unstructured;
+use cannonpile::scalar::{Algebra, Field, FixedRational, RealEmbeddable, laws};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::{Checked, in_lowest_terms, same};
+use crate::generators::number;
+
+/// All scalars of the crate on the same operands.
+pub(crate) fn every_scalar(u: &mut Unstructured<'_>) -> Checked {
+    let operands = Operands {
+        rationals: [
+            number::rational(u)?,
+            number::rational(u)?,
+            number::rational(u)?,
+        ],
+        integer: number::machine_integer(u)?,
+    };
+    suite::<f32>(&operands)?;
+    suite::<f64>(&operands)?;
+    suite::<BigRational>(&operands)?;
+    suite::<FixedRational<i8>>(&operands)?;
+    suite::<FixedRational<i16>>(&operands)?;
+    suite::<FixedRational<i32>>(&operands)?;
+    suite::<FixedRational<i64>>(&operands)?;
+    suite::<FixedRational<i128>>(&operands)
+}
+
+/// A ratio of integers is the rational in lowest terms, and none over zero.
+pub(crate) fn ratios_of_integers(u: &mut Unstructured<'_>) -> Checked {
+    let (n, d) = (number::integer(u)?, number::integer(u)?);
+    let want = (!d.is_zero()).then(|| BigRational::new(n.clone(), d.clone()));
+    let got = BigRational::from_ratio(n, &d);
+    same("n/d", &got, &want)?;
+    got.as_ref().map_or(Ok(()), in_lowest_terms)
+}
+
+struct Operands {
+    rationals: [BigRational; 3],
+    integer: i128,
+}
+
+fn suite<T: Field + RealEmbeddable>(operands: &Operands) -> Checked {
+    let [x, y, z] = &operands.rationals;
+    let [a, b, c] = [x, y, z].map(T::from_rational);
+    laws::algebra(&a, &b, &c)?;
+    laws::embedding::<T>(x, y)?;
+    laws::embedding::<T>(z, z)?;
+    laws::integers::<T>(operands.integer)?;
+    numerators::<T>(x, &(y.denom() * BigInt::from(operands.integer)))
+}
+
+/// Taken as a numerator over a common denominator and divided by it, a rational is itself again.
+fn numerators<T: Algebra>(x: &BigRational, multiple: &BigInt) -> Checked {
+    let denominator = x.denom() * (multiple.abs() + BigInt::one());
+    let one = T::numerator(&BigRational::one(), &denominator);
+    let back = T::from_ratio(T::numerator(x, &denominator), &one);
+    images_agree(back, T::from_rational(x))
+}
+
+/// Both are the same number, or neither is a number.
+fn images_agree<T: Algebra>(back: Option<T>, direct: T) -> Checked {
+    let number = |image: T| Some(image).filter(T::is_defined);
+    same(
+        "a rational taken apart and put together",
+        &back.and_then(number),
+        &number(direct),
+    )
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    #[test]
+    fn a_lost_image_is_caught() {
+        type Narrow = FixedRational<i8>;
+        let (third, half) = (Narrow::new(1, 3), Narrow::new(1, 2));
+        assert!(images_agree(Some(third), third).is_ok());
+        assert!(images_agree(Some(half), third).is_err());
+        assert!(images_agree(None, third).is_err());
+        assert!(images_agree(Some(Narrow::FAULT), third).is_err());
+        // Neither is a number.
+        assert!(images_agree(None, Narrow::FAULT).is_ok());
+    }
+}

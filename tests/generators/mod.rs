@@ -1,0 +1,16 @@
+//! Random inputs from plain bytes, biased to trouble.
+//!
+//! Every generator reads an [`Unstructured`](arbitrary::Unstructured). The property tests feed it the bytes that proptest makes,
+//! the fuzz targets those that libFuzzer makes: one description of the inputs serves both, and a byte
+//! string that one of them finds can be given to the other. A generator never fails for want of bytes: an
+//! empty input is read as zeros, which is the first of the choices throughout.
+//!
+//! | file | what it makes |
+//! |---|---|
+//! | `number` | integers, rationals, floats, sin φ, radii and masses, roots |
+//! | `pile` | layers, piles, sites, directions, spacings, packings |
+//! | `text` | numbers and sites as text: valid, with their values, and damaged |
+
+pub(crate) mod number;
+pub(crate) mod pile;
+pub(crate) mod text;

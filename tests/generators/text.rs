@@ -1,0 +1,127 @@
+//! Text for the parsers: valid, with the value it means, and damaged.
+
+use arbitrary::{Result, Unstructured};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::number;
+
+/// A number as somebody may write it, and its value.
+pub(crate) struct Written {
+    /// The characters.
+    pub(crate) text: String,
+    /// What they mean.
+    pub(crate) value: BigRational,
+}
+
+/// A fraction or a decimal, valid, with the sign, zeros and exponent that people add.
+pub(crate) fn number(u: &mut Unstructured<'_>) -> Result<Written> {
+    let (sign, factor) = [("", 1), ("-", -1), ("+", 1)][u.choose_index(3)?];
+    let unsigned = if u.arbitrary()? {
+        fraction(u)?
+    } else {
+        decimal(u)?
+    };
+    Ok(Written {
+        text: format!("{sign}{}", unsigned.text),
+        value: unsigned.value * number::ratio(factor, 1),
+    })
+}
+
+/// `numerator/denominator`.
+fn fraction(u: &mut Unstructured<'_>) -> Result<Written> {
+    let (numer, denom) = (digits(u, 30)?, format!("{}1", digits(u, 30)?));
+    Ok(Written {
+        text: format!("{numer}/{denom}"),
+        value: BigRational::new(integer(&numer), integer(&denom)),
+    })
+}
+
+/// `whole.fraction` with an exponent, any of which may be missing.
+fn decimal(u: &mut Unstructured<'_>) -> Result<Written> {
+    let (whole, fraction) = (digits(u, 40)?, digits(u, 40)?);
+    let (mantissa, places) = match u.int_in_range(0..=3)? {
+        0 => (whole.clone(), 0),
+        1 => (format!("{whole}."), 0),
+        2 => (format!(".{fraction}"), fraction.len()),
+        _ => (format!("{whole}.{fraction}"), fraction.len()),
+    };
+    let all = mantissa.replace('.', "");
+    let places = i32::try_from(places).expect("at most 40");
+    let exponent = [0, u.int_in_range(-400..=400)?][u.choose_index(2)?];
+    let text = match (exponent, u.int_in_range(0..=2)?) {
+        (0, 0) => mantissa,
+        (_, 1) => format!("{mantissa}E{exponent:+}"),
+        _ => format!("{mantissa}e{exponent}"),
+    };
+    Ok(Written {
+        text,
+        value: number::power(10, exponent - places) * integer(&all),
+    })
+}
+
+/// 1 … `most` decimal digits.
+fn digits(u: &mut Unstructured<'_>, most: usize) -> Result<String> {
+    let length = u.int_in_range(1..=most)?;
+    (0..length)
+        .map(|_| Ok(char::from(b'0' + u.int_in_range(0..=9_u8)?)))
+        .collect()
+}
+
+/// The integer that these digits are, the slow way.
+fn integer(digits: &str) -> BigInt {
+    digits
+        .bytes()
+        .fold(BigInt::ZERO, |n, digit| n * 10 + (digit - b'0'))
+}
+
+/// A text for any parser: a valid one, a damaged one, or anything at all.
+pub(crate) fn any(u: &mut Unstructured<'_>) -> Result<String> {
+    match u.int_in_range(0..=4)? {
+        0 => Ok(u.arbitrary::<&str>()?.to_owned()),
+        1 => {
+            let valid = valid(u)?;
+            damaged(u, &valid)
+        }
+        2 => {
+            let text = valid(u)?;
+            let times = [9_990, 10_000, 10_001][u.choose_index(3)?] / text.len().max(1);
+            Ok(text.repeat(times + u.int_in_range(0..=1)?))
+        }
+        _ => valid(u),
+    }
+}
+
+/// What some parser accepts: a number, a site, a word; also exponents at the limit.
+fn valid(u: &mut Unstructured<'_>) -> Result<String> {
+    Ok(match u.int_in_range(0..=4)? {
+        0 => number(u)?.text,
+        1 => number::machine_integer(u)?.to_string(),
+        2 => {
+            let count = u.int_in_range(1..=4)?;
+            let part = |_| number::machine_integer(u).map(|n| n.to_string());
+            (0..count).map(part).collect::<Result<Vec<_>>>()?.join(",")
+        }
+        3 => ["alpha", "beta", "gamma", "2", "3"][u.choose_index(5)?].to_owned(),
+        _ => format!("{}e{}", digits(u, 5)?, u.int_in_range(-10_001..=10_001)?),
+    })
+}
+
+/// `text` with up to three characters replaced, added or taken away.
+fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
+    // What numbers are made of, and what looks like it: other digits, spaces, signs, no text at all.
+    const INTRUDERS: [char; 16] = [
+        '+', '-', '.', '/', ',', 'e', 'E', '_', '0', '9', ' ', '\t', '\0', '٣', '−', '𝟙',
+    ];
+    let mut letters: Vec<char> = text.chars().collect();
+    for _ in 0..u.int_in_range(1..=3)? {
+        let place = u.int_in_range(0..=letters.len())?;
+        let intruder = *u.choose(&INTRUDERS)?;
+        match (u.int_in_range(0..=2)?, letters.get_mut(place)) {
+            (0, Some(letter)) => *letter = intruder,
+            (1, Some(_)) => drop(letters.remove(place)),
+            _ => letters.insert(place, intruder),
+        }
+    }
+    Ok(letters.into_iter().collect())
+}

@@ -1,0 +1,151 @@
+//! The claims on random input: deterministic, from the generators that fuzzing shares.
+//!
+//! Each claim is a function of bytes (see `claims`); its planted faults stand beside it. A failure prints the
+//! shortest bytes that proptest could find, and the claim's own witness.
+
+mod claims;
+mod generators;
+
+use core::cell::RefCell;
+use std::collections::BTreeMap;
+
+use arbitrary::Unstructured;
+use cannonpile::Error;
+use cannonpile::lattice::{Dimension, Site};
+use cannonpile::scene::parse;
+use proptest::collection::vec;
+use proptest::prelude::any;
+use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};
+
+use claims::{Claim, Failure};
+use generators::{pile, text};
+
+/// As many bytes as any claim uses up; one that gets fewer reads zeros.
+const BYTES: usize = 256;
+
+macro_rules! properties {
+    ($($name:ident: $claim:path, $cases:literal;)*) => {$(
+        #[test]
+        fn $name() {
+            holds($claim, $cases);
+        }
+    )*};
+}
+
+properties! {
+    a_pile_has_its_sites_and_no_others: claims::sites::anywhere, 1024;
+    spheres_are_numbered_without_gaps: claims::sites::numbered, 512;
+    every_sphere_is_in_equilibrium: claims::equilibrium::one_sphere, 1024;
+    small_piles_are_in_equilibrium_throughout: claims::equilibrium::small_pile, 48;
+    the_floor_bears_what_the_paper_says: claims::equilibrium::on_floor, 1024;
+    floats_are_a_few_roundings_off: claims::floats::any_pile, 512;
+    floats_are_a_few_roundings_off_for_real_sin_phi: claims::floats::real_pile, 512;
+    fixed_width_is_right_or_overflows: claims::fixed::any_pile, 512;
+    fixed_width_results_can_be_negated: claims::fixed::results_can_be_negated, 4096;
+    short_fractions_fit_128_bits: claims::fixed::small_pile, 256;
+    roots_round_to_the_nearest_float: claims::nearest::of_a_root, 1024;
+    rationals_round_to_the_nearest_float: claims::nearest::of_a_rational, 1024;
+    roots_are_ordered_as_their_squares: claims::order::of_two_roots, 1024;
+    roots_of_squares_are_rational: claims::order::of_a_square, 256;
+    packings_are_as_the_geometry_says: claims::packing::one_sphere, 256;
+    spacings_are_allowed_just_if_no_spheres_overlap: claims::overlap::of_a_spacing, 256;
+    distances_are_the_quadratic_form: claims::overlap::of_two_spheres, 256;
+    scenes_are_made_or_refused: claims::scene::any_scene, 512;
+    parsers_survive_any_text: claims::parsers::any_text, 1024;
+    numbers_are_read_as_written: claims::parsers::a_number, 1024;
+    what_is_printed_is_read_back: claims::parsers::a_value, 512;
+    every_scalar_keeps_the_laws: claims::laws::every_scalar, 512;
+    ratios_are_in_lowest_terms: claims::laws::ratios_of_integers, 512;
+}
+
+/// The claim holds for `cases` random byte strings, the same in every run.
+fn holds(claim: Claim, cases: u32) {
+    let judged = |u: &mut Unstructured<'_>| {
+        claim(u).map_err(|failure| match failure {
+            Failure::NoInput(_) => TestCaseError::reject(failure.to_string()),
+            Failure::Refuted(witness) => TestCaseError::fail(witness),
+        })
+    };
+    if let Err(failure) = for_all(cases, judged) {
+        panic!("{failure}");
+    }
+}
+
+fn for_all(
+    cases: u32,
+    test: impl Fn(&mut Unstructured<'_>) -> Result<(), TestCaseError>,
+) -> Result<(), TestError<Vec<u8>>> {
+    let config = Config {
+        cases,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1998),
+        ..Config::default()
+    };
+    let bytes = vec(any::<u8>(), 0..=BYTES);
+    TestRunner::new(config).run(&bytes, |bytes| test(&mut Unstructured::new(&bytes)))
+}
+
+/// How often each kind of input comes up in 400 byte strings.
+fn census(
+    kind: impl Fn(&mut Unstructured<'_>) -> arbitrary::Result<String>,
+) -> BTreeMap<String, u32> {
+    let counts = RefCell::new(BTreeMap::new());
+    let outcome = for_all(400, |u| {
+        let kind = kind(u).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        *counts.borrow_mut().entry(kind).or_default() += 1;
+        Ok(())
+    });
+    outcome.expect("a generator never fails");
+    counts.into_inner()
+}
+
+/// A claim about spacings would be idle if none were at a bound.
+#[test]
+fn spacings_meet_every_verdict() {
+    let verdicts = census(|u| {
+        let clearance = pile::pile(u)?.clearance();
+        let spacing = pile::spacing(u, &clearance)?;
+        Ok(match clearance.check(&spacing) {
+            Ok(touching) if touching.is_empty() => "free".into(),
+            Ok(_) => "touching".into(),
+            Err(Error::Overlap { .. }) => "overlapping".into(),
+            Err(Error::TooFlat { .. }) => "too flat".into(),
+            Err(Error::NoSpacing { .. }) => "hopeless".into(),
+            Err(other) => other.to_string(),
+        })
+    });
+    let often = verdicts.values().filter(|count| **count >= 5);
+    assert_eq!((verdicts.len(), often.count()), (5, 5), "{verdicts:?}");
+}
+
+#[test]
+fn piles_are_of_every_kind_and_asked_everywhere() {
+    let kinds = census(|u| {
+        let pile = pile::pile(u)?;
+        let Site { i, j, k } = pile::site(u, &pile)?;
+        let kind = match (pile.dimension(), pile.is_regular()) {
+            (Dimension::Two, _) => "discs",
+            (_, true) => "equilateral",
+            _ => "isosceles",
+        };
+        let tall = pile.layers() > 1 << 64;
+        let base = k == pile.layers() - 1;
+        let inside = i > 0 && j > 0 && i + j < k;
+        Ok(format!("{kind} tall={tall} base={base} inside={inside}"))
+    });
+    // No disc lies inside: all have j = 0.
+    assert_eq!(kinds.len(), 2 * 8 + 4, "{kinds:?}");
+}
+
+#[test]
+fn texts_are_accepted_and_refused() {
+    let kinds = census(|u| {
+        let text = text::any(u)?;
+        let number = parse::rational(&text).is_ok();
+        let site = parse::at(&text, Dimension::Three).is_ok();
+        Ok(format!("number={number} site={site}"))
+    });
+    // A site has commas, a number none.
+    assert_eq!(kinds.len(), 3, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 10), "{kinds:?}");
+}

@@ -1,0 +1,102 @@
+//! The symmetries of a pile carry its forces along; the others do not.
+
+mod answers;
+mod theorems;
+
+use answers::{Answers, Shape, ratio};
+use cannonpile::lattice::{Direction, Site, Symmetry, count};
+use theorems::symmetry::{MIRRORED, MIRRORED_DISCS, TURNS, invariant};
+
+#[test]
+fn equilateral_piles_have_all_six() {
+    for layers in 1..=20 {
+        let pile = Answers::of(&Shape::equilateral(), layers);
+        for (symmetry, turn) in Symmetry::ALL.into_iter().zip(&TURNS) {
+            let verdict = invariant(&pile, symmetry, turn);
+            assert_eq!(verdict, Ok(()), "{symmetry:?}, {layers} layers");
+        }
+    }
+}
+
+#[test]
+fn isosceles_piles_have_the_mirror_and_no_other() {
+    for shape in Shape::isosceles() {
+        for layers in 1..=10 {
+            let pile = Answers::of(&shape, layers);
+            let mirror = invariant(&pile, Symmetry::MIRROR, &MIRRORED);
+            assert_eq!(mirror, Ok(()), "{shape:?}, {layers} layers");
+            // One sphere has every symmetry.
+            if layers == 1 || shape == Shape::equilateral() {
+                continue;
+            }
+            for (symmetry, turn) in Symmetry::ALL.into_iter().zip(&TURNS) {
+                let kept = [Symmetry::ALL[0], Symmetry::MIRROR].contains(&symmetry);
+                let holds = invariant(&pile, symmetry, turn).is_ok();
+                assert_eq!(holds, kept, "{symmetry:?}: {shape:?}, {layers} layers");
+            }
+        }
+    }
+}
+
+/// The contact forces alone, no vectors: the rotation fails there too.
+#[test]
+fn an_isosceles_base_is_felt_in_the_magnitudes() {
+    let statics = |shape: &Shape| {
+        let pile = shape.pile(2);
+        Direction::ALL.map(|direction| pile.statics().contact(Site::APEX, direction))
+    };
+    let [alpha, beta, gamma] = statics(&Shape::Spheres(ratio(2, 5)));
+    assert_eq!(alpha, beta);
+    assert_ne!(alpha, gamma);
+    assert_eq!(gamma, Ok(ratio(4, 5)));
+}
+
+#[test]
+fn discs_have_the_mirror() {
+    for layers in 1..=40 {
+        let pile = Answers::of(&Shape::Discs, layers);
+        let mirror = invariant(&pile, Symmetry::MIRROR, &MIRRORED_DISCS);
+        assert_eq!(mirror, Ok(()), "{layers} layers");
+    }
+    let pile = Answers::of(&Shape::Discs, 3);
+    assert!(invariant(&pile, Symmetry::ROTATION, &TURNS[1]).is_err());
+}
+
+#[test]
+fn rotation_thrice_and_mirror_twice_are_nothing() {
+    let thrice = |site| (0..3).fold(site, |site, _| Symmetry::ROTATION.apply(site));
+    for site in Shape::equilateral().sites(20) {
+        assert_eq!(thrice(site), site);
+        assert_eq!(Symmetry::MIRROR.apply(Symmetry::MIRROR.apply(site)), site);
+        assert_eq!(Symmetry::ALL[0].apply(site), site);
+        let both_ways = Symmetry::ALL[2].apply(Symmetry::ROTATION.apply(site));
+        assert_eq!(both_ways, site);
+    }
+}
+
+/// The appendix: N_γ = j becomes N_α under {j → k−i−j, i → j}, and N_β when it is applied again.
+#[test]
+fn the_papers_rotation_permutes_the_counts() {
+    let counts = |Site { i, j, k }| count::above(&i, &j, &k);
+    for site in Shape::equilateral().sites(20) {
+        let Site { i, j, k } = site;
+        let turned = Symmetry::ROTATION.apply(site);
+        assert_eq!(
+            turned,
+            Site {
+                i: j,
+                j: k - i - j,
+                k
+            }
+        );
+        let [n_alpha, n_beta, n_gamma] = counts(site);
+        assert_eq!(counts(turned), [n_beta, n_gamma, n_alpha]);
+        for direction in Direction::ALL {
+            let source = Symmetry::ROTATION.source(direction);
+            assert_eq!(
+                counts(turned)[direction.index()],
+                counts(site)[source.index()]
+            );
+        }
+    }
+}
