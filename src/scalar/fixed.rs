@@ -279,6 +279,8 @@ impl<I: FixedInteger> RealEmbeddable for FixedRational<I> {
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec::Vec;
+
     use super::*;
 
     /// Every pair of 8-bit rationals with these denominators, against rationals of 64 bits, which none of
