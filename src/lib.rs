@@ -53,7 +53,9 @@
 //!   [`MAX_LAYERS`](lattice::MAX_LAYERS) = 10³⁶ layers.
 //! * [`scalar::Surd::nearest`] is the float nearest to the exact value, decided in integers.
 //! * `f32` and `f64` as scalars round each operation; an answer takes a handful.
-//! * Nothing panics on any input. Errors are one enum, [`Error`], with the value and the remedy.
+//! * Nothing panics on any input, malformed rationals (made by `Ratio::new_raw`) aside. Errors are one enum,
+//!   [`Error`], with the value and the remedy. The generic formulas on machine integers of one's own are as safe
+//!   as those integers.
 //! * No `unsafe`; `no_std` with `alloc` (switch off the default feature `std`).
 //!
 //! # Notation

@@ -7,9 +7,6 @@
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
 use crate::lattice::{Direction, Rows, Site, count};
-use num_rational::BigRational;
-use num_traits::One;
-
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, Pile};
 
@@ -23,13 +20,11 @@ use crate::{Error, Pile};
 #[derive(Clone, Debug)]
 pub struct Statics<'p, T: Algebra> {
     pile: &'p Pile,
-    /// Numerators over r, the denominator of sin φ.
+    /// Numerators over `increment_scale`.
     increments: Increments<T::Numerator, 3>,
-    /// 1 over r.
     increment_scale: T::Numerator,
-    /// Numerators over 2r.
+    /// Numerators over `direction_scale`.
     directions: [Vector<T::Numerator>; 3],
-    /// 1 over 2r.
     direction_scale: T::Numerator,
 }
 
@@ -61,19 +56,21 @@ pub struct FloorForce<T> {
 
 impl<'p, T: Algebra> Statics<'p, T> {
     pub(crate) fn new(pile: &'p Pile) -> Self {
-        let r = pile.sin_phi().denom();
-        let twice_r = r * 2;
-        let increments = pile.increments();
+        let (per_line, increment_scale) = T::numerators(pile.increments().per_line());
+        let [a, b, c] = pile.directions().map(Vector::into_array);
+        let [ax, ay, az] = a;
+        let [bx, by, bz] = b;
+        let [cx, cy, cz] = c;
+        let components = [ax, ay, az, bx, by, bz, cx, cy, cz];
+        let ([ax, ay, az, bx, by, bz, cx, cy, cz], direction_scale) = T::numerators(&components);
+        let directions =
+            [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(|[x, y, z]| Vector { x, y, z });
         Self {
             pile,
-            increments: Increments::new(
-                increments.per_line().each_ref().map(|w| T::numerator(w, r)),
-            ),
-            increment_scale: T::numerator(&BigRational::one(), r),
-            directions: pile
-                .directions()
-                .map(|e| e.map(|c| T::numerator(&c, &twice_r))),
-            direction_scale: T::numerator(&BigRational::one(), &twice_r),
+            increments: Increments::new(per_line),
+            increment_scale,
+            directions,
+            direction_scale,
         }
     }
 
@@ -140,7 +137,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
         )
     }
 
-    /// The force as a numerator over r.
+    /// The force as a numerator over the scale of increments.
     fn contact_numerator(&self, site: Site, direction: Direction) -> Result<T::Numerator, Error> {
         let Site { i, j, k } = self.pile.pyramid().check(site)?;
         if k == self.floor() {
@@ -251,7 +248,8 @@ impl<'p, T: Algebra> Statics<'p, T> {
 
     /// The contact forces of the spheres in `rows`, each with the spheres below it, lazily.
     ///
-    /// Spheres on the floor have none. Each item is an error only if the scalar overflows.
+    /// Spheres on the floor have none. An item is an error if the scalar overflows, or if the rows are
+    /// another pile's and name a site that this one lacks.
     ///
     /// # Examples
     /// ```

@@ -100,7 +100,7 @@ impl Ring for BigInt {
 /// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with
 ///   [`from_i128`](Ring::from_i128);
 /// * `a.div_int(n)` is the one `b` with `b * n = a`;
-/// * [`from_ratio`](Self::from_ratio) of the numerators of r and of 1 over the same denominator is the
+/// * [`from_ratio`](Self::from_ratio) of a [numerator](Self::numerators) of r and the denominator is the
 ///   image of r.
 ///
 /// # Examples
@@ -140,20 +140,24 @@ pub trait Algebra: Ring {
     /// It is asked once, at the edge of the library: arithmetic carries such values along.
     fn is_defined(&self) -> bool;
 
-    /// A numerator that stands for `r` over `denominator`, a common denominator of all that is taken
-    /// together. For integers this is r·`denominator`, which must be one; a scalar that is its own ring
-    /// of numerators ignores the denominator and takes r itself.
+    /// Numerators of `values` over a common denominator, and that denominator.
+    ///
+    /// For rationals they are integers, and the denominator is the least one; a scalar that is its own ring
+    /// of numerators takes the values themselves, over 1.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::scalar::Algebra;
     /// use num_rational::BigRational;
     ///
-    /// let half = BigRational::new(1.into(), 2.into());
-    /// assert_eq!(BigRational::numerator(&half, &6.into()), 3.into());
-    /// assert_eq!(f64::numerator(&half, &6.into()), 0.5);
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// let values = [ratio(1, 2), ratio(1, 3)];
+    /// assert_eq!(BigRational::numerators(&values), ([3.into(), 2.into()], 6.into()));
+    /// assert_eq!(f64::numerators(&values), ([0.5, 1.0 / 3.0], 1.0));
     /// ```
-    fn numerator(r: &BigRational, denominator: &BigInt) -> Self::Numerator;
+    fn numerators<const N: usize>(
+        values: &[BigRational; N],
+    ) -> ([Self::Numerator; N], Self::Numerator);
 
     /// `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
     ///

@@ -67,13 +67,14 @@ fn nearest_of_random_numbers() {
     assert!(random_numbers::<f32>(-170..140, 1) > 2000);
 }
 
-/// √(m²) hidden in a form whose root is not known to be rational, so that it takes the path of roots.
-fn disguised(m: &BigRational) -> Surd {
+/// √(m²), by way of factors whose squares are too great to be found one by one: a product is rational where
+/// its value is.
+fn root_of_square(m: &BigRational) -> Surd {
     // 1009 is the first prime whose square is not looked for.
     let hidden = Surd::sqrt(ratio(1009 * 1009 * 2, 1)).unwrap();
-    let one = hidden * &Surd::sqrt(ratio(2, 1)).unwrap();
-    assert!(one.radicand() > &1_u32.into());
-    one.scaled(&(m * ratio(1, 2 * 1009)))
+    let product = hidden * &Surd::sqrt(ratio(2, 1)).unwrap();
+    assert_eq!(product.to_rational(), Some(ratio(2 * 1009, 1)));
+    product.scaled(&(m * ratio(1, 2 * 1009)))
 }
 
 /// Halfway between two floats the even one is right: up, down, and across powers of two; the least
@@ -95,7 +96,7 @@ fn ties<F: NearestFloat + Binary>(places: &[F]) {
             let middle = if negative { -&middle } else { middle.clone() };
             let even = if negative { even.map(|x| -x) } else { even };
             assert_eq!(F::nearest_to_rational(&middle), even);
-            assert_eq!(disguised(&middle).nearest::<F>(), even);
+            assert_eq!(root_of_square(&middle).nearest::<F>(), even);
             let square = &middle * &middle;
             assert_eq!(is_nearest(even, negative, &square), Ok(()));
             // Just beside the tie, the nearer one.
@@ -197,8 +198,11 @@ fn too_large_is_none() {
         (limit * (ratio(1, 1) - power(-200)), Some(f64::MAX)),
     ] {
         assert_eq!(f64::nearest_to_rational(&value), nearest);
-        assert_eq!(disguised(&value).nearest::<f64>(), nearest);
-        assert_eq!(disguised(&-value).nearest::<f64>(), nearest.map(|x| -x));
+        assert_eq!(root_of_square(&value).nearest::<f64>(), nearest);
+        assert_eq!(
+            root_of_square(&-value).nearest::<f64>(),
+            nearest.map(|x| -x)
+        );
     }
     let root_two = Surd::sqrt(ratio(2, 1)).unwrap();
     assert_eq!(root_two.scaled(&power(5000)).nearest::<f64>(), None);

@@ -17,6 +17,10 @@
 //!   |(1+s)t − m| < 2, hence −1 ≤ t ≤ 4. If cosθ < 1/4, one of (1,1,0), (1,1,1), (1,0,1) overlaps
 //!   already: for s ≤ 0.17, between, and for s ≥ 0.83, in that order. The pile has it unless L ≤ 3,
 //!   where n has sums of at most 2 anyway and lies in the same range.
+//!
+//! The same n are all that touch: for n at distance exactly 1 and m > 0 the inequalities are strict too, but
+//! for m = 4, cosθ = 1/4 and no horizontal part, which needs (1+s)t = 4 with t even: no 0 < s < 1 does, and of
+//! discs (1,1,0) overlaps there.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -53,18 +57,17 @@ type Touch = (BigRational, Apart);
 
 /// The spacings a pile allows: those at which no two of its spheres overlap.
 ///
-/// THEORY §2, "No overlap". On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the bounds
+/// Made by [`Pile::clearance`](crate::Pile::clearance). THEORY §2, "No overlap". On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the bounds
 /// further spheres touch.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::geometry::{Clearance, Spacing};
-/// use cannonpile::lattice::{Dimension, Pyramid};
+/// use cannonpile::Pile;
+/// use cannonpile::geometry::Spacing;
 /// use num_rational::BigRational;
 ///
 /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-/// let pyramid = Pyramid::new(10, Dimension::Three)?;
-/// let clearance = Clearance::new(&pyramid, &ratio(1, 2));
+/// let clearance = Pile::triangular(10)?.clearance();
 /// assert!(clearance.check(&Spacing::new(ratio(163, 100))?).is_ok());
 /// assert!(clearance.check(&Spacing::new(ratio(164, 100))?).is_err());
 /// // a = R is the FCC stack: horizontal neighbours touch.
@@ -84,8 +87,7 @@ pub struct Clearance {
 
 impl Clearance {
     /// The bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
-    #[must_use]
-    pub fn new(pyramid: &Pyramid, s: &BigRational) -> Self {
+    pub(crate) fn new(pyramid: &Pyramid, s: &BigRational) -> Self {
         let lines = pyramid.dimension().directions().len();
         let flat = square_per_sin2(pyramid.dimension());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());

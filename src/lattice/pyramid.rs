@@ -1,6 +1,6 @@
 //! The sites of a straight pile under one sphere, and its symmetries.
 
-use super::{Dimension, Direction, MAX_LAYERS, Rows, Selection, Site, count};
+use super::{Dimension, Direction, MAX_LAYERS, Rows, Selection, Site};
 use crate::Error;
 
 /// The sites of a straight pile: layers of 1, 3, 6, … spheres under one, or of 1, 2, 3, … discs.
@@ -127,10 +127,10 @@ impl Symmetry {
     /// use cannonpile::lattice::{Site, Symmetry};
     ///
     /// let site = Site { i: 1, j: 2, k: 7 };
-    /// let turned = Symmetry::ROTATION.apply(site);
+    /// let turned = Symmetry::ROTATION.apply(site).unwrap();
     /// assert_eq!(turned, Site { i: 2, j: 4, k: 7 });
-    /// let thrice = Symmetry::ROTATION.apply(Symmetry::ROTATION.apply(turned));
-    /// assert_eq!(thrice, site);
+    /// let twice = Symmetry::ROTATION.apply(turned).unwrap();
+    /// assert_eq!(Symmetry::ROTATION.apply(twice), Some(site));
     /// ```
     pub const ROTATION: Self = Self([Direction::Beta, Direction::Gamma, Direction::Alpha]);
 
@@ -150,12 +150,13 @@ impl Symmetry {
         ]
     };
 
-    /// The image of a site. The site must be one of a pile: its coordinates are subtracted.
+    /// The image of a site; `None` if it leaves `i128`, which no site of a pile does.
     #[must_use]
-    pub fn apply(self, site: Site) -> Site {
-        let counts = count::above(&site.i, &site.j, &site.k);
+    pub fn apply(self, site: Site) -> Option<Site> {
+        let Site { i, j, k } = site;
+        let counts = [k.checked_sub(i)?.checked_sub(j)?, i, j];
         let [_, i, j] = self.0.map(|direction| counts[direction.index()]);
-        Site { i, j, k: site.k }
+        Some(Site { i, j, k })
     }
 
     /// The direction whose line at `site` is carried to the line of `direction` at the image.

@@ -135,8 +135,9 @@ impl Rows {
         count.to_integer().into_parts().1
     }
 
-    /// The sites at which a quantity that is linear in i, j and k within the selection, or the norm
-    /// of such quantities, takes its extremes: the corners of the first and the last layer.
+    /// The sites at which a quantity that is linear in i, j and k, or the norm of such quantities, takes its
+    /// extremes: the corners of the first and the last layer, whole layers even where some rows of the first
+    /// have been given already.
     pub fn corners(&self) -> impl Iterator<Item = Site> + use<> {
         let layers = (self.k < self.end).then_some([self.k, self.end - 1]);
         let directions = self.dimension.directions();

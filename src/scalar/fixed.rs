@@ -246,8 +246,8 @@ impl<I: FixedInteger> Algebra for FixedRational<I> {
         self.0.is_some()
     }
 
-    fn numerator(r: &BigRational, _: &BigInt) -> Self {
-        Self::from_rational(r)
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
     }
 
     fn from_ratio(n: Self, d: &Self) -> Option<Self> {

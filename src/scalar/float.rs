@@ -2,7 +2,6 @@
 
 use core::num::NonZeroI64;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
@@ -43,8 +42,8 @@ macro_rules! float_scalar {
                 self.is_finite()
             }
 
-            fn numerator(r: &BigRational, _: &BigInt) -> Self {
-                Self::from_rational(r)
+            fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+                (values.each_ref().map(Self::from_rational), 1.0)
             }
 
             fn from_ratio(n: Self, d: &Self) -> Option<Self> {

@@ -177,6 +177,38 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
     })
 }
 
+/// A numerator over its denominator is the value it was made of, in its own form.
+///
+/// # Errors
+/// The law, if x and y break it.
+pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Broken> {
+    let values = [x.clone(), y.clone()];
+    let (numerators, denominator) = T::numerators(&values);
+    for (numerator, value) in numerators.into_iter().zip(&values) {
+        let (back, image) = (
+            T::from_ratio(numerator, &denominator),
+            T::from_rational(value),
+        );
+        // The text tells an unreduced fraction from the reduced one; equality may not.
+        let same = back
+            .as_ref()
+            .is_some_and(|back| format!("{back:?}") == format!("{image:?}"));
+        if same || !image.is_defined() {
+            continue;
+        }
+        let (law, witness) = (
+            "n / d is the value",
+            format!("{value}: {back:?} is not {image:?}"),
+        );
+        return Err(Broken {
+            law,
+            scalar: T::NAME,
+            witness,
+        });
+    }
+    Ok(())
+}
+
 /// The rational a scalar stands for, if it is one.
 fn point<T: RealEmbeddable>(a: &T) -> Option<BigRational> {
     let enclosure = a.enclosure()?;

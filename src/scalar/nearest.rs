@@ -51,14 +51,14 @@ pub trait NearestFloat: sealed::Sealed + Copy {
     }
 }
 
-/// The float nearest to ±√(n/d), ties to even; `None` when it would be infinite. d is not zero.
+/// The float nearest to ±√(n/d), which must be irrational, so that there are no ties; `None` when it would be
+/// infinite. d is not zero.
 pub(super) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &BigUint) -> Option<F> {
     // ⌊√(2^(2s) n/d)⌋ = ⌊√⌊2^(2s) n/d⌋⌋: one integer division, one integer root.
     let scale = guard_bits::<F>() - (bits(n) - bits(d)).div_euclid(2);
-    let (quotient, remainder) = shifted_quotient(n, d, 2 * scale);
-    let root = quotient.sqrt();
-    let exact = remainder.is_zero() && &root * &root == quotient;
-    round(negative, &root, !exact, -scale)
+    let (quotient, _) = shifted_quotient(n, d, 2 * scale);
+    let sticky = true;
+    round(negative, &quotient.sqrt(), sticky, -scale)
 }
 
 macro_rules! nearest_float {
@@ -71,7 +71,7 @@ macro_rules! nearest_float {
                 let hidden = 1_u64 << (Self::PRECISION - 1);
                 // Rounding up may have carried into one bit more than there are.
                 let (significand, exponent) = if significand == 2 * hidden {
-                    (hidden, exponent + 1)
+                    (hidden, exponent.saturating_add(1))
                 } else {
                     (significand, exponent)
                 };
@@ -79,7 +79,9 @@ macro_rules! nearest_float {
                 let biased = if significand < hidden {
                     0
                 } else {
-                    exponent - Self::LEAST_EXPONENT + 1
+                    exponent
+                        .saturating_sub(Self::LEAST_EXPONENT)
+                        .saturating_add(1)
                 };
                 let largest = i64::from($float::MAX_EXP) - i64::from($float::MIN_EXP) + 1;
                 if biased > largest {
@@ -88,11 +90,7 @@ macro_rules! nearest_float {
                 let field = $bits::try_from(biased).ok()? << (Self::PRECISION - 1);
                 let magnitude = field | $bits::try_from(significand & (hidden - 1)).ok()?;
                 let float = $float::from_bits(magnitude);
-                Some(if negative && significand != 0 {
-                    -float
-                } else {
-                    float
-                })
+                Some(if negative { -float } else { float })
             }
         }
     };

@@ -5,7 +5,7 @@ use core::num::NonZeroI64;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
 
@@ -33,8 +33,12 @@ impl Algebra for BigRational {
         true
     }
 
-    fn numerator(r: &BigRational, denominator: &BigInt) -> BigInt {
-        r.numer() * (denominator / r.denom())
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([BigInt; N], BigInt) {
+        let common = values
+            .iter()
+            .fold(BigInt::one(), |common, r| common.lcm(r.denom()));
+        let numerators = values.each_ref().map(|r| r.numer() * (&common / r.denom()));
+        (numerators, common)
     }
 
     fn from_ratio(n: BigInt, d: &BigInt) -> Option<Self> {

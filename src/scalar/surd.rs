@@ -41,7 +41,7 @@ use crate::Error;
 #[derive(Clone, Debug)]
 pub struct Surd {
     coefficient: BigRational,
-    /// Positive; 1 where the value is rational, as far as that was found.
+    /// Positive; 1 if the value is rational, so that any other root is irrational.
     radicand: BigUint,
 }
 
@@ -128,9 +128,7 @@ impl Surd {
     /// The value itself where it is rational, or `None`.
     #[must_use]
     pub fn to_rational(&self) -> Option<BigRational> {
-        let root = self.radicand.sqrt();
-        (&root * &root == self.radicand)
-            .then(|| &self.coefficient * BigRational::from_integer(root.into()))
+        self.radicand.is_one().then(|| self.coefficient.clone())
     }
 
     /// This number times a rational, exactly; the root is not touched.
@@ -251,11 +249,17 @@ fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
             root *= p;
         }
     }
-    let rest = n.sqrt();
-    if &rest * &rest == n {
-        (root * rest, BigUint::one())
+    let (rest, n) = whole_square(n);
+    (root * rest, n)
+}
+
+/// (√n, 1) for a square, (1, n) otherwise.
+fn whole_square(n: BigUint) -> (BigUint, BigUint) {
+    let root = n.sqrt();
+    if &root * &root == n {
+        (root, BigUint::one())
     } else {
-        (root, n)
+        (BigUint::one(), n)
     }
 }
 
@@ -286,7 +290,9 @@ impl Mul<&Self> for Surd {
         // √(ga)·√(gb) = g·√(ab): factors the two radicands share come out.
         let g = self.radicand.gcd(&rhs.radicand);
         let radicand = (&self.radicand / &g) * (&rhs.radicand / &g);
-        let factor = BigRational::from_integer(g.into());
+        // Of squares too great to be found in the factors the product may be one as a whole.
+        let (root, radicand) = whole_square(radicand);
+        let factor = BigRational::from_integer((g * root).into());
         Self::normal(self.coefficient * &rhs.coefficient * factor, radicand)
     }
 }

@@ -4,9 +4,8 @@
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{Algebra, Field, FixedRational, RealEmbeddable, laws};
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::Zero;
 
 use super::{Checked, in_lowest_terms, same};
 use crate::generators::number;
@@ -52,15 +51,8 @@ fn suite<T: Field + RealEmbeddable>(operands: &Operands) -> Checked {
     laws::embedding::<T>(x, y)?;
     laws::embedding::<T>(z, z)?;
     laws::integers::<T>(operands.integer)?;
-    numerators::<T>(x, &(y.denom() * BigInt::from(operands.integer)))
-}
-
-/// Taken as a numerator over a common denominator and divided by it, a rational is itself again.
-fn numerators<T: Algebra>(x: &BigRational, multiple: &BigInt) -> Checked {
-    let denominator = x.denom() * (multiple.abs() + BigInt::one());
-    let one = T::numerator(&BigRational::one(), &denominator);
-    let back = T::from_ratio(T::numerator(x, &denominator), &one);
-    images_agree(back, T::from_rational(x))
+    laws::numerators::<T>(x, y)?;
+    Ok(())
 }
 
 /// Both are the same number, or neither is a number.

@@ -146,8 +146,8 @@ impl<F: Fault> Algebra for Flawed<F> {
         true
     }
 
-    fn numerator(r: &Q, _: &BigInt) -> Self {
-        Self::from_rational(r)
+    fn numerators<const N: usize>(values: &[Q; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
     }
 
     fn from_ratio(n: Self, d: &Self) -> Option<Self> {

@@ -35,11 +35,9 @@ pub(crate) const MIRRORED_DISCS: Turn = [[-2, 0], [0, 2]];
 /// for the turn.
 pub(crate) fn invariant(pile: &Answers, symmetry: Symmetry, turn: &Turn) -> Verdict {
     for (site, sphere) in &pile.spheres {
-        let image = symmetry.apply(*site);
-        let there = pile
-            .spheres
-            .get(&image)
-            .ok_or(format!("{site} leaves the pile"))?;
+        let leaves = || format!("{site} leaves the pile");
+        let image = symmetry.apply(*site).ok_or_else(leaves)?;
+        let there = pile.spheres.get(&image).ok_or_else(leaves)?;
         same(site, &there.position, &turned(turn, &sphere.position))?;
         same(
             site,
