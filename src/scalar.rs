@@ -26,11 +26,13 @@ mod fixed;
 mod float;
 pub mod laws;
 mod nearest;
+mod polynomial;
 mod rational;
 mod surd;
 
 pub use fixed::{FixedInteger, FixedRational};
 pub use nearest::NearestFloat;
+pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;
 
 use core::fmt::Debug;
