@@ -153,9 +153,21 @@ impl Symmetry {
     /// The image of a site. The site must be one of a pile: its coordinates are subtracted.
     #[must_use]
     pub fn apply(self, site: Site) -> Site {
-        let counts = count::above(&site.i, &site.j, &site.k);
-        let [_, i, j] = self.0.map(|direction| counts[direction.index()]);
-        Site { i, j, k: site.k }
+        let Site { i, j, k } = site;
+        let [_, i, j] = self.permute(&count::above(&i, &j, &k));
+        Site { i, j, k }
+    }
+
+    /// The counts of spheres above at the image, from those at the site, in any scalar.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Symmetry;
+    ///
+    /// assert_eq!(Symmetry::ROTATION.permute(&["α", "β", "γ"]), ["β", "γ", "α"]);
+    /// ```
+    pub fn permute<T: Clone>(self, above: &[T; 3]) -> [T; 3] {
+        self.0.map(|direction| above[direction.index()].clone())
     }
 
     /// The direction whose line at `site` is carried to the line of `direction` at the image.

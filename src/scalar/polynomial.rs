@@ -434,9 +434,9 @@ impl Algebra for Polynomial {
     fn div_int(self, n: NonZeroI64) -> Self {
         let sign = BigInt::from(n.get().signum());
         let mut terms = self.terms;
-        terms
-            .values_mut()
-            .for_each(|coefficient| *coefficient *= &sign);
+        for coefficient in terms.values_mut() {
+            *coefficient *= &sign;
+        }
         Self::canonical(terms, self.denominator * BigInt::from(n.get()).abs())
     }
 
