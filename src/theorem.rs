@@ -51,9 +51,11 @@ mod balance;
 mod base;
 mod counts;
 mod dimensions;
+mod display;
 mod formulas;
 mod setting;
 
+pub use display::Listing;
 pub use formulas::Formulas;
 
 use alloc::string::String;
