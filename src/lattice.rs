@@ -59,6 +59,23 @@ impl Direction {
         }
     }
 
+    /// The step (Δi, Δj, Δk) from a sphere to the one below it in this direction.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// assert_eq!(Direction::Beta.descent(), [1, 0, 1]);
+    /// ```
+    #[must_use]
+    pub const fn descent(self) -> [i128; 3] {
+        match self {
+            Self::Alpha => [0, 0, 1],
+            Self::Beta => [1, 0, 1],
+            Self::Gamma => [0, 1, 1],
+        }
+    }
+
     /// `alpha`, `beta`, `gamma`: the name in tables and on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -130,17 +147,13 @@ impl Site {
     /// The sphere on top of a pile, (0, 0, 0).
     pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
 
-    /// The site one step further in `direction`, up (−1) or down (+1); `None` past `i128`.
-    pub(crate) fn step(self, direction: Direction, down: i128) -> Option<Self> {
-        let (di, dj) = match direction {
-            Direction::Alpha => (0, 0),
-            Direction::Beta => (down, 0),
-            Direction::Gamma => (0, down),
-        };
+    /// The site `steps` further down in `direction`, up for a negative number; `None` past `i128`.
+    pub(crate) fn step(self, direction: Direction, steps: i128) -> Option<Self> {
+        let [di, dj, dk] = direction.descent().map(|d| d * steps);
         Some(Self {
             i: self.i.checked_add(di)?,
             j: self.j.checked_add(dj)?,
-            k: self.k.checked_add(down)?,
+            k: self.k.checked_add(dk)?,
         })
     }
 }

@@ -42,9 +42,10 @@
 //! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
 //! | [`lattice`] | sites, directions, neighbours, symmetries, rows, counts |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
-//! | [`closed_form`] | the paper's formulas, generic over the scalar |
+//! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
 //! | [`Pile`], [`Statics`] | a validated pile; its forces in pile units, in any scalar |
 //! | [`Packing`] | the same in SI, exactly |
+//! | [`theorem`] | what is proved for every pile, and how |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
 //! | `export` | tables as csv, json and text (feature `export`) |
 //!
@@ -52,6 +53,7 @@
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
 //!   [`MAX_LAYERS`](lattice::MAX_LAYERS) = 10³⁶ layers.
 //! * [`scalar::Surd::nearest`] is the float nearest to the exact value, decided in integers.
+//! * What [`theorem`] states is proved for every pile, by running the formulas on polynomials.
 //! * `f32` and `f64` as scalars round each operation; an answer takes a handful.
 //! * Nothing panics on any input, malformed rationals (made by `Ratio::new_raw`) aside. Errors are one enum,
 //!   [`Error`], with the value and the remedy. The generic formulas on machine integers of one's own are as safe
@@ -82,6 +84,8 @@ mod pile;
 mod query;
 pub mod scalar;
 pub mod scene;
+pub mod theorem;
+pub mod transfer;
 
 pub use error::Error;
 pub use packing::Packing;

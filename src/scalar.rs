@@ -17,20 +17,33 @@
 //! |---|---|---|
 //! | `f32`, `f64` | [`Rounded`](Exactness::Rounded) | speed |
 //! | [`BigRational`] | [`Exact`](Exactness::Exact) | proof by computation, any size |
+//! | [`DoubleDouble`] | [`Rounded`](Exactness::Rounded) | twice the digits of `f64` |
+//! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | bounds that hold the true value |
+//! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proof for every pile at once |
+//! | [`Pair`] | the weaker of the two | a checker that runs two scalars in step |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
 //!
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
 //! [`Surd`] is not a scalar: it is the exact value c·√r at the edge, where roots come in.
 
+mod double_double;
+mod error_free;
 mod fixed;
 mod float;
+mod interval;
 pub mod laws;
 mod nearest;
+mod pair;
+mod polynomial;
 mod rational;
 mod surd;
 
+pub use double_double::DoubleDouble;
 pub use fixed::{FixedInteger, FixedRational};
+pub use interval::Interval;
 pub use nearest::NearestFloat;
+pub use pair::{Pair, Parting};
+pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;
 
 use core::fmt::Debug;
@@ -53,12 +66,30 @@ pub enum Exactness {
     /// Every operation gives the true value, or a fault that spreads to all that is computed from
     /// it and is unequal to everything, itself included.
     ExactOrFault,
+    /// Every operation gives bounds that hold the true value.
+    Enclosure,
     /// Every single operation on finite operands that neither overflows nor underflows errs by at
     /// most 2^(−`bits`) of the true value: 24 for `f32`, 53 for `f64`.
     Rounded {
         /// The precision p of the significand, in bits.
         bits: u32,
     },
+}
+
+impl Exactness {
+    /// What two scalars promise together.
+    #[must_use]
+    pub const fn weaker(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Rounded { bits: a }, Self::Rounded { bits: b }) => Self::Rounded {
+                bits: if a < b { a } else { b },
+            },
+            (rounded @ Self::Rounded { .. }, _) | (_, rounded @ Self::Rounded { .. }) => rounded,
+            (Self::Enclosure, _) | (_, Self::Enclosure) => Self::Enclosure,
+            (Self::ExactOrFault, _) | (_, Self::ExactOrFault) => Self::ExactOrFault,
+            (Self::Exact, Self::Exact) => Self::Exact,
+        }
+    }
 }
 
 /// A commutative ring with the integers in it: all that most formulas need.
@@ -139,6 +170,11 @@ pub trait Algebra: Ring {
     ///
     /// It is asked once, at the edge of the library: arithmetic carries such values along.
     fn is_defined(&self) -> bool;
+
+    /// Whether two values may stand for the same number: equality, or for bounds that they overlap.
+    fn may_equal(&self, other: &Self) -> bool {
+        self == other
+    }
 
     /// Numerators of `values` over a common denominator, and that denominator.
     ///

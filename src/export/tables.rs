@@ -1,4 +1,4 @@
-//! The tables there are: summary, base, contacts, spheres.
+//! The tables there are: summary, base, contacts, spheres, theorems.
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -9,6 +9,7 @@ use super::{Cell, Column, Table};
 use crate::geometry::Apart;
 use crate::lattice::{Dimension, Direction, Selection, Site, count};
 use crate::scalar::{Ring, Surd};
+use crate::theorem::{Proof, Theorem};
 use crate::{Error, FloorForce, Packing, Pile, Statics};
 
 /// The most rows that are written.
@@ -199,6 +200,40 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
         extremes: rows.corners().map(&row).collect(),
         rows: Box::new(rows.flatten().map(row)),
     })
+}
+
+/// What is proved for every pile, a theorem a row: `name, statement, symbols, holds`.
+///
+/// # Examples
+/// ```
+/// use cannonpile::export::tables;
+/// use cannonpile::theorem;
+///
+/// let table = tables::theorems(theorem::all().map(|theorem| (theorem, theorem.prove())));
+/// assert_eq!(table.columns().len(), 4);
+/// ```
+pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> Table<'t> {
+    let columns = ["name", "statement", "symbols", "holds"].map(Column::plain);
+    let row = |(theorem, proof): (&Theorem, Proof)| -> Row {
+        let Theorem {
+            name,
+            statement,
+            symbols,
+            ..
+        } = *theorem;
+        Ok(vec![
+            name.into(),
+            statement.into(),
+            symbols.into(),
+            Cell::Flag(proof.holds()),
+        ])
+    };
+    Table {
+        columns: columns.into(),
+        layout: Layout::Rows("theorems"),
+        extremes: Vec::new(),
+        rows: Box::new(proved.map(row)),
+    }
 }
 
 /// The pile in one row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres,

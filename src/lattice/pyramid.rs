@@ -154,9 +154,20 @@ impl Symmetry {
     #[must_use]
     pub fn apply(self, site: Site) -> Option<Site> {
         let Site { i, j, k } = site;
-        let counts = [k.checked_sub(i)?.checked_sub(j)?, i, j];
-        let [_, i, j] = self.0.map(|direction| counts[direction.index()]);
+        let [_, i, j] = self.permute(&[k.checked_sub(i)?.checked_sub(j)?, i, j]);
         Some(Site { i, j, k })
+    }
+
+    /// The counts of spheres above at the image, from those at the site, in any scalar.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Symmetry;
+    ///
+    /// assert_eq!(Symmetry::ROTATION.permute(&["α", "β", "γ"]), ["β", "γ", "α"]);
+    /// ```
+    pub fn permute<T: Clone>(self, above: &[T; 3]) -> [T; 3] {
+        self.0.map(|direction| above[direction.index()].clone())
     }
 
     /// The direction whose line at `site` is carried to the line of `direction` at the image.

@@ -5,13 +5,17 @@ mod options;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
-use cannonpile::export::{Table, Units, WriteError, tables, write_aside};
+use cannonpile::export::{NumberFormat, Table, Units, WriteError, tables, write_aside};
 use cannonpile::scene::Scene;
+use cannonpile::theorem::{self, Listing};
 use cannonpile::{Error, Packing, Pile};
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use options::{Arguments, Command, Output, UnitSystem};
+use options::{Arguments, Command, Format, Numbers, Output, UnitSystem};
+
+/// The answer is no.
+const NO: u8 = 1;
 
 /// Bad use: nothing on stdout, one line on stderr.
 const BAD_USE: u8 = 2;
@@ -22,7 +26,8 @@ fn main() -> ExitCode {
         Err(error) => return usage(&error),
     };
     match run(&arguments.command) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(NO),
         // Whoever reads has seen enough.
         Err(WriteError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
@@ -32,56 +37,120 @@ fn main() -> ExitCode {
             ExitCode::from(BAD_USE)
         }
         Err(error) => {
-            eprintln!(
-                "error: cannot write {}: {error}",
-                arguments.command.output().target()
-            );
+            let target = arguments.command.output().target();
+            eprintln!("error: cannot write {target}: {error}");
             ExitCode::from(BAD_USE)
         }
     }
 }
 
-fn run(command: &Command) -> Result<(), WriteError> {
-    let scene = command.scene().read()?;
-    let pile = scene.pile()?;
-    let output = command.output();
-    let table = match command {
-        Command::Summary { .. } => {
+/// Answers, and tells whether the answer is yes.
+fn run(command: &Command) -> Result<bool, WriteError> {
+    match command {
+        Command::Summary {
+            scene,
+            numbers,
+            output,
+        } => {
+            let (scene, pile) = scene.read()?;
+            let units = units(&scene, &pile, numbers)?;
             // The touching spheres are those at the default spacing only where that fits.
             let packing = scene.packing(&pile);
-            let units = units(&scene, &pile, output)?;
-            tables::summary(&units, packing.as_ref().ok().map(Packing::touching))
+            let table = tables::summary(&units, packing.as_ref().ok().map(Packing::touching))?;
+            write_table(table, numbers, output)?;
         }
-        Command::Base { at, .. } => {
+        Command::Base {
+            scene,
+            at,
+            numbers,
+            output,
+        } => {
+            let (scene, pile) = scene.read()?;
             let selection = at.on_base(&pile)?;
-            tables::base(&units(&scene, &pile, output)?, selection)
+            let table = tables::base(&units(&scene, &pile, numbers)?, selection)?;
+            write_table(table, numbers, output)?;
         }
-        Command::Contacts { part, .. } => {
+        Command::Contacts {
+            scene,
+            part,
+            numbers,
+            output,
+        } => {
+            let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
-            tables::contacts(&units(&scene, &pile, output)?, selection)
+            let table = tables::contacts(&units(&scene, &pile, numbers)?, selection)?;
+            write_table(table, numbers, output)?;
         }
-        Command::Spheres { part, .. } => {
+        Command::Spheres {
+            scene,
+            part,
+            numbers,
+            output,
+        } => {
+            let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
-            tables::spheres(&scene.packing(&pile)?, selection)
+            let table = tables::spheres(&scene.packing(&pile)?, selection)?;
+            write_table(table, numbers, output)?;
         }
-    }?;
-    write(table, output)
+        Command::Prove { theorem, output } => return prove(theorem.as_deref(), output),
+    }
+    Ok(true)
 }
 
-fn units<'p>(scene: &Scene, pile: &'p Pile, output: &Output) -> Result<Units<'p>, Error> {
-    Ok(match output.units {
+fn units<'p>(scene: &Scene, pile: &'p Pile, numbers: &Numbers) -> Result<Units<'p>, Error> {
+    Ok(match numbers.units {
         UnitSystem::Pile => Units::of_pile(pile),
         UnitSystem::Si => Units::of_packing(scene.packing(pile)?),
     })
 }
 
-fn write(table: Table<'_>, output: &Output) -> Result<(), WriteError> {
-    let (format, numbers) = (output.format.into(), output.number.into());
+fn prove(name: Option<&str>, output: &Output) -> Result<bool, WriteError> {
+    let wanted = theorem::all().filter(|theorem| name.is_none_or(|name| theorem.name == name));
+    let proved: Vec<_> = wanted.map(|theorem| (theorem, theorem.prove())).collect();
+    let all_hold = proved.iter().all(|(_, proof)| proof.holds());
+    write(output, |out| {
+        if output.format != Format::Table {
+            let table = tables::theorems(proved.into_iter());
+            return table.write(output.format.into(), NumberFormat::Exact, out);
+        }
+        for (place, (theorem, proof)) in proved.iter().enumerate() {
+            let gap = if place > 0 { "\n" } else { "" };
+            let whole = name.is_some();
+            write!(
+                out,
+                "{gap}{}",
+                Listing {
+                    theorem,
+                    proof,
+                    whole
+                }
+            )?;
+        }
+        if name.is_none() {
+            let holding = proved.iter().filter(|(_, proof)| proof.holds()).count();
+            writeln!(out, "\n{holding} of {} theorems hold", proved.len())?;
+        }
+        Ok(())
+    })?;
+    Ok(all_hold)
+}
+
+fn write_table(table: Table<'_>, numbers: &Numbers, output: &Output) -> Result<(), WriteError> {
+    write(output, |out| {
+        table.write(output.format.into(), numbers.number.into(), out)
+    })
+}
+
+/// To the file, whole or not at all, or to stdout.
+fn write(
+    output: &Output,
+    content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
     if let Some(path) = &output.file {
-        return write_aside(path, |out| table.write(format, numbers, out));
+        return write_aside(path, content);
     }
     let mut out = BufWriter::new(io::stdout().lock());
-    table.write(format, numbers, &mut out)?;
+    content(&mut out)?;
     Ok(out.flush()?)
 }
 

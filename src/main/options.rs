@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use cannonpile::export::{FileFormat, NumberFormat};
 use cannonpile::lattice::{Dimension, Selection};
 use cannonpile::scene::{Scene, parse};
-use cannonpile::{Error, Pile};
+use cannonpile::{Error, Pile, theorem};
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use num_rational::BigRational;
 
@@ -24,6 +25,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         scene: SceneOptions,
         #[command(flatten)]
+        numbers: Numbers,
+        #[command(flatten)]
         output: Output,
     },
     /// The force of each bottom sphere on the floor
@@ -32,6 +35,8 @@ pub(crate) enum Command {
         scene: SceneOptions,
         #[command(flatten)]
         at: BaseAt,
+        #[command(flatten)]
+        numbers: Numbers,
         #[command(flatten)]
         output: Output,
     },
@@ -42,6 +47,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         part: Part,
         #[command(flatten)]
+        numbers: Numbers,
+        #[command(flatten)]
         output: Output,
     },
     /// The place, size and mass of each sphere, in SI units
@@ -51,26 +58,28 @@ pub(crate) enum Command {
         #[command(flatten)]
         part: Part,
         #[command(flatten)]
+        numbers: Numbers,
+        #[command(flatten)]
+        output: Output,
+    },
+    /// What is proved for every pile, with the proofs; exit status 1 if one fails
+    Prove {
+        /// One theorem only, with its whole derivation
+        #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(theorem::all().map(|t| t.name)))]
+        theorem: Option<String>,
+        #[command(flatten)]
         output: Output,
     },
 }
 
 impl Command {
-    pub(crate) fn scene(&self) -> &SceneOptions {
-        match self {
-            Self::Summary { scene, .. }
-            | Self::Base { scene, .. }
-            | Self::Contacts { scene, .. }
-            | Self::Spheres { scene, .. } => scene,
-        }
-    }
-
     pub(crate) fn output(&self) -> &Output {
         match self {
             Self::Summary { output, .. }
             | Self::Base { output, .. }
             | Self::Contacts { output, .. }
-            | Self::Spheres { output, .. } => output,
+            | Self::Spheres { output, .. }
+            | Self::Prove { output, .. } => output,
         }
     }
 }
@@ -102,10 +111,10 @@ pub(crate) struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The scene described.
+    /// The scene described, and its pile.
     ///
     /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
-    pub(crate) fn read(&self) -> Result<Scene, Error> {
+    pub(crate) fn read(&self) -> Result<(Scene, Pile), Error> {
         let scene = Scene {
             layers: self.layers,
             dimension: self.dimension,
@@ -116,7 +125,8 @@ impl SceneOptions {
             gravity: self.gravity.clone(),
         };
         scene.check_sizes()?;
-        Ok(scene)
+        let pile = scene.pile()?;
+        Ok((scene, pile))
     }
 }
 
@@ -165,15 +175,22 @@ fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Selection>, Error> {
     Ok(Some(Selection::One(site)))
 }
 
+/// How the numbers of a pile are shown.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
-pub(crate) struct Output {
+pub(crate) struct Numbers {
     /// How numbers are printed
     #[arg(long, value_enum, default_value = "exact")]
     pub(crate) number: Number,
     /// Multiples of mg and friends, or newtons and metres
     #[arg(long, value_enum, default_value = "pile")]
     pub(crate) units: UnitSystem,
+}
+
+/// Where a table goes, and in which format.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct Output {
     /// For people, or for programs
     #[arg(long, value_enum, default_value = "table")]
     pub(crate) format: Format,
@@ -220,7 +237,7 @@ pub(crate) enum UnitSystem {
     Si,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub(crate) enum Format {
     /// Aligned, with units and totals
     Table,

@@ -1,0 +1,236 @@
+//! Double-double: an unevaluated sum of two floats, twice the precision of one.
+//!
+//! Algorithms and their bounds: M. Joldes, J.-M. Muller and V. Popescu, "Tight and rigorous error bounds for
+//! basic building blocks of double-word arithmetic", ACM Trans. Math. Softw. 44 (2017). With u = 2^−53 the
+//! relative error of a sum is at most 3u² + 13u³, of a product 7u², of a quotient 15u² + 56u³.
+
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::error_free::{fast_two_sum, scale, significand, two_product, two_sum};
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
+
+/// A number high + low with |low| at most half a unit in the last place of high: about 106 bits.
+///
+/// Each operation errs by at most 2^−100 of its result, as long as that is between 2^−900 and 2^1023. Below,
+/// digits are lost gradually. A result beyond the floats, or one of operands that are not finite, is what
+/// `f64` gives for the high parts: an infinity or not-a-number, with low = 0.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{Algebra, DoubleDouble, Ring};
+/// use num_traits::One;
+///
+/// let third = DoubleDouble::one().div_int(3.try_into().unwrap());
+/// let rest = DoubleDouble::one() - &(third + third + third);
+/// assert!(rest.high().abs() < 1e-31);
+/// assert_ne!(third.low(), 0.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoubleDouble {
+    high: f64,
+    low: f64,
+}
+
+impl DoubleDouble {
+    /// A float.
+    #[must_use]
+    pub const fn new(value: f64) -> Self {
+        Self {
+            high: value,
+            low: 0.0,
+        }
+    }
+
+    /// The nearest float.
+    #[must_use]
+    pub const fn high(&self) -> f64 {
+        self.high
+    }
+
+    /// What is left to it.
+    #[must_use]
+    pub const fn low(&self) -> f64 {
+        self.low
+    }
+
+    /// The parts of a result, or the float if that is not finite.
+    fn finite((high, low): (f64, f64), float: f64) -> Self {
+        if high.is_finite() && low.is_finite() {
+            Self { high, low }
+        } else {
+            Self::new(float)
+        }
+    }
+
+    /// Times 2^`e`.
+    fn scaled(self, e: i32) -> Self {
+        let float = scale(self.high, e);
+        Self::finite((float, scale(self.low, e)), float)
+    }
+
+    /// The number with its high part between 1 and 2, and the power of two taken out: no product of two such
+    /// numbers overflows or loses its error.
+    fn normalised(self) -> (Self, i32) {
+        let (_, e) = significand(self.high);
+        (self.scaled(-e), e)
+    }
+
+    /// Product with a float.
+    fn times_float(self, y: f64) -> (f64, f64) {
+        let (c, c1) = two_product(self.high, y);
+        let c2 = self.low * y;
+        let (t, t1) = fast_two_sum(c, c2);
+        fast_two_sum(t, t1 + c1)
+    }
+}
+
+impl Add<&Self> for DoubleDouble {
+    type Output = Self;
+
+    /// `AccurateDWPlusDW`.
+    fn add(self, rhs: &Self) -> Self {
+        let (s, s1) = two_sum(self.high, rhs.high);
+        let (t, t1) = two_sum(self.low, rhs.low);
+        let (v, v1) = fast_two_sum(s, s1 + t);
+        Self::finite(fast_two_sum(v, t1 + v1), self.high + rhs.high)
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            high: -self.high,
+            low: -self.low,
+        }
+    }
+}
+
+impl Sub<&Self> for DoubleDouble {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        let negated = -*rhs;
+        self + negated
+    }
+}
+
+impl Mul<&Self> for DoubleDouble {
+    type Output = Self;
+
+    /// `DWTimesDW1`.
+    fn mul(self, rhs: &Self) -> Self {
+        let ((x, e), (y, f)) = (self.normalised(), rhs.normalised());
+        let (c, c1) = two_product(x.high, y.high);
+        let c2 = x.high * y.low + x.low * y.high;
+        Self::finite(fast_two_sum(c, c1 + c2), x.high * y.high).scaled(e + f)
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        Add::<&Self>::add(self, &rhs)
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+
+    fn mul(self, rhs: Self) -> Self {
+        Mul::<&Self>::mul(self, &rhs)
+    }
+}
+
+impl Zero for DoubleDouble {
+    fn zero() -> Self {
+        Self::new(0.0)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.high == 0.0
+    }
+}
+
+impl One for DoubleDouble {
+    fn one() -> Self {
+        Self::new(1.0)
+    }
+}
+
+impl Ring for DoubleDouble {
+    fn from_i128(n: i128) -> Self {
+        Self::from_rational(&BigRational::from_i128(n))
+    }
+}
+
+impl Algebra for DoubleDouble {
+    type Numerator = Self;
+
+    const EXACTNESS: Exactness = Exactness::Rounded { bits: 100 };
+    const NAME: &'static str = "DoubleDouble";
+
+    fn from_rational(r: &BigRational) -> Self {
+        let Some(high) = f64::nearest_to_rational(r) else {
+            return Self::new(f64::NAN);
+        };
+        // A finite float is a rational, and the rest is smaller than it.
+        let rest = BigRational::from_float(high).map(|value| r - value);
+        let low = rest
+            .and_then(|rest| f64::nearest_to_rational(&rest))
+            .unwrap_or(0.0);
+        Self { high, low }
+    }
+
+    fn div_int(self, n: NonZeroI64) -> Self {
+        // Not zero, so there is a quotient.
+        self.checked_div(&Self::from_i128(n.get().into()))
+            .unwrap_or(Self::new(f64::NAN))
+    }
+
+    fn is_defined(&self) -> bool {
+        self.high.is_finite()
+    }
+
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
+    }
+
+    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+        n.checked_div(d)
+    }
+}
+
+impl Field for DoubleDouble {
+    /// `DWDivDW2`.
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        if divisor.is_zero() || !divisor.is_defined() {
+            return None;
+        }
+        let ((x, e), (y, f)) = (self.normalised(), divisor.normalised());
+        let t = x.high / y.high;
+        let (r, r1) = y.times_float(t);
+        let rest = (x.high - r) + (x.low - r1);
+        Some(Self::finite(fast_two_sum(t, rest / y.high), t).scaled(e - f))
+    }
+}
+
+impl RealEmbeddable for DoubleDouble {
+    fn sign(&self) -> Sign {
+        self.high.sign()
+    }
+
+    fn enclosure(&self) -> Option<Enclosure> {
+        let (high, low) = (
+            BigRational::from_float(self.high)?,
+            BigRational::from_float(self.low)?,
+        );
+        Some(Enclosure::point(high + low))
+    }
+}

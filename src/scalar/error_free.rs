@@ -1,0 +1,64 @@
+//! Sums and products of floats together with their rounding errors, which are floats again.
+//!
+//! Without a fused multiply-add, which `core` does not have: Knuth's sum and Dekker's product.
+
+/// (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows.
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let from_b = s - a;
+    let from_a = s - from_b;
+    (s, (a - from_a) + (b - from_b))
+}
+
+/// As [`two_sum`], for |a| ≥ |b| or a = 0.
+pub(super) fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    (s, b - (s - a))
+}
+
+/// (p, e) with p = fl(a b) and p + e = a b exactly, for factors of ordinary size: [`significand`]s.
+pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    let ((a1, a2), (b1, b2)) = (split(a), split(b));
+    (p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2)
+}
+
+/// Veltkamp's splitting into two halves of at most 26 bits.
+fn split(a: f64) -> (f64, f64) {
+    let c = 134_217_729.0 * a; // 2^27 + 1
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+/// (m, e) with a = m·2^e and 1 ≤ |m| < 2, for a finite and not zero; other values as they are, with e = 0.
+pub(super) fn significand(a: f64) -> (f64, i32) {
+    if a == 0.0 || !a.is_finite() {
+        return (a, 0);
+    }
+    if a.abs() < f64::MIN_POSITIVE {
+        let (m, e) = significand(a * power_of_two(64));
+        return (m, e - 64);
+    }
+    let bits = a.to_bits();
+    let field = (bits >> 52) & 0x7ff;
+    // Eleven bits: no loss.
+    let exponent = i32::try_from(field).unwrap_or(0) - 1023;
+    (
+        f64::from_bits(bits & !(0x7ff << 52) | (1023 << 52)),
+        exponent,
+    )
+}
+
+/// 2^e for −1022 ≤ e ≤ 1023, and the nearer of these ends beyond.
+pub(super) fn power_of_two(e: i32) -> f64 {
+    let field = u64::try_from(e.clamp(-1022, 1023) + 1023).unwrap_or(0);
+    f64::from_bits(field << 52)
+}
+
+/// a·2^e, rounded once more where it is subnormal.
+pub(super) fn scale(a: f64, e: i32) -> f64 {
+    // No one power reaches from the least subnormal to the greatest float; three do, and none overflows
+    // or underflows before the result does.
+    let (third, rest) = (e / 3, e - 2 * (e / 3));
+    a * power_of_two(third) * power_of_two(third) * power_of_two(rest)
+}

@@ -1,0 +1,342 @@
+//! Intervals of floats: every result contains the true one.
+
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::error_free::{significand, two_product, two_sum};
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
+
+/// A closed interval [lower, upper] of reals with `f64` ends, which may be infinite.
+///
+/// Operations round outward: the result contains every result for operands within the intervals, so
+/// whatever was computed, the true value lies inside. Each end is the tightest there is, but for products and
+/// quotients among the subnormals, where it is one float wider. A value that is known exactly stays a point as
+/// long as its results are floats.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, Ring, Sign};
+/// use num_rational::BigRational;
+///
+/// let third = Interval::from_i128(1).div_int(3.try_into().unwrap());
+/// assert_eq!(third.upper(), third.lower().next_up());
+/// let rest = Interval::from_i128(1) - &(third + third + third);
+/// assert_eq!(rest.sign(), Sign::Unknown);
+/// // Around zero there is no quotient.
+/// assert_eq!(third.checked_div(&rest), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    lower: f64,
+    upper: f64,
+}
+
+impl Interval {
+    /// The whole line: nothing is known.
+    pub const WHOLE: Self = Self {
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+    };
+
+    /// The interval [`lower`, `upper`]; `None` unless `lower` ≤ `upper` and a real lies between.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Interval;
+    ///
+    /// assert!(Interval::new(1.0, f64::INFINITY).is_some());
+    /// assert!(Interval::new(2.0, 1.0).is_none());
+    /// assert!(Interval::new(f64::INFINITY, f64::INFINITY).is_none());
+    /// assert!(Interval::new(f64::NAN, 1.0).is_none());
+    /// ```
+    #[must_use]
+    pub fn new(lower: f64, upper: f64) -> Option<Self> {
+        let holds = lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY;
+        holds.then_some(Self { lower, upper })
+    }
+
+    /// A float as a point; the whole line if it is not finite.
+    #[must_use]
+    pub fn point(value: f64) -> Self {
+        Self::new(value, value).unwrap_or(Self::WHOLE)
+    }
+
+    /// The lower end.
+    #[must_use]
+    pub const fn lower(&self) -> f64 {
+        self.lower
+    }
+
+    /// The upper end.
+    #[must_use]
+    pub const fn upper(&self) -> f64 {
+        self.upper
+    }
+
+    /// Whether a rational lies inside, exactly.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, Interval};
+    /// use num_rational::BigRational;
+    ///
+    /// let tenth = BigRational::new(1.into(), 10.into());
+    /// assert!(Interval::from_rational(&tenth).contains(&tenth));
+    /// assert!(!Interval::point(0.1).contains(&tenth));
+    /// ```
+    #[must_use]
+    pub fn contains(&self, value: &BigRational) -> bool {
+        // An end that is no rational is infinite, and bounds nothing.
+        let above = BigRational::from_float(self.lower).is_none_or(|lower| lower <= *value);
+        above && BigRational::from_float(self.upper).is_none_or(|upper| *value <= upper)
+    }
+
+    /// The smallest interval with the four ends that corners of two intervals give.
+    fn hull(corners: [(f64, f64); 4], end: impl Fn(f64, f64) -> (f64, f64)) -> Self {
+        let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (x, y) in corners {
+            let (down, up) = end(x, y);
+            lower = lower.min(down);
+            upper = upper.max(up);
+        }
+        Self { lower, upper }
+    }
+
+    fn corners(self, other: &Self) -> [(f64, f64); 4] {
+        [
+            (self.lower, other.lower),
+            (self.lower, other.upper),
+            (self.upper, other.lower),
+            (self.upper, other.upper),
+        ]
+    }
+
+    fn has_zero(&self) -> bool {
+        self.lower <= 0.0 && self.upper >= 0.0
+    }
+}
+
+/// The tightest floats around `value` + ε, where only the sign of ε counts; if that is not known (NaN),
+/// the neighbours.
+fn outward(value: f64, error: f64) -> (f64, f64) {
+    if value == f64::INFINITY {
+        // A finite result beyond the floats.
+        return (f64::MAX, value);
+    }
+    if value == f64::NEG_INFINITY {
+        return (value, f64::MIN);
+    }
+    let down = if error >= 0.0 {
+        value
+    } else {
+        value.next_down()
+    };
+    let up = if error <= 0.0 { value } else { value.next_up() };
+    (down, up)
+}
+
+/// Both ends of the product of two ends.
+fn product(x: f64, y: f64) -> (f64, f64) {
+    if x == 0.0 || y == 0.0 {
+        // Infinite ends stand for arbitrarily great reals: times zero, zero.
+        return (0.0, 0.0);
+    }
+    let p = x * y;
+    if x.is_infinite() || y.is_infinite() {
+        return (p, p);
+    }
+    let error = two_product(significand(x).0, significand(y).0).1;
+    outward(p, if is_normal(p) { error } else { f64::NAN })
+}
+
+/// Whether the rounding error of a product or quotient has the sign of that of the significands: it was not
+/// rounded to the coarser grid of the subnormals.
+fn is_normal(value: f64) -> bool {
+    value.is_finite() && value.abs() > f64::MIN_POSITIVE
+}
+
+/// Both ends of the quotient of two ends; y is not zero.
+fn quotient(x: f64, y: f64) -> (f64, f64) {
+    if x == 0.0 || y.is_infinite() {
+        // The limit for ever greater divisors.
+        return (0.0, 0.0);
+    }
+    let q = x / y;
+    if x.is_infinite() {
+        return (q, q);
+    }
+    let (x, y) = (significand(x).0, significand(y).0);
+    let (p, e) = two_product(x / y, y);
+    // x − p is exact: p is x to within some units in the last place.
+    let remainder = (x - p) - e;
+    let error = if y < 0.0 { -remainder } else { remainder };
+    outward(q, if is_normal(q) { error } else { f64::NAN })
+}
+
+impl Add<&Self> for Interval {
+    type Output = Self;
+
+    fn add(self, rhs: &Self) -> Self {
+        let sum = |x: f64, y: f64| {
+            let (s, e) = two_sum(x, y);
+            if x.is_infinite() || y.is_infinite() {
+                (s, s)
+            } else {
+                outward(s, e)
+            }
+        };
+        Self {
+            lower: sum(self.lower, rhs.lower).0,
+            upper: sum(self.upper, rhs.upper).1,
+        }
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            lower: -self.upper,
+            upper: -self.lower,
+        }
+    }
+}
+
+impl Sub<&Self> for Interval {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        let negated = -*rhs;
+        self + negated
+    }
+}
+
+impl Mul<&Self> for Interval {
+    type Output = Self;
+
+    fn mul(self, rhs: &Self) -> Self {
+        Self::hull(self.corners(rhs), product)
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        Add::<&Self>::add(self, &rhs)
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+
+    fn mul(self, rhs: Self) -> Self {
+        Mul::<&Self>::mul(self, &rhs)
+    }
+}
+
+impl Zero for Interval {
+    fn zero() -> Self {
+        Self::point(0.0)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.lower == 0.0 && self.upper == 0.0
+    }
+}
+
+impl One for Interval {
+    fn one() -> Self {
+        Self::point(1.0)
+    }
+}
+
+impl Ring for Interval {
+    fn from_i128(n: i128) -> Self {
+        Self::from_rational(&BigRational::from_i128(n))
+    }
+}
+
+impl Algebra for Interval {
+    type Numerator = Self;
+
+    const EXACTNESS: Exactness = Exactness::Enclosure;
+    const NAME: &'static str = "Interval";
+
+    fn from_rational(r: &BigRational) -> Self {
+        let Some(nearest) = f64::nearest_to_rational(r) else {
+            let (lower, upper) = outward(
+                if *r > BigRational::zero() {
+                    f64::INFINITY
+                } else {
+                    f64::NEG_INFINITY
+                },
+                f64::NAN,
+            );
+            return Self { lower, upper };
+        };
+        // A finite float is a rational.
+        let error =
+            BigRational::from_float(nearest).map_or(f64::NAN, |value| match r.cmp(&value) {
+                core::cmp::Ordering::Less => -1.0,
+                core::cmp::Ordering::Equal => 0.0,
+                core::cmp::Ordering::Greater => 1.0,
+            });
+        let (lower, upper) = outward(nearest, error);
+        Self { lower, upper }
+    }
+
+    fn div_int(self, n: NonZeroI64) -> Self {
+        // Not zero, so there is a quotient.
+        self.checked_div(&Self::from_i128(n.get().into()))
+            .unwrap_or(Self::WHOLE)
+    }
+
+    fn is_defined(&self) -> bool {
+        self.lower <= self.upper
+    }
+
+    fn may_equal(&self, other: &Self) -> bool {
+        self.lower <= other.upper && other.lower <= self.upper
+    }
+
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
+    }
+
+    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+        n.checked_div(d)
+    }
+}
+
+impl Field for Interval {
+    /// `None` if the divisor contains zero.
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        (divisor.is_defined() && !divisor.has_zero())
+            .then(|| Self::hull(self.corners(divisor), quotient))
+    }
+}
+
+impl RealEmbeddable for Interval {
+    fn sign(&self) -> Sign {
+        if self.lower > 0.0 {
+            Sign::Positive
+        } else if self.upper < 0.0 {
+            Sign::Negative
+        } else if self.is_zero() {
+            Sign::Zero
+        } else {
+            Sign::Unknown
+        }
+    }
+
+    fn enclosure(&self) -> Option<Enclosure> {
+        let lower = BigRational::from_float(self.lower)?;
+        let upper = BigRational::from_float(self.upper)?;
+        Some(Enclosure { lower, upper })
+    }
+}

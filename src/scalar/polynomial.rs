@@ -1,0 +1,492 @@
+//! Polynomials over ℚ in named symbols: the scalar that proves.
+
+mod display;
+mod sum;
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::{Algebra, Exactness, Ring};
+
+/// A symbol of a [`Polynomial`], known by its name.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{Polynomial, Symbol};
+///
+/// let x = Polynomial::from(Symbol("x"));
+/// assert_eq!((x.clone() * &x).to_string(), "x^2");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Symbol(pub &'static str);
+
+/// A product of powers of symbols: pairs in the order of the symbols, no exponent zero.
+///
+/// Ordered by total degree, then lexicographically: an order that products respect.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Default)]
+struct Monomial(Vec<(Symbol, u32)>);
+
+impl Monomial {
+    fn degree(&self) -> u64 {
+        // Fewer than 2^32 symbols, with powers below 2^32.
+        self.0.iter().map(|(_, power)| u64::from(*power)).sum()
+    }
+
+    fn power(&self, symbol: Symbol) -> u32 {
+        self.0
+            .iter()
+            .find(|(s, _)| *s == symbol)
+            .map_or(0, |(_, power)| *power)
+    }
+
+    /// The same monomial without `symbol`.
+    fn without(&self, symbol: Symbol) -> Self {
+        Self(
+            self.0
+                .iter()
+                .copied()
+                .filter(|(s, _)| *s != symbol)
+                .collect(),
+        )
+    }
+
+    /// The product; `None` if a power leaves `u32`.
+    fn times(&self, other: &Self) -> Option<Self> {
+        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
+        for (symbol, power) in &other.0 {
+            let own = powers.entry(*symbol).or_default();
+            *own = own.checked_add(*power)?;
+        }
+        Some(Self(powers.into_iter().collect()))
+    }
+
+    /// The monomial that times `other` is this one, if there is one.
+    fn over(&self, other: &Self) -> Option<Self> {
+        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
+        for (symbol, power) in &other.0 {
+            let own = powers.get_mut(symbol)?;
+            *own = own.checked_sub(*power)?;
+        }
+        powers.retain(|_, power| *power > 0);
+        Some(Self(powers.into_iter().collect()))
+    }
+}
+
+impl Ord for Monomial {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // Lexicographic: at the first symbol where the powers differ, the greater power is greater.
+        let lexicographic = || {
+            let mut symbols: Vec<Symbol> = self.0.iter().chain(&other.0).map(|(s, _)| *s).collect();
+            symbols.sort_unstable();
+            let differing = symbols
+                .into_iter()
+                .find(|s| self.power(*s) != other.power(*s));
+            differing.map_or(Ordering::Equal, |s| self.power(s).cmp(&other.power(s)))
+        };
+        self.degree().cmp(&other.degree()).then_with(lexicographic)
+    }
+}
+
+impl PartialOrd for Monomial {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// A polynomial in several named symbols with rational coefficients: exact, canonical.
+///
+/// Two polynomials are equal if and only if they are the same function, so an identity is proved by
+/// comparing its sides. Inside are integers over one common denominator; no operation divides by a symbol.
+///
+/// # Examples
+/// An identity, for every x and y:
+/// ```
+/// use cannonpile::scalar::{Polynomial, Symbol};
+///
+/// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+/// let left = (x.clone() + &y) * &(x.clone() - &y);
+/// let right = x.clone() * &x - &(y.clone() * &y);
+/// assert_eq!(left, right);
+/// assert_eq!(left.to_string(), "x^2 - y^2");
+/// ```
+///
+/// A power beyond 2³²−1 leaves a fault, sticky and unequal to everything, as of [`FixedRational`].
+///
+/// [`FixedRational`]: super::FixedRational
+#[derive(Clone, Debug)]
+pub struct Polynomial {
+    /// No coefficient is zero.
+    terms: BTreeMap<Monomial, BigInt>,
+    /// Positive, and without a factor common to all coefficients; zero for the fault, which has no terms.
+    denominator: BigInt,
+}
+
+impl PartialEq for Polynomial {
+    fn eq(&self, other: &Self) -> bool {
+        let defined = self.is_defined() && other.is_defined();
+        defined && self.denominator == other.denominator && self.terms == other.terms
+    }
+}
+
+impl Polynomial {
+    /// A constant.
+    #[must_use]
+    pub fn constant(value: &BigRational) -> Self {
+        let terms = [(Monomial::default(), value.numer().clone())];
+        Self::canonical(terms.into_iter().collect(), value.denom().clone())
+    }
+
+    /// What is left when a power does not fit.
+    fn fault() -> Self {
+        Self {
+            terms: BTreeMap::new(),
+            denominator: BigInt::zero(),
+        }
+    }
+
+    /// The value, if no symbol occurs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Ring, Symbol};
+    ///
+    /// let x = Polynomial::from(Symbol("x"));
+    /// assert_eq!(x.to_constant(), None);
+    /// assert_eq!((x.clone() - &x).to_constant().unwrap(), num_traits::zero());
+    /// ```
+    #[must_use]
+    pub fn to_constant(&self) -> Option<BigRational> {
+        match self.terms.iter().next_back() {
+            None => self.is_defined().then(BigRational::zero),
+            Some((greatest, numer)) => (greatest.degree() == 0)
+                .then(|| BigRational::new(numer.clone(), self.denominator.clone())),
+        }
+    }
+
+    /// The total degree; 0 for constants, zero included, and for the fault.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let p = x.clone() * &x * &y + &x;
+    /// assert_eq!((p.degree(), p.degree_in(Symbol("x"))), (3, 2));
+    /// ```
+    #[must_use]
+    pub fn degree(&self) -> u64 {
+        self.terms.keys().next_back().map_or(0, Monomial::degree)
+    }
+
+    /// The degree in one symbol; 0 if it does not occur.
+    #[must_use]
+    pub fn degree_in(&self, symbol: Symbol) -> u32 {
+        self.terms
+            .keys()
+            .map(|monomial| monomial.power(symbol))
+            .max()
+            .unwrap_or(0)
+    }
+
+    /// The symbols that occur, in order.
+    #[must_use]
+    pub fn symbols(&self) -> Vec<Symbol> {
+        let mut symbols: Vec<Symbol> = self
+            .terms
+            .keys()
+            .flat_map(|monomial| monomial.0.iter().map(|(s, _)| *s))
+            .collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
+    }
+
+    /// The polynomial with `value` put in for `symbol`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Ring, Symbol};
+    ///
+    /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let square = x.clone() * &x;
+    /// let shifted = square.substitute(Symbol("x"), &(y + &Polynomial::from_i128(1)));
+    /// assert_eq!(shifted.to_string(), "y^2 + 2 y + 1");
+    /// ```
+    #[must_use]
+    pub fn substitute(&self, symbol: Symbol, value: &Self) -> Self {
+        // Horner in the one symbol, over coefficients that are polynomials in the others.
+        self.coefficients(symbol)
+            .into_iter()
+            .rev()
+            .fold(Self::zero(), |sum, coefficient| sum * value + &coefficient)
+    }
+
+    /// The value in any scalar, for given values of the symbols; `None` if one has no value, and for the
+    /// fault.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// let x = Polynomial::from(Symbol("x"));
+    /// let cube = x.clone() * &x * &x;
+    /// assert_eq!(cube.evaluate(&[(Symbol("x"), 1.5)]), Some(3.375));
+    /// assert_eq!(cube.evaluate::<f64>(&[]), None);
+    /// ```
+    #[must_use]
+    pub fn evaluate<T: Algebra>(&self, values: &[(Symbol, T)]) -> Option<T> {
+        let value_of = |symbol| {
+            values
+                .iter()
+                .find(|(s, _)| *s == symbol)
+                .map(|(_, value)| value)
+        };
+        if !self.is_defined() {
+            return None;
+        }
+        let mut sum = T::zero();
+        for (monomial, numer) in &self.terms {
+            let coefficient = BigRational::new(numer.clone(), self.denominator.clone());
+            let mut term = T::from_rational(&coefficient);
+            for (symbol, power) in &monomial.0 {
+                let value = value_of(*symbol)?;
+                for _ in 0..*power {
+                    term = term * value;
+                }
+            }
+            sum = sum + &term;
+        }
+        Some(sum)
+    }
+
+    /// The polynomial that times `divisor` is this one, or `None` if there is none.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let difference = x.clone() * &x - &(y.clone() * &y);
+    /// let factor = x.clone() - &y;
+    /// assert_eq!(difference.divide_exactly(&factor).unwrap().to_string(), "x + y");
+    /// assert_eq!(difference.divide_exactly(&(x.clone() * &y)), None);
+    /// ```
+    #[must_use]
+    pub fn divide_exactly(&self, divisor: &Self) -> Option<Self> {
+        let (leading, coefficient) = divisor.terms.iter().next_back()?;
+        let coefficient = BigRational::new(coefficient.clone(), divisor.denominator.clone());
+        if !self.is_defined() {
+            return None;
+        }
+        let (mut rest, mut quotient) = (self.clone(), Self::zero());
+        // The order of monomials respects products: what the leading term of the divisor does not divide
+        // stays in the remainder for good.
+        while let Some((monomial, numer)) = rest.terms.iter().next_back() {
+            let numer = BigRational::new(numer.clone(), rest.denominator.clone());
+            let factor = Self::term(monomial.over(leading)?, &(numer / &coefficient));
+            rest = rest - &(factor.clone() * divisor);
+            quotient = quotient + &factor;
+        }
+        Some(quotient)
+    }
+
+    /// The coefficients of the powers of `symbol`, from the constant up, as polynomials in the others.
+    fn coefficients(&self, symbol: Symbol) -> Vec<Self> {
+        let top = self.degree_in(symbol);
+        (0..=top)
+            .map(|power| {
+                let terms = self
+                    .terms
+                    .iter()
+                    .filter(|(monomial, _)| monomial.power(symbol) == power);
+                let terms = terms.map(|(monomial, n)| (monomial.without(symbol), n.clone()));
+                Self::canonical(terms.collect(), self.denominator.clone())
+            })
+            .collect()
+    }
+
+    fn term(monomial: Monomial, coefficient: &BigRational) -> Self {
+        let terms = [(monomial, coefficient.numer().clone())]
+            .into_iter()
+            .collect();
+        Self::canonical(terms, coefficient.denom().clone())
+    }
+
+    /// Drops zeros and reduces; `denominator` is positive.
+    fn canonical(mut terms: BTreeMap<Monomial, BigInt>, denominator: BigInt) -> Self {
+        if denominator.is_zero() {
+            return Self::fault();
+        }
+        terms.retain(|_, coefficient| !coefficient.is_zero());
+        let common = terms.values().fold(denominator.clone(), |common, c| {
+            if common.is_one() {
+                common
+            } else {
+                common.gcd(c)
+            }
+        });
+        if common.is_one() {
+            return Self { terms, denominator };
+        }
+        for coefficient in terms.values_mut() {
+            *coefficient /= &common;
+        }
+        Self {
+            terms,
+            denominator: denominator / common,
+        }
+    }
+
+    /// Adds `sign` times `other`.
+    fn accumulate(mut self, other: &Self, sign: i8) -> Self {
+        if !(self.is_defined() && other.is_defined()) {
+            return Self::fault();
+        }
+        let denominator = self.denominator.lcm(&other.denominator);
+        let own = &denominator / &self.denominator;
+        let theirs = &denominator / &other.denominator * sign;
+        if !own.is_one() {
+            self.terms
+                .values_mut()
+                .for_each(|coefficient| *coefficient *= &own);
+        }
+        for (monomial, coefficient) in &other.terms {
+            *self.terms.entry(monomial.clone()).or_default() += coefficient * &theirs;
+        }
+        Self::canonical(self.terms, denominator)
+    }
+}
+
+impl From<Symbol> for Polynomial {
+    fn from(symbol: Symbol) -> Self {
+        Self::term(
+            Monomial([(symbol, 1)].into_iter().collect()),
+            &BigRational::one(),
+        )
+    }
+}
+
+impl Add<&Self> for Polynomial {
+    type Output = Self;
+
+    fn add(self, rhs: &Self) -> Self {
+        self.accumulate(rhs, 1)
+    }
+}
+
+impl Sub<&Self> for Polynomial {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        self.accumulate(rhs, -1)
+    }
+}
+
+impl Mul<&Self> for Polynomial {
+    type Output = Self;
+
+    fn mul(self, rhs: &Self) -> Self {
+        let mut terms: BTreeMap<Monomial, BigInt> = BTreeMap::new();
+        for (a, x) in &self.terms {
+            for (b, y) in &rhs.terms {
+                let Some(monomial) = a.times(b) else {
+                    return Self::fault();
+                };
+                *terms.entry(monomial).or_default() += x * y;
+            }
+        }
+        Self::canonical(terms, self.denominator * &rhs.denominator)
+    }
+}
+
+impl Add for Polynomial {
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        self.accumulate(&rhs, 1)
+    }
+}
+
+impl Mul for Polynomial {
+    type Output = Self;
+
+    fn mul(self, rhs: Self) -> Self {
+        Mul::mul(self, &rhs)
+    }
+}
+
+impl Neg for Polynomial {
+    type Output = Self;
+
+    fn neg(mut self) -> Self {
+        self.terms
+            .values_mut()
+            .for_each(|coefficient| *coefficient *= -1);
+        self
+    }
+}
+
+impl Zero for Polynomial {
+    fn zero() -> Self {
+        Self {
+            terms: BTreeMap::new(),
+            denominator: BigInt::one(),
+        }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.terms.is_empty() && self.is_defined()
+    }
+}
+
+impl One for Polynomial {
+    fn one() -> Self {
+        Self::constant(&BigRational::one())
+    }
+}
+
+impl Ring for Polynomial {
+    fn from_i128(n: i128) -> Self {
+        Self::constant(&BigRational::from_i128(n))
+    }
+}
+
+impl Algebra for Polynomial {
+    type Numerator = Self;
+
+    const EXACTNESS: Exactness = Exactness::ExactOrFault;
+    const NAME: &'static str = "Polynomial";
+
+    fn from_rational(r: &BigRational) -> Self {
+        Self::constant(r)
+    }
+
+    fn div_int(self, n: NonZeroI64) -> Self {
+        let sign = BigInt::from(n.get().signum());
+        let mut terms = self.terms;
+        for coefficient in terms.values_mut() {
+            *coefficient *= &sign;
+        }
+        Self::canonical(terms, self.denominator * BigInt::from(n.get()).abs())
+    }
+
+    fn is_defined(&self) -> bool {
+        !self.denominator.is_zero()
+    }
+
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
+    }
+
+    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+        n.divide_exactly(d)
+    }
+}

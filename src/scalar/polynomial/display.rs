@@ -1,0 +1,82 @@
+//! Polynomials as a person writes them: `(L^3 + 3 L^2 + 2 L)/6`.
+
+use core::fmt;
+
+use num_traits::{One, Signed};
+
+use super::{Monomial, Polynomial};
+use crate::scalar::Algebra;
+
+impl fmt::Display for Monomial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (place, (symbol, power)) in self.0.iter().enumerate() {
+            if place > 0 {
+                f.write_str(" ")?;
+            }
+            f.write_str(symbol.0)?;
+            if *power > 1 {
+                write!(f, "^{power}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Polynomial {
+    /// Terms by falling degree, with the common denominator outside.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.terms.is_empty() {
+            return f.write_str(if self.is_defined() { "0" } else { "overflow" });
+        }
+        let fraction = !self.denominator.is_one();
+        let bracketed = fraction && self.terms.len() > 1;
+        if bracketed {
+            f.write_str("(")?;
+        }
+        for (place, (monomial, coefficient)) in self.terms.iter().rev().enumerate() {
+            f.write_str(match (place, coefficient.is_negative()) {
+                (0, false) => "",
+                (0, true) => "-",
+                (_, false) => " + ",
+                (_, true) => " - ",
+            })?;
+            let magnitude = coefficient.abs();
+            match (magnitude.is_one(), monomial.0.is_empty()) {
+                (_, true) => write!(f, "{magnitude}")?,
+                (true, false) => write!(f, "{monomial}")?,
+                (false, false) => write!(f, "{magnitude} {monomial}")?,
+            }
+        }
+        if bracketed {
+            f.write_str(")")?;
+        }
+        if fraction {
+            write!(f, "/{}", self.denominator)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::string::ToString;
+
+    use super::super::Symbol;
+    use super::*;
+    use crate::scalar::Ring;
+
+    #[test]
+    fn as_a_person_writes() {
+        let l = Polynomial::from(Symbol("L"));
+        let n = Polynomial::from_i128;
+        let six = 6.try_into().unwrap();
+        let tetrahedral = l.clone() * &(l.clone() + &n(1)) * &(l.clone() + &n(2));
+        let divided = tetrahedral.div_int(six);
+        assert_eq!(divided.to_string(), "(L^3 + 3 L^2 + 2 L)/6");
+        assert_eq!((-l.clone()).to_string(), "-L");
+        assert_eq!((n(-1) - &l).to_string(), "-L - 1");
+        assert_eq!(n(0).to_string(), "0");
+        assert_eq!(l.div_int(six).to_string(), "L/6");
+        assert_eq!(n(-3).div_int(six).to_string(), "-1/2");
+    }
+}

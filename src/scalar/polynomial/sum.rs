@@ -1,0 +1,83 @@
+//! Definite sums of polynomials: polynomials again (Faulhaber).
+
+use alloc::vec::Vec;
+use core::num::{NonZeroI64, NonZeroU32};
+
+use num_traits::{One, Zero};
+
+use super::{Polynomial, Symbol};
+use crate::scalar::Algebra;
+
+impl Polynomial {
+    /// Σ `self` over the integers `symbol` = `from` … `to`, as a polynomial in the other symbols.
+    ///
+    /// Written F(`to` + 1) − F(`from`) with F(x+1) − F(x) = `self`: for `to` ≥ `from` − 1 this is the sum term
+    /// by term, the empty one included, and beyond that its analytic continuation. The bounds may contain any
+    /// symbols, `symbol` too: there it is the one outside the sum.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Ring, Symbol};
+    /// use num_traits::{One, Zero};
+    ///
+    /// let [k, l] = ["k", "L"].map(|name| Polynomial::from(Symbol(name)));
+    /// let last = l - &Polynomial::one();
+    /// let sum = k.sum(Symbol("k"), &Polynomial::zero(), &last);
+    /// assert_eq!(sum.to_string(), "(L^2 - L)/2");
+    /// ```
+    #[must_use]
+    pub fn sum(&self, symbol: Symbol, from: &Self, to: &Self) -> Self {
+        let coefficients = self.coefficients(symbol);
+        let end = to.clone() + &Self::one();
+        let (ends, starts) = (
+            power_sums(&end, coefficients.len()),
+            power_sums(from, coefficients.len()),
+        );
+        let powers = ends
+            .into_iter()
+            .zip(&starts)
+            .map(|(end, start)| end - start);
+        coefficients
+            .into_iter()
+            .zip(powers)
+            .fold(Self::zero(), |sum, (coefficient, power)| {
+                sum + &(coefficient * &power)
+            })
+    }
+}
+
+/// S_p(n) = 0^p + 1^p + … + (n−1)^p for p = 0 … `count` − 1.
+///
+/// From n^(p+1) = Σ_{m ≤ p} C(p+1, m) S_m(n): S_p = (n^(p+1) − Σ_{m < p} C(p+1, m) S_m)/(p+1).
+fn power_sums(n: &Polynomial, count: usize) -> Vec<Polynomial> {
+    let mut sums: Vec<Polynomial> = Vec::with_capacity(count);
+    let mut power = Polynomial::one();
+    let mut divisor = NonZeroU32::MIN;
+    // C(p+1, m) for m = 0 … p, a row of Pascal's triangle.
+    let mut row: Vec<Polynomial> = Vec::from([Polynomial::one()]);
+    for _ in 0..count {
+        power = power * n;
+        let known = row
+            .iter()
+            .zip(&sums)
+            .fold(Polynomial::zero(), |known, (binomial, sum)| {
+                known + &(binomial.clone() * sum)
+            });
+        sums.push((power.clone() - &known).div_int(NonZeroI64::from(divisor)));
+        divisor = divisor.saturating_add(1);
+        row = next_row(&row);
+    }
+    sums
+}
+
+/// From C(p, 0 … p−1) to C(p+1, 0 … p).
+fn next_row(row: &[Polynomial]) -> Vec<Polynomial> {
+    let mut next = Vec::with_capacity(row.len() + 1);
+    let mut left = Polynomial::zero();
+    for right in row {
+        next.push(left + right);
+        left = right.clone();
+    }
+    next.push(left + &Polynomial::one());
+    next
+}

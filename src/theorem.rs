@@ -1,0 +1,226 @@
+//! What is proved for every pile, and how.
+//!
+//! # Method
+//! A test shows that an identity holds for the piles tried. The formulas of this crate are polynomials in
+//! i, j, k, L and s = sin φ, and they are written over any [`Algebra`](crate::scalar::Algebra). So they are run
+//! here with [`Polynomial`]s for their numbers: the very functions that a user calls return polynomials, and if
+//! the difference of the two sides of an identity is the zero polynomial, it holds for **every** i, j, k, L
+//! and s at once. There are three kinds of proof ([`Method`]):
+//!
+//! * *identity*: the two sides, run on symbols, are the same polynomial;
+//! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are
+//!   polynomials again (Faulhaber), so the sum is formed in closed form and compared;
+//! * *induction*: the base case and the step from k to k+1 are identities.
+//!
+//! # What that proves, and what not
+//! Proved is what the formulas *as implemented* compute over ℚ: with exact scalars, the equations hold for every
+//! pile within the hypotheses, as far as the polynomial arithmetic is right (which is tested against evaluation
+//! at random points, by fuzzing too). Not proved here:
+//!
+//! * the float path. Each of its operations rounds; its error is bounded by tests against exact answers.
+//! * that the equations are the right ones. They are the paper's, written out in each statement.
+//! * what is not polynomial: overlap and rounding have their own exact tests.
+//! * that the input was turned into counts i, j, k correctly: exhaustive tests of piles up to 40 layers see to it.
+//!
+//! # Faults
+//! A proof that cannot fail proves nothing. Every theorem takes the [`Formulas`] it is about as an argument:
+//! [`Formulas::LIBRARY`] are the crate's own, and the tests put a wrong one in the place of each.
+//!
+//! # Examples
+//! ```
+//! use cannonpile::theorem;
+//!
+//! let weight = theorem::find("weight").unwrap();
+//! let proof = weight.prove();
+//! assert!(proof.holds());
+//! for step in &proof.steps {
+//!     println!("{}: {} = {}", step.claim, step.left, step.right);
+//! }
+//! ```
+//! A theorem of your own: the spheres above any sphere on its three lines number k.
+//! ```
+//! use cannonpile::lattice::count;
+//! use cannonpile::scalar::{Polynomial, Symbol};
+//!
+//! let [i, j, k] = ["i", "j", "k"].map(|name| Polynomial::from(Symbol(name)));
+//! let [alpha, beta, gamma] = count::above(&i, &j, &k);
+//! assert_eq!(alpha + &beta + &gamma, k);
+//! ```
+
+mod balance;
+mod base;
+mod counts;
+mod dimensions;
+mod display;
+mod formulas;
+mod setting;
+
+pub use display::Listing;
+pub use formulas::Formulas;
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use num_traits::Zero;
+
+use crate::scalar::Polynomial;
+
+/// How a theorem is proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// Both sides are the same polynomial.
+    Identity,
+    /// As an identity, after summing in closed form.
+    Sum,
+    /// A base case and a step, each an identity.
+    Induction,
+}
+
+impl Method {
+    /// `identity`, `sum`, `induction`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Identity => "identity",
+            Self::Sum => "sum",
+            Self::Induction => "induction",
+        }
+    }
+}
+
+/// A statement about every pile, with its proof.
+#[derive(Clone, Copy, Debug)]
+pub struct Theorem {
+    /// A short name.
+    pub name: &'static str,
+    /// What is proved, in words and formulas.
+    pub statement: &'static str,
+    /// For which values of the symbols it is meant.
+    pub hypotheses: &'static str,
+    /// How it is proved.
+    pub method: Method,
+    /// The symbols in it.
+    pub symbols: &'static str,
+    derive: fn(&Formulas) -> Vec<Step>,
+}
+
+impl Theorem {
+    /// The proof for the crate's own formulas.
+    #[must_use]
+    pub fn prove(&self) -> Proof {
+        self.prove_for(&Formulas::LIBRARY)
+    }
+
+    /// The proof, or refutation, for formulas of any kind.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::theorem::{self, Formulas};
+    ///
+    /// // Sphere counts that leave out the floor.
+    /// let wrong = Formulas {
+    ///     spheres: |layers, d| (Formulas::LIBRARY.spheres)(&(layers.clone() - &num_traits::one()), d),
+    ///     ..Formulas::LIBRARY
+    /// };
+    /// assert!(!theorem::find("weight").unwrap().prove_for(&wrong).holds());
+    /// ```
+    #[must_use]
+    pub fn prove_for(&self, formulas: &Formulas) -> Proof {
+        Proof {
+            steps: (self.derive)(formulas),
+        }
+    }
+}
+
+/// The steps of a proof.
+#[derive(Clone, Debug)]
+pub struct Proof {
+    /// Each a claim of its own; all must hold.
+    pub steps: Vec<Step>,
+}
+
+impl Proof {
+    /// Whether every step holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        !self.steps.is_empty() && self.steps.iter().all(Step::holds)
+    }
+}
+
+/// How the two sides of a step are related.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Relation {
+    /// They are the same polynomial.
+    Equal,
+    /// They are not.
+    Different,
+}
+
+/// One claim of a proof: two polynomials and their relation.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// What is claimed, in words and formulas.
+    pub claim: String,
+    /// What the formulas gave.
+    pub left: Polynomial,
+    /// What it is claimed to be.
+    pub right: Polynomial,
+    /// Whether they are claimed to be equal.
+    pub relation: Relation,
+}
+
+impl Step {
+    fn equal(claim: impl Into<String>, left: Polynomial, right: Polynomial) -> Self {
+        Self {
+            claim: claim.into(),
+            left,
+            right,
+            relation: Relation::Equal,
+        }
+    }
+
+    fn different(claim: impl Into<String>, left: Polynomial, right: Polynomial) -> Self {
+        Self {
+            relation: Relation::Different,
+            ..Self::equal(claim, left, right)
+        }
+    }
+
+    /// `left` − `right`.
+    #[must_use]
+    pub fn difference(&self) -> Polynomial {
+        self.left.clone() - &self.right
+    }
+
+    /// Whether the claim holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.difference().is_zero() == (self.relation == Relation::Equal)
+    }
+}
+
+/// Every theorem, in the order in which one would read them.
+pub fn all() -> impl Iterator<Item = &'static Theorem> {
+    [
+        counts::THEOREMS,
+        balance::THEOREMS,
+        base::THEOREMS,
+        dimensions::THEOREMS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// The theorem of this name.
+///
+/// # Examples
+/// ```
+/// use cannonpile::theorem;
+///
+/// assert!(theorem::find("equilibrium").is_some());
+/// assert!(theorem::find("fermat").is_none());
+/// ```
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Theorem> {
+    all().find(|theorem| theorem.name == name)
+}

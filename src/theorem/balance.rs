@@ -1,0 +1,227 @@
+//! Theorems on the balance of forces on every sphere.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use num_traits::{One, Zero};
+
+use super::setting::{P, Setting, above, int, symbol};
+use super::{Formulas, Method, Step, Theorem};
+use crate::geometry::Vector;
+use crate::lattice::Direction;
+
+pub(super) const THEOREMS: &[Theorem] = &[
+    Theorem {
+        name: "paper-system",
+        statement: "The increments Δα = Δβ = 1, Δγ = 2s in the unit mg/(2(1+s)cosθ) solve the paper's system, \
+                    denominators cleared: s(Δα+Δβ) − Δγ = 0, Δα − Δβ = 0, Δα+Δβ+Δγ = 2(1+s); for every φ; an identity",
+        hypotheses: "0 < s < 1",
+        method: Method::Identity,
+        symbols: "s",
+        derive: paper_system,
+    },
+    Theorem {
+        name: "unit-directions",
+        statement: "The vectors ê_a, ê_b, ê_c have length 1, and squared distances are those of the Gram form: \
+                    |n_a ê_a + n_b ê_b + n_c ê_c|² = squared_distance(n), with σ = sin²θ; an identity",
+        hypotheses: "0 < s < 1, 0 < σ < 1",
+        method: Method::Identity,
+        symbols: "a, b, c, s, σ",
+        derive: unit_directions,
+    },
+    Theorem {
+        name: "equilibrium",
+        statement: "Equilibrium of every sphere, at the surface too: the three supports push with what the forces \
+                    from above and the weight press, in all three components, for every φ; an identity",
+        hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j, 0 < s < 1",
+        method: Method::Identity,
+        symbols: "i, j, k, s",
+        derive: equilibrium,
+    },
+    Theorem {
+        name: "surface",
+        statement: "Equilibrium at the surface: where no sphere lies above on a line, its force from above is zero, so \
+                    the equations of a sphere inside hold for one at the surface i = 0, j = 0 or i+j = k; an identity",
+        hypotheses: "sites of a face",
+        method: Method::Identity,
+        symbols: "i, j, k, s",
+        derive: surface,
+    },
+    Theorem {
+        name: "action-reaction",
+        statement: "Action and reaction: what a sphere passes on in a direction is what the sphere below receives from \
+                    it, so that every contact has one force; for every φ; an identity",
+        hypotheses: "a sphere off the floor",
+        method: Method::Identity,
+        symbols: "i, j, k, s",
+        derive: action_reaction,
+    },
+    Theorem {
+        name: "central-force",
+        statement: "Central force: the forces from above on a sphere of a pile with equilateral base sum to \
+                    mg/(6R cosθ)·r, r its position from the apex; in f₀ and 2R they are equal; an identity",
+        hypotheses: "s = 1/2",
+        method: Method::Identity,
+        symbols: "i, j, k",
+        derive: central_force,
+    },
+    Theorem {
+        name: "half-turn",
+        statement: "G = (2/3)J − I, which passes forces across a sign change of the stacking, is orthogonal \
+                    (|Gg|² = |g|²), symmetric (h·Gg = g·Gh), its own inverse (GGg = g), and fixes (1, 1, 1); an identity",
+        hypotheses: "any forces g, h",
+        method: Method::Identity,
+        symbols: "g_1, g_2, g_3, h_1, h_2, h_3",
+        derive: half_turn,
+    },
+];
+
+/// One step for each component of two vectors.
+fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
+    let sides = left.into_array().into_iter().zip(right.into_array());
+    ["x", "y", "z"]
+        .into_iter()
+        .zip(sides)
+        .map(|(axis, (left, right))| Step::equal(format!("{axis}: {claim}"), left, right))
+        .collect()
+}
+
+fn paper_system(f: &Formulas) -> Vec<Step> {
+    let s = symbol("s");
+    let increments = (f.increments)(&s);
+    let [alpha, beta, gamma] = increments.per_line();
+    let horizontal = s.clone() * &(alpha.clone() + beta) - gamma;
+    let vertical = alpha.clone() + beta + gamma;
+    let weight = int(2) * &(int(1) + &s);
+    Vec::from([
+        Step::equal("along x: s(Δα+Δβ) − Δγ = 0", horizontal, P::zero()),
+        Step::equal("along y: Δα − Δβ = 0", alpha.clone() - beta, P::zero()),
+        Step::equal("along z: Δα+Δβ+Δγ = 2(1+s)", vertical, weight.clone()),
+        Step::equal("W = 2(1+s)", increments.sum().clone(), weight),
+    ])
+}
+
+fn unit_directions(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::isosceles(f);
+    let sin2 = symbol("σ");
+    let cos2 = P::one() - &sin2;
+    let square =
+        |v: &Vector<P>| setting.horizontal_square(v) * &sin2 + &(v.z.clone() * &v.z * &cos2);
+    let mut steps: Vec<Step> = setting
+        .directions
+        .iter()
+        .zip(Direction::ALL)
+        .map(|(e, direction)| Step::equal(format!("|ê|² = 1 for {direction}"), square(e), P::one()))
+        .collect();
+    let n = ["a", "b", "c"].map(symbol);
+    let apart = Vector::combination(&n, &setting.directions);
+    let form = (f.squared_distance)(&n, &setting.s, &sin2);
+    steps.push(Step::equal(
+        "the Gram form is the squared length",
+        form,
+        square(&apart),
+    ));
+    steps
+}
+
+fn equilibrium(f: &Formulas) -> Vec<Step> {
+    let Setting {
+        increments,
+        directions,
+        ..
+    } = Setting::isosceles(f);
+    let (here, weight) = (above(f), increments.sum());
+    let supports = Vector::combination(&(f.to_below)(&increments, &here), &directions);
+    let load = (f.force_on_floor)(&here, &increments, &directions, weight);
+    let left = (f.unbalanced)(&here, &increments, &directions, weight);
+    let mut steps = by_component("supports = −(from above + weight)", supports, -load);
+    steps.extend(by_component(
+        "what is left of all forces is 0",
+        left,
+        Vector::zero(),
+    ));
+    steps
+}
+
+fn surface(f: &Formulas) -> Vec<Step> {
+    let increments = Setting::isosceles(f).increments;
+    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let zero = P::zero();
+    let faces = [
+        ("α on i+j = k", (&i, &j, &(i.clone() + &j))),
+        ("β on i = 0", (&zero, &j, &k)),
+        ("γ on j = 0", (&i, &zero, &k)),
+    ];
+    faces
+        .into_iter()
+        .enumerate()
+        .map(|(line, (claim, (i, j, k)))| {
+            let forces = (f.from_above)(&increments, &(f.above)(i, j, k));
+            let force = forces.into_iter().nth(line).unwrap_or_else(P::one);
+            Step::equal(
+                format!("no force from above along {claim}"),
+                force,
+                P::zero(),
+            )
+        })
+        .collect()
+}
+
+fn action_reaction(f: &Formulas) -> Vec<Step> {
+    let increments = Setting::isosceles(f).increments;
+    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let given = (f.to_below)(&increments, &above(f));
+    Direction::ALL
+        .into_iter()
+        .zip(given)
+        .enumerate()
+        .map(|(line, (direction, given))| {
+            let [di, dj, dk] = (f.descent)(direction).map(int);
+            let below = (f.above)(&(i.clone() + &di), &(j.clone() + &dj), &(k.clone() + &dk));
+            let received = (f.from_above)(&increments, &below).into_iter().nth(line);
+            let claim = format!("{direction}: given above = received below");
+            Step::equal(claim, given, received.unwrap_or_else(P::zero))
+        })
+        .collect()
+}
+
+fn central_force(f: &Formulas) -> Vec<Step> {
+    let Setting {
+        increments,
+        directions,
+        ..
+    } = Setting::equilateral(f);
+    let here = above(f);
+    let force = (f.resultant_above)(&here, &increments, &directions);
+    by_component(
+        "resultant from above = r/(2R)",
+        force,
+        (f.position)(&here, &directions),
+    )
+}
+
+fn half_turn(f: &Formulas) -> Vec<Step> {
+    let dot = |a: &[P; 3], b: &[P; 3]| {
+        a.iter()
+            .zip(b)
+            .fold(P::zero(), |sum, (x, y)| sum + &(x.clone() * y))
+    };
+    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let h = ["h_1", "h_2", "h_3"].map(symbol);
+    let (turned, other) = ((f.half_turn)(&g), (f.half_turn)(&h));
+    let mut steps = Vec::from([
+        Step::equal("|Gg|² = |g|²", dot(&turned, &turned), dot(&g, &g)),
+        Step::equal("h·Gg = g·Gh", dot(&h, &turned), dot(&g, &other)),
+    ]);
+    let ones = [P::one(), P::one(), P::one()];
+    let twice = (f.half_turn)(&turned);
+    steps.extend(
+        twice
+            .into_iter()
+            .zip(g)
+            .map(|(left, right)| Step::equal("GGg = g", left, right)),
+    );
+    let fixed = (f.half_turn)(&ones).into_iter().zip(ones);
+    steps.extend(fixed.map(|(left, right)| Step::equal("G(1,1,1) = (1,1,1)", left, right)));
+    steps
+}

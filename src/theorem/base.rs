@@ -1,0 +1,276 @@
+//! Theorems on the forces on the floor.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use num_traits::Zero;
+
+use super::setting::{
+    P, Setting, above, above_floor, int, last_layer, sum_over_base, sum_over_pile, symbol,
+};
+use super::{Formulas, Method, Step, Theorem};
+use crate::geometry::Vector;
+use crate::scalar::Symbol;
+
+pub(super) const THEOREMS: &[Theorem] = &[
+    Theorem {
+        name: "base-normal",
+        statement: "The normal force on the floor is mg[1 + ((L−1−j) + 2sj)/(2(1+s))], and mg(L+2)/3 under every \
+                    sphere of an equilateral base; an identity",
+        hypotheses: "0 ≤ j ≤ L−1, 0 ≤ i ≤ L−1−j",
+        method: Method::Identity,
+        symbols: "L, i, j, s",
+        derive: base_normal,
+    },
+    Theorem {
+        name: "uniform-base",
+        statement: "Uniform base: the normal forces of two bottom spheres differ by (2s−1)(j−j') increments, so the \
+                    pressure is uniform if and only if sin φ = 1/2; an identity",
+        hypotheses: "two bottom spheres (i, j) and (i', j'), L ≥ 2",
+        method: Method::Identity,
+        symbols: "L, i, i', j, j', s",
+        derive: uniform_base,
+    },
+    Theorem {
+        name: "weight",
+        statement: "Total weight: the normal forces on the floor sum to the weight of all spheres, for every φ; by \
+                    summing over the base",
+        hypotheses: "L ≥ 1, 0 < s < 1",
+        method: Method::Sum,
+        symbols: "L, s",
+        derive: weight,
+    },
+    Theorem {
+        name: "shear",
+        statement: "The shear on the floor is that of the paper, −(L−1−3j)/2·sinθ along x and −√3/2·(L−1−2i−j)·sinθ \
+                    along y, in f₀, on an equilateral base; an identity",
+        hypotheses: "s = 1/2",
+        method: Method::Identity,
+        symbols: "L, i, j",
+        derive: shear,
+    },
+    Theorem {
+        name: "total-shear",
+        statement: "Total shear: the horizontal forces on the floor sum to zero, for every φ; by summing over the base",
+        hypotheses: "L ≥ 1, 0 < s < 1",
+        method: Method::Sum,
+        symbols: "L, s",
+        derive: total_shear,
+    },
+    Theorem {
+        name: "total-moment",
+        statement: "Total moment: the shear on the floor has no moment about the axis, and the normal forces have that \
+                    of the weights about both horizontal axes, ΣF_z r_b = Σ mg r_s; for every φ; by summing over \
+                    base and pile",
+        hypotheses: "L ≥ 1, 0 < s < 1",
+        method: Method::Sum,
+        symbols: "L, s",
+        derive: total_moment,
+    },
+    Theorem {
+        name: "second-moment",
+        statement: "Second moment: ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ), r horizontal from the axis, H_s the height of \
+                    a sphere over the base; for every φ; by summing over base and pile",
+        hypotheses: "L ≥ 1, 0 < s < 1",
+        method: Method::Sum,
+        symbols: "L, s",
+        derive: second_moment,
+    },
+    Theorem {
+        name: "shear-on-axis",
+        statement: "The shear of a bottom sphere is its horizontal position from the axis, in f₀ and 2R, on an \
+                    equilateral base: so it vanishes on the axis and nowhere else; an identity",
+        hypotheses: "s = 1/2",
+        method: Method::Identity,
+        symbols: "L, i, j",
+        derive: shear_on_axis,
+    },
+    Theorem {
+        name: "shear-ratio",
+        statement: "Largest shear/normal ratio: tanθ(L−1)/(L+2), at the three corners and nowhere else, on an equilateral \
+                    base, since the normal force is uniform and (L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α) ≥ 0; \
+                    an identity",
+        hypotheses: "s = 1/2, N ≥ 0",
+        method: Method::Identity,
+        symbols: "L, i, j",
+        derive: shear_ratio,
+    },
+];
+
+/// The force on the floor at (i, j), in f₀.
+fn on_floor(f: &Formulas, setting: &Setting) -> Vector<P> {
+    let Setting {
+        increments,
+        directions,
+        ..
+    } = setting;
+    (f.force_on_floor)(&above_floor(f), increments, directions, increments.sum())
+}
+
+fn base_normal(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::isosceles(f);
+    let (l, j, s) = (symbol("L"), symbol("j"), symbol("s"));
+    let claimed = int(2) * &(int(1) + &s) + &(l.clone() - &int(1) - &j) + &(int(2) * &s * &j);
+    let carried = (f.carried)(&setting.increments, &above_floor(f));
+    let equilateral = on_floor(f, &Setting::equilateral(f)).z;
+    Vec::from([
+        Step::equal(
+            "what a bottom sphere carries, in mg/W",
+            carried,
+            claimed.clone(),
+        ),
+        Step::equal(
+            "the normal force on the floor, in mg/W",
+            on_floor(f, &setting).z,
+            claimed,
+        ),
+        Step::equal("for s = 1/2, in mg/3", equilateral, l + &int(2)),
+    ])
+}
+
+fn uniform_base(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::isosceles(f);
+    let here = on_floor(f, &setting).z;
+    let primed = [("i", "i'"), ("j", "j'")];
+    let there = primed.into_iter().fold(here.clone(), |p, (name, other)| {
+        p.substitute(Symbol(name), &symbol(other))
+    });
+    let difference = here - &there;
+    let factor = int(2) * &setting.s - &int(1);
+    let rows = symbol("j") - &symbol("j'");
+    // Not divisible at all: shown as a step that fails.
+    let quotient = difference.divide_exactly(&factor).unwrap_or_else(P::zero);
+    let at_half = difference.substitute(Symbol("s"), &super::setting::half());
+    Vec::from([
+        Step::equal(
+            "difference of two normal forces",
+            difference,
+            factor * &rows,
+        ),
+        Step::equal("s = 1/2: no difference", at_half, P::zero()),
+        Step::equal("divided by 2s−1", quotient.clone(), rows),
+        Step::different(
+            "other s: not zero for spheres of different rows",
+            quotient,
+            P::zero(),
+        ),
+    ])
+}
+
+fn weight(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::isosceles(f);
+    let total = sum_over_base(&on_floor(f, &setting).z);
+    let spheres = (f.spheres)(&symbol("L"), 3);
+    Vec::from([Step::equal(
+        "ΣF_z = W·spheres, in mg/W",
+        total,
+        spheres * setting.weight(),
+    )])
+}
+
+fn shear(f: &Formulas) -> Vec<Step> {
+    let force = on_floor(f, &Setting::equilateral(f));
+    let [i, j] = ["i", "j"].map(symbol);
+    Vec::from([
+        Step::equal(
+            "2F_x = −(L−1−3j)",
+            force.x * &int(2),
+            int(3) * &j - &last_layer(),
+        ),
+        Step::equal(
+            "2F_y = −(L−1−2i−j), with √3 in the unit",
+            force.y * &int(2),
+            int(2) * &i + &j - &last_layer(),
+        ),
+    ])
+}
+
+fn total_shear(f: &Formulas) -> Vec<Step> {
+    let force = on_floor(f, &Setting::isosceles(f));
+    Vec::from([
+        Step::equal("ΣF_x = 0", sum_over_base(&force.x), P::zero()),
+        Step::equal("ΣF_y = 0", sum_over_base(&force.y), P::zero()),
+    ])
+}
+
+fn total_moment(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::isosceles(f);
+    let force = on_floor(f, &setting);
+    let at = (f.position)(&above_floor(f), &setting.directions);
+    let sphere = (f.position)(&above(f), &setting.directions);
+    let about_axis = at.x.clone() * &force.y - &(at.y.clone() * &force.x);
+    let lever = |x: &P, at: &P| {
+        (
+            sum_over_base(&(force.z.clone() * at)),
+            sum_over_pile(x) * setting.weight(),
+        )
+    };
+    let (floor_x, weights_x) = lever(&sphere.x, &at.x);
+    let (floor_y, weights_y) = lever(&sphere.y, &at.y);
+    Vec::from([
+        Step::equal(
+            "Σ(x F_y − y F_x) = 0",
+            sum_over_base(&about_axis),
+            P::zero(),
+        ),
+        Step::equal("ΣF_z x = Σ mg x", floor_x, weights_x),
+        Step::equal("ΣF_z y = Σ mg y", floor_y, weights_y),
+    ])
+}
+
+fn second_moment(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::isosceles(f);
+    let at = (f.position)(&above_floor(f), &setting.directions);
+    let sphere = (f.position)(&above(f), &setting.directions);
+    let normal = on_floor(f, &setting).z;
+    // H = (L−1−k)·2R cosθ, so H² tan²θ is (L−1−k)² in (2R sinθ)².
+    let height = last_layer() - &symbol("k");
+    let spheres = setting.horizontal_square(&sphere) + &(height.clone() * &height);
+    Vec::from([Step::equal(
+        "ΣF_z r_b² = W·Σ(r_s² + (L−1−k)²), in mg/W·(2R sinθ)²",
+        sum_over_base(&(normal * &setting.horizontal_square(&at))),
+        sum_over_pile(&spheres) * setting.weight(),
+    )])
+}
+
+fn shear_on_axis(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::equilateral(f);
+    let force = on_floor(f, &setting);
+    let at = (f.position)(&above_floor(f), &setting.directions);
+    Vec::from([
+        Step::equal("F_x = x", force.x, at.x),
+        Step::equal("F_y = y", force.y, at.y),
+    ])
+}
+
+fn shear_ratio(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::equilateral(f);
+    let force = on_floor(f, &setting);
+    let [a, b, c] = above_floor(f);
+    let last = last_layer();
+    let pairs = a.clone() * &b + &(b * &c) + &(c * &a);
+    let mut steps = Vec::from([
+        Step::equal(
+            "(L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α)",
+            last.clone() * &last - &setting.horizontal_square(&force),
+            int(3) * &pairs,
+        ),
+        Step::equal(
+            "the normal force is L+2 everywhere",
+            force.z,
+            symbol("L") + &int(2),
+        ),
+    ]);
+    for line in 0..3 {
+        let (shear, normal) = (f.corner_shear_ratio)(&symbol("L"), &setting.increments, line);
+        let corner = ["α", "β", "γ"].get(line).copied().unwrap_or_default();
+        steps.push(Step::equal(
+            format!("shear at the {corner} corner is L−1"),
+            shear,
+            last.clone(),
+        ));
+        let claim = format!("normal at the {corner} corner is L+2");
+        steps.push(Step::equal(claim, normal, last.clone() + &int(3)));
+    }
+    steps
+}

@@ -1,0 +1,267 @@
+//! Theorems on counts: the appendix of the paper, the rotation, spheres, contacts and their strengths.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use num_traits::{One, Zero};
+
+use super::setting::{
+    P, above, int, last_layer, sum_off_floor, sum_over_layer, sum_over_pile, symbol,
+};
+use super::{Formulas, Method, Step, Theorem};
+use crate::lattice::Direction;
+use crate::scalar::Symbol;
+
+pub(super) const THEOREMS: &[Theorem] = &[
+    Theorem {
+        name: "counts",
+        statement: "The counts of the appendix: (N_α, N_β, N_γ) = (k−i−j, i, j) spheres lie above (i, j, k) on its \
+                    lines. None above the apex; one more at the sphere below on the line, and the same on the \
+                    other two lines; none at the surface where the line begins; by induction",
+        hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
+        method: Method::Induction,
+        symbols: "i, j, k",
+        derive: counts,
+    },
+    Theorem {
+        name: "rotation",
+        statement: "The rotation {j → k−i−j, i → j} about the axis carries N_α → N_β → N_γ → N_α, and three times \
+                    it is the identity; an identity",
+        hypotheses: "any site",
+        method: Method::Identity,
+        symbols: "i, j, k",
+        derive: rotation,
+    },
+    Theorem {
+        name: "spheres",
+        statement: "A pile has L(L+1)(L+2)/6 spheres, (k+1)(k+2)/2 in layer k, and (i, j, k) is the number \
+                    before(i, j, k) of them in row order; by summing over the layers",
+        hypotheses: "L ≥ 1",
+        method: Method::Sum,
+        symbols: "L, i, j, k",
+        derive: spheres,
+    },
+    Theorem {
+        name: "contacts",
+        statement: "A pile has L(L−1)(L+1)/2 contacts, three below each sphere that is not on the floor; by \
+                    summing over the layers",
+        hypotheses: "L ≥ 1",
+        method: Method::Sum,
+        symbols: "L",
+        derive: contacts,
+    },
+    Theorem {
+        name: "strengths",
+        statement: "Of the contacts of one direction (L−n)(L−n+1)/2 carry n·f₀, n = 1 … L−1; in all they carry \
+                    C(L+2,4)·f₀, the mean contact carries (L+2)/4·f₀, and the sum of squares is \
+                    C(L+2,4)(2L+1)/5·f₀²; by summing over the spheres, and over n",
+        hypotheses: "1 ≤ n ≤ L−1, s = 1/2",
+        method: Method::Sum,
+        symbols: "L, n",
+        derive: strengths,
+    },
+];
+
+fn counts(f: &Formulas) -> Vec<Step> {
+    let names = ["N_α", "N_β", "N_γ"];
+    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let here = above(f);
+    let zero = P::zero();
+    let mut steps = Vec::new();
+    for (name, n) in names.iter().zip((f.above)(&zero, &zero, &zero)) {
+        steps.push(Step::equal(
+            format!("base case: {name}(0, 0, 0) = 0"),
+            n,
+            zero.clone(),
+        ));
+    }
+    for (line, direction) in Direction::ALL.into_iter().enumerate() {
+        let [di, dj, dk] = (f.descent)(direction).map(int);
+        let below = (f.above)(&(i.clone() + &di), &(j.clone() + &dj), &(k.clone() + &dk));
+        for (other, (name, n)) in names.iter().zip(below).enumerate() {
+            let more = if other == line {
+                P::one()
+            } else {
+                zero.clone()
+            };
+            let claim = format!("step along {direction}: {name} below is {name} + {more}");
+            steps.push(Step::equal(claim, n, here[other].clone() + &more));
+        }
+    }
+    let surfaces = [
+        (&i, &j, &(i.clone() + &j), 0),
+        (&zero, &j, &k, 1),
+        (&i, &zero, &k, 2),
+    ];
+    for (i, j, k, line) in surfaces {
+        let name = names.get(line).unwrap_or(&"N");
+        let claim = format!("surface ({i}, {j}, {k}): {name} = 0");
+        let [alpha, beta, gamma] = (f.above)(i, j, k);
+        let n = [alpha, beta, gamma]
+            .into_iter()
+            .nth(line)
+            .unwrap_or_else(P::one);
+        steps.push(Step::equal(claim, n, zero.clone()));
+    }
+    steps
+}
+
+fn rotation(f: &Formulas) -> Vec<Step> {
+    let here = above(f);
+    let [n_alpha, n_beta, n_gamma] = &here;
+    let image = (f.rotate)(&here);
+    let carried = [
+        ("N_α of the image is N_β", n_beta),
+        ("N_β of the image is N_γ", n_gamma),
+        ("N_γ of the image is N_α", n_alpha),
+    ];
+    let mut steps: Vec<Step> = carried
+        .into_iter()
+        .zip(&image)
+        .map(|((claim, right), left)| Step::equal(claim, left.clone(), right.clone()))
+        .collect();
+    // The image as a site, (i, j) → (j, k−i−j), and its counts anew.
+    let k = symbol("k");
+    let [_, i, j] = &image;
+    let names = ["i → j", "j → k−i−j"];
+    let substitution = [
+        (i, symbol("j")),
+        (j, k.clone() - &symbol("i") - &symbol("j")),
+    ];
+    for (name, (left, right)) in names.into_iter().zip(substitution) {
+        steps.push(Step::equal(
+            format!("the substitution {name}"),
+            left.clone(),
+            right,
+        ));
+    }
+    let mut site = [symbol("i"), symbol("j")];
+    for _ in 0..3 {
+        let [i, j] = &site;
+        let [_, i, j] = (f.rotate)(&(f.above)(i, j, &k));
+        site = [i, j];
+    }
+    for (name, left) in ["i", "j"].into_iter().zip(site) {
+        steps.push(Step::equal(
+            format!("three times the rotation fixes {name}"),
+            left,
+            symbol(name),
+        ));
+    }
+    steps
+}
+
+fn spheres(f: &Formulas) -> Vec<Step> {
+    let (l, [i, j, k]) = (symbol("L"), ["i", "j", "k"].map(symbol));
+    let one = P::one();
+    let cubic = l.clone() * &(l.clone() + &one) * &(l.clone() + &int(2));
+    // Row order: the next in a row, the first of the next row, the first of the next layer.
+    let zero = P::zero();
+    let next = |i: &P, j: &P, k: &P| (f.before)(i, j, k, 3) + &P::one();
+    let end_of_row = k.clone() - &j;
+    Vec::from([
+        Step::equal(
+            "Σ 1 over layer k is (k+1)(k+2)/2",
+            sum_over_layer(&one, &k),
+            (f.spheres_in_layer)(&k, 3),
+        ),
+        Step::equal("Σ 1 over the pile", sum_over_pile(&one), (f.spheres)(&l, 3)),
+        Step::equal(
+            "six times that is L(L+1)(L+2)",
+            (f.spheres)(&l, 3) * &int(6),
+            cubic,
+        ),
+        Step::equal(
+            "none before the apex",
+            (f.before)(&zero, &zero, &zero, 3),
+            zero.clone(),
+        ),
+        Step::equal(
+            "one more along a row",
+            (f.before)(&(i.clone() + &one), &j, &k, 3),
+            next(&i, &j, &k),
+        ),
+        Step::equal(
+            "one more from row to row",
+            (f.before)(&zero, &(j.clone() + &one), &k, 3),
+            next(&end_of_row, &j, &k),
+        ),
+        Step::equal(
+            "one more from layer to layer",
+            (f.before)(&zero, &zero, &(k.clone() + &one), 3),
+            next(&zero, &k, &k),
+        ),
+    ])
+}
+
+fn contacts(f: &Formulas) -> Vec<Step> {
+    let l = symbol("L");
+    let closed = l.clone() * &(l.clone() - &P::one()) * &(l.clone() + &P::one());
+    Vec::from([
+        Step::equal(
+            "Σ 3 over the spheres off the floor",
+            sum_off_floor(&int(3)),
+            (f.contacts)(&l, 3),
+        ),
+        Step::equal(
+            "twice that is L(L−1)(L+1)",
+            (f.contacts)(&l, 3) * &int(2),
+            closed,
+        ),
+    ])
+}
+
+fn strengths(f: &Formulas) -> Vec<Step> {
+    let (l, n) = (symbol("L"), symbol("n"));
+    let count = (f.contacts_of_strength)(&l, &n, 3);
+    // γ contacts of n increments: the spheres with j = n−1 in the layers n−1 … L−2, 0 ≤ i ≤ k−j.
+    let k = symbol("k");
+    let j = n.clone() - &P::one();
+    let row = P::one().sum(Symbol("i"), &P::zero(), &(k - &j));
+    let counted = row.sum(Symbol("k"), &j, &(last_layer() - &P::one()));
+    let over_n = |p: P| p.sum(Symbol("n"), &P::one(), &last_layer());
+    let total = over_n(count.clone() * &n);
+    let binomial = [
+        l.clone() + &int(2),
+        l.clone() + &int(1),
+        l.clone(),
+        l.clone() - &int(1),
+    ]
+    .iter()
+    .fold(P::one(), |product, factor| product * factor);
+    // Σ over the contacts themselves: (N_γ + 1) over the spheres off the floor.
+    let [_, _, gamma] = above(f);
+    let by_contact = sum_off_floor(&(gamma + &P::one()));
+    Vec::from([
+        Step::equal(
+            "the spheres with N_γ = n−1 off the floor",
+            counted,
+            count.clone(),
+        ),
+        Step::equal(
+            "Σ over n counts every contact of the direction",
+            over_n(count.clone()) * &int(3),
+            (f.contacts)(&l, 3),
+        ),
+        Step::equal(
+            "Σ of strengths, by n and by contact",
+            total.clone(),
+            by_contact,
+        ),
+        Step::equal(
+            "24 Σ n is (L+2)(L+1)L(L−1)",
+            total.clone() * &int(24),
+            binomial,
+        ),
+        Step::equal(
+            "the mean is (L+2)/4",
+            total.clone() * &int(4),
+            over_n(count.clone()) * &(l.clone() + &int(2)),
+        ),
+        Step::equal(
+            "5 Σ n² = (2L+1) Σ n",
+            over_n(count * &n * &n) * &int(5),
+            total * &(l * &int(2) + &int(1)),
+        ),
+    ])
+}

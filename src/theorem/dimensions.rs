@@ -1,0 +1,131 @@
+//! Theorems on piles in other dimensions: discs, and d = 2 … 6.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use num_traits::{One, Zero};
+
+use super::setting::{P, Setting, int, last_layer, symbol};
+use super::{Formulas, Method, Step, Theorem};
+use crate::closed_form::Increments;
+use crate::scalar::Symbol;
+
+pub(super) const THEOREMS: &[Theorem] = &[
+    Theorem {
+        name: "discs",
+        statement: "The pile of discs: every disc is in equilibrium, the normal force on the floor is mg(L+1)/2 under \
+                    every bottom disc, the shear −(L−1−2i)/2·mg tanθ, and they sum to the weight L(L+1)/2·mg and to \
+                    zero; identities, and by summing over the base",
+        hypotheses: "0 ≤ i ≤ k, j = 0, s = 0",
+        method: Method::Sum,
+        symbols: "L, i, k",
+        derive: discs,
+    },
+    Theorem {
+        name: "dimensions",
+        statement: "In d = 2 … 6 dimensions, with barycentric counts n_1 + … + n_d = L−1: the normal force on the floor is \
+                    mg(L+d−1)/d under every bottom sphere, one increment is added on every line, the spheres number \
+                    C(L+d−1, d), and the normal forces sum to their weight; identities, and by summing over the layers",
+        hypotheses: "n_m ≥ 0, L ≥ 1",
+        method: Method::Sum,
+        symbols: "L, k, n_1 … n_d",
+        derive: dimensions,
+    },
+];
+
+fn discs(f: &Formulas) -> Vec<Step> {
+    let Setting {
+        increments,
+        directions,
+        ..
+    } = Setting::discs(f);
+    let weight = increments.sum();
+    let (l, i, k) = (symbol("L"), symbol("i"), symbol("k"));
+    let inside = (f.above)(&i, &P::zero(), &k);
+    let floor = (f.above)(&i, &P::zero(), &last_layer());
+    let left = (f.unbalanced)(&inside, &increments, &directions, weight);
+    let force = (f.force_on_floor)(&floor, &increments, &directions, weight);
+    let over_base = |p: &P| p.sum(Symbol("i"), &P::zero(), &last_layer());
+    let total = over_base(&force.z);
+    let mut steps: Vec<Step> = ["x", "y", "z"]
+        .into_iter()
+        .zip(left.into_array())
+        .map(|(axis, left)| {
+            Step::equal(
+                format!("{axis}: what is left of all forces is 0"),
+                left,
+                P::zero(),
+            )
+        })
+        .collect();
+    steps.extend([
+        Step::equal("normal force, in mg/2", force.z, l.clone() + &int(1)),
+        Step::equal(
+            "shear, in mg tanθ/2",
+            force.x.clone(),
+            int(2) * &i - &last_layer(),
+        ),
+        Step::equal("no force across the plane", force.y, P::zero()),
+        Step::equal(
+            "ΣF_z = 2·discs, in mg/2",
+            total,
+            (f.spheres)(&l, 2) * &int(2),
+        ),
+        Step::equal("ΣF_x = 0", over_base(&force.x), P::zero()),
+    ]);
+    steps
+}
+
+fn dimensions(f: &Formulas) -> Vec<Step> {
+    let mut steps = Vec::new();
+    in_dimension::<2>(f, &mut steps);
+    in_dimension::<3>(f, &mut steps);
+    in_dimension::<4>(f, &mut steps);
+    in_dimension::<5>(f, &mut steps);
+    in_dimension::<6>(f, &mut steps);
+    steps
+}
+
+const COUNTS: [&str; 6] = ["n_1", "n_2", "n_3", "n_4", "n_5", "n_6"];
+
+fn in_dimension<const D: usize>(f: &Formulas, steps: &mut Vec<Step>) {
+    let d = u32::try_from(D).unwrap_or(u32::MAX);
+    let dimension = int(d.into());
+    let (l, k) = (symbol("L"), symbol("k"));
+    let increments = Increments::<P, D>::regular();
+    // The last count is what the others leave of L−1.
+    let mut counts: [P; D] =
+        core::array::from_fn(|m| symbol(COUNTS.get(m).copied().unwrap_or("n")));
+    let others = counts.iter().skip(1).fold(P::zero(), |sum, n| sum + n);
+    if let Some(first) = counts.first_mut() {
+        *first = last_layer() - &others;
+    }
+    let normal = l.clone() + &(dimension.clone() - &int(1));
+    let claim = |text: &str| format!("d = {d}: {text}");
+    steps.push(Step::equal(
+        claim("normal force, in mg/d, is L+d−1"),
+        increments.carried(&counts),
+        normal.clone(),
+    ));
+    let added = increments
+        .to_below(&counts)
+        .into_iter()
+        .zip(increments.from_above(&counts));
+    for (below, above) in added {
+        steps.push(Step::equal(
+            claim("one increment more on each line"),
+            below - &above,
+            P::one(),
+        ));
+    }
+    steps.push(Step::equal(
+        claim("Σ over the layers of their spheres"),
+        (f.spheres_in_layer)(&k, d).sum(Symbol("k"), &P::zero(), &last_layer()),
+        (f.spheres)(&l, d),
+    ));
+    steps.push(Step::equal(
+        claim("ΣF_z = weight, in mg/d"),
+        normal * &(f.spheres_in_layer)(&last_layer(), d),
+        (f.spheres)(&l, d) * &dimension,
+    ));
+}

@@ -1,0 +1,112 @@
+//! Theorems and proofs for people to follow.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::{Proof, Relation, Step, Theorem};
+
+/// Columns of a terminal.
+const WIDTH: usize = 100;
+
+/// A theorem with its proof: the statement, and for every step the two sides and their difference.
+///
+/// # Examples
+/// ```
+/// use cannonpile::theorem::{self, Listing};
+///
+/// let theorem = theorem::find("total-shear").unwrap();
+/// let text = Listing { theorem, proof: &theorem.prove(), whole: false }.to_string();
+/// assert!(text.starts_with("total-shear: holds (sum)\n"));
+/// assert!(text.ends_with("    ΣF_y = 0:  0 = 0,  difference 0\n"));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Listing<'a> {
+    /// The theorem.
+    pub theorem: &'a Theorem,
+    /// Its proof.
+    pub proof: &'a Proof,
+    /// Whether to print the whole derivation: hypotheses, symbols, each side on a line.
+    pub whole: bool,
+}
+
+impl fmt::Display for Listing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Theorem {
+            name,
+            statement,
+            hypotheses,
+            method,
+            symbols,
+            ..
+        } = self.theorem;
+        let verdict = if self.proof.holds() { "holds" } else { "FAILS" };
+        writeln!(f, "{name}: {verdict} ({})", method.name())?;
+        write_wrapped(f, statement)?;
+        if self.whole {
+            writeln!(f, "  for      {hypotheses}")?;
+            writeln!(f, "  symbols  {symbols}")?;
+        }
+        for step in &self.proof.steps {
+            if self.whole {
+                write_step(f, step)?;
+            } else {
+                write_line(f, step)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `claim:  left = right,  difference 0`.
+fn write_line(f: &mut fmt::Formatter<'_>, step: &Step) -> fmt::Result {
+    let (sign, failure) = (
+        sign(step.relation),
+        if step.holds() { "" } else { "  FAILS" },
+    );
+    let Step {
+        claim, left, right, ..
+    } = step;
+    writeln!(
+        f,
+        "    {claim}:  {left} {sign} {right},  difference {}{failure}",
+        step.difference()
+    )
+}
+
+/// A step on four lines.
+fn write_step(f: &mut fmt::Formatter<'_>, step: &Step) -> fmt::Result {
+    let verdict = match (step.holds(), step.relation) {
+        (true, Relation::Equal) => "the zero polynomial: holds for all values",
+        (true, Relation::Different) => "not the zero polynomial, as claimed",
+        (false, _) => "FAILS",
+    };
+    writeln!(f, "\n    {}", step.claim)?;
+    writeln!(f, "      left        {}", step.left)?;
+    writeln!(f, "      right       {}", step.right)?;
+    writeln!(f, "      difference  {}  ({verdict})", step.difference())
+}
+
+fn sign(relation: Relation) -> char {
+    match relation {
+        Relation::Equal => '=',
+        Relation::Different => '≠',
+    }
+}
+
+/// A paragraph, indented and broken at spaces.
+fn write_wrapped(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH - 2 => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
+        .into_iter()
+        .try_for_each(|line| writeln!(f, "  {line}"))
+}

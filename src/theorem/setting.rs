@@ -1,0 +1,113 @@
+//! Symbols, sums over piles, and what a pile is made of, for the proofs.
+
+use num_traits::{One, Zero};
+
+use super::Formulas;
+use crate::closed_form::Increments;
+use crate::geometry::Vector;
+use crate::scalar::{Algebra, Polynomial, Ring, Symbol};
+
+pub(super) type P = Polynomial;
+
+/// A symbol as a polynomial.
+pub(super) fn symbol(name: &'static str) -> P {
+    Symbol(name).into()
+}
+
+/// An integer as a polynomial.
+pub(super) fn int(n: i128) -> P {
+    P::from_i128(n)
+}
+
+/// 1/2.
+pub(super) fn half() -> P {
+    int(1).div_int(const { core::num::NonZeroI64::new(2).unwrap() })
+}
+
+/// A pile of L layers with sin φ = s, as its formulas give it.
+pub(super) struct Setting {
+    /// sin φ.
+    pub(super) s: P,
+    pub(super) increments: Increments<P, 3>,
+    pub(super) directions: [Vector<P>; 3],
+}
+
+impl Setting {
+    /// Any sin φ: the symbol s.
+    pub(super) fn isosceles(f: &Formulas) -> Self {
+        Self::with_sin_phi(f, symbol("s"))
+    }
+
+    /// s = 1/2.
+    pub(super) fn equilateral(f: &Formulas) -> Self {
+        Self::with_sin_phi(f, half())
+    }
+
+    /// The pile of discs: s = 0, in its own directions.
+    pub(super) fn discs(f: &Formulas) -> Self {
+        Self {
+            directions: (f.disc_directions)(),
+            ..Self::with_sin_phi(f, P::zero())
+        }
+    }
+
+    fn with_sin_phi(f: &Formulas, s: P) -> Self {
+        Self {
+            increments: (f.increments)(&s),
+            directions: (f.directions)(&s),
+            s,
+        }
+    }
+
+    /// W.
+    pub(super) fn weight(&self) -> &P {
+        self.increments.sum()
+    }
+
+    /// The squared horizontal length of a vector, over sin²θ: x² + 4(1−s²)·y².
+    pub(super) fn horizontal_square(&self, v: &Vector<P>) -> P {
+        let across = int(4) * &(P::one() - &(self.s.clone() * &self.s));
+        v.x.clone() * &v.x + &(across * &(v.y.clone() * &v.y))
+    }
+}
+
+/// The counts of spheres above (i, j, k), all symbols.
+pub(super) fn above(f: &Formulas) -> [P; 3] {
+    (f.above)(&symbol("i"), &symbol("j"), &symbol("k"))
+}
+
+/// The counts of spheres above (i, j) on the floor of L layers.
+pub(super) fn above_floor(f: &Formulas) -> [P; 3] {
+    (f.above)(&symbol("i"), &symbol("j"), &last_layer())
+}
+
+/// L − 1.
+pub(super) fn last_layer() -> P {
+    symbol("L") - &P::one()
+}
+
+/// Σ over the sites (i, j) of layer `k`.
+pub(super) fn sum_over_layer(p: &P, k: &P) -> P {
+    let zero = P::zero();
+    let row = p.sum(Symbol("i"), &zero, &(k.clone() - &symbol("j")));
+    row.sum(Symbol("j"), &zero, k)
+}
+
+/// Σ over the bottom layer of L layers.
+pub(super) fn sum_over_base(p: &P) -> P {
+    sum_over_layer(p, &last_layer())
+}
+
+/// Σ over all spheres of L layers, for a polynomial in i, j, k.
+pub(super) fn sum_over_pile(p: &P) -> P {
+    sum_over_layers(p, &last_layer())
+}
+
+/// Σ over the spheres that do not touch the floor.
+pub(super) fn sum_off_floor(p: &P) -> P {
+    sum_over_layers(p, &(last_layer() - &P::one()))
+}
+
+fn sum_over_layers(p: &P, last: &P) -> P {
+    sum_over_layer(p, &symbol("k")).sum(Symbol("k"), &P::zero(), last)
+}

@@ -1,0 +1,95 @@
+//! Spheres counted wrongly, steps taken wrongly.
+
+use cannonpile::lattice::{Direction, Symmetry};
+use cannonpile::scalar::Ring;
+use cannonpile::theorem::Formulas;
+use num_traits::{One, Zero};
+
+use super::{Fault, P, RIGHT, faults, over, swapped};
+
+/// L − 1.
+fn one_less(l: &P) -> P {
+    l.clone() - &P::one()
+}
+
+pub(super) fn faults() -> Vec<Fault> {
+    faults! {
+        "a sphere lies above the apex": above = |i, j, k| {
+            let [a, b, c] = (RIGHT.above)(i, j, k);
+            [if k.is_zero() { P::one() } else { a }, b, c]
+        } => ["counts"];
+        "every sphere is above itself": above = |i, j, k| (RIGHT.above)(i, j, k).map(|n| n + &P::one())
+            => ["counts", "rotation", "strengths", "surface", "base-normal", "weight", "total-moment",
+                "second-moment", "shear-ratio", "discs"];
+        "α for β": above = |i, j, k| swapped(&(RIGHT.above)(i, j, k))
+            => ["counts", "rotation", "surface", "action-reaction", "shear", "discs"];
+        "k for k−i−j": above = |i, j, k| [k.clone(), i.clone(), j.clone()]
+            => ["counts", "rotation", "surface", "base-normal", "uniform-base", "weight", "shear",
+                "total-shear", "total-moment", "second-moment", "shear-ratio", "discs"];
+
+        "β goes down along j, γ along i": descent = |direction| {
+            let [di, dj, dk] = direction.descent();
+            [dj, di, dk]
+        } => ["counts", "action-reaction"];
+        "α goes down along j, γ straight": descent = |direction| match direction {
+            Direction::Alpha => Direction::Gamma.descent(),
+            Direction::Beta => Direction::Beta.descent(),
+            Direction::Gamma => Direction::Alpha.descent(),
+        } => ["counts", "action-reaction"];
+        "α goes down two layers": descent = |direction| match direction {
+            Direction::Alpha => [0, 0, 2],
+            other => other.descent(),
+        } => ["counts", "action-reaction"];
+        "γ goes up": descent = |direction| match direction {
+            Direction::Gamma => [0, -1, -1],
+            other => other.descent(),
+        } => ["counts", "action-reaction"];
+
+        "turned the other way": rotate = |above| Symmetry::ALL[2].permute(above) => ["rotation"];
+        "mirrored": rotate = |above| Symmetry::MIRROR.permute(above) => ["rotation"];
+        "not turned": rotate = Clone::clone => ["rotation"];
+        "turned and shifted": rotate = |above| {
+            let [a, b, c] = Symmetry::ROTATION.permute(above);
+            [a, b + &P::one(), c]
+        } => ["rotation"];
+
+        "no spheres on the floor": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
+            => ["spheres", "weight", "discs", "dimensions"];
+        "square pyramids in four dimensions": spheres = |l, d| {
+            let right = (RIGHT.spheres)(l, d);
+            if d == 4 { right + &(RIGHT.spheres)(&one_less(l), d) } else { right }
+        } => ["dimensions"];
+
+        "layers numbered from 1": spheres_in_layer = |k, d| (RIGHT.spheres_in_layer)(&one_less(k), d)
+            => ["spheres", "dimensions"];
+        "squares for the layers of three dimensions": spheres_in_layer = |k, d| match d {
+            3 => k.clone() * k,
+            _ => (RIGHT.spheres_in_layer)(k, d),
+        } => ["spheres", "dimensions"];
+        "six dimensions are five": spheres_in_layer = |k, d| (RIGHT.spheres_in_layer)(k, d.min(5))
+            => ["dimensions"];
+
+        "contacts with the floor counted": contacts = |l, d| (RIGHT.spheres)(l, d) * &P::from_i128(d.into())
+            => ["contacts", "strengths"];
+        "one contact below each sphere": contacts = |l, d| (RIGHT.spheres)(&one_less(l), d)
+            => ["contacts", "strengths"];
+
+        "strengths from 0": contacts_of_strength = |l, n, d| {
+            (RIGHT.contacts_of_strength)(l, &(n.clone() + &P::one()), d)
+        } => ["strengths"];
+        "as many strong contacts as weak ones": contacts_of_strength = |l, n, d| {
+            (RIGHT.contacts_of_strength)(l, &(l.clone() - n), d)
+        } => ["strengths"];
+        "half a square for a triangle": contacts_of_strength = |l, n, _| {
+            let rest = l.clone() - n;
+            over(rest.clone() * &rest, 2)
+        } => ["strengths"];
+
+        "columns for rows": before = |i, j, k, d| (RIGHT.before)(j, i, k, d) => ["spheres"];
+        "numbered from 1": before = |i, j, k, d| (RIGHT.before)(i, j, k, d) + &P::one() => ["spheres"];
+        "rows as long as the first": before = |i, j, k, d| {
+            (RIGHT.spheres)(k, d) + &(j.clone() * &(k.clone() + &P::one())) + i
+        } => ["spheres"];
+        "one more in each layer": before = |i, j, k, d| (RIGHT.before)(i, j, k, d) + k => ["spheres"];
+    }
+}
