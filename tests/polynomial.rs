@@ -219,7 +219,7 @@ fn degrees_and_symbols() {
         let [f, g] = [0; 2].map(|_| random.naive(symbols));
         let (p, q, powers) = (f.build(), g.build(), f.powers());
         let degree = |of: &dyn Fn(&[u32; 4]) -> u32| powers.iter().map(of).max().unwrap_or(0);
-        assert_eq!(p.degree(), degree(&|powers| powers.iter().sum()).into());
+        assert_eq!(p.degree(), u64::from(degree(&|powers| powers.iter().sum())));
         let mut occurring = Vec::new();
         for (m, name) in NAMES.into_iter().enumerate() {
             let in_symbol = degree(&|powers| powers[m]);

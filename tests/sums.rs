@@ -71,7 +71,7 @@ fn every_monomial_over_every_pile() {
     for powers in powers() {
         let sum = over_pile(&monomial(powers));
         assert_eq!(sum.symbols(), [Symbol("L")]);
-        assert_eq!(sum.degree(), powers.iter().sum::<u32>() + 3);
+        assert_eq!(sum.degree(), u64::from(powers.iter().sum::<u32>() + 3));
         for (layers, want) in (0..).zip(one_by_one(powers)) {
             assert_eq!(
                 at_layers(&sum, layers),
