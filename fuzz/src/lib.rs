@@ -2,11 +2,17 @@
 //!
 //! Generators and claims are those of the property tests; here libFuzzer chooses the bytes. A crash file
 //! is such a byte string: it fails the same claim in `tests/properties.rs`.
+//!
+//! `cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes one on a stable toolchain. An
+//! input takes some hundred bytes: the last option gives them from the start.
 
 #[path = "../../tests/claims/mod.rs"]
 mod claims;
 #[path = "../../tests/generators/mod.rs"]
 mod generators;
+
+mod enclosing;
+mod polynomial;
 
 use arbitrary::Unstructured;
 use libfuzzer_sys::Corpus;
@@ -84,6 +90,27 @@ pub fn scalar_laws(bytes: &[u8]) -> Corpus {
             claims::fixed::small_pile,
         ],
     )
+}
+
+/// Polynomials compute what their values compute.
+#[must_use]
+pub fn polynomial(bytes: &[u8]) -> Corpus {
+    kept(polynomial::polynomial(&mut Unstructured::new(bytes)))
+}
+
+/// Intervals hold the exact result, double-doubles are near it.
+#[must_use]
+pub fn enclosing(bytes: &[u8]) -> Corpus {
+    kept(enclosing::enclosing(&mut Unstructured::new(bytes)))
+}
+
+/// Bytes that make no input teach nothing.
+fn kept(outcome: arbitrary::Result<()>) -> Corpus {
+    if outcome.is_ok() {
+        Corpus::Keep
+    } else {
+        Corpus::Reject
+    }
 }
 
 /// Makes each claim about the input that it draws from the same bytes.

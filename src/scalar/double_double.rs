@@ -10,7 +10,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::error_free::{fast_two_sum, scale, significand, two_product, two_sum};
+use super::error_free::{fast_two_sum, is_ordinary, scale, significand, two_product, two_sum};
 use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
 
 /// A number high + low with |low| at most half a unit in the last place of high: about 106 bits.
@@ -68,13 +68,19 @@ impl DoubleDouble {
 
     /// Times 2^`e`.
     fn scaled(self, e: i32) -> Self {
+        if e == 0 {
+            return self;
+        }
         let float = scale(self.high, e);
         Self::finite((float, scale(self.low, e)), float)
     }
 
     /// The number with its high part between 1 and 2, and the power of two taken out: no product of two such
-    /// numbers overflows or loses its error.
+    /// numbers overflows or loses its error. One of ordinary size is fine as it is.
     fn normalised(self) -> (Self, i32) {
+        if is_ordinary(self.high) {
+            return (self, 0);
+        }
         let (_, e) = significand(self.high);
         (self.scaled(-e), e)
     }

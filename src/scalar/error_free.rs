@@ -30,6 +30,12 @@ fn split(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
+/// Whether a is neither so great nor so small that a product or quotient of two such numbers, or the error of
+/// one, leaves the range of floats: then [`two_product`] takes it as it is.
+pub(super) fn is_ordinary(a: f64) -> bool {
+    (power_of_two(-400)..power_of_two(400)).contains(&a.abs())
+}
+
 /// (m, e) with a = m·2^e and 1 ≤ |m| < 2, for a finite and not zero; other values as they are, with e = 0.
 pub(super) fn significand(a: f64) -> (f64, i32) {
     if a == 0.0 || !a.is_finite() {

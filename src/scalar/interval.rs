@@ -6,7 +6,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::error_free::{significand, two_product, two_sum};
+use super::error_free::{is_ordinary, significand, two_product, two_sum};
 use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
 
 /// A closed interval [lower, upper] of reals with `f64` ends, which may be infinite.
@@ -148,8 +148,18 @@ fn product(x: f64, y: f64) -> (f64, f64) {
     if x.is_infinite() || y.is_infinite() {
         return (p, p);
     }
-    let error = two_product(significand(x).0, significand(y).0).1;
+    let (x, y) = in_reach(x, y);
+    let (_, error) = two_product(x, y);
     outward(p, if is_normal(p) { error } else { f64::NAN })
+}
+
+/// The operands, or their significands: the error of the product or quotient has the same sign, and is exact.
+fn in_reach(x: f64, y: f64) -> (f64, f64) {
+    if is_ordinary(x) && is_ordinary(y) {
+        (x, y)
+    } else {
+        (significand(x).0, significand(y).0)
+    }
 }
 
 /// Whether the rounding error of a product or quotient has the sign of that of the significands: it was not
@@ -168,7 +178,7 @@ fn quotient(x: f64, y: f64) -> (f64, f64) {
     if x.is_infinite() {
         return (q, q);
     }
-    let (x, y) = (significand(x).0, significand(y).0);
+    let (x, y) = in_reach(x, y);
     let (p, e) = two_product(x / y, y);
     // x − p is exact: p is x to within some units in the last place.
     let remainder = (x - p) - e;
