@@ -168,6 +168,19 @@ impl Inclination {
     ///
     /// # Errors
     /// [`Error::TooFlat`] if sin²θ ≥ 1: a sphere would fall between those below.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Error;
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let flat = Spacing::from_square(BigRational::from_integer(3.into()))?;
+    /// assert!(matches!(Inclination::new(&flat, Dimension::Three), Err(Error::TooFlat { .. })));
+    /// assert!(Inclination::new(&flat, Dimension::Two).is_ok());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(spacing: &Spacing, dimension: Dimension) -> Result<Self, Error> {
         let sin2 = spacing.square() / square_per_sin2(dimension);
         if sin2 < BigRational::one() {
@@ -199,18 +212,54 @@ impl Inclination {
     }
 
     /// sinθ, exactly.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let angle = Inclination::new(&spacing, Dimension::Three)?;
+    /// assert_eq!(angle.sin().to_string(), "2/5*sqrt(3)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn sin(&self) -> Surd {
         root(self.sin2.clone())
     }
 
     /// cosθ, exactly.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let angle = Inclination::new(&spacing, Dimension::Three)?;
+    /// assert_eq!(angle.cos().to_string(), "1/5*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn cos(&self) -> Surd {
         root(self.cos2())
     }
 
     /// tanθ, exactly.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let angle = Inclination::new(&spacing, Dimension::Three)?;
+    /// assert_eq!(angle.tan().to_string(), "2/13*sqrt(39)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn tan(&self) -> Surd {
         root(self.tan2())

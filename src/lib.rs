@@ -35,7 +35,8 @@
 //! numbers c·√n ([`scalar::Surd`]), which round to the nearest float.
 //!
 //! # Map
-//! Each room may use those above it, never one below.
+//! Each room may use those above it, and [`Error`], which has a word for all of them. [`Pile`] names [`Statics`]
+//! to hand it out.
 //!
 //! | room | what lives there |
 //! |---|---|
@@ -54,7 +55,8 @@
 //!   [`MAX_LAYERS`](lattice::MAX_LAYERS) = 10³⁶ layers.
 //! * [`scalar::Surd::nearest`] is the float nearest to the exact value, decided in integers.
 //! * What [`theorem`] states is proved for every pile, by running the formulas on polynomials.
-//! * `f32` and `f64` as scalars round each operation; an answer takes a handful.
+//! * `f32` and `f64` as scalars round each operation; an answer takes a handful. What is a difference (shear,
+//!   positions) is as exact as its greatest term, and no more where the terms cancel.
 //! * Nothing panics on any input, malformed rationals (made by `Ratio::new_raw`) aside. Errors are one enum,
 //!   [`Error`], with the value and the remedy. The generic formulas on machine integers of one's own are as safe
 //!   as those integers.

@@ -16,7 +16,8 @@ use crate::{Error, FloorForce, Pile, Statics};
 /// correctly.
 ///
 /// The frame: x and y are the paper's, z points **up**, and z = 0 is the height of the centres of the
-/// bottom layer; x = y = 0 under the apex. Lengths are in the unit of the radius, forces in the unit of
+/// bottom layer; x = y = 0 under the apex. (Turning z alone makes a left-handed frame of a right-handed one; the
+/// mirror α ↔ β, y → −y, leads back, and leaves all forces as they are.) Lengths are in the unit of the radius, forces in the unit of
 /// mass times gravity: with kg, m and m/s², in N.
 ///
 /// # Examples
@@ -62,6 +63,19 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// [`Error::Overlap`], [`Error::TooFlat`] or [`Error::NoSpacing`] if the spheres have no room.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Error, Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = |n: i64, d: i64| Spacing::new(BigRational::new(n.into(), d.into()));
+    /// assert!(Packing::new(&pile, &spacing(6, 5)?).is_ok());
+    /// assert!(matches!(Packing::new(&pile, &spacing(9, 10)?), Err(Error::Overlap { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
         let inclination = Inclination::new(spacing, pile.dimension())?;
@@ -87,6 +101,21 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// let [_, _, z] = Packing::new(&pile, &spacing)?.with_radius(half)?.position(Site::APEX)?;
+    /// assert_eq!(z.to_string(), "9/5*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn with_radius(self, radius: BigRational) -> Result<Self, Error> {
         let radius = positive("radius", radius)?;
         Ok(Self { radius, ..self })
@@ -96,6 +125,20 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?.with_mass(BigRational::new(1.into(), 10.into()))?;
+    /// assert_eq!(packing.unit_force().to_string(), "1/78*sqrt(13)");
+    /// assert!(packing.with_mass(BigRational::from_integer(0.into())).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
         let mass = positive("mass", mass)?;
         Ok(Self { mass, ..self })
@@ -105,6 +148,20 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let gravity = BigRational::new(981.into(), 100.into());
+    /// let packing = Packing::new(&pile, &spacing)?.with_gravity(gravity)?;
+    /// assert_eq!(packing.sphere_weight().to_string(), "981/100");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
         let gravity = positive("gravity", gravity)?;
         Ok(Self { gravity, ..self })
@@ -117,24 +174,79 @@ impl<'p> Packing<'p> {
     }
 
     /// The radius R.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// let packing = Packing::new(&pile, &spacing)?.with_radius(half.clone())?;
+    /// assert_eq!(packing.radius(), &half);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn radius(&self) -> &BigRational {
         &self.radius
     }
 
     /// The mass m of one sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// let packing = Packing::new(&pile, &spacing)?.with_mass(half.clone())?;
+    /// assert_eq!(packing.mass(), &half);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn mass(&self) -> &BigRational {
         &self.mass
     }
 
     /// The gravity g.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// let packing = Packing::new(&pile, &spacing)?.with_gravity(half.clone())?;
+    /// assert_eq!(packing.gravity(), &half);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn gravity(&self) -> &BigRational {
         &self.gravity
     }
 
     /// The angle θ of the contacts with the vertical.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?;
+    /// assert_eq!(packing.inclination().cos().to_string(), "1/5*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn inclination(&self) -> &Inclination {
         &self.inclination
@@ -142,18 +254,59 @@ impl<'p> Packing<'p> {
 
     /// Which spheres touch beside the contacts α, β, γ, without a force being known there: none
     /// strictly between the bounds of [`Clearance`](crate::geometry::Clearance).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::from_integer(1.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?;
+    /// assert_eq!(packing.touching()[0].to_string(), "in one layer");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn touching(&self) -> &[Apart] {
         &self.touching
     }
 
     /// The weight mg of one sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?
+    ///     .with_mass(BigRational::new(1.into(), 2.into()))?
+    ///     .with_gravity(BigRational::new(49.into(), 5.into()))?;
+    /// assert_eq!(packing.sphere_weight().to_string(), "49/10");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn sphere_weight(&self) -> BigRational {
         &self.mass * &self.gravity
     }
 
     /// f₀ = mg/(W cosθ), the unit of contact forces: mg/(3 cosθ) on an equilateral base.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?;
+    /// assert_eq!(packing.unit_force().to_string(), "5/39*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn unit_force(&self) -> Surd {
         self.secant.scaled(&self.weight_per_sum())
@@ -184,6 +337,21 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// As for [`Statics::contact`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let site = Site { i: 1, j: 2, k: 5 };
+    /// let force = Packing::new(&pile, &spacing)?.contact(site, Direction::Alpha)?;
+    /// assert_eq!(force.to_string(), "5/13*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<Surd, Error> {
         let multiple = self.statics.contact(site, direction)?;
         Ok(self.secant.scaled(&(multiple * self.weight_per_sum())))
@@ -220,6 +388,21 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// As for [`Statics::contact`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let [x, y, z] = Packing::new(&pile, &spacing)?.contact_point(Site::APEX, Direction::Gamma)?;
+    /// assert_eq!((x.to_string(), z.to_string()), ("2/5*sqrt(3)".into(), "17/5*sqrt(13)".into()));
+    /// assert!(y == 0.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
         // Of a pair without contact there is no point either.
         self.statics.contact(site, direction)?;
@@ -233,6 +416,21 @@ impl<'p> Packing<'p> {
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let [x, y, z] = Packing::new(&pile, &spacing)?.position(Site { i: 0, j: 0, k: 9 })?;
+    /// assert_eq!((x.to_string(), y.to_string()), ("-18/5*sqrt(3)".into(), "-54/5".into()));
+    /// assert!(z == 0.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn position(&self, site: Site) -> Result<[Surd; 3], Error> {
         Ok(on_basis(
             &self.lengths,

@@ -41,6 +41,15 @@ impl Pile {
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Error, Pile};
+    ///
+    /// assert_eq!(Pile::triangular(10)?.sin_phi().to_string(), "1/2");
+    /// assert!(matches!(Pile::triangular(0), Err(Error::Layers { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn triangular(layers: i128) -> Result<Self, Error> {
         Self::isosceles(layers, BigRational::new(1.into(), 2.into()))
     }
@@ -90,36 +99,90 @@ impl Pile {
     }
 
     /// The sites of the pile.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert!(pile.pyramid().contains(Site { i: 0, j: 0, k: 9 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn pyramid(&self) -> &Pyramid {
         &self.pyramid
     }
 
     /// The number L of layers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.layers(), 10);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn layers(&self) -> i128 {
         self.pyramid.layers()
     }
 
     /// Discs or spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Dimension;
+    ///
+    /// assert_eq!(Pile::discs(10)?.dimension(), Dimension::Two);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn dimension(&self) -> Dimension {
         self.pyramid.dimension()
     }
 
     /// sin φ: ½ on an equilateral base, 0 for discs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.sin_phi().to_string(), "1/2");
+    /// assert_eq!(Pile::discs(10)?.sin_phi().to_string(), "0");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn sin_phi(&self) -> &BigRational {
         &self.sin_phi
     }
 
     /// Whether all directions are alike: an equilateral base, or discs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use num_rational::BigRational;
+    ///
+    /// assert!(Pile::triangular(10)?.is_regular());
+    /// assert!(!Pile::isosceles(10, BigRational::new(2.into(), 5.into()))?.is_regular());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn is_regular(&self) -> bool {
         self.dimension() == Dimension::Two || self.sin_phi == BigRational::new(1.into(), 2.into())
     }
 
     /// The spheres of the pile, which is also its weight in mg. Of any size.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.spheres(), 220_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn spheres(&self) -> BigUint {
         self.count(|layers, d| count::spheres(&layers, d))
@@ -140,6 +203,14 @@ impl Pile {
     }
 
     /// The spheres of the bottom layer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.base_spheres(), 55_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn base_spheres(&self) -> BigUint {
         self.count(|layers, d| count::spheres_in_layer(&(layers - BigRational::one()), d))
@@ -203,6 +274,15 @@ impl Pile {
     }
 
     /// The spacings that leave room for the spheres of this pile.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let least = Pile::triangular(10)?.clearance().least();
+    /// assert_eq!(least.map(|spacing| spacing.to_string()), Some("1".into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn clearance(&self) -> Clearance {
         Clearance::new(&self.pyramid, &self.sin_phi)
@@ -212,6 +292,17 @@ impl Pile {
     ///
     /// # Errors
     /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.rows(Selection::Layer(2))?.sites(), 6_u32.into());
+    /// assert!(pile.rows(Selection::Layer(10)).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn rows(&self, selection: Selection) -> Result<Rows, Error> {
         self.pyramid.rows(selection)
     }

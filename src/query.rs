@@ -12,11 +12,24 @@ use crate::{Error, Pile};
 
 /// The forces of a pile in the scalar `T`, each by closed form: O(1), whatever the number of layers.
 ///
-/// Exact scalars give exact answers. Of rounded ones, each answer is a few roundings away from the
-/// true one. A number that the scalar cannot hold is [`Error::Overflow`], never a wrong value.
+/// Exact scalars give exact answers. Of rounded ones, contact forces and normal forces are a few units in the
+/// last place off; shear, resultants and positions are differences, and a few units of the greatest term off,
+/// max(N)·f₀, which is all there is where they cancel. A number that the scalar cannot hold is [`Error::Overflow`], never a wrong value.
 ///
 /// Inside, formulas run on the scalar's [numerators](Algebra::Numerator): for rationals on integers over a
 /// denominator known beforehand, reduced once at the end.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Site;
+/// use cannonpile::{Pile, Statics};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let statics: Statics<BigRational> = pile.statics();
+/// assert_eq!(statics.on_floor(Site { i: 5, j: 2, k: 9 })?.shear_y.to_string(), "1/2");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Statics<'p, T: Algebra> {
     pile: &'p Pile,
@@ -29,6 +42,18 @@ pub struct Statics<'p, T: Algebra> {
 }
 
 /// The force of contact between a sphere and the one below it.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Direction, Selection, Site};
+/// use cannonpile::{ContactForce, Pile};
+///
+/// let pile = Pile::triangular(10)?;
+/// let first = pile.statics::<f64>().contacts(pile.rows(Selection::All)?).next();
+/// let (site, direction) = (Site::APEX, Direction::Alpha);
+/// assert_eq!(first, Some(Ok(ContactForce { site, direction, force: 1.0 })));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ContactForce<T> {
     /// The upper sphere.
@@ -41,7 +66,21 @@ pub struct ContactForce<T> {
 
 /// The force of one bottom sphere on the floor.
 ///
-/// Paper, eqs. (result-normal) and (result-shear).
+/// Paper, eqs. (result-normal) and (result-shear). In the units below from [`Statics`]; from a
+/// [`Packing`](crate::Packing) all three in units of force.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Site;
+/// use cannonpile::{FloorForce, Pile};
+///
+/// let pile = Pile::triangular(10)?;
+/// // In the middle of the base there is no shear.
+/// let site = Site { i: 3, j: 3, k: 9 };
+/// let force = pile.statics::<f64>().on_floor(site)?;
+/// assert_eq!(force, FloorForce { site, normal: 4.0, shear_x: 0.0, shear_y: 0.0 });
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FloorForce<T> {
     /// The bottom sphere.
@@ -85,6 +124,15 @@ impl<'p, T: Algebra> Statics<'p, T> {
     ///
     /// # Errors
     /// [`Error::Overflow`] if the scalar cannot hold it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.statics::<f64>().increment_sum()?, 3.0);
+    /// assert_eq!(Pile::discs(10)?.statics::<f64>().increment_sum()?, 2.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn increment_sum(&self) -> Result<T, Error> {
         edge(
             "the sum of increments",
@@ -179,6 +227,18 @@ impl<'p, T: Algebra> Statics<'p, T> {
     ///
     /// # Errors
     /// [`Error::Overflow`] if the scalar cannot hold it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let a = pile.statics::<f64>().direction(Direction::Alpha)?;
+    /// assert_eq!(a, Vector { x: 0.5, y: 0.5, z: -1.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn direction(&self, direction: Direction) -> Result<Vector<T>, Error> {
         let numerators = self.directions[direction.index()].clone().into_array();
         let [x, y, z] = edge_all("a direction", numerators, &self.direction_scale)?;
@@ -212,6 +272,18 @@ impl<'p, T: Algebra> Statics<'p, T> {
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let r = pile.statics::<f64>().position(Site { i: 1, j: 2, k: 5 })?;
+    /// assert_eq!(r, Vector { x: 0.5, y: -0.5, z: 5.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn position(&self, site: Site) -> Result<Vector<T>, Error> {
         let r = position(&self.counts(site)?, &self.directions);
         let [x, y, z] = edge_all("a position", r.into_array(), &self.direction_scale)?;

@@ -92,14 +92,21 @@ impl Scene {
         Ok(())
     }
 
+    /// The spacing: the one given, or 6/5. Whether it fits the pile is not checked here.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`].
+    pub fn spacing(&self) -> Result<Spacing, Error> {
+        let default = || BigRational::new(6.into(), 5.into());
+        Spacing::new(self.spacing.clone().unwrap_or_else(default))
+    }
+
     /// The pile with the sizes and weights of the scene.
     ///
     /// # Errors
     /// Those of [`Packing::new`], and [`Error::NotPositive`].
     pub fn packing<'p>(&self, pile: &'p Pile) -> Result<Packing<'p>, Error> {
-        let default = || BigRational::new(6.into(), 5.into());
-        let spacing = Spacing::new(self.spacing.clone().unwrap_or_else(default))?;
-        Packing::new(pile, &spacing)?
+        Packing::new(pile, &self.spacing()?)?
             .with_radius(self.radius.clone())?
             .with_mass(self.mass.clone())?
             .with_gravity(self.gravity.clone())

@@ -1,14 +1,16 @@
 //! Files that are whole or not there.
 
 use std::fs;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use super::WriteError;
 
 /// Writes a file aside, and renames it into place when it is complete: a failure leaves what was there.
 ///
-/// What is not a regular file, such as a pipe or a device, is written directly. A link is followed.
+/// What is not a regular file, such as a pipe or a device, is written directly. A link is followed, one to
+/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. Killed on the way, a
+/// hidden file `.cannonpile-…` is left in the folder.
 ///
 /// # Errors
 /// Those of `write`, and [`WriteError::Io`].
@@ -27,7 +29,18 @@ pub fn write_aside(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let target = match fs::canonicalize(path) {
+        Ok(target) => target,
+        // A link to nowhere would be replaced, not followed.
+        Err(error) if path.is_symlink() => return Err(error.into()),
+        Err(_) => path.to_owned(),
+    };
+    let permissions = fs::metadata(&target)
+        .ok()
+        .map(|metadata| metadata.permissions());
+    if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
+        return Err(io::Error::from(io::ErrorKind::PermissionDenied).into());
+    }
     if target.exists() && !target.is_file() {
         let mut out = BufWriter::new(fs::OpenOptions::new().write(true).open(&target)?);
         write(&mut out)?;
@@ -49,6 +62,9 @@ pub fn write_aside(
     write(&mut out)?;
     out.flush()?;
     drop(out);
+    if let Some(permissions) = permissions {
+        aside.as_file().set_permissions(permissions)?;
+    }
     aside.persist(&target).map_err(|error| error.error)?;
     Ok(())
 }

@@ -68,6 +68,19 @@ pub struct Table<'a> {
 
 impl Table<'_> {
     /// The columns, in order.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::export::{Units, tables};
+    /// use cannonpile::lattice::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;
+    /// let normal = &table.columns()[2];
+    /// assert_eq!((normal.name, normal.unit, normal.summed), ("normal", "mg", true));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
@@ -78,6 +91,21 @@ impl Table<'_> {
     /// # Errors
     /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit the format: found before
     /// anything is written. [`WriteError::Io`] if the output refuses.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+    /// use cannonpile::lattice::Selection;
+    ///
+    /// let pile = Pile::discs(1)?;
+    /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;
+    /// let mut json = Vec::new();
+    /// table.write(FileFormat::Json, NumberFormat::F64, &mut json)?;
+    /// let json = String::from_utf8(json)?;
+    /// assert_eq!(json.lines().nth(1), Some(r#"{"i":0,"normal":1.0,"shear_x":0.0}"#));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn write(
         self,
         format: FileFormat,

@@ -26,12 +26,39 @@ pub enum Units<'p> {
 
 impl<'p> Units<'p> {
     /// Pile units.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::export::{Units, tables};
+    /// use cannonpile::lattice::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let table = tables::contacts(&Units::of_pile(&pile), Selection::All)?;
+    /// assert_eq!(table.columns()[4].unit, "mg/(3cosθ)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn of_pile(pile: &'p Pile) -> Self {
         Self::Pile(Box::new(pile.statics()))
     }
 
     /// SI units.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Units, tables};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let units = Units::of_packing(Packing::new(&pile, &spacing)?);
+    /// assert_eq!(tables::base(&units, Selection::Base)?.columns()[2].unit, "N");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn of_packing(packing: Packing<'p>) -> Self {
         Self::Si(Box::new(packing))
@@ -99,6 +126,20 @@ impl<'p> Units<'p> {
 /// # Errors
 /// [`Error::SiteOutside`], [`Error::LayerOutside`], [`Error::NotOnFloor`] for a selection that is not
 /// of the base; [`Error::TooManyRows`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+/// use cannonpile::lattice::{Selection, Site};
+///
+/// let pile = Pile::triangular(10)?;
+/// let corner = Selection::One(Site { i: 0, j: 0, k: 9 });
+/// let mut csv = Vec::new();
+/// tables::base(&Units::of_pile(&pile), corner)?.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(String::from_utf8(csv)?, "i,j,normal,shear_x,shear_y\n0,0,4,-3/2,-3/2\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = units.pile();
     let rows = pile.rows(selection)?;
@@ -132,6 +173,23 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
 ///
 /// # Errors
 /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooManyRows`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+/// use cannonpile::lattice::Selection;
+///
+/// let pile = Pile::triangular(2)?;
+/// let table = tables::contacts(&Units::of_pile(&pile), Selection::All)?;
+/// let mut csv = Vec::new();
+/// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(
+///     String::from_utf8(csv)?,
+///     "k,i,j,direction,force\n0,0,0,alpha,1\n0,0,0,beta,1\n0,0,0,gamma,1\n",
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = units.pile();
     let directions = pile.dimension().directions();
@@ -174,6 +232,26 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
 ///
 /// # Errors
 /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooManyRows`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::export::{FileFormat, NumberFormat, tables};
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::lattice::{Selection, Site};
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::from_integer(1.into()))?)?;
+/// let table = tables::spheres(&packing, Selection::One(Site::APEX))?;
+/// let mut csv = Vec::new();
+/// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(
+///     String::from_utf8(csv)?,
+///     "id,k,i,j,x,y,z,radius,mass,fixed\n1,0,0,0,0,0,2/3*sqrt(6),1,1,0\n",
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = packing.pile();
     let rows = pile.rows(selection)?;
@@ -244,6 +322,20 @@ pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> 
 ///
 /// # Errors
 /// None of a pile that exists; those of its forces are handed on.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+///
+/// let pile = Pile::triangular(10)?;
+/// let table = tables::summary(&Units::of_pile(&pile), None)?;
+/// let mut text = Vec::new();
+/// table.write(FileFormat::Text, NumberFormat::Exact, &mut text)?;
+/// let text = String::from_utf8(text)?;
+/// assert!(text.starts_with("layers           10\nstacking         fcc\nspheres          220\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn summary<'p>(units: &Units<'p>, touching: Option<&[Apart]>) -> Result<Table<'p>, Error> {
     let pile = units.pile();
     let base = pile.rows(Selection::Base)?;

@@ -38,15 +38,19 @@ fn write_record(
     for row in table.rows {
         let texts = texts(&table.columns, &row?, numbers)?;
         for (column, text) in table.columns.iter().zip(texts) {
-            let text = if text.is_empty() { "-" } else { &text };
-            let line = format!("{:width$}  {text} {}", column.name, column.unit);
+            let (text, unit) = if text.is_empty() {
+                ("-", "")
+            } else {
+                (&*text, column.unit)
+            };
+            let line = format!("{:width$}  {text} {unit}", column.name);
             writeln!(out, "{}", line.trim_end())?;
         }
     }
     Ok(())
 }
 
-/// A line a row, in columns as wide as their widest entry so far.
+/// A line a row, in columns as wide as the extremes of the table and their widest entry so far.
 fn write_rows(
     mut table: Table<'_>,
     noun: &str,
@@ -64,7 +68,7 @@ fn write_rows(
         .map(|column| column.name.to_owned())
         .collect();
     let mut page = vec![heads, units];
-    let mut widths = vec![0; columns.len()];
+    let mut widths = first_widths(&columns, &table.extremes, numbers)?;
     let mut count = BigUint::zero();
     loop {
         let rows: Vec<Row> = table.rows.by_ref().take(PAGE).collect();
@@ -78,7 +82,7 @@ fn write_rows(
             count += 1_u32;
         }
         let totals = if last {
-            total_row(&columns, &sums, numbers)?
+            total_row(&columns, &sums, numbers)
         } else {
             None
         };
@@ -108,24 +112,42 @@ fn write_rows(
     }
 }
 
-/// The sums below, under the word `total`; none if no column has one.
-fn total_row(
+/// Widths that the extremes of the table and the word `total` fit in, so that pages rarely differ.
+fn first_widths(
     columns: &[Column],
-    sums: &[Sum],
+    extremes: &[Row],
     numbers: NumberFormat,
-) -> Result<Option<Vec<String>>, WriteError> {
+) -> Result<Vec<usize>, WriteError> {
+    let mut widths = vec![0; columns.len()];
+    if let (Some(first), true) = (widths.first_mut(), columns.iter().any(|c| c.summed)) {
+        *first = "total".len();
+    }
+    for row in extremes {
+        let texts = texts(columns, row.as_ref().map_err(Clone::clone)?, numbers)?;
+        for (width, text) in widths.iter_mut().zip(texts) {
+            *width = text.chars().count().max(*width);
+        }
+    }
+    Ok(widths)
+}
+
+/// The sums below, under the word `total`; none if no column has one.
+fn total_row(columns: &[Column], sums: &[Sum], numbers: NumberFormat) -> Option<Vec<String>> {
     if !columns.iter().any(|column| column.summed) {
-        return Ok(None);
+        return None;
     }
     let mut texts = Vec::with_capacity(columns.len());
     for (n, (column, sum)) in columns.iter().zip(sums).enumerate() {
         texts.push(match &sum.0 {
-            Some(value) if column.summed => numbers.show(value, column.name)?,
+            // A sum beyond the floats is shown exactly: its rows are out already, and right.
+            Some(value) if column.summed => numbers
+                .show(value, column.name)
+                .unwrap_or_else(|_| value.to_string()),
             _ if n == 0 => "total".to_owned(),
             _ => String::new(),
         });
     }
-    Ok(Some(texts))
+    Some(texts)
 }
 
 fn bracketed(unit: &str) -> String {

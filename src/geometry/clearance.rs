@@ -35,6 +35,14 @@ use crate::lattice::Pyramid;
 use crate::scalar::Ring;
 
 /// How far apart two spheres are that touch, or would overlap.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::Apart;
+///
+/// assert_eq!(Apart { layers: 0 }.to_string(), "in one layer");
+/// assert_eq!(Apart { layers: 3 }.to_string(), "3 layers apart");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Apart {
     /// The number of layers between them, 0 for neighbours of one layer.
@@ -123,6 +131,16 @@ impl Clearance {
     }
 
     /// The least allowed spacing, or `None` where the pile sets no lower bound (one sphere).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let least = Pile::triangular(10)?.clearance().least();
+    /// assert_eq!(least.map(|spacing| spacing.to_string()), Some("1".into()));
+    /// assert_eq!(Pile::triangular(1)?.clearance().least(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn least(&self) -> Option<Spacing> {
         let (bound, _) = self.lower.iter().max_by(|a, b| a.0.cmp(&b.0))?;
@@ -131,6 +149,16 @@ impl Clearance {
 
     /// The greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers
     /// on an equilateral base).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let most = Pile::triangular(4)?.clearance().most();
+    /// assert_eq!(most.map(|spacing| spacing.to_string()), Some("2/3*sqrt(6)".into()));
+    /// assert_eq!(Pile::triangular(3)?.clearance().most(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn most(&self) -> Option<Spacing> {
         let (bound, _) = self.upper.iter().min_by(|a, b| a.0.cmp(&b.0))?;
@@ -143,6 +171,20 @@ impl Clearance {
     /// # Errors
     /// [`Error::NoSpacing`] if no spacing at all fits this sin φ, [`Error::Overlap`] with the allowed
     /// spacings, [`Error::TooFlat`] if θ would reach 90°.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Apart, Spacing};
+    /// use cannonpile::{Error, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let clearance = Pile::triangular(10)?.clearance();
+    /// let most = Spacing::from_square(BigRational::new(8.into(), 3.into()))?;
+    /// assert_eq!(clearance.check(&most)?, [Apart { layers: 3 }]);
+    /// let wide = Spacing::from_square(BigRational::new(17.into(), 6.into()))?;
+    /// assert!(matches!(clearance.check(&wide), Err(Error::Overlap { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn check(&self, spacing: &Spacing) -> Result<Vec<Apart>, Error> {
         let (least, most) = (self.least(), self.most());
         if let Some(least) = &least {

@@ -109,6 +109,7 @@ impl fmt::Display for Bound<'_> {
         match (exact, rest.is_zero()) {
             (true, true) => Ok(()),
             (true, false) => write!(f, " = {whole}.{rest:06}"),
+            (false, _) if self.up => write!(f, ", just below {whole}.{rest:06}"),
             (false, _) => write!(f, " = {whole}.{rest:06}…"),
         }
     }

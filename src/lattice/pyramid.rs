@@ -28,6 +28,16 @@ impl Pyramid {
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Error;
+    /// use cannonpile::lattice::{Dimension, Pyramid};
+    ///
+    /// assert_eq!(Pyramid::new(4, Dimension::Two)?.layers(), 4);
+    /// assert!(matches!(Pyramid::new(0, Dimension::Two), Err(Error::Layers { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(layers: i128, dimension: Dimension) -> Result<Self, Error> {
         if (1..=MAX_LAYERS).contains(&layers) {
             Ok(Self { layers, dimension })
@@ -51,6 +61,16 @@ impl Pyramid {
     }
 
     /// Whether the pile has this site.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Site};
+    ///
+    /// let site = Site { i: 1, j: 1, k: 2 };
+    /// assert!(Pyramid::new(4, Dimension::Three)?.contains(site));
+    /// assert!(!Pyramid::new(4, Dimension::Two)?.contains(site));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn contains(&self, site: Site) -> bool {
         let Site { i, j, k } = site;
@@ -66,6 +86,16 @@ impl Pyramid {
     ///
     /// # Errors
     /// [`Error::SiteOutside`] otherwise.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Site};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// assert_eq!(pyramid.check(Site::APEX)?, Site::APEX);
+    /// assert!(pyramid.check(Site { i: 0, j: 0, k: 4 }).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn check(&self, site: Site) -> Result<Site, Error> {
         if self.contains(site) {
             Ok(site)
@@ -79,12 +109,33 @@ impl Pyramid {
     }
 
     /// The sphere that `site` rests on in `direction`; `None` on the floor or outside the pile.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Direction, Pyramid, Site};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// assert_eq!(pyramid.below(Site::APEX, Direction::Beta), Some(Site { i: 1, j: 0, k: 1 }));
+    /// assert_eq!(pyramid.below(Site { i: 0, j: 0, k: 3 }, Direction::Beta), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn below(&self, site: Site, direction: Direction) -> Option<Site> {
         self.neighbour(site, direction, 1)
     }
 
     /// The sphere that rests on `site` in `direction`; `None` at the surface or outside the pile.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Direction, Pyramid, Site};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let site = Site { i: 1, j: 0, k: 2 };
+    /// assert_eq!(pyramid.above(site, Direction::Alpha), Some(Site { i: 1, j: 0, k: 1 }));
+    /// assert_eq!(pyramid.above(Site::APEX, Direction::Alpha), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn above(&self, site: Site, direction: Direction) -> Option<Site> {
         self.neighbour(site, direction, -1)
@@ -100,11 +151,34 @@ impl Pyramid {
     ///
     /// # Errors
     /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Row, Selection};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let mut layer = pyramid.rows(Selection::Layer(1))?;
+    /// assert_eq!(layer.next(), Some(Row { k: 1, j: 0, i: 0..2 }));
+    /// assert_eq!(layer.next(), Some(Row { k: 1, j: 1, i: 0..1 }));
+    /// assert!(pyramid.rows(Selection::Layer(4)).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn rows(&self, selection: Selection) -> Result<Rows, Error> {
         Rows::new(self, selection)
     }
 
     /// Every site in row order from the top.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Site};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let mut sites = pyramid.sites();
+    /// assert_eq!(sites.next(), Some(Site::APEX));
+    /// assert_eq!(sites.last(), Some(Site { i: 0, j: 3, k: 3 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn sites(&self) -> impl Iterator<Item = Site> + use<> {
         Rows::of_layers(self.dimension, 0..self.layers).flatten()
     }
@@ -116,6 +190,18 @@ impl Pyramid {
 /// Every permutation maps the sites of a triangular pile onto themselves. On an equilateral base all
 /// six are symmetries of the forces; on an isosceles one, and for discs, only the identity and the
 /// mirror α ↔ β.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Site, Symmetry};
+///
+/// let corner = Site { i: 0, j: 0, k: 3 };
+/// let images = Symmetry::ALL.map(|symmetry| symmetry.apply(corner).unwrap());
+/// // Each of the three corners, twice.
+/// for (i, j) in [(0, 0), (3, 0), (0, 3)] {
+///     assert_eq!(images.iter().filter(|image| **image == Site { i, j, k: 3 }).count(), 2);
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Symmetry([Direction; 3]);
 
@@ -151,6 +237,14 @@ impl Symmetry {
     };
 
     /// The image of a site; `None` if it leaves `i128`, which no site of a pile does.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Site, Symmetry};
+    ///
+    /// let site = Site { i: 1, j: 2, k: 7 };
+    /// assert_eq!(Symmetry::MIRROR.apply(site), Some(Site { i: 4, j: 2, k: 7 }));
+    /// ```
     #[must_use]
     pub fn apply(self, site: Site) -> Option<Site> {
         let Site { i, j, k } = site;
@@ -170,7 +264,16 @@ impl Symmetry {
         self.0.map(|direction| above[direction.index()].clone())
     }
 
-    /// The direction whose line at `site` is carried to the line of `direction` at the image.
+    /// The direction whose line is carried to the line of `direction`: the count along `direction` at an
+    /// image is the count along this one at the site it comes from.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Symmetry};
+    ///
+    /// assert_eq!(Symmetry::MIRROR.source(Direction::Alpha), Direction::Beta);
+    /// assert_eq!(Symmetry::MIRROR.source(Direction::Gamma), Direction::Gamma);
+    /// ```
     #[must_use]
     pub fn source(self, direction: Direction) -> Direction {
         self.0[direction.index()]

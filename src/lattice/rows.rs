@@ -10,6 +10,17 @@ use crate::Error;
 use crate::scalar::Ring;
 
 /// A part of a pile.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Selection;
+///
+/// let pile = Pile::triangular(10)?;
+/// assert_eq!(pile.rows(Selection::Base)?.sites(), 55_u32.into());
+/// assert_eq!(pile.rows(Selection::All)?.sites(), 220_u32.into());
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Selection {
     /// One sphere.
@@ -23,6 +34,14 @@ pub enum Selection {
 }
 
 /// Consecutive sites of one row: fixed k and j, a range of i.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Row, Site};
+///
+/// let row = Row { k: 2, j: 1, i: 0..2 };
+/// assert!(row.into_iter().eq([Site { i: 0, j: 1, k: 2 }, Site { i: 1, j: 1, k: 2 }]));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Row {
     /// The layer.
@@ -112,6 +131,16 @@ impl Rows {
     }
 
     /// Leaves out the bottom layer of `pyramid`: the spheres left all have spheres below them.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Selection};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let rows = pyramid.rows(Selection::All)?.off_the_floor(&pyramid);
+    /// assert_eq!(rows.sites(), 10_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn off_the_floor(mut self, pyramid: &Pyramid) -> Self {
         let floor = pyramid.layers() - 1;
@@ -121,6 +150,18 @@ impl Rows {
     }
 
     /// How many sites are still to come, of any size.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Selection};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let mut rows = pyramid.rows(Selection::All)?;
+    /// assert_eq!(rows.sites(), 20_u32.into());
+    /// rows.next();
+    /// assert_eq!(rows.sites(), 19_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn sites(&self) -> BigUint {
         if self.one.is_some() {
@@ -138,6 +179,18 @@ impl Rows {
     /// The sites at which a quantity that is linear in i, j and k, or the norm of such quantities, takes its
     /// extremes: the corners of the first and the last layer, whole layers even where some rows of the first
     /// have been given already.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Pyramid, Selection, Site};
+    ///
+    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let corners: Vec<Site> = pyramid.rows(Selection::All)?.corners().collect();
+    /// // The apex is each corner of its layer.
+    /// assert_eq!(corners[..3], [Site::APEX; 3]);
+    /// assert_eq!(corners[3..], [(0, 0), (3, 0), (0, 3)].map(|(i, j)| Site { i, j, k: 3 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn corners(&self) -> impl Iterator<Item = Site> + use<> {
         let layers = (self.k < self.end).then_some([self.k, self.end - 1]);
         let directions = self.dimension.directions();

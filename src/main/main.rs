@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use cannonpile::export::{NumberFormat, Table, Units, WriteError, tables, write_aside};
 use cannonpile::scene::Scene;
 use cannonpile::theorem::{self, Listing};
-use cannonpile::{Error, Packing, Pile};
+use cannonpile::{Error, Pile};
 use clap::Parser;
 use clap::error::ErrorKind;
 
@@ -33,12 +33,18 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(WriteError::Answer(error)) => {
-            eprintln!("error: {}{error}", option_of(&error));
+            complain(&format!("error: {}{error}", option_of(&error)));
             ExitCode::from(BAD_USE)
         }
         Err(error) => {
             let target = arguments.command.output().target();
-            eprintln!("error: cannot write {target}: {error}");
+            let reason = match &error {
+                // The text of an error may name the file written aside; its kind does not.
+                WriteError::Io(error) => error.kind().to_string(),
+                other => other.to_string(),
+            };
+            let remedy = "choose a place that exists and can be written";
+            complain(&format!("error: cannot write {target}: {reason}; {remedy}"));
             ExitCode::from(BAD_USE)
         }
     }
@@ -54,9 +60,9 @@ fn run(command: &Command) -> Result<bool, WriteError> {
         } => {
             let (scene, pile) = scene.read()?;
             let units = units(&scene, &pile, numbers)?;
-            // The touching spheres are those at the default spacing only where that fits.
-            let packing = scene.packing(&pile);
-            let table = tables::summary(&units, packing.as_ref().ok().map(Packing::touching))?;
+            // At the default spacing, where none is given: if that fits.
+            let touching = pile.clearance().check(&scene.spacing()?).ok();
+            let table = tables::summary(&units, touching.as_deref())?;
             write_table(table, numbers, output)?;
         }
         Command::Base {
@@ -157,7 +163,7 @@ fn write(
 /// The option to change, as a prefix of the message.
 fn option_of(error: &Error) -> String {
     match error {
-        Error::Layers { .. } => "--layers: ".into(),
+        Error::Layers { .. } | Error::TooManyRows { .. } => "--layers: ".into(),
         Error::SinPhi { .. } | Error::SinPhiOfDiscs | Error::NoSpacing { .. } => {
             "--sin-phi: ".into()
         }
@@ -173,22 +179,30 @@ fn option_of(error: &Error) -> String {
     }
 }
 
+/// One line on stderr, whatever the text; if even that is closed, the exit status has to say it.
+fn complain(message: &str) {
+    let line: String = message
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
 /// What clap has to say: help and version as it is, an error in one line.
 fn usage(error: &clap::Error) -> ExitCode {
     if matches!(
         error.kind(),
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
     ) {
-        return match error.print() {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(_) => ExitCode::from(BAD_USE),
-        };
+        // Into a closed pipe there is nothing to say.
+        let _ = error.print();
+        return ExitCode::SUCCESS;
     }
     let text = error.to_string();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
     let told: Vec<&str> = lines
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
         .collect();
-    eprintln!("{}", told.join(" "));
+    complain(&told.join(" "));
     ExitCode::from(BAD_USE)
 }

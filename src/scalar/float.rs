@@ -2,6 +2,7 @@
 
 use core::num::NonZeroI64;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
@@ -32,10 +33,19 @@ macro_rules! float_scalar {
 
             #[expect(
                 clippy::cast_precision_loss,
-                reason = "rounded, like every operation of this scalar"
+                reason = "a divisor that loses digits is taken another way"
             )]
             fn div_int(self, n: NonZeroI64) -> Self {
-                self / n.get() as $float
+                let divisor = n.get() as $float;
+                let odd_part = n.get().unsigned_abs() >> n.trailing_zeros();
+                if odd_part < 1 << $float::MANTISSA_DIGITS {
+                    return self / divisor;
+                }
+                // Rounded once: through the rational, unless there is none.
+                match BigRational::from_float(self) {
+                    Some(value) => Self::from_rational(&(value / BigInt::from(n.get()))),
+                    None => self / divisor,
+                }
             }
 
             fn is_defined(&self) -> bool {

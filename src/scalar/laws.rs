@@ -138,7 +138,13 @@ pub fn embedding<T: Field + RealEmbeddable>(
             });
         }
     }
-    for n in [3_i64, -10] {
+    for n in [
+        3_i64,
+        -10,
+        1_099_511_693_313,
+        1_152_921_504_606_847_105,
+        i64::MAX,
+    ] {
         let Some(n) = NonZeroI64::new(n) else {
             continue;
         };

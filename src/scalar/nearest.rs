@@ -11,25 +11,24 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 mod sealed {
-    pub trait Sealed {}
-    impl Sealed for f32 {}
-    impl Sealed for f64 {}
+    pub trait Assemble: Sized {
+        /// The float ±`significand` · 2^`exponent`, for a significand of at most one bit more than the float
+        /// has, and an exponent not below the least: `None` when it is too large.
+        fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
+    }
 }
+
+use sealed::Assemble;
 
 /// A binary floating-point format to round to: `f32` or `f64`. Sealed.
 ///
 /// `f32` is reached directly, never by way of `f64`: rounding twice can miss the nearest.
-pub trait NearestFloat: sealed::Sealed + Copy {
+pub trait NearestFloat: Assemble + Copy {
     /// Bits of the significand, the leading one included.
     const PRECISION: u32;
 
     /// The exponent of the last bit of the smallest subnormal.
     const LEAST_EXPONENT: i64;
-
-    /// The float ±`significand` · 2^`exponent`, which must be representable but for its size:
-    /// `None` when it is too large.
-    #[doc(hidden)]
-    fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
 
     /// The float nearest to `r`, ties to even; `None` when it would be infinite.
     ///
@@ -66,7 +65,9 @@ macro_rules! nearest_float {
         impl NearestFloat for $float {
             const PRECISION: u32 = $float::MANTISSA_DIGITS;
             const LEAST_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
+        }
 
+        impl Assemble for $float {
             fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
                 let hidden = 1_u64 << (Self::PRECISION - 1);
                 // Rounding up may have carried into one bit more than there are.

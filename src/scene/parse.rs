@@ -7,17 +7,20 @@ use num_traits::{Pow, Zero};
 use crate::Error;
 use crate::lattice::{Dimension, Direction, MAX_LAYERS, Site};
 
-/// The longest number read, in bytes.
-const LONGEST: usize = 10_000;
+/// The longest number read, in bytes; any decimal that is read is printed as a shorter fraction.
+const LONGEST: usize = 5_000;
+
+/// The longest decimal read, in bytes.
+const LONGEST_DECIMAL: usize = 1_000;
 
 /// The greatest power of ten read, up or down; a float needs ±324.
-const GREATEST_EXPONENT: u32 = 10_000;
+const GREATEST_EXPONENT: u32 = 1_000;
 
 const NUMBER: &str = "a number such as 6/5, 1.2 or 1e-3";
 
 /// A rational: `6/5`, `-3`, or a decimal, `1.2`, `.5`, `1e-3`, which is read exactly.
 ///
-/// A text of more than 10,000 bytes, or a decimal exponent beyond ±10,000, is refused.
+/// A text of more than 5,000 bytes, a decimal of more than 1,000, and an exponent beyond ±1,000 are refused.
 ///
 /// # Errors
 /// [`Error::Syntax`].
@@ -38,10 +41,11 @@ const NUMBER: &str = "a number such as 6/5, 1.2 or 1e-3";
 pub fn rational(text: &str) -> Result<BigRational, Error> {
     let syntax = || Error::syntax(text, NUMBER);
     if text.len() > LONGEST {
-        return Err(Error::syntax(text, "a number of at most 10000 digits"));
+        return Err(Error::syntax(text, "a number of at most 5000 digits"));
     }
     let Some((numer, denom)) = text.split_once('/') else {
-        return decimal(text).ok_or_else(syntax);
+        let integer = integer_digits(text).map(BigRational::from_integer);
+        return integer.or_else(|| decimal(text)).ok_or_else(syntax);
     };
     let numer = integer_digits(numer).ok_or_else(syntax)?;
     let denom = digits(denom).ok_or_else(syntax)?;
@@ -60,7 +64,7 @@ fn decimal(text: &str) -> Option<BigRational> {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
         None => (text, 0),
     };
-    if exponent.unsigned_abs() > GREATEST_EXPONENT {
+    if exponent.unsigned_abs() > GREATEST_EXPONENT || text.len() > LONGEST_DECIMAL {
         return None;
     }
     let (negative, mantissa) = sign(mantissa);
@@ -110,6 +114,17 @@ pub fn integer(text: &str) -> Result<i128, Error> {
 ///
 /// # Errors
 /// [`Error::Layers`] for an integer that cannot be one, [`Error::Syntax`] for anything else.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Error;
+/// use cannonpile::scene::parse;
+///
+/// assert_eq!(parse::layers("10")?, 10);
+/// assert!(matches!(parse::layers("0"), Err(Error::Layers { .. })));
+/// assert!(matches!(parse::layers("ten"), Err(Error::Syntax { .. })));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 pub fn layers(text: &str) -> Result<i128, Error> {
     if text.len() > LONGEST {
         return Err(Error::syntax(

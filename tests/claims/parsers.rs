@@ -15,17 +15,12 @@ use num_rational::BigRational;
 use super::{Checked, demand, one_line, same};
 use crate::generators::{number, pile, text};
 
-/// Numbers longer than this are refused, and so are those of them that a short text made, in print.
-const LONGEST: usize = 10_000;
-
 /// Every parser on any text.
 pub(crate) fn any_text(u: &mut Unstructured<'_>) -> Checked {
     let text = text::any(u)?;
     match parse::rational(&text) {
         Ok(value) => {
-            if value.to_string().len() <= LONGEST {
-                reads_back(parse::rational, &value, &value)?;
-            }
+            reads_back(parse::rational, &value, &value)?;
             as_the_standard_library(&text, &value)?;
         }
         Err(refusal) => one_line(&refusal)?,

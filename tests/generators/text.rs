@@ -85,7 +85,7 @@ pub(crate) fn any(u: &mut Unstructured<'_>) -> Result<String> {
         }
         2 => {
             let text = valid(u)?;
-            let times = [9_990, 10_000, 10_001][u.choose_index(3)?] / text.len().max(1);
+            let times = [990, 1_001, 4_990, 5_001][u.choose_index(4)?] / text.len().max(1);
             Ok(text.repeat(times + u.int_in_range(0..=1)?))
         }
         _ => valid(u),
