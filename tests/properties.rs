@@ -114,8 +114,8 @@ fn spacings_meet_every_verdict() {
             Err(other) => other.to_string(),
         })
     });
-    let often = verdicts.values().filter(|count| **count >= 5);
-    assert_eq!((verdicts.len(), often.count()), (5, 5), "{verdicts:?}");
+    assert_eq!(verdicts.len(), 5, "{verdicts:?}");
+    assert!(verdicts["touching"] >= 20, "{verdicts:?}");
 }
 
 #[test]

@@ -72,7 +72,8 @@ impl DoubleDouble {
             return self;
         }
         let float = scale(self.high, e);
-        Self::finite((float, scale(self.low, e)), float)
+        // Among the subnormals a low part may be rounded up to a tie.
+        Self::finite(fast_two_sum(float, scale(self.low, e)), float)
     }
 
     /// The number with its high part between 1 and 2, and the power of two taken out: no product of two such
@@ -191,7 +192,7 @@ impl Algebra for DoubleDouble {
         let low = rest
             .and_then(|rest| f64::nearest_to_rational(&rest))
             .unwrap_or(0.0);
-        Self { high, low }
+        Self::finite(fast_two_sum(high, low), high)
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {

@@ -191,7 +191,12 @@ impl Add<&Self> for Interval {
 
     fn add(self, rhs: &Self) -> Self {
         let sum = |x: f64, y: f64| {
-            let (s, e) = two_sum(x, y);
+            // The greater first: next to the largest float the other order overflows on the way.
+            let (s, e) = if x.abs() < y.abs() {
+                two_sum(y, x)
+            } else {
+                two_sum(x, y)
+            };
             if x.is_infinite() || y.is_infinite() {
                 (s, s)
             } else {

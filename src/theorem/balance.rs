@@ -67,7 +67,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "half-turn",
-        statement: "G = (2/3)J − I, which passes forces across a sign change of the stacking, is orthogonal \
+        statement: "G = (2/3)J − I, which passes forces across a sign change of the stacking, takes g to (2/3)(g_1+g_2+g_3)(1,1,1) − g; it is orthogonal \
                     (|Gg|² = |g|²), symmetric (h·Gg = g·Gh), its own inverse (GGg = g), and fixes (1, 1, 1); an identity",
         hypotheses: "any forces g, h",
         method: Method::Identity,
@@ -213,6 +213,15 @@ fn half_turn(f: &Formulas) -> Vec<Step> {
         Step::equal("|Gg|² = |g|²", dot(&turned, &turned), dot(&g, &g)),
         Step::equal("h·Gg = g·Gh", dot(&h, &turned), dot(&g, &other)),
     ]);
+    let sum = g.iter().fold(P::zero(), |sum, x| sum + x);
+    for (x, gx) in g.iter().zip(&turned) {
+        let left = (x.clone() + gx) * &int(3);
+        steps.push(Step::equal(
+            "3(g + Gg) = 2(g_1+g_2+g_3)(1,1,1)",
+            left,
+            sum.clone() * &int(2),
+        ));
+    }
     let ones = [P::one(), P::one(), P::one()];
     let twice = (f.half_turn)(&turned);
     steps.extend(

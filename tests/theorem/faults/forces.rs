@@ -58,6 +58,7 @@ pub(super) fn faults() -> Vec<Fault> {
         } => ["equilibrium", "discs"];
 
         "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn"];
+        "I": half_turn = Clone::clone => ["half-turn"];
         "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn"];
         "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn"];
         "a third of a turn": half_turn = |g| Symmetry::ROTATION.permute(g) => ["half-turn"];
