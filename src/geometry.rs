@@ -280,4 +280,5 @@ fn root(r: BigRational) -> Surd {
     Surd::sqrt(r).unwrap_or_else(|_| Surd::zero())
 }
 
+// Unwrapped by the compiler: zero would not build.
 const TWO: core::num::NonZeroI64 = core::num::NonZeroI64::new(2).unwrap();

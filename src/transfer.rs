@@ -23,4 +23,5 @@ pub fn half_turn<T: Algebra>(g: &[T; 3]) -> [T; 3] {
     g.each_ref().map(|x| twice_mean.clone() - x)
 }
 
+// Unwrapped by the compiler: zero would not build.
 const THREE: core::num::NonZeroI64 = core::num::NonZeroI64::new(3).unwrap();

@@ -21,6 +21,7 @@ pub(super) fn int(n: i128) -> P {
 
 /// 1/2.
 pub(super) fn half() -> P {
+    // Unwrapped by the compiler: zero would not build.
     int(1).div_int(const { core::num::NonZeroI64::new(2).unwrap() })
 }
 
