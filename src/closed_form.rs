@@ -149,6 +149,43 @@ impl<T: Ring, const D: usize> Increments<T, D> {
     }
 }
 
+/// The sum of forces from above on a sphere, each along its direction: −Σ g_m ê_m.
+///
+/// # Examples
+/// ```
+/// use cannonpile::closed_form::resultant;
+/// use cannonpile::geometry::{Vector, directions};
+///
+/// let force = resultant(&[1.0, 1.0, 1.0], &directions(&0.5));
+/// assert_eq!(force, Vector { x: 0.0, y: 0.0, z: 3.0 });
+/// ```
+pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<T> {
+    -Vector::combination(from_above, directions)
+}
+
+/// What a sphere hands on: the forces from above and its weight, −Σ g_m ê_m + w ẑ.
+///
+/// # Examples
+/// ```
+/// use cannonpile::closed_form::handed_on;
+/// use cannonpile::geometry::{Vector, directions};
+///
+/// let force = handed_on(&[1.0, 1.0, 1.0], &directions(&0.5), &3.0);
+/// assert_eq!(force, Vector { x: 0.0, y: 0.0, z: 6.0 });
+/// ```
+pub fn handed_on<T: Ring>(
+    from_above: &[T; 3],
+    directions: &[Vector<T>; 3],
+    weight: &T,
+) -> Vector<T> {
+    let weight = Vector {
+        x: T::zero(),
+        y: T::zero(),
+        z: weight.clone(),
+    };
+    resultant(from_above, directions) + &weight
+}
+
 /// The sum of the forces from above on a sphere, in f₀ and the symbolic basis: −Σ N_m w_m ê_m.
 ///
 /// On an equilateral base this is r/(2R), with r the position from the apex: the central force
@@ -168,7 +205,7 @@ pub fn resultant_above<T: Ring>(
     increments: &Increments<T, 3>,
     directions: &[Vector<T>; 3],
 ) -> Vector<T> {
-    -Vector::combination(&increments.from_above(above), directions)
+    resultant(&increments.from_above(above), directions)
 }
 
 /// The force of a bottom sphere on the floor, in f₀ and the symbolic basis: the resultant from above
@@ -197,12 +234,7 @@ pub fn force_on_floor<T: Ring>(
     directions: &[Vector<T>; 3],
     weight: &T,
 ) -> Vector<T> {
-    let weight = Vector {
-        x: T::zero(),
-        y: T::zero(),
-        z: weight.clone(),
-    };
-    resultant_above(above, increments, directions) + &weight
+    handed_on(&increments.from_above(above), directions, weight)
 }
 
 /// What is left over of all forces on a sphere that stands on others, in f₀: the zero vector.

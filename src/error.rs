@@ -8,7 +8,7 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
 use crate::geometry::{Apart, Bound, Spacing};
-use crate::lattice::{Dimension, Direction, MAX_LAYERS, Site};
+use crate::lattice::{Dimension, Direction, MAX_LAYERS, Region, Site};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -42,6 +42,8 @@ pub enum Error {
         layers: i128,
         /// Discs or spheres.
         dimension: Dimension,
+        /// The sites of that layer, if the pile has it and is not a straight one under one sphere.
+        region: Option<Box<Region>>,
     },
     /// The pile has no such layer.
     LayerOutside {
@@ -66,6 +68,74 @@ pub enum Error {
     NoSuchDirection {
         /// The direction asked for.
         direction: Direction,
+    },
+    /// A region of the lattice without a site.
+    EmptyRegion {
+        /// The region as it was asked for.
+        region: Box<Region>,
+    },
+    /// A region whose coordinates leave ±10³⁶.
+    RegionTooLarge {
+        /// The region, or the one that was to grow.
+        region: Box<Region>,
+    },
+    /// The side of a triangle or hexagon is not between 1 and 10³⁶.
+    RegionSide {
+        /// The side asked for.
+        given: i128,
+    },
+    /// A run of a stacking has a negative length.
+    RunLength {
+        /// The length asked for.
+        given: i128,
+    },
+    /// A stacking changes its sign too often to be kept.
+    TooManyRuns {
+        /// The most runs.
+        limit: usize,
+    },
+    /// A stacking that is spelled out, and another number of layers.
+    LayersOfStacking {
+        /// The number of layers asked for.
+        layers: i128,
+        /// The layers of the stacking.
+        spelled: i128,
+    },
+    /// No site is left on a base before all layers are there.
+    TooHigh {
+        /// The layers asked for.
+        layers: i128,
+        /// The most there are.
+        greatest: i128,
+        /// The base.
+        base: Box<Region>,
+    },
+    /// A weight or load that is negative.
+    NegativeLoad {
+        /// `load` or `weight`.
+        quantity: &'static str,
+        /// The sphere.
+        site: Site,
+        /// The value asked for.
+        given: Box<BigRational>,
+    },
+    /// Two options of a scene that exclude each other.
+    Excluded {
+        /// The one.
+        given: &'static str,
+        /// The other.
+        beside: &'static str,
+    },
+    /// An answer that would take more memory than is sensible.
+    TooLarge {
+        /// What would be computed.
+        quantity: &'static str,
+        /// How many numbers it would keep.
+        needed: BigUint,
+        /// How many are allowed.
+        limit: u64,
+        /// The narrower question.
+        remedy: &'static str,
     },
     /// A length, mass, gravity or spacing that is not positive.
     NotPositive {
@@ -179,7 +249,15 @@ impl fmt::Display for Error {
                 site,
                 layers,
                 dimension,
+                region,
             } => {
+                if let Some(region) = region {
+                    let Site { i, j, k } = site;
+                    return write!(
+                        f,
+                        "no sphere at k={k}, i={i}, j={j}: layer {k} has the sites {region} of i, j and i+j"
+                    );
+                }
                 let sites = match dimension {
                     Dimension::Two => "0 <= i <= k, j = 0",
                     Dimension::Three => "0 <= j <= k, 0 <= i <= k-j",
@@ -208,6 +286,63 @@ impl fmt::Display for Error {
                 f,
                 "a pile of discs has no {direction} contacts; its directions are alpha and beta"
             ),
+            _ => self.fmt_shape(f),
+        }
+    }
+}
+
+impl Error {
+    /// Errors of the shape of a pile: regions, stackings, loads.
+    fn fmt_shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::EmptyRegion { region } => write!(
+                f,
+                "the region {region} has no site: its bounds must leave some i, j and i+j"
+            ),
+            Self::RegionTooLarge { region } => write!(
+                f,
+                "the region {region} reaches beyond +-10^{}: use a smaller one, or fewer layers",
+                MAX_LAYERS.ilog10()
+            ),
+            Self::RegionSide { given } => write!(
+                f,
+                "a side must be at least 1 and at most 10^{} spheres, not {given}",
+                MAX_LAYERS.ilog10()
+            ),
+            Self::RunLength { given } => {
+                write!(f, "a run of a stacking has at least 1 step, not {given}")
+            }
+            Self::TooManyRuns { limit } => write!(
+                f,
+                "a stacking of more than {limit} runs is too long to keep: use fewer sign changes"
+            ),
+            Self::LayersOfStacking { layers, spelled } => write!(
+                f,
+                "the stacking has {spelled} layers, not {layers}: leave one of the two out"
+            ),
+            Self::TooHigh {
+                layers,
+                greatest,
+                base,
+            } => write!(
+                f,
+                "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
+            ),
+            Self::NegativeLoad {
+                quantity,
+                site,
+                given,
+            } => write!(
+                f,
+                "the {quantity} of sphere {site} must not be negative, but is {given}"
+            ),
+            _ => self.fmt_rest(f),
+        }
+    }
+
+    /// Errors of sizes, numbers and texts.
+    fn fmt_rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
             }
@@ -252,6 +387,21 @@ impl fmt::Display for Error {
                     "{rows} rows are too many to print, at most {limit}: {remedy}"
                 )
             }
+            Self::Excluded { given, beside } => write!(
+                f,
+                "{given} has no meaning beside {beside}: leave one of the two out"
+            ),
+            Self::TooLarge {
+                quantity,
+                needed,
+                limit,
+                remedy,
+            } => write!(
+                f,
+                "{quantity} would keep {needed} numbers, at most {limit}: {remedy}"
+            ),
+            // Every variant has its text in one of the three.
+            _ => write!(f, "{self:?}"),
         }
     }
 }

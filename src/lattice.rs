@@ -16,13 +16,21 @@
 //! The unit in which a pile is walked is the [`Row`]: fixed k and j, consecutive i.
 
 pub mod count;
-mod pyramid;
+mod region;
 mod rows;
+mod shape;
+mod symmetry;
 
-pub use pyramid::{Pyramid, Symmetry};
+pub use region::Region;
+pub(crate) use region::Trapezoid;
 pub use rows::{Row, Rows, Selection, Sites};
+pub use shape::Shape;
+pub(crate) use shape::Stretch;
+pub use symmetry::Symmetry;
 
 use core::fmt;
+
+use crate::stacking::Sign;
 
 /// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);
@@ -131,7 +139,7 @@ impl Dimension {
 
 /// A place (i, j, k) for a sphere, k counted from the top.
 ///
-/// Any three integers make a site; whether a pile has it is for [`Pyramid::contains`] to say. Sites
+/// Any three integers make a site; whether a pile has it is for [`Shape::contains`] to say. Sites
 /// are ordered as tables print them: by layer, row, place in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Site {
@@ -147,13 +155,14 @@ impl Site {
     /// The sphere on top of a pile, (0, 0, 0).
     pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
 
-    /// The site `steps` further down in `direction`, up for a negative number; `None` past `i128`.
-    pub(crate) fn step(self, direction: Direction, steps: i128) -> Option<Self> {
-        let [di, dj, dk] = direction.descent().map(|d| d * steps);
+    /// The site `steps` further down in `direction` under steps of one sign, up for a negative number; `None` past
+    /// `i128`.
+    pub(crate) fn step(self, sign: Sign, direction: Direction, steps: i128) -> Option<Self> {
+        let [di, dj] = sign.descent(direction).map(|d| d * steps);
         Some(Self {
             i: self.i.checked_add(di)?,
             j: self.j.checked_add(dj)?,
-            k: self.k.checked_add(dk)?,
+            k: self.k.checked_add(steps)?,
         })
     }
 }

@@ -41,7 +41,7 @@
 //! | room | what lives there |
 //! |---|---|
 //! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
-//! | [`lattice`] | sites, directions, neighbours, symmetries, rows, counts |
+//! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
 //! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
 //! | [`Pile`], [`Statics`] | a validated pile; its forces in pile units, in any scalar |
@@ -74,6 +74,7 @@
 
 extern crate alloc;
 
+pub mod census;
 pub mod closed_form;
 mod error;
 #[cfg(feature = "export")]
@@ -81,18 +82,28 @@ mod error;
 pub mod export;
 pub mod geometry;
 pub mod lattice;
+mod lines;
+mod load;
 mod packing;
 mod pile;
+mod plan;
 mod query;
+mod reactions;
 pub mod scalar;
 pub mod scene;
+pub mod stacking;
+mod standing;
+mod sweep;
 pub mod theorem;
 pub mod transfer;
 
 pub use error::Error;
 pub use packing::Packing;
 pub use pile::Pile;
+pub use plan::{Method, Plan};
 pub use query::{ContactForce, FloorForce, Statics};
+pub use reactions::BaseExtremes;
+pub use standing::{Standing, Verdict};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

@@ -5,13 +5,15 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::Error;
-use crate::closed_form::{self, Increments};
+use crate::closed_form::Increments;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
-use crate::lattice::{Dimension, Pyramid, Rows, Selection, count};
+use crate::lattice::{Dimension, Region, Rows, Selection, Shape, Site, count};
+use crate::load::Loading;
 use crate::query::Statics;
 use crate::scalar::{Algebra, Ring};
+use crate::stacking::Stacking;
 
-/// A straight pile under one sphere: which sites it has, and sin φ.
+/// A pile: which sites it has, how they are stacked, what they weigh, and sin φ.
 ///
 /// All that forces in pile units depend on. Spacing, radius, mass and gravity come in with a
 /// [`Packing`](crate::Packing), and only there are they checked.
@@ -31,9 +33,10 @@ use crate::scalar::{Algebra, Ring};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pile {
-    pyramid: Pyramid,
+    shape: Shape,
     /// 0 for discs: the s → 0 limit of the isosceles pile, whose γ lines carry nothing.
     sin_phi: BigRational,
+    loading: Loading,
 }
 
 impl Pile {
@@ -70,9 +73,9 @@ impl Pile {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn isosceles(layers: i128, sin_phi: BigRational) -> Result<Self, Error> {
-        let pyramid = Pyramid::new(layers, Dimension::Three)?;
+        let shape = Shape::pyramid(layers, Dimension::Three)?;
         if BigRational::zero() < sin_phi && sin_phi < BigRational::one() {
-            Ok(Self { pyramid, sin_phi })
+            Ok(Self::new(shape, sin_phi))
         } else {
             Err(Error::SinPhi { given: sin_phi })
         }
@@ -91,14 +94,125 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn discs(layers: i128) -> Result<Self, Error> {
-        let pyramid = Pyramid::new(layers, Dimension::Two)?;
-        Ok(Self {
-            pyramid,
-            sin_phi: BigRational::zero(),
-        })
+        let shape = Shape::pyramid(layers, Dimension::Two)?;
+        Ok(Self::new(shape, BigRational::zero()))
     }
 
-    /// The sites of the pile.
+    /// The pile of any stacking grown down from a top layer: each layer all supports of the one above.
+    ///
+    /// # Errors
+    /// [`Error::RegionTooLarge`] if a layer leaves ±10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Region, Site};
+    /// use cannonpile::stacking::Stacking;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::under(Region::SITE, Stacking::hcp(4)?)?;
+    /// // In the third layer of HCP a sphere stands straight under the apex.
+    /// let below = Site { i: 0, j: 0, k: 2 };
+    /// let forces = pile.statics::<BigRational>().from_above(below)?;
+    /// assert_eq!(forces.map(|force| force.to_string()), ["2/3"; 3]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn under(top: Region, stacking: Stacking) -> Result<Self, Error> {
+        Ok(Self::new(Shape::under(top, stacking)?, half()))
+    }
+
+    /// The pile of any stacking grown up from a base: each layer all sites whose three supports are there. The
+    /// stacking is read from the top.
+    ///
+    /// # Errors
+    /// [`Error::TooHigh`] if the base does not carry that many layers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let pile = Pile::on(Region::hexagon(3, 3)?, Stacking::fcc(3)?)?;
+    /// assert_eq!(pile.spheres(), 37_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on(base: Region, stacking: Stacking) -> Result<Self, Error> {
+        Ok(Self::new(Shape::on(base, stacking)?, half()))
+    }
+
+    fn new(shape: Shape, sin_phi: BigRational) -> Self {
+        Self {
+            shape,
+            sin_phi,
+            loading: Loading::default(),
+        }
+    }
+
+    /// The same pile with a vertical load more on one sphere, in mg.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
+    /// // A third of 3 mg on each support.
+    /// assert_eq!(pile.statics::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_load(mut self, site: Site, load: BigRational) -> Result<Self, Error> {
+        self.loading.add_load(self.shape.check(site)?, load)?;
+        Ok(self)
+    }
+
+    /// The same pile with a sphere of another weight, in mg.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?.with_weight(Site::APEX, BigRational::from_integer(5.into()))?;
+    /// assert_eq!(pile.weight().to_string(), "224");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_weight(mut self, site: Site, weight: BigRational) -> Result<Self, Error> {
+        self.loading.set_weight(self.shape.check(site)?, weight)?;
+        Ok(self)
+    }
+
+    /// The same pile of spheres that weigh nothing: the response to its loads alone.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?.weightless();
+    /// let pile = pile.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
+    /// // One of three contacts of 1/3 at each depth; what lies off its line feels nothing.
+    /// let statics = pile.statics::<f64>();
+    /// assert_eq!(statics.contact(Site { i: 0, j: 0, k: 5 }, Direction::Alpha)?, 1.0);
+    /// assert_eq!(statics.contact(Site { i: 1, j: 1, k: 5 }, Direction::Alpha)?, 0.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn weightless(mut self) -> Self {
+        self.loading.set_weightless();
+        self
+    }
+
+    /// The sites of the pile, and how they are stacked.
     ///
     /// # Examples
     /// ```
@@ -106,12 +220,12 @@ impl Pile {
     /// use cannonpile::lattice::Site;
     ///
     /// let pile = Pile::triangular(10)?;
-    /// assert!(pile.pyramid().contains(Site { i: 0, j: 0, k: 9 }));
+    /// assert!(pile.shape().contains(Site { i: 0, j: 0, k: 9 }));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn pyramid(&self) -> &Pyramid {
-        &self.pyramid
+    pub fn shape(&self) -> &Shape {
+        &self.shape
     }
 
     /// The number L of layers.
@@ -125,7 +239,7 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn layers(&self) -> i128 {
-        self.pyramid.layers()
+        self.shape.layers()
     }
 
     /// Discs or spheres.
@@ -140,7 +254,7 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn dimension(&self) -> Dimension {
-        self.pyramid.dimension()
+        self.shape.dimension()
     }
 
     /// sin φ: ½ on an equilateral base, 0 for discs.
@@ -174,7 +288,7 @@ impl Pile {
         self.dimension() == Dimension::Two || self.sin_phi == BigRational::new(1.into(), 2.into())
     }
 
-    /// The spheres of the pile, which is also its weight in mg. Of any size.
+    /// The spheres of the pile, of any number.
     ///
     /// # Examples
     /// ```
@@ -185,7 +299,40 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn spheres(&self) -> BigUint {
-        self.count(|layers, d| count::spheres(&layers, d))
+        if self.shape.is_pyramid() {
+            return self.count(|layers, d| count::spheres(&layers, d));
+        }
+        self.shape.spheres()
+    }
+
+    /// The weight of all spheres and the loads on them, in mg: what the floor carries.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.weight().to_string(), "220");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn weight(&self) -> BigRational {
+        let ordinary = self.loading.ordinary() * BigRational::from_integer(self.spheres().into());
+        let extras = self.loading.extras().map(|(_, extra)| extra);
+        extras.fold(ordinary, |sum, extra| sum + extra)
+    }
+
+    /// The weight of one sphere, without the load on it, in mg: 1 unless it was given another.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    pub fn sphere_weight(&self, site: Site) -> Result<BigRational, Error> {
+        Ok(self.loading.weight(self.shape.check(site)?))
+    }
+
+    /// Whether the spheres weigh nothing, so that only the loads act.
+    #[must_use]
+    pub fn is_weightless(&self) -> bool {
+        self.loading.is_weightless()
     }
 
     /// The contacts between spheres; the floor is not one.
@@ -199,7 +346,10 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn contacts(&self) -> BigUint {
-        self.count(|layers, d| count::contacts(&layers, d))
+        if self.shape.is_pyramid() {
+            return self.count(|layers, d| count::contacts(&layers, d));
+        }
+        self.shape.spheres_in(0..self.layers() - 1) * self.dimension().number()
     }
 
     /// The spheres of the bottom layer.
@@ -213,12 +363,13 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn base_spheres(&self) -> BigUint {
-        self.count(|layers, d| count::spheres_in_layer(&(layers - BigRational::one()), d))
+        self.shape.base().sites()
     }
 
-    /// The contacts of one direction whose force is `n` increments: (L−n)(L−n+1)/2 for spheres.
+    /// The contacts of one direction whose force is `n` increments: (L−n)(L−n+1)/2 for spheres, in a straight pile
+    /// under one sphere without loads.
     ///
-    /// Zero unless 1 ≤ `n` < L.
+    /// Zero unless 1 ≤ `n` < L, and of any other pile.
     ///
     /// # Examples
     /// ```
@@ -231,7 +382,7 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn contacts_of_strength(&self, n: i128) -> BigUint {
-        if !(1..self.layers()).contains(&n) {
+        if !(1..self.layers()).contains(&n) || !self.is_paper_pile() {
             return BigUint::zero();
         }
         let n = BigRational::from_i128(n);
@@ -247,32 +398,6 @@ impl Pile {
             .1
     }
 
-    /// The greatest ratio of shear to normal force on the base, in tanθ: (L−1)/(L+2) on an equilateral
-    /// base.
-    ///
-    /// Necessary for a base that does not slide; a base that may roll needs more (THEORY, erratum 4).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    ///
-    /// assert_eq!(Pile::triangular(10)?.max_shear_ratio().to_string(), "3/4");
-    /// assert_eq!(Pile::discs(10)?.max_shear_ratio().to_string(), "9/11");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn max_shear_ratio(&self) -> BigRational {
-        let increments = self.increments();
-        let layers = BigRational::from_i128(self.layers());
-        let ratios = self.dimension().directions().iter().map(|direction| {
-            // The normal force is at least W > 0.
-            let (shear, normal) =
-                closed_form::corner_shear_ratio(&layers, &increments, direction.index());
-            shear / normal
-        });
-        ratios.max().unwrap_or_else(BigRational::zero)
-    }
-
     /// The spacings that leave room for the spheres of this pile.
     ///
     /// # Examples
@@ -285,7 +410,7 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn clearance(&self) -> Clearance {
-        Clearance::new(&self.pyramid, &self.sin_phi)
+        Clearance::new(&self.shape, &self.sin_phi)
     }
 
     /// The rows of a part of the pile, from the top.
@@ -303,8 +428,8 @@ impl Pile {
     /// assert!(pile.rows(Selection::Layer(10)).is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn rows(&self, selection: Selection) -> Result<Rows, Error> {
-        self.pyramid.rows(selection)
+    pub fn rows(&self, selection: Selection) -> Result<Rows<'_>, Error> {
+        self.shape.rows(selection)
     }
 
     /// The forces, in the scalar `T`.
@@ -328,6 +453,16 @@ impl Pile {
         Statics::new(self)
     }
 
+    pub(crate) fn loading(&self) -> &Loading {
+        &self.loading
+    }
+
+    /// A straight pile under one sphere whose spheres all weigh mg: the one that the paper solved, of any sin φ.
+    pub(crate) fn is_paper_pile(&self) -> bool {
+        let loading = &self.loading;
+        self.shape.is_pyramid() && !loading.is_weightless() && loading.extras().next().is_none()
+    }
+
     /// What a sphere of this pile adds to its lines.
     pub(crate) fn increments<T: Algebra>(&self) -> Increments<T, 3> {
         Increments::isosceles(&T::from_rational(&self.sin_phi))
@@ -340,4 +475,9 @@ impl Pile {
             Dimension::Three => directions(&T::from_rational(&self.sin_phi)),
         }
     }
+}
+
+/// sin φ of an equilateral base.
+fn half() -> BigRational {
+    BigRational::new(1.into(), 2.into())
 }

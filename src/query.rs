@@ -4,10 +4,19 @@
 //! mg/(2 cosθ) for discs; forces on the floor in mg, mg·tanθ and 2cosφ·mg·tanθ. In them every answer
 //! is rational, and neither spacing nor mass is needed. [`Packing`](crate::Packing) gives SI.
 
+mod source;
+
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use source::Source;
+
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
 use crate::lattice::{Direction, Rows, Site, count};
+use crate::lines::{Lines, Wanted};
 use crate::scalar::{Algebra, Ring};
+use crate::stacking::Sign;
 use crate::{Error, Pile};
 
 /// The forces of a pile in the scalar `T`, each by closed form: O(1), whatever the number of layers.
@@ -33,9 +42,10 @@ use crate::{Error, Pile};
 #[derive(Clone, Debug)]
 pub struct Statics<'p, T: Algebra> {
     pile: &'p Pile,
-    /// Numerators over `increment_scale`.
-    increments: Increments<T::Numerator, 3>,
-    increment_scale: T::Numerator,
+    lines: Lines<'p, T>,
+    /// W, over `sum_scale`.
+    increment_sum: T::Numerator,
+    sum_scale: T::Numerator,
     /// Numerators over `direction_scale`.
     directions: [Vector<T::Numerator>; 3],
     direction_scale: T::Numerator,
@@ -95,7 +105,8 @@ pub struct FloorForce<T> {
 
 impl<'p, T: Algebra> Statics<'p, T> {
     pub(crate) fn new(pile: &'p Pile) -> Self {
-        let (per_line, increment_scale) = T::numerators(pile.increments().per_line());
+        let increments: Increments<BigRational, 3> = pile.increments();
+        let ([increment_sum], sum_scale) = T::numerators(&[increments.sum().clone()]);
         let [a, b, c] = pile.directions().map(Vector::into_array);
         let [ax, ay, az] = a;
         let [bx, by, bz] = b;
@@ -106,8 +117,9 @@ impl<'p, T: Algebra> Statics<'p, T> {
             [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(|[x, y, z]| Vector { x, y, z });
         Self {
             pile,
-            increments: Increments::new(per_line),
-            increment_scale,
+            lines: Lines::new(pile),
+            increment_sum,
+            sum_scale,
             directions,
             direction_scale,
         }
@@ -136,8 +148,8 @@ impl<'p, T: Algebra> Statics<'p, T> {
     pub fn increment_sum(&self) -> Result<T, Error> {
         edge(
             "the sum of increments",
-            self.increments.sum().clone(),
-            &self.increment_scale,
+            self.increment_sum.clone(),
+            &self.sum_scale,
         )
     }
 
@@ -158,8 +170,8 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_above(&self, site: Site) -> Result<[T; 3], Error> {
-        let forces = self.increments.from_above(&self.counts(site)?);
-        edge_all("a contact force", forces, &self.increment_scale)
+        let (forces, changes) = self.received(site, Wanted::All)?;
+        edge_all("a contact force", forces, &self.lines.scale(changes))
     }
 
     /// The magnitude of the contact force between `site` and the sphere below it, in f₀.
@@ -178,25 +190,80 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<T, Error> {
-        edge(
-            "a contact force",
-            self.contact_numerator(site, direction)?,
-            &self.increment_scale,
-        )
+        let (force, changes) = self.contact_numerator(site, direction)?;
+        edge("a contact force", force, &self.lines.scale(changes))
     }
 
-    /// The force as a numerator over the scale of increments.
-    fn contact_numerator(&self, site: Site, direction: Direction) -> Result<T::Numerator, Error> {
-        let Site { i, j, k } = self.pile.pyramid().check(site)?;
-        if k == self.floor() {
-            return Err(Error::OnFloor { site });
-        }
+    /// The force as a numerator, and the changes of sign down to it.
+    fn contact_numerator(
+        &self,
+        site: Site,
+        direction: Direction,
+    ) -> Result<(T::Numerator, usize), Error> {
+        self.off_the_floor(site)?;
         if !self.pile.dimension().directions().contains(&direction) {
             return Err(Error::NoSuchDirection { direction });
         }
-        let line = direction.index();
-        let n = count::above(&i, &j, &k)[line] + 1;
-        Ok(self.increments.force(T::Numerator::from_i128(n), line))
+        let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
+        let (above, changes) = self.received(site, wanted)?;
+        let (forces, changes) = self.lines.to_below(site, above, changes);
+        let [alpha, beta, gamma] = forces;
+        let force = match direction {
+            Direction::Alpha => alpha,
+            Direction::Beta => beta,
+            Direction::Gamma => gamma,
+        };
+        Ok((force, changes))
+    }
+
+    /// The forces from above as numerators, and the changes of sign down to the site.
+    fn received(&self, site: Site, wanted: Wanted) -> Result<([T::Numerator; 3], usize), Error> {
+        let Site { i, j, k } = self.pile.shape().check(site)?;
+        if let Some(forces) = self.lines.closed(site, wanted) {
+            return Ok((forces, 0));
+        }
+        let above = match self.lines.forces_above(k, &[[i, j]], wanted) {
+            // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
+            Err(too_large @ Error::TooLarge { .. }) => {
+                return source::received_by_sweep(self, site).map_err(|_| too_large);
+            }
+            above => above?,
+        };
+        let nothing = || core::array::from_fn(|_| T::Numerator::zero());
+        let forces = above.forces.into_iter().next().unwrap_or_else(nothing);
+        Ok((forces, above.changes))
+    }
+
+    /// The forces to the spheres below as numerators, and the changes of sign down to them.
+    fn passed_on(&self, site: Site) -> Result<([T::Numerator; 3], usize), Error> {
+        self.off_the_floor(site)?;
+        let (above, changes) = self.received(site, Wanted::All)?;
+        Ok(self.lines.to_below(site, above, changes))
+    }
+
+    /// The site, if the pile has it and it rests on spheres.
+    fn off_the_floor(&self, site: Site) -> Result<Site, Error> {
+        let site = self.pile.shape().check(site)?;
+        if site.k == self.floor() {
+            return Err(Error::OnFloor { site });
+        }
+        Ok(site)
+    }
+
+    /// The unit vectors along contacts under steps of one sign, over the scale of directions: under − the
+    /// horizontal parts change sign.
+    fn directions_under(&self, sign: Sign) -> [Vector<T::Numerator>; 3] {
+        let directions = self.directions.clone();
+        match sign {
+            Sign::Plus => directions,
+            Sign::Minus => directions.map(Vector::turned_about_z),
+        }
+    }
+
+    /// The sign of the step down to layer k; + for the top, where nothing comes from above.
+    fn sign_above(&self, k: i128) -> Sign {
+        let sign = self.pile.shape().sign_below(k - 1);
+        sign.unwrap_or(Sign::Plus)
     }
 
     /// The same force as a vector, on the upper sphere, in f₀ and the symbolic basis: f·ê.
@@ -218,9 +285,15 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
-        let force = self.contact_numerator(site, direction)?;
-        let vector = self.directions[direction.index()].clone().scaled(&force);
-        self.edge_vector("a contact force", vector)
+        let (force, changes) = self.contact_numerator(site, direction)?;
+        let sign = self.pile.shape().sign_below(site.k).unwrap_or(Sign::Plus);
+        let [alpha, beta, gamma] = self.directions_under(sign);
+        let along = match direction {
+            Direction::Alpha => alpha,
+            Direction::Beta => beta,
+            Direction::Gamma => gamma,
+        };
+        self.edge_vector("a contact force", along.scaled(&force), changes)
     }
 
     /// ê of a direction, in the symbolic basis.
@@ -263,9 +336,10 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
-        let above = self.counts(site)?;
-        let force = closed_form::resultant_above(&above, &self.increments, &self.directions);
-        self.edge_vector("a resultant force", force)
+        let (above, changes) = self.received(site, Wanted::All)?;
+        let directions = self.directions_under(self.sign_above(site.k));
+        let force = closed_form::resultant(&above, &directions);
+        self.edge_vector("a resultant force", force, changes)
     }
 
     /// The position of a sphere from the apex, in 2R and the symbolic basis, z down.
@@ -285,7 +359,12 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn position(&self, site: Site) -> Result<Vector<T>, Error> {
-        let r = position(&self.counts(site)?, &self.directions);
+        let Site { i, j, k } = self.pile.shape().check(site)?;
+        let across = self.pile.shape().shift_from_origin(k);
+        let counts = count::above(&i, &j, &across).map(T::Numerator::from_i128);
+        let across = position(&counts, &self.directions);
+        let z = T::Numerator::from_i128(k) * &self.direction_scale;
+        let r = Vector { z, ..across };
         let [x, y, z] = edge_all("a position", r.into_array(), &self.direction_scale)?;
         Ok(Vector { x, y, z })
     }
@@ -309,13 +388,15 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn unbalanced(&self, site: Site) -> Result<Vector<T>, Error> {
-        let above = self.counts(site)?;
-        if site.k == self.floor() {
-            return Err(Error::OnFloor { site });
-        }
-        let left =
-            closed_form::unbalanced(&above, &self.increments, &self.directions, &self.weight());
-        self.edge_vector("a resultant force", left)
+        let (below, changes) = self.passed_on(site)?;
+        let (above, changes_above) = self.received(site, Wanted::All)?;
+        let sign = self.pile.shape().sign_below(site.k).unwrap_or(Sign::Plus);
+        let pushed_up = Vector::combination(&below, &self.directions_under(sign));
+        let above = above.map(|force| self.lines.rescaled(force, changes_above, changes));
+        let directions = self.directions_under(self.sign_above(site.k));
+        let weight = self.weight(site, changes);
+        let left = pushed_up + &closed_form::handed_on(&above, &directions, &weight);
+        self.edge_vector("a resultant force", left, changes)
     }
 
     /// The contact forces of the spheres in `rows`, each with the spheres below it, lazily.
@@ -337,12 +418,18 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// assert_eq!(total, 1485.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn contacts(&self, rows: Rows) -> impl Iterator<Item = Result<ContactForce<T>, Error>> {
+    pub fn contacts(&self, rows: Rows<'p>) -> impl Iterator<Item = Result<ContactForce<T>, Error>> {
         let directions = self.pile.dimension().directions();
-        let spheres = rows.off_the_floor(self.pile.pyramid()).flatten();
-        spheres.flat_map(move |site| {
-            directions.iter().map(move |&direction| {
-                let force = self.contact(site, direction)?;
+        let rows = rows.off_the_floor();
+        let mut source = Source::new(self, &rows);
+        rows.flatten().flat_map(move |site| {
+            let forces = match source.passed_on(self, site) {
+                Ok(forces) => forces.map(Ok),
+                Err(error) => [(); 3].map(|()| Err(error.clone())),
+            };
+            let contacts = forces.into_iter().zip(directions);
+            contacts.map(move |(force, &direction)| {
+                let force = force?;
                 Ok(ContactForce {
                     site,
                     direction,
@@ -357,15 +444,9 @@ impl<'p, T: Algebra> Statics<'p, T> {
         self.pile.layers() - 1
     }
 
-    /// (N_α, N_β, N_γ) of a site, counted in integers, then taken into the scalar.
-    fn counts(&self, site: Site) -> Result<[T::Numerator; 3], Error> {
-        let Site { i, j, k } = self.pile.pyramid().check(site)?;
-        Ok(count::above(&i, &j, &k).map(T::Numerator::from_i128))
-    }
-
-    /// mg in the scale of forces along directions.
-    fn weight(&self) -> T::Numerator {
-        self.increments.sum().clone() * &self.direction_scale
+    /// Weight and load of a sphere, in the scale of forces along directions.
+    fn weight(&self, site: Site, changes: usize) -> T::Numerator {
+        self.lines.weight(site, changes) * &self.direction_scale
     }
 
     /// A force in f₀, from numerators of increments times directions.
@@ -373,8 +454,9 @@ impl<'p, T: Algebra> Statics<'p, T> {
         &self,
         quantity: &'static str,
         vector: Vector<T::Numerator>,
+        changes: usize,
     ) -> Result<Vector<T>, Error> {
-        let scale = self.increment_scale.clone() * &self.direction_scale;
+        let scale = self.lines.scale(changes) * &self.direction_scale;
         let [x, y, z] = edge_all(quantity, vector.into_array(), &scale)?;
         Ok(Vector { x, y, z })
     }
@@ -399,16 +481,28 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
-        let above = self.counts(site)?;
+        let (above, changes) = self.received(site, Wanted::All)?;
         if site.k != self.floor() {
             let floor = self.floor();
             return Err(Error::NotOnFloor { site, floor });
         }
-        let weight = self.weight();
-        let force =
-            closed_form::force_on_floor(&above, &self.increments, &self.directions, &weight);
+        self.floor_force(site, &above, changes)
+    }
+
+    /// What a bottom sphere hands on to the floor.
+    fn floor_force(
+        &self,
+        site: Site,
+        above: &[T::Numerator; 3],
+        changes: usize,
+    ) -> Result<FloorForce<T>, Error> {
+        let directions = self.directions_under(self.sign_above(site.k));
+        let force = closed_form::handed_on(above, &directions, &self.weight(site, changes));
+        // mg is W of the unit of forces along lines.
+        let unit = self.lines.scale(changes) * &self.direction_scale * &self.increment_sum;
+        let force = force.scaled(&self.sum_scale);
         let [shear_x, shear_y, normal] =
-            edge_all("a force on the floor", force.into_array(), &weight)?;
+            edge_all("a force on the floor", force.into_array(), &unit)?;
         Ok(FloorForce {
             site,
             normal,
@@ -432,8 +526,9 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// assert!(base?.iter().all(|force| force.normal == 4.0));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn base(&self, rows: Rows) -> impl Iterator<Item = Result<FloorForce<T>, Error>> {
-        rows.flatten().map(|site| self.on_floor(site))
+    pub fn base(&self, rows: Rows<'p>) -> impl Iterator<Item = Result<FloorForce<T>, Error>> {
+        let mut source = Source::new(self, &rows);
+        rows.flatten().map(move |site| source.on_floor(self, site))
     }
 }
 

@@ -195,6 +195,25 @@ pub trait Algebra: Ring {
         values: &[BigRational; N],
     ) -> ([Self::Numerator; N], Self::Numerator);
 
+    /// `n / by` in the ring of numerators, or `None` if its denominator has to take the divisor instead, as for
+    /// integers. The same for every `n`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Algebra;
+    /// use num_rational::BigRational;
+    ///
+    /// let three = 3.try_into().unwrap();
+    /// assert_eq!(f64::divide_numerator(6.0, three), Some(2.0));
+    /// assert_eq!(BigRational::divide_numerator(6.into(), three), None);
+    /// ```
+    #[must_use]
+    fn divide_numerator(n: Self::Numerator, by: NonZeroI64) -> Option<Self::Numerator> {
+        // Integers are in every ring of numerators; quotients may not be.
+        let _ = (n, by);
+        None
+    }
+
     /// `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
     ///
     /// # Examples

@@ -5,7 +5,9 @@ mod answers;
 use std::collections::BTreeSet;
 
 use answers::{Shape, above, below, ratio};
-use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Pyramid, Row, Selection, Site, count};
+use cannonpile::lattice::{
+    Dimension, Direction, MAX_LAYERS, Row, Selection, Shape as Sites, Site, count,
+};
 use cannonpile::{Error, Pile};
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -67,7 +69,7 @@ fn contacts_of_each_strength() {
 fn sites_come_in_order_and_are_numbered_so() {
     for (shape, pile, sites) in piles() {
         assert!(sites.is_sorted());
-        let listed: Vec<_> = pile.pyramid().sites().collect();
+        let listed: Vec<_> = pile.shape().sites().collect();
         assert_eq!(listed, sites);
         for (number, Site { i, j, k }) in sites.into_iter().enumerate() {
             let [i, j, k] = [i, j, k].map(|n| BigRational::from_integer(n.into()));
@@ -94,7 +96,7 @@ fn rows_hold_what_is_selected() {
             let rows = pile.rows(selection).unwrap();
             let walked: Vec<_> = rows.clone().flatten().collect();
             assert_eq!(walked, wanted, "{selection:?}");
-            let off: Vec<_> = rows.off_the_floor(pile.pyramid()).flatten().collect();
+            let off: Vec<_> = rows.off_the_floor().flatten().collect();
             let wanted: Vec<_> = wanted.into_iter().filter(|site| site.k < floor).collect();
             assert_eq!(off, wanted, "{selection:?}");
         }
@@ -142,7 +144,7 @@ fn corners_are_those_of_the_first_and_last_layer() {
 fn neighbours() {
     for (shape, pile, sites) in piles().filter(|(_, pile, _)| pile.layers() <= 8) {
         let sites: BTreeSet<_> = sites.into_iter().collect();
-        let pyramid = pile.pyramid();
+        let pyramid = pile.shape();
         let near = -2..=pile.layers() + 1;
         for k in near.clone() {
             for j in near.clone() {
@@ -214,12 +216,12 @@ fn layers_have_limits() {
         for layers in [i128::MIN, -1, 0, MAX_LAYERS + 1, i128::MAX] {
             let given = layers.into();
             assert_eq!(
-                Pyramid::new(layers, dimension),
+                Sites::pyramid(layers, dimension),
                 Err(Error::Layers { given })
             );
         }
-        assert!(Pyramid::new(1, dimension).is_ok());
-        assert!(Pyramid::new(MAX_LAYERS, dimension).is_ok());
+        assert!(Sites::pyramid(1, dimension).is_ok());
+        assert!(Sites::pyramid(MAX_LAYERS, dimension).is_ok());
     }
     for layers in [i128::MIN, 0, MAX_LAYERS + 1] {
         assert!(matches!(
@@ -249,7 +251,7 @@ fn sites_at_the_ends_of_the_integers() {
     ];
     for dimension in SHAPES {
         for layers in [1, 2, MAX_LAYERS] {
-            let pyramid = Pyramid::new(layers, dimension).unwrap();
+            let pyramid = Sites::pyramid(layers, dimension).unwrap();
             for i in ends {
                 for j in ends {
                     for k in ends {
@@ -283,11 +285,11 @@ fn sites_at_the_ends_of_the_integers() {
 #[test]
 fn the_last_rows_of_the_greatest_pile() {
     let k = MAX_LAYERS - 1;
-    let pyramid = Pyramid::new(MAX_LAYERS, Dimension::Three).unwrap();
+    let pyramid = Sites::pyramid(MAX_LAYERS, Dimension::Three).unwrap();
     let corner = Site { i: 0, j: k, k };
     let rows: Vec<_> = pyramid.rows(Selection::One(corner)).unwrap().collect();
     assert_eq!(rows, [Row { k, j: k, i: 0..1 }]);
-    let discs = Pyramid::new(MAX_LAYERS, Dimension::Two).unwrap();
+    let discs = Sites::pyramid(MAX_LAYERS, Dimension::Two).unwrap();
     let rows: Vec<_> = discs.rows(Selection::Base).unwrap().collect();
     assert_eq!(
         rows,

@@ -17,7 +17,9 @@ fn stands(shape: &Shape, layers: i128) -> Verdict {
     base::base_carries_the_weight(&pile)?;
     base::base_has_the_moment_of_the_weights(&pile)?;
     base::base_is_as_published(&pile)?;
-    base::base_shear_is_at_most(&pile, &shape.pile(layers).max_shear_ratio())?;
+    let extremes = shape.pile(layers).base_extremes();
+    let greatest = extremes.map_err(|error| error.to_string())?.max_shear_ratio;
+    base::base_shear_is_at_most(&pile, &greatest.to_rational().unwrap_or_default())?;
     if shape.pile(layers).is_regular() {
         balance::resultants_are_central(&pile)?;
     }

@@ -211,7 +211,7 @@ fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
     for direction in Direction::ALL {
         all.extend(statics.direction(direction)?.into_array());
     }
-    for site @ Site { k, .. } in pile.pyramid().sites() {
+    for site @ Site { k, .. } in pile.shape().sites() {
         all.extend(statics.from_above(site)?);
         all.extend(statics.position(site)?.into_array());
         all.extend(statics.resultant_above(site)?.into_array());

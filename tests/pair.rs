@@ -300,7 +300,7 @@ fn answers<B: Field + RealEmbeddable>(pile: &Pile) -> Vec<(Pair<Q, B>, Q)> {
             all.extend(both);
         };
     }
-    for site in pile.pyramid().sites() {
+    for site in pile.shape().sites() {
         ask!(from_above(site));
         ask!(position(site).into_array());
         ask!(resultant_above(site).into_array());

@@ -193,7 +193,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
 pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = units.pile();
     let directions = pile.dimension().directions();
-    let rows = pile.rows(selection)?.off_the_floor(pile.pyramid());
+    let rows = pile.rows(selection)?.off_the_floor();
     refuse_beyond(
         &(rows.sites() * directions.len()),
         "ask for --layer or --at",
@@ -352,7 +352,7 @@ pub fn summary<'p>(units: &Units<'p>, touching: Option<&[Apart]>) -> Result<Tabl
             .map(|d| units.contact(Site::APEX, *d))
             .collect(),
     };
-    let ratio: Surd = pile.max_shear_ratio().into();
+    let ratio = pile.base_extremes()?.max_shear_ratio;
     let (weight, ratio) = match units {
         Units::Pile(_) => (BigRational::one(), ratio),
         Units::Si(packing) => (

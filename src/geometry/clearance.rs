@@ -21,6 +21,16 @@
 //! The same n are all that touch: for n at distance exactly 1 and m > 0 the inequalities are strict too, but
 //! for m = 4, cosθ = 1/4 and no horizontal part, which needs (1+s)t = 4 with t even: no 0 < s < 1 does, and of
 //! discs (1,1,0) overlaps there.
+//!
+//! # Other stackings
+//! With s = ½ the sites of a layer are a triangular lattice of side 2R·√3 sinθ, and each layer is shifted against the
+//! next by 2R sinθ, forwards (+) or backwards (−). Let the layers be free of overlap, 3 sin²θ ≥ 1, and let two spheres
+//! be m layers apart. If the shifts between them do not cancel modulo 3, their horizontal distance is at least 2R sinθ,
+//! and m²cos²θ + sin²θ ≥ 1 with equality for m = 1 only: the contacts α, β, γ. If they do, the closest pair is
+//! straight above each other, at 2R·m cosθ. For m = 2 that is + − or − +: 2cosθ ≥ 1, q ≤ 9/4, and then all greater m
+//! have room. A straight stacking has m = 3 first: 3cosθ ≥ 1, q ≤ 8/3, and its next is m = 6. So there is one upper
+//! bound; which bases and tops there are does not matter, since a sphere and what is straight below it on its own
+//! supports are in every pile of enough layers.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -31,7 +41,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::{Inclination, Spacing, square_per_sin2, squared_distance};
 use crate::Error;
-use crate::lattice::Pyramid;
+use crate::lattice::{Dimension, Shape};
 use crate::scalar::Ring;
 
 /// How far apart two spheres are that touch, or would overlap.
@@ -85,7 +95,8 @@ type Touch = (BigRational, Apart);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Clearance {
-    pyramid: Pyramid,
+    layers: i128,
+    dimension: Dimension,
     s: BigRational,
     /// Pairs that come too close when q is too small.
     lower: Vec<Touch>,
@@ -95,7 +106,35 @@ pub struct Clearance {
 
 impl Clearance {
     /// The bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
-    pub(crate) fn new(pyramid: &Pyramid, s: &BigRational) -> Self {
+    pub(crate) fn new(shape: &Shape, s: &BigRational) -> Self {
+        if shape.is_pyramid() {
+            Self::of_pyramid(shape, s)
+        } else {
+            Self::of_stacking(shape, s)
+        }
+    }
+
+    /// On an equilateral base, of any stacking (module documentation).
+    fn of_stacking(shape: &Shape, s: &BigRational) -> Self {
+        let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+        let touch = |q, layers| (q, Apart { layers });
+        let neighbours = shape.base().widths().iter().any(|width| *width > 0);
+        let lower = neighbours.then(|| touch(ratio(1, 1), 0));
+        let upper = match (shape.stacking().is_straight(), shape.layers()) {
+            (false, _) => Some(touch(ratio(9, 4), 2)),
+            (true, 4..) => Some(touch(ratio(8, 3), 3)),
+            (true, _) => None,
+        };
+        Self {
+            layers: shape.layers(),
+            dimension: shape.dimension(),
+            s: s.clone(),
+            lower: lower.into_iter().collect(),
+            upper: upper.into_iter().collect(),
+        }
+    }
+
+    fn of_pyramid(pyramid: &Shape, s: &BigRational) -> Self {
         let lines = pyramid.dimension().directions().len();
         let flat = square_per_sin2(pyramid.dimension());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
@@ -123,7 +162,8 @@ impl Clearance {
             }
         }
         Self {
-            pyramid: *pyramid,
+            layers: pyramid.layers(),
+            dimension: pyramid.dimension(),
             s: s.clone(),
             lower,
             upper,
@@ -190,12 +230,12 @@ impl Clearance {
         if let Some(least) = &least {
             let room = match &most {
                 Some(most) => least.square() <= most.square(),
-                None => *least.square() < square_per_sin2(self.pyramid.dimension()),
+                None => *least.square() < square_per_sin2(self.dimension),
             };
             if !room {
                 return Err(Error::NoSpacing {
                     sin_phi: self.s.clone(),
-                    layers: self.pyramid.layers(),
+                    layers: self.layers,
                 });
             }
         }
@@ -215,7 +255,7 @@ impl Clearance {
                 }
             }
         }
-        Inclination::new(spacing, self.pyramid.dimension())?;
+        Inclination::new(spacing, self.dimension)?;
         touching.sort_unstable();
         touching.dedup();
         Ok(touching)

@@ -43,6 +43,25 @@ impl<T: Ring> Vector<T> {
         self.map(|c| c * factor)
     }
 
+    /// The vector after a half-turn about the vertical, (−x, −y, z): how directions of contacts differ between + and
+    /// − steps.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Vector;
+    ///
+    /// let v = Vector { x: 1.0, y: 2.0, z: 3.0 };
+    /// assert_eq!(v.turned_about_z(), Vector { x: -1.0, y: -2.0, z: 3.0 });
+    /// ```
+    #[must_use]
+    pub fn turned_about_z(self) -> Self {
+        Self {
+            x: -self.x,
+            y: -self.y,
+            z: self.z,
+        }
+    }
+
     /// Σ c_m v_m.
     ///
     /// # Examples

@@ -1,13 +1,11 @@
 //! Walking a pile row by row.
 
+use alloc::vec::Vec;
 use core::ops::Range;
 
-use num_bigint::BigUint;
-use num_rational::BigRational;
-
-use super::{Dimension, Direction, Pyramid, Site, count};
+use super::{Shape, Site};
 use crate::Error;
-use crate::scalar::Ring;
+use num_bigint::BigUint;
 
 /// A part of a pile.
 ///
@@ -82,9 +80,9 @@ impl Iterator for Sites {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Dimension, Pyramid, Row, Selection};
+/// use cannonpile::lattice::{Dimension, Row, Selection, Shape};
 ///
-/// let pyramid = Pyramid::new(3, Dimension::Three)?;
+/// let pyramid = Shape::pyramid(3, Dimension::Three)?;
 /// let mut base = pyramid.rows(Selection::Base)?;
 /// assert_eq!(base.sites(), 6_u32.into());
 /// assert_eq!(base.next(), Some(Row { k: 2, j: 0, i: 0..3 }));
@@ -92,70 +90,87 @@ impl Iterator for Sites {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Rows {
-    dimension: Dimension,
-    /// The next row to give, unless `one` is set.
+pub struct Rows<'p> {
+    shape: &'p Shape,
+    /// The layer of the next row, if there is one before `end`.
     k: i128,
-    j: i128,
+    /// The next row of that layer, once its first is given.
+    j: Option<i128>,
     /// The layer to stop before.
     end: i128,
     /// A single sphere instead of layers.
     one: Option<Site>,
 }
 
-impl Rows {
-    pub(super) fn new(pyramid: &Pyramid, selection: Selection) -> Result<Self, Error> {
-        let (dimension, layers) = (pyramid.dimension(), pyramid.layers());
+impl<'p> Rows<'p> {
+    pub(super) fn new(shape: &'p Shape, selection: Selection) -> Result<Self, Error> {
+        let layers = shape.layers();
         Ok(match selection {
             Selection::One(site) => Self {
-                one: Some(pyramid.check(site)?),
-                ..Self::of_layers(dimension, 0..0)
+                one: Some(shape.check(site)?),
+                ..Self::of_layers(shape, 0..0)
             },
-            Selection::Layer(k) if !(0..layers).contains(&k) => {
-                return Err(Error::LayerOutside { layer: k, layers });
+            Selection::Layer(k) => {
+                shape.layer(k)?;
+                Self::of_layers(shape, k..k + 1)
             }
-            Selection::Layer(k) => Self::of_layers(dimension, k..k + 1),
-            Selection::Base => Self::of_layers(dimension, layers - 1..layers),
-            Selection::All => Self::of_layers(dimension, 0..layers),
+            Selection::Base => Self::of_layers(shape, layers - 1..layers),
+            Selection::All => Self::of_layers(shape, 0..layers),
         })
     }
 
-    pub(super) fn of_layers(dimension: Dimension, layers: Range<i128>) -> Self {
+    pub(super) fn of_layers(shape: &'p Shape, layers: Range<i128>) -> Self {
         Self {
-            dimension,
+            shape,
             k: layers.start,
-            j: 0,
+            j: None,
             end: layers.end,
             one: None,
         }
     }
 
-    /// Leaves out the bottom layer of `pyramid`: the spheres left all have spheres below them.
+    /// Leaves out the bottom layer: the spheres left all have spheres below them.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Pyramid, Selection};
+    /// use cannonpile::lattice::{Dimension, Selection, Shape};
     ///
-    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
-    /// let rows = pyramid.rows(Selection::All)?.off_the_floor(&pyramid);
+    /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
+    /// let rows = pyramid.rows(Selection::All)?.off_the_floor();
     /// assert_eq!(rows.sites(), 10_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn off_the_floor(mut self, pyramid: &Pyramid) -> Self {
-        let floor = pyramid.layers() - 1;
+    pub fn off_the_floor(mut self) -> Self {
+        let floor = self.shape.layers() - 1;
         self.one = self.one.filter(|site| site.k < floor);
         self.end = self.end.min(floor);
         self
+    }
+
+    /// The pile whose rows they are.
+    #[must_use]
+    pub fn shape(&self) -> &'p Shape {
+        self.shape
+    }
+
+    /// The layers that are not yet done, or none if this is a single sphere.
+    pub(crate) fn layers(&self) -> Range<i128> {
+        self.k..self.end
+    }
+
+    /// The single sphere, if it is one.
+    pub(crate) fn one(&self) -> Option<Site> {
+        self.one
     }
 
     /// How many sites are still to come, of any size.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Pyramid, Selection};
+    /// use cannonpile::lattice::{Dimension, Selection, Shape};
     ///
-    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let mut rows = pyramid.rows(Selection::All)?;
     /// assert_eq!(rows.sites(), 20_u32.into());
     /// rows.next();
@@ -167,45 +182,44 @@ impl Rows {
         if self.one.is_some() {
             return 1_u32.into();
         }
-        if self.k >= self.end {
-            return 0_u32.into();
-        }
-        let d = self.dimension.number();
-        let [i, j, k, end] = [0, self.j, self.k, self.end].map(BigRational::from_i128);
-        let count = count::spheres(&end, d) - count::before(&i, &j, &k, d);
-        count.to_integer().into_parts().1
+        let given = self.j.zip(self.shape.layer(self.k).ok());
+        let given = given.map(|(j, region)| region.sites_before(region.row(j).start, j));
+        self.shape.spheres_in(self.k..self.end) - given.unwrap_or_default()
     }
 
     /// The sites at which a quantity that is linear in i, j and k, or the norm of such quantities, takes its
-    /// extremes: the corners of the first and the last layer, whole layers even where some rows of the first
-    /// have been given already.
+    /// extremes over a straight pile: the corners of the first and the last layer, whole layers even where some rows
+    /// of the first have been given already.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Pyramid, Selection, Site};
+    /// use cannonpile::lattice::{Dimension, Selection, Shape, Site};
     ///
-    /// let pyramid = Pyramid::new(4, Dimension::Three)?;
+    /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let corners: Vec<Site> = pyramid.rows(Selection::All)?.corners().collect();
-    /// // The apex is each corner of its layer.
-    /// assert_eq!(corners[..3], [Site::APEX; 3]);
-    /// assert_eq!(corners[3..], [(0, 0), (3, 0), (0, 3)].map(|(i, j)| Site { i, j, k: 3 }));
+    /// assert_eq!(corners[0], Site::APEX);
+    /// assert_eq!(corners[1..], [(0, 0), (3, 0), (0, 3)].map(|(i, j)| Site { i, j, k: 3 }));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn corners(&self) -> impl Iterator<Item = Site> + use<> {
+    pub fn corners(&self) -> impl Iterator<Item = Site> + use<'p> {
+        let (shape, one) = (self.shape, self.one);
         let layers = (self.k < self.end).then_some([self.k, self.end - 1]);
-        let directions = self.dimension.directions();
-        let corners = layers.into_iter().flatten().flat_map(move |k| {
-            directions.iter().map(move |direction| match direction {
-                Direction::Alpha => Site { i: 0, j: 0, k },
-                Direction::Beta => Site { i: k, j: 0, k },
-                Direction::Gamma => Site { i: 0, j: k, k },
-            })
+        let ends = layers.into_iter().flatten();
+        let corners = ends.flat_map(move |k| {
+            let mut corners = shape
+                .layer(k)
+                .map_or_else(|_| Vec::new(), |r| r.corners().into());
+            corners.dedup();
+            if corners.len() > 1 && corners.first() == corners.last() {
+                corners.pop();
+            }
+            corners.into_iter().map(move |[i, j]| Site { i, j, k })
         });
-        self.one.into_iter().chain(corners)
+        one.into_iter().chain(corners)
     }
 }
 
-impl Iterator for Rows {
+impl Iterator for Rows<'_> {
     type Item = Row;
 
     fn next(&mut self) -> Option<Row> {
@@ -215,17 +229,14 @@ impl Iterator for Rows {
         if self.k >= self.end {
             return None;
         }
-        let row = Row {
-            k: self.k,
-            j: self.j,
-            i: 0..self.k - self.j + 1,
-        };
-        if self.dimension == Dimension::Three && self.j < self.k {
-            self.j += 1;
+        let region = self.shape.layer(self.k).ok()?;
+        let (k, j) = (self.k, self.j.unwrap_or(*region.y().start()));
+        if j < *region.y().end() {
+            self.j = Some(j + 1);
         } else {
-            self.j = 0;
-            self.k += 1;
+            (self.k, self.j) = (k + 1, None);
         }
-        Some(row)
+        let i = region.row(j);
+        Some(Row { k, j, i })
     }
 }

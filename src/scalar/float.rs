@@ -56,6 +56,10 @@ macro_rules! float_scalar {
                 (values.each_ref().map(Self::from_rational), 1.0)
             }
 
+            fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
+                Some(n.div_int(by))
+            }
+
             fn from_ratio(n: Self, d: &Self) -> Option<Self> {
                 n.checked_div(d)
             }

@@ -323,6 +323,10 @@ impl Algebra for Interval {
         (values.each_ref().map(Self::from_rational), Self::one())
     }
 
+    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
+        Some(n.div_int(by))
+    }
+
     fn from_ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }

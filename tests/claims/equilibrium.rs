@@ -27,7 +27,7 @@ pub(crate) fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
 pub(crate) fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::small_pile(u)?;
     let statics = pile.statics();
-    for site in pile.pyramid().sites() {
+    for site in pile.shape().sites() {
         sphere(&statics, site)?;
     }
     let base: Result<Vec<_>, _> = statics.base(pile.rows(Selection::Base)?).collect();
@@ -56,7 +56,7 @@ fn sphere(statics: &Exact<'_>, site: Site) -> Checked {
     }
     balance(&forces)?;
     for &direction in statics.pile().dimension().directions() {
-        let pyramid = statics.pile().pyramid();
+        let pyramid = statics.pile().shape();
         if let Some(below) = pyramid.below(site, direction) {
             let on_site = statics.contact_vector(site, direction)?;
             balance(&[on_site, on_lower(statics, site, below, direction)?])?;
@@ -88,10 +88,10 @@ fn forces_on(statics: &Exact<'_>, site: Site) -> Result<Vec<Vector<BigRational>>
         ..Vector::zero()
     }];
     for &direction in pile.dimension().directions() {
-        if let Some(above) = pile.pyramid().above(site, direction) {
+        if let Some(above) = pile.shape().above(site, direction) {
             forces.push(-statics.contact_vector(above, direction)?);
         }
-        if pile.pyramid().below(site, direction).is_some() {
+        if pile.shape().below(site, direction).is_some() {
             forces.push(statics.contact_vector(site, direction)?);
         }
     }
@@ -198,7 +198,7 @@ mod planted {
     fn a_contact_mistaken_for_its_neighbour_is_caught() {
         let pile = tall();
         let statics = pile.statics();
-        let below = pile.pyramid().below(SITE, Direction::Beta).unwrap();
+        let below = pile.shape().below(SITE, Direction::Beta).unwrap();
         let seen = on_lower(&statics, SITE, below, Direction::Beta).unwrap();
         for (direction, same) in [(Direction::Beta, true), (Direction::Alpha, false)] {
             let views = [

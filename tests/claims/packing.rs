@@ -42,7 +42,7 @@ pub(crate) fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
 /// The contact point is one radius away from the centre of the sphere, and of the one below it.
 fn touches(packing: &Packing<'_>, site: Site, direction: Direction) -> Checked {
     let point = packing.contact_point(site, direction)?;
-    let below = packing.pile().pyramid().below(site, direction);
+    let below = packing.pile().shape().below(site, direction);
     for sphere in [Some(site), below].into_iter().flatten() {
         let centre = packing.position(sphere)?;
         let apart = squared_distance(&centre, &point);

@@ -27,7 +27,7 @@ pub(crate) fn anywhere(u: &mut Unstructured<'_>) -> Checked {
     let outside = |refused: Option<Error>| matches!(refused, Some(Error::SiteOutside { .. }));
     let direction = pile::direction(u, &pile)?;
     let refusals = [
-        outside(pile.pyramid().check(site).err()),
+        outside(pile.shape().check(site).err()),
         outside(statics.from_above(site).err()),
         outside(statics.contact(site, direction).err()),
         outside(statics.position(site).err()),
@@ -86,9 +86,7 @@ fn successor(pile: &Pile, Site { i, j, k }: Site) -> Option<Site> {
             k: k + 1,
         },
     ];
-    steps
-        .into_iter()
-        .find(|next| pile.pyramid().contains(*next))
+    steps.into_iter().find(|next| pile.shape().contains(*next))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ const LAYERS: i128 = 5;
 /// Every sphere of every pile, with the values of i, j, k and s.
 fn every_sphere(mut ask: impl FnMut(&Pile, Site, &[(&'static str, Q)])) {
     for pile in piles(LAYERS) {
-        for site in pile.pyramid().sites() {
+        for site in pile.shape().sites() {
             let mut values = at_site(site);
             values.push(("s", pile.sin_phi().clone()));
             ask(&pile, site, &values);
@@ -52,7 +52,7 @@ fn distances_are_those_between_positions() {
     let sin2 = ratio(12, 25);
     for s in sines() {
         let pile = Pile::isosceles(4, s.clone()).expect("a pile");
-        for site in pile.pyramid().sites() {
+        for site in pile.shape().sites() {
             let n = [site.k - site.i - site.j, site.i, site.j].map(int);
             let [a, b, c] = n.clone();
             let values = [
@@ -89,7 +89,7 @@ fn supports_bear_what_lies_above() {
         };
         for direction in Direction::ALL {
             supports = supports + &contact(site, direction);
-            if let Some(above) = pile.pyramid().above(site, direction) {
+            if let Some(above) = pile.shape().above(site, direction) {
                 load = load - &contact(above, direction);
             }
         }
@@ -112,7 +112,7 @@ fn surfaces_receive_nothing_and_others_what_is_given() {
         let statics = pile.statics::<Q>();
         let received = statics.from_above(site).expect("forces");
         for (direction, received) in Direction::ALL.into_iter().zip(received) {
-            if let Some(above) = pile.pyramid().above(site, direction) {
+            if let Some(above) = pile.shape().above(site, direction) {
                 let mut values = at_site(above);
                 values.push(("s", pile.sin_phi().clone()));
                 let given = value(&reaction, &format!("{direction}: given"), &values);
@@ -131,7 +131,7 @@ fn resultants_are_positions() {
     let proof = prove("central-force");
     for pile in equilateral_piles(8) {
         let statics = pile.statics::<Q>();
-        for site in pile.pyramid().sites() {
+        for site in pile.shape().sites() {
             let force = statics.resultant_above(site).expect("a force");
             let of_theorem =
                 ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: "), &at_site(site)));

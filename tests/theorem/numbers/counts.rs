@@ -13,7 +13,7 @@ const LAYERS: i128 = 12;
 
 /// The spheres above a site on one line, by walking up.
 fn walked(pile: &Pile, site: Site, direction: Direction) -> Q {
-    let up = core::iter::successors(Some(site), |site| pile.pyramid().above(*site, direction));
+    let up = core::iter::successors(Some(site), |site| pile.shape().above(*site, direction));
     up.skip(1).fold(Q::zero(), |n, _| n + Q::one())
 }
 
@@ -23,9 +23,9 @@ const NAMES: [&str; 3] = ["N_α", "N_β", "N_γ"];
 fn counts_are_walked() {
     let proof = prove("counts");
     let pile = Pile::triangular(8).expect("a pile");
-    for site in pile.pyramid().sites() {
+    for site in pile.shape().sites() {
         for direction in Direction::ALL {
-            let Some(below) = pile.pyramid().below(site, direction) else {
+            let Some(below) = pile.shape().below(site, direction) else {
                 continue;
             };
             for (other, name) in Direction::ALL.into_iter().zip(NAMES) {
@@ -46,7 +46,7 @@ fn counts_are_walked() {
 fn the_rotation_turns_sites() {
     let proof = prove("rotation");
     let pile = Pile::triangular(7).expect("a pile");
-    for site in pile.pyramid().sites() {
+    for site in pile.shape().sites() {
         let image = Symmetry::ROTATION.apply(site).expect("a site");
         let here = at_site(site);
         assert_eq!(value(&proof, "the substitution i", &here), int(image.i));
@@ -63,7 +63,7 @@ fn spheres_are_counted() {
     let proof = prove("spheres");
     for pile in equilateral_piles(LAYERS) {
         let (l, last) = (pile.layers(), pile.layers() - 1);
-        let sites = pile.pyramid().sites();
+        let sites = pile.shape().sites();
         let all: Vec<Site> = sites.collect();
         let in_all = value(&proof, "Σ 1 over the pile", &[("L", int(l))]);
         assert_eq!(in_all, Q::from_integer(all.len().into()));

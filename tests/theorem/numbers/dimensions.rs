@@ -34,10 +34,10 @@ fn discs_on_the_floor() {
         assert_eq!(value(&proof, "ΣF_z", core::slice::from_ref(&l)), total);
         assert_eq!(
             total,
-            Q::from_integer(pile.pyramid().sites().count().into()) * int(2)
+            Q::from_integer(pile.shape().sites().count().into()) * int(2)
         );
         assert_eq!(value(&proof, "ΣF_x", &[l]), sideways);
-        for site in pile.pyramid().sites().filter(|site| site.k < layers - 1) {
+        for site in pile.shape().sites().filter(|site| site.k < layers - 1) {
             let Site { i, k, .. } = site;
             let values = [("i", int(i)), ("k", int(k))];
             let left = ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: "), &values));

@@ -1,0 +1,202 @@
+//! Which stackings stand, at spacings at which nothing touches beside the contacts.
+//!
+//! # Under one sphere
+//! The forces above a layer do not depend on what lies below it, so a beginning that fails never recovers, and the
+//! stackings that stand are found from the top, run by run, leaving off where a beginning fails. Of L layers there
+//! stand, one of each mirror pair,
+//!
+//! | L | 1 | 2 | 3 | 4 | 5 | 6 and more |
+//! |---|---|---|---|---|---|---|
+//! | stackings | 1 | 1 | 2 | 4 | 8 | 11 |
+//!
+//! In Zhdanov's notation, with * for a last run of any length, the eleven are (*), (1,*), (2,*), (3,*), (1,1,*),
+//! (1,2,*), (2,1,*), (3,1,*), (1,1,1,*), (1,2,1,*) and (2,1,1,*): the sign changes three times at most, within the first five
+//! layers, and then the pile is straight for ever. HCP and DHCP stand up to five layers. The proof:
+//!
+//! 1. *A run before a change has at most four steps.* Let a run of + steps begin at a layer with the sides s₀ ≤ i+j;
+//!    the spheres on that side have no β and no γ line above them all the way down the run, and along α they receive
+//!    f + m − 1 after m steps, where f ≥ 0 is what a sphere of the first layer passes on along α, itself included. If
+//!    the sign changes there, such a sphere passes on 1 − (f + m − 1)/3 along α: negative if f + m > 4, hence for all
+//!    m ≥ 5. (Proved for all f and m: theorem `run` of [`theorem`](crate::theorem). Of − runs the mirror image.)
+//! 2. *The rest is a finite search*, in exact arithmetic: of runs of at most four steps no fourth change of sign
+//!    stands ([`under_one_sphere`] carries it out).
+//! 3. *A last run of any length stands* if its first step does, since within a run lines only grow.
+//!
+//! # On a base
+//! Counted from a base up nothing so simple holds: what fails with few layers on it may stand with more, and the other
+//! way round. So every stacking is carried as high as it goes, and looked at there ([`on_base`]); nothing is pruned.
+
+use alloc::vec::Vec;
+
+use crate::lattice::Region;
+use crate::stacking::{Run, Sign, Stacking};
+use crate::{Error, Pile, Standing};
+
+/// A stacking, and whether it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Entry {
+    /// The pile of this stacking.
+    pub pile: Pile,
+    /// Its least contact force, and where it fails, if it does.
+    pub standing: Standing,
+}
+
+impl Entry {
+    fn new(pile: Pile) -> Result<Self, Error> {
+        let standing = pile.standing()?;
+        Ok(Self { pile, standing })
+    }
+
+    /// Whether it stands.
+    #[must_use]
+    pub fn stands(&self) -> bool {
+        self.standing.first_failure.is_none()
+    }
+}
+
+/// The stackings of `layers` layers under one sphere that stand, one of each mirror pair (the one that begins with +);
+/// with `failing`, also the shortest beginnings that fail. In order of their runs.
+///
+/// Of those that stand there are at most eleven (module documentation); what fails first grows like 8L, and
+/// so does the time for its long runs.
+///
+/// # Errors
+/// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooLarge`] for failing beginnings of thousands of layers.
+///
+/// # Examples
+/// ```
+/// use cannonpile::census;
+///
+/// let standing: Result<Vec<_>, _> = census::under_one_sphere(6, false)?.collect();
+/// let stackings: Vec<_> = standing?.iter().map(|e| e.pile.shape().stacking().hagg().to_string()).collect();
+/// assert_eq!(
+///     stackings,
+///     [
+///         "+++++", "+----", "+-+++", "+-+--", "+--++", "+--+-", "++---", "++-++", "++-+-", "+++--", "+++-+",
+///     ],
+/// );
+/// // However many layers there are, no more than these stand.
+/// assert_eq!(census::under_one_sphere(10_i128.pow(36), false)?.count(), 11);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn under_one_sphere(
+    layers: i128,
+    failing: bool,
+) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
+    // The number is checked here; a single layer has no step.
+    let steps = Stacking::fcc(layers)?.layers() - 1;
+    Ok(Search {
+        steps,
+        failing,
+        waiting: alloc::vec![Beginning::default()],
+    })
+}
+
+/// The longest run before a change of sign that may stand (module documentation, 1).
+const LONGEST_RUN: i128 = 4;
+
+/// Runs of alternating signs, + first, each followed by another.
+#[derive(Clone, Debug, Default)]
+struct Beginning(Vec<i128>);
+
+impl Beginning {
+    /// The pile of these runs and one more of `last` steps.
+    fn pile(&self, last: i128) -> Result<Pile, Error> {
+        let signs = [Sign::Plus, Sign::Minus].into_iter().cycle();
+        let lengths = self.0.iter().copied().chain([last]);
+        let runs = lengths.zip(signs).map(|(steps, sign)| Run { sign, steps });
+        Pile::under(Region::SITE, Stacking::from_runs(runs)?)
+    }
+
+    fn followed_by(&self, run: i128) -> Self {
+        let mut runs = self.0.clone();
+        runs.push(run);
+        Self(runs)
+    }
+}
+
+/// Beginnings still to be looked at, the next one last.
+struct Search {
+    steps: i128,
+    failing: bool,
+    waiting: Vec<Beginning>,
+}
+
+impl Search {
+    /// The entry of a beginning: itself carried to all layers, if its last change of sign stands, with the longer
+    /// beginnings put in line; or its failure.
+    fn visit(&mut self, beginning: &Beginning) -> Result<Option<Entry>, Error> {
+        let done: i128 = beginning.0.iter().sum();
+        if !beginning.0.is_empty() {
+            let first_step = Entry::new(beginning.pile(1)?)?;
+            if !first_step.stands() {
+                return Ok(Some(first_step).filter(|_| self.failing));
+            }
+        }
+        let left = self.steps - done;
+        let longest = if self.failing {
+            left - 1
+        } else {
+            (left - 1).min(LONGEST_RUN)
+        };
+        self.waiting
+            .extend((1..=longest).rev().map(|run| beginning.followed_by(run)));
+        Entry::new(beginning.pile(left)?).map(Some)
+    }
+}
+
+impl Iterator for Search {
+    type Item = Result<Entry, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let beginning = self.waiting.pop()?;
+            if let Some(entry) = self.visit(&beginning).transpose() {
+                return Some(entry);
+            }
+        }
+    }
+}
+
+/// Every stacking of a base, carried up until no site is left whichever sign comes next; of two that are mirror images
+/// of each other only the one that begins, at the base, with +, if the base is its own mirror image.
+///
+/// As many as 2^(L−2) for a base that carries L layers, made one by one.
+///
+/// # Examples
+/// ```
+/// use cannonpile::census;
+/// use cannonpile::lattice::Region;
+///
+/// let mut entries = census::on_base(Region::triangle(4)?);
+/// let straight = entries.next().unwrap()?;
+/// assert_eq!((straight.pile.layers(), straight.stands()), (4, true));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn on_base(base: Region) -> impl Iterator<Item = Result<Entry, Error>> {
+    let one_of_two = base.is_its_own_mirror_image();
+    let mut waiting: Vec<(Vec<Sign>, Region)> = alloc::vec![(Vec::new(), base)];
+    core::iter::from_fn(move || {
+        loop {
+            let (signs, top) = waiting.pop()?;
+            let mut higher = false;
+            for sign in [Sign::Minus, Sign::Plus] {
+                let Some(above) = top.eroded(sign) else {
+                    continue;
+                };
+                higher = true;
+                if signs.is_empty() && one_of_two && sign == Sign::Minus {
+                    continue;
+                }
+                let mut signs = signs.clone();
+                signs.push(sign);
+                waiting.push((signs, above));
+            }
+            if !higher {
+                let from_top = Stacking::from_signs(signs.into_iter().rev());
+                return Some(from_top.and_then(|stacking| Entry::new(Pile::on(base, stacking)?)));
+            }
+        }
+    })
+}

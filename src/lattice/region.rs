@@ -1,0 +1,409 @@
+//! Six-sided regions of the triangular lattice: the layers of piles on any base.
+
+use alloc::boxed::Box;
+use core::fmt;
+use core::ops::RangeInclusive;
+
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+
+use super::{Row, count};
+use crate::Error;
+use crate::scalar::Ring;
+use crate::stacking::Sign;
+
+/// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of one layer: a triangle, trapezium, parallelogram,
+/// pentagon or hexagon. Never empty, and its bounds are tight: each is attained.
+///
+/// THEORY §3. Dilation and erosion are one addition on each bound, whatever the size.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Region;
+/// use cannonpile::stacking::Sign;
+///
+/// let hexagon = Region::hexagon(3, 3)?;
+/// assert_eq!(hexagon.sites(), 19_u32.into());
+/// // Every support of every sphere: the layer below.
+/// let below = hexagon.dilated(Sign::Plus)?;
+/// assert_eq!(below.sites(), 27_u32.into());
+/// assert_eq!(below.eroded(Sign::Plus), Some(hexagon));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Region {
+    /// (x₀, y₀, s₀).
+    lower: [i128; 3],
+    /// (x₁, y₁, s₁).
+    upper: [i128; 3],
+}
+
+/// The greatest coordinate of a region, so that sums of a few stay within `i128`.
+const LIMIT: i128 = super::MAX_LAYERS;
+
+impl Region {
+    /// The sites with i in `x`, j in `y` and i+j in `s`, bounds included.
+    ///
+    /// # Errors
+    /// [`Error::EmptyRegion`] if there is none; [`Error::RegionTooLarge`] for bounds beyond ±10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// // Bounds are tightened: i+j ≤ 2 leaves i ≤ 2.
+    /// let triangle = Region::new(0..=9, 0..=9, 0..=2)?;
+    /// assert_eq!(triangle, Region::triangle(3)?);
+    /// assert!(Region::new(5..=9, 5..=9, 0..=2).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn new(
+        x: RangeInclusive<i128>,
+        y: RangeInclusive<i128>,
+        s: RangeInclusive<i128>,
+    ) -> Result<Self, Error> {
+        let lower = [*x.start(), *y.start(), *s.start()];
+        let upper = [*x.end(), *y.end(), *s.end()];
+        let region = Self { lower, upper };
+        if !region.is_within_limit() {
+            return Err(Error::RegionTooLarge {
+                region: Box::new(region),
+            });
+        }
+        region.tightened().ok_or(Error::EmptyRegion {
+            region: Box::new(region),
+        })
+    }
+
+    /// One site, (0, 0).
+    pub const SITE: Self = Self {
+        lower: [0; 3],
+        upper: [0; 3],
+    };
+
+    /// The hexagon with `p` and `q` spheres on alternate sides: −(q−1) ≤ i, j, i+j ≤ p−1.
+    ///
+    /// # Errors
+    /// [`Error::RegionSide`] unless both sides are between 1 and 10³⁶.
+    pub fn hexagon(p: i128, q: i128) -> Result<Self, Error> {
+        for side in [p, q] {
+            if !(1..=LIMIT).contains(&side) {
+                return Err(Error::RegionSide { given: side });
+            }
+        }
+        let range = || 1 - q..=p - 1;
+        Self::new(range(), range(), range())
+    }
+
+    /// The triangle with `n` spheres on a side: 0 ≤ i, j, i+j ≤ n−1.
+    ///
+    /// # Errors
+    /// [`Error::RegionSide`] unless 1 ≤ `n` ≤ 10³⁶.
+    pub fn triangle(n: i128) -> Result<Self, Error> {
+        Self::hexagon(n, 1)
+    }
+
+    /// x₀ … x₁.
+    #[must_use]
+    pub const fn x(&self) -> RangeInclusive<i128> {
+        self.lower[0]..=self.upper[0]
+    }
+
+    /// y₀ … y₁.
+    #[must_use]
+    pub const fn y(&self) -> RangeInclusive<i128> {
+        self.lower[1]..=self.upper[1]
+    }
+
+    /// s₀ … s₁.
+    #[must_use]
+    pub const fn s(&self) -> RangeInclusive<i128> {
+        self.lower[2]..=self.upper[2]
+    }
+
+    /// Whether the region has the site (i, j).
+    #[must_use]
+    pub fn contains(&self, i: i128, j: i128) -> bool {
+        // Within x and y the sum cannot overflow.
+        self.x().contains(&i) && self.y().contains(&j) && self.s().contains(&(i + j))
+    }
+
+    /// The layer below: every support of every site, under a step of this sign.
+    ///
+    /// # Errors
+    /// [`Error::RegionTooLarge`] beyond ±10³⁶.
+    pub fn dilated(&self, sign: Sign) -> Result<Self, Error> {
+        self.dilated_by(sign, 1)
+    }
+
+    /// The layer `steps` steps of one sign further down.
+    ///
+    /// # Errors
+    /// [`Error::RegionTooLarge`] beyond ±10³⁶.
+    pub fn dilated_by(&self, sign: Sign, steps: i128) -> Result<Self, Error> {
+        // Steps beyond the limit lead beyond it from anywhere, and without overflow.
+        let steps = steps.clamp(-LIMIT, 3 * LIMIT);
+        let region = match sign {
+            Sign::Plus => self.grown(steps, 0),
+            Sign::Minus => self.grown(0, steps),
+        };
+        if region.is_within_limit() {
+            return Ok(region);
+        }
+        Err(Error::RegionTooLarge {
+            region: Box::new(*self),
+        })
+    }
+
+    /// The layer above: every site whose three supports are all here; `None` if there is none.
+    #[must_use]
+    pub fn eroded(&self, sign: Sign) -> Option<Self> {
+        match sign {
+            Sign::Plus => self.shrunk(1, 0),
+            Sign::Minus => self.shrunk(0, 1),
+        }
+    }
+
+    /// The mirror image (i, j) → (−i, −j).
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            lower: self.upper.map(|b| -b),
+            upper: self.lower.map(|b| -b),
+        }
+    }
+
+    /// Whether the mirror image (i, j) → (−i, −j) is the region again, moved to another place.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert!(Region::hexagon(3, 3)?.is_its_own_mirror_image());
+    /// assert!(!Region::triangle(3)?.is_its_own_mirror_image());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn is_its_own_mirror_image(&self) -> bool {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        // Moved so that x₀ and y₀ fall on each other, only the bounds of i+j may differ.
+        s0 - x0 - y0 == x1 + y1 - s1
+    }
+
+    /// The number of sites, of any size.
+    ///
+    /// The parallelogram x × y less the two corner triangles that s cuts off.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::hexagon(3, 3)?.sites(), 19_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn sites(&self) -> BigUint {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        let big = BigRational::from_i128;
+        let corner = |side: i128| count::spheres_in_layer(&big(side - 1), 3);
+        let all = big(x1 - x0 + 1) * big(y1 - y0 + 1);
+        let sites = all - corner(s0 - (x0 + y0)) - corner(x1 + y1 - s1);
+        // A count: an integer, and not negative.
+        sites.to_integer().into_parts().1
+    }
+
+    /// How many sites come before (i, j) in row order; (i, j) must be one.
+    pub(crate) fn sites_before(&self, i: i128, j: i128) -> BigUint {
+        let start = self.row(j).start;
+        let rows_before = Self {
+            upper: [self.upper[0], j - 1, self.upper[2]],
+            ..*self
+        };
+        let whole_rows = rows_before
+            .tightened()
+            .map_or_else(BigUint::default, |r| r.sites());
+        whole_rows + BigInt::from(i - start).into_parts().1
+    }
+
+    /// The range of i in row j, which may be empty.
+    pub(crate) fn row(&self, j: i128) -> core::ops::Range<i128> {
+        let ([x0, _, s0], [x1, _, s1]) = (self.lower, self.upper);
+        x0.max(s0 - j)..x1.min(s1 - j) + 1
+    }
+
+    /// The six corners in turn; a side of one site has its two corners in one place.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let corners = Region::triangle(4)?.corners();
+    /// assert_eq!(corners, [[0, 0], [3, 0], [3, 0], [0, 3], [0, 3], [0, 0]]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn corners(&self) -> [[i128; 2]; 6] {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        [
+            [s0 - y0, y0],
+            [x1, y0],
+            [x1, s1 - x1],
+            [s1 - y1, y1],
+            [x0, y1],
+            [x0, s0 - x0],
+        ]
+    }
+
+    /// The number of sites on a side less one, by i, j and i+j.
+    pub(crate) fn widths(&self) -> [i128; 3] {
+        core::array::from_fn(|n| self.upper[n] - self.lower[n])
+    }
+
+    /// After how many erosions of one sign each of the three sides that they shorten has vanished.
+    pub(super) const fn vanishing_sides(&self, sign: Sign) -> [i128; 3] {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        match sign {
+            Sign::Plus => [x0 + y1 - s0, y0 + x1 - s0, x1 + y1 - s1],
+            Sign::Minus => [s1 - y0 - x1, s1 - x0 - y1, s0 - x0 - y0],
+        }
+    }
+
+    /// How many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
+    ///
+    /// THEORY §3, "Lines". For + steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
+    /// N_γ = min(m, j−y₀, x₁−i, i+j−s₀), with the bounds of the layer of (i, j); for − steps the same under
+    /// (i, j) → (−i, −j). Each argument grows by one per step down and vanishes at its surface.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// // Layer 5 of the paper's pile: (k−i−j, i, j).
+    /// let layer = Region::triangle(6)?;
+    /// assert_eq!(layer.spheres_above(1, 2, Sign::Plus, 5), [2, 1, 2]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spheres_above(&self, i: i128, j: i128, sign: Sign, steps: i128) -> [i128; 3] {
+        self.row_counts(j, sign, steps).map(|count| count.at(i))
+    }
+
+    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction.
+    pub(crate) fn row_counts(&self, j: i128, sign: Sign, steps: i128) -> [Trapezoid; 3] {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        let (rises, falls) = (x0.max(s0 - j), x1.min(s1 - j));
+        let (up, down) = (steps.min(y1 - j), steps.min(j - y0));
+        match sign {
+            Sign::Plus => [
+                Trapezoid::falling(up, falls),
+                Trapezoid::rising(up, rises),
+                Trapezoid {
+                    cap: down,
+                    rises: Some(s0 - j),
+                    falls: Some(x1),
+                },
+            ],
+            Sign::Minus => [
+                Trapezoid::rising(down, rises),
+                Trapezoid::falling(down, falls),
+                Trapezoid {
+                    cap: up,
+                    rises: Some(x0),
+                    falls: Some(s1 - j),
+                },
+            ],
+        }
+    }
+
+    /// The layer this many + and − steps further down; bounds must stay within `i128`.
+    pub(super) fn grown(&self, plus: i128, minus: i128) -> Self {
+        Self {
+            lower: self.lower.map(|bound| bound - minus),
+            upper: self.upper.map(|bound| bound + plus),
+        }
+    }
+
+    /// The layer this many + and − steps further up; `None` if no site is left.
+    pub(super) fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
+        self.grown(-plus, -minus).tightened()
+    }
+
+    /// The rows, from y₀ up; every one of them has a site.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Row};
+    ///
+    /// let mut rows = Region::triangle(3)?.rows(2);
+    /// assert_eq!(rows.nth(1), Some(Row { k: 2, j: 1, i: 0..2 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn rows(&self, k: i128) -> impl Iterator<Item = Row> + use<> {
+        let region = *self;
+        self.y().map(move |j| {
+            let i = region.row(j);
+            Row { k, j, i }
+        })
+    }
+
+    /// One simultaneous round of tightening, all from the old bounds; it is complete (THEORY §3).
+    fn tightened(&self) -> Option<Self> {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        let tight = Self {
+            lower: [x0.max(s0 - y1), y0.max(s0 - x1), s0.max(x0 + y0)],
+            upper: [x1.min(s1 - y0), y1.min(s1 - x0), s1.min(x1 + y1)],
+        };
+        let holds = tight
+            .lower
+            .iter()
+            .zip(&tight.upper)
+            .all(|(lower, upper)| lower <= upper);
+        holds.then_some(tight)
+    }
+
+    fn is_within_limit(&self) -> bool {
+        let mut bounds = self.lower.iter().chain(&self.upper);
+        bounds.all(|bound| (-LIMIT..=LIMIT).contains(bound))
+    }
+}
+
+impl fmt::Display for Region {
+    /// `x0..x1,y0..y1,s0..s1`, as the command line reads it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        write!(f, "{x0}..{x1},{y0}..{y1},{s0}..{s1}")
+    }
+}
+
+/// min(cap, i − rises, falls − i): how a count runs along a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Trapezoid {
+    pub(crate) cap: i128,
+    pub(crate) rises: Option<i128>,
+    pub(crate) falls: Option<i128>,
+}
+
+impl Trapezoid {
+    const fn rising(cap: i128, rises: i128) -> Self {
+        Self {
+            cap,
+            rises: Some(rises),
+            falls: None,
+        }
+    }
+
+    const fn falling(cap: i128, falls: i128) -> Self {
+        Self {
+            cap,
+            rises: None,
+            falls: Some(falls),
+        }
+    }
+
+    pub(crate) fn at(&self, i: i128) -> i128 {
+        let rise = self.rises.map_or(self.cap, |from| i - from);
+        let fall = self.falls.map_or(self.cap, |until| until - i);
+        self.cap.min(rise).min(fall)
+    }
+}

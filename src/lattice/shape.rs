@@ -1,0 +1,574 @@
+//! The sites of a pile, layer by layer, and how its layers are stacked.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use num_bigint::BigUint;
+use num_integer::Integer;
+use num_traits::Zero;
+
+use super::{Dimension, Direction, MAX_LAYERS, Region, Rows, Selection, Site};
+use crate::Error;
+use crate::stacking::{Run, Sign, Stacking};
+
+/// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
+///
+/// A shape is grown down from a top layer, each layer all supports of the one above (dilation), or up from a base,
+/// each layer all sites whose three supports are there (erosion). THEORY §3. One sphere on top and all + is the
+/// paper's pile, [`pyramid`](Self::pyramid).
+///
+/// What it holds grows with the changes of sign, not with the layers.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Direction, Region, Shape, Site};
+///
+/// let hcp = Shape::under(Region::SITE, "+-".parse()?)?;
+/// assert_eq!(hcp.layer(2)?.to_string(), "-1..1,-1..1,-1..1");
+/// assert_eq!(hcp.spheres(), 11_u32.into());
+/// // Under a − step, γ leads to j−1.
+/// let site = Site { i: 0, j: 0, k: 1 };
+/// assert_eq!(hcp.below(site, Direction::Gamma), Some(Site { i: 0, j: -1, k: 2 }));
+///
+/// let on_a_hexagon = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+/// assert_eq!(on_a_hexagon.layer(0)?, Region::hexagon(2, 2)?);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shape {
+    dimension: Dimension,
+    stacking: Stacking,
+    /// Where each run of the stacking begins.
+    starts: Vec<Start>,
+    /// All steps together.
+    whole: Descent,
+    anchor: Anchor,
+}
+
+/// The layer that all others are grown from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Anchor {
+    Top(Region),
+    Base(Region),
+}
+
+/// How many steps of each sign lead from one layer to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Descent {
+    plus: i128,
+    minus: i128,
+}
+
+impl Descent {
+    fn further(self, sign: Sign, steps: i128) -> Self {
+        let Self { plus, minus } = self;
+        match sign {
+            Sign::Plus => Self {
+                plus: plus + steps,
+                minus,
+            },
+            Sign::Minus => Self {
+                plus,
+                minus: minus + steps,
+            },
+        }
+    }
+}
+
+/// The layer above the first step of a run, and the way there from the top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Start {
+    layer: i128,
+    sign: Sign,
+    descent: Descent,
+}
+
+/// A run of steps of one sign, and the layers it leads from and to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Stretch {
+    /// The place of the run in the stacking: how often the sign changes before it.
+    pub(crate) index: usize,
+    pub(crate) sign: Sign,
+    /// The layer above the first step.
+    pub(crate) from: i128,
+    /// The layer below the last step.
+    pub(crate) to: i128,
+}
+
+impl Shape {
+    /// The sites of a straight pile under one sphere: triangles of 1, 3, 6, … spheres, or rows of 1, 2, 3, … discs.
+    ///
+    /// # Errors
+    /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// assert!(pyramid.contains(Site { i: 4, j: 5, k: 9 }));
+    /// assert!(!pyramid.contains(Site { i: 5, j: 5, k: 9 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn pyramid(layers: i128, dimension: Dimension) -> Result<Self, Error> {
+        let stacking = Stacking::fcc(layers)?;
+        Ok(Self::new(dimension, stacking, Anchor::Top(Region::SITE)))
+    }
+
+    /// The sites grown down from `top`: each layer all supports of the layer above.
+    ///
+    /// # Errors
+    /// [`Error::RegionTooLarge`] if a layer leaves ±10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// // p plus and q minus steps lead to the hexagon −q ≤ i, j, i+j ≤ p.
+    /// let shape = Shape::under(Region::SITE, Stacking::hcp(7)?)?;
+    /// assert_eq!(shape.layer(6)?, Region::hexagon(4, 4)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn under(top: Region, stacking: Stacking) -> Result<Self, Error> {
+        let shape = Self::new(Dimension::Three, stacking, Anchor::Top(top));
+        let Descent { plus, minus } = shape.whole;
+        top.dilated_by(Sign::Plus, plus)?
+            .dilated_by(Sign::Minus, minus)?;
+        Ok(shape)
+    }
+
+    /// The sites grown up from `base`: each layer all sites whose three supports are there. The stacking is read
+    /// from the top, as everywhere in the library.
+    ///
+    /// Spheres below may be left with nothing on them.
+    ///
+    /// # Errors
+    /// [`Error::TooHigh`] if no site is left before all steps are done.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::Error;
+    ///
+    /// assert!(Shape::on(Region::triangle(3)?, "++".parse()?).is_ok());
+    /// let too_high = Shape::on(Region::triangle(3)?, "+++".parse()?);
+    /// assert!(matches!(too_high, Err(Error::TooHigh { greatest: 3, .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on(base: Region, stacking: Stacking) -> Result<Self, Error> {
+        let shape = Self::new(Dimension::Three, stacking, Anchor::Base(base));
+        let greatest = shape.height_above_base();
+        if greatest < shape.layers() {
+            let layers = shape.layers();
+            return Err(Error::TooHigh {
+                layers,
+                greatest,
+                base: Box::new(base),
+            });
+        }
+        Ok(shape)
+    }
+
+    fn new(dimension: Dimension, stacking: Stacking, anchor: Anchor) -> Self {
+        let (mut layer, mut descent) = (0, Descent::default());
+        let mut starts = Vec::with_capacity(stacking.runs().len());
+        for Run { sign, steps } in stacking.runs() {
+            starts.push(Start {
+                layer,
+                sign,
+                descent,
+            });
+            layer += steps;
+            descent = descent.further(sign, steps);
+        }
+        Self {
+            dimension,
+            stacking,
+            starts,
+            whole: descent,
+            anchor,
+        }
+    }
+
+    /// How many layers, counted from the base, have a site: by bisection, since empty layers have empty ones above.
+    fn height_above_base(&self) -> i128 {
+        let layers = self.layers();
+        if self.region(0).is_some() {
+            return layers;
+        }
+        // The layer `empty` has no site, `kept` has.
+        let (mut empty, mut kept) = (0, layers - 1);
+        while kept - empty > 1 {
+            let middle = empty + (kept - empty) / 2;
+            if self.region(middle).is_some() {
+                kept = middle;
+            } else {
+                empty = middle;
+            }
+        }
+        layers - kept
+    }
+
+    /// The number L of layers.
+    #[must_use]
+    pub fn layers(&self) -> i128 {
+        self.whole.plus + self.whole.minus + 1
+    }
+
+    /// Discs or spheres.
+    #[must_use]
+    pub const fn dimension(&self) -> Dimension {
+        self.dimension
+    }
+
+    /// How layers follow one another, from the top.
+    #[must_use]
+    pub const fn stacking(&self) -> &Stacking {
+        &self.stacking
+    }
+
+    /// Whether this is a straight pile of + steps under one sphere, or of discs.
+    #[must_use]
+    pub fn is_pyramid(&self) -> bool {
+        self.anchor == Anchor::Top(Region::SITE) && self.whole.minus == 0
+    }
+
+    /// Whether the pile was grown up from its base.
+    #[must_use]
+    pub const fn is_grown_from_base(&self) -> bool {
+        matches!(self.anchor, Anchor::Base(_))
+    }
+
+    /// The sites of layer k, counted from the top.
+    ///
+    /// # Errors
+    /// [`Error::LayerOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Region, Shape};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(pyramid.layer(9)?, Region::triangle(10)?);
+    /// assert!(pyramid.layer(10).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn layer(&self, k: i128) -> Result<Region, Error> {
+        self.region(k).ok_or(Error::LayerOutside {
+            layer: k,
+            layers: self.layers(),
+        })
+    }
+
+    /// The layer on the floor.
+    #[must_use]
+    pub fn base(&self) -> Region {
+        match self.anchor {
+            Anchor::Base(base) => base,
+            // The last layer is there: a shape has one at least.
+            Anchor::Top(top) => self.region(self.layers() - 1).unwrap_or(top),
+        }
+    }
+
+    fn region(&self, k: i128) -> Option<Region> {
+        let whole = self.whole_region(k)?;
+        match self.dimension {
+            Dimension::Three => Some(whole),
+            Dimension::Two => Region::new(whole.x(), 0..=0, whole.s()).ok(),
+        }
+    }
+
+    /// The region of a layer; for discs that of the pile of spheres which has them in its row j = 0.
+    fn whole_region(&self, k: i128) -> Option<Region> {
+        if !(0..self.layers()).contains(&k) {
+            return None;
+        }
+        let Descent { plus, minus } = self.descent(k);
+        match self.anchor {
+            Anchor::Top(top) => Some(top.grown(plus, minus)),
+            Anchor::Base(base) => base.shrunk(self.whole.plus - plus, self.whole.minus - minus),
+        }
+    }
+
+    /// How many spheres lie above a site of layer k on each of its lines, within the run down to there.
+    pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
+        let region = self.whole_region(k);
+        region.map_or([0; 3], |region| {
+            region.spheres_above(i, j, run.sign, k - run.from)
+        })
+    }
+
+    /// The steps from the top to layer k.
+    fn descent(&self, k: i128) -> Descent {
+        let run = self.starts.partition_point(|start| start.layer < k);
+        match run.checked_sub(1).and_then(|run| self.starts.get(run)) {
+            Some(start) => start.descent.further(start.sign, k - start.layer),
+            None => Descent::default(),
+        }
+    }
+
+    /// The net number of + steps from the top to layer k: where site (0, 0) of layer k lies, in units of −ê_a.
+    pub(crate) fn shift(&self, k: i128) -> i128 {
+        let Descent { plus, minus } = self.descent(k);
+        plus - minus
+    }
+
+    /// The net number of + steps above layer k, from the site under which x = y = 0.
+    pub(crate) fn shift_from_origin(&self, k: i128) -> i128 {
+        match self.anchor {
+            Anchor::Top(_) => self.shift(k),
+            Anchor::Base(_) => self.shift(k) - (self.whole.plus - self.whole.minus),
+        }
+    }
+
+    /// The run whose steps lead down to layer k; none for the top.
+    pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
+        let run = self.starts.partition_point(|start| start.layer < k);
+        self.stretch(run.checked_sub(1)?)
+    }
+
+    /// The run of a place in the stacking.
+    pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
+        let start = self.starts.get(index)?;
+        let next = self.starts.get(index + 1);
+        Some(Stretch {
+            index,
+            sign: start.sign,
+            from: start.layer,
+            to: next.map_or(self.layers() - 1, |next| next.layer),
+        })
+    }
+
+    /// The sign of the step down from layer k; none from the floor.
+    #[must_use]
+    pub fn sign_below(&self, k: i128) -> Option<Sign> {
+        let inside = (0..self.layers() - 1).contains(&k);
+        let stretch = inside.then(|| self.stretch_to(k + 1))??;
+        Some(stretch.sign)
+    }
+
+    /// Whether the pile has this site.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let discs = Shape::pyramid(10, Dimension::Two)?;
+    /// assert!(discs.contains(Site { i: 9, j: 0, k: 9 }));
+    /// assert!(!discs.contains(Site { i: 0, j: 1, k: 9 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn contains(&self, site: Site) -> bool {
+        let region = self.region(site.k);
+        region.is_some_and(|region| region.contains(site.i, site.j))
+    }
+
+    /// The site itself, if the pile has it.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(pyramid.check(Site::APEX), Ok(Site::APEX));
+    /// assert!(pyramid.check(Site { i: 1, j: 0, k: 0 }).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn check(&self, site: Site) -> Result<Site, Error> {
+        if self.contains(site) {
+            return Ok(site);
+        }
+        Err(Error::SiteOutside {
+            site,
+            layers: self.layers(),
+            dimension: self.dimension,
+            region: self
+                .region(site.k)
+                .filter(|_| !self.is_pyramid())
+                .map(Box::new),
+        })
+    }
+
+    /// The support of `site` in a direction; none on the floor, and none in a direction that discs lack.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Direction, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(3, Dimension::Three)?;
+    /// let below = pyramid.below(Site::APEX, Direction::Beta);
+    /// assert_eq!(below, Some(Site { i: 1, j: 0, k: 1 }));
+    /// assert_eq!(pyramid.below(Site { i: 0, j: 0, k: 2 }, Direction::Beta), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn below(&self, site: Site, direction: Direction) -> Option<Site> {
+        self.neighbour(site, direction, self.sign_below(site.k)?, 1)
+    }
+
+    /// The sphere that `site` supports in a direction; none at a surface.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Direction, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(3, Dimension::Three)?;
+    /// let above = pyramid.above(Site { i: 1, j: 0, k: 1 }, Direction::Beta);
+    /// assert_eq!(above, Some(Site::APEX));
+    /// assert_eq!(pyramid.above(Site { i: 1, j: 0, k: 1 }, Direction::Alpha), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn above(&self, site: Site, direction: Direction) -> Option<Site> {
+        let sign = self.sign_below(site.k.checked_sub(1)?)?;
+        self.neighbour(site, direction, sign, -1)
+    }
+
+    fn neighbour(&self, site: Site, direction: Direction, sign: Sign, down: i128) -> Option<Site> {
+        let from = self.contains(site).then_some(site)?;
+        let to = from.step(sign, direction, down)?;
+        self.contains(to).then_some(to)
+    }
+
+    /// The rows of a part of the pile, from the top.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Selection, Shape};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(pyramid.rows(Selection::Layer(3))?.count(), 4);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn rows(&self, selection: Selection) -> Result<Rows<'_>, Error> {
+        Rows::new(self, selection)
+    }
+
+    /// Every site, layer by layer from the top, row by row.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(2, Dimension::Three)?;
+    /// let sites: Vec<Site> = pyramid.sites().collect();
+    /// assert_eq!(sites[1..], [(0, 0), (1, 0), (0, 1)].map(|(i, j)| Site { i, j, k: 1 }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn sites(&self) -> impl Iterator<Item = Site> + '_ {
+        Rows::of_layers(self, 0..self.layers()).flatten()
+    }
+
+    /// The number of spheres, of any size.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let shape = Shape::under(Region::SITE, Stacking::fcc(10)?)?;
+    /// assert_eq!(shape.spheres(), 220_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spheres(&self) -> BigUint {
+        self.spheres_in(0..self.layers())
+    }
+
+    /// The number of spheres in these layers.
+    ///
+    /// Between the layers where a sign changes, or a side of the region ends, the spheres of a layer are a polynomial
+    /// of degree two in k: Newton's forward differences sum it.
+    pub(crate) fn spheres_in(&self, layers: Range<i128>) -> BigUint {
+        let mut sum = BigUint::zero();
+        let mut from = layers.start.max(0);
+        let end = layers.end.min(self.layers());
+        while from < end {
+            let to = self.end_of_piece(from).min(end);
+            sum += self.spheres_in_piece(from..to);
+            from = to;
+        }
+        sum
+    }
+
+    /// The first layer past `k` where the count of spheres begins to follow another polynomial.
+    fn end_of_piece(&self, k: i128) -> i128 {
+        let Some(Stretch { sign, to, .. }) = self.stretch_to(k + 1) else {
+            return k + 1;
+        };
+        let (Anchor::Base(_), Some(bottom)) = (self.anchor, self.region(to)) else {
+            return to + 1;
+        };
+        // Going up from the bottom of the run, sides shrink to nothing.
+        let breaks = bottom.vanishing_sides(sign).map(|steps| to - steps);
+        breaks
+            .into_iter()
+            .filter(|layer| *layer > k)
+            .min()
+            .map_or(to, |layer| layer.min(to))
+            + 1
+    }
+
+    fn spheres_in_piece(&self, layers: Range<i128>) -> BigUint {
+        let count = |k| self.region(k).map_or_else(BigUint::zero, |r| r.sites());
+        let n = layers.end - layers.start;
+        if n <= 3 {
+            return layers.map(count).sum();
+        }
+        let [c0, c1, c2] = [0, 1, 2].map(|t| num_bigint::BigInt::from(count(layers.start + t)));
+        let n = num_bigint::BigInt::from(n);
+        let pairs = (&n * (&n - 1_u32)).div_floor(&2.into());
+        let triples = (&pairs * (&n - 2_u32)).div_floor(&3.into());
+        let first = &c1 - &c0;
+        let second = c2 - &c1 - &first;
+        // A count: not negative.
+        (n * c0 + pairs * first + triples * second).into_parts().1
+    }
+
+    /// How many spheres come before this one, in row order from the top.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
+    /// assert_eq!(pyramid.before(Site { i: 1, j: 1, k: 2 })?, 8_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn before(&self, site: Site) -> Result<BigUint, Error> {
+        let Site { i, j, k } = self.check(site)?;
+        let region = self.layer(k)?;
+        let in_layer = region.sites_before(i, j);
+        Ok(self.spheres_in(0..k) + in_layer)
+    }
+
+    /// The greatest number of layers that these steps, read from the base up and repeated as they are asked for,
+    /// carry a base to.
+    pub(crate) fn greatest_height(
+        base: Region,
+        stacking: impl Fn(i128) -> Result<Stacking, Error>,
+    ) -> Result<i128, Error> {
+        // Each step takes at least one off each width, and none gets below 0.
+        let [x, y, s] = base.widths();
+        let most = (x.min(y).min(s) + 1).min(MAX_LAYERS);
+        let probe = Self::new(
+            Dimension::Three,
+            stacking(most)?.reversed(),
+            Anchor::Base(base),
+        );
+        Ok(probe.height_above_base())
+    }
+}

@@ -1,0 +1,424 @@
+//! What the lines of contacts of a pile add up to, run by run: the methods *closed* and *tree*.
+//!
+//! Within a run of steps of one sign a line just counts up (THEORY §3, "Lines"): a sphere m layers into a run receives
+//! along a line the increments of the N spheres above it on the line, N ≤ m by
+//! [`Region::spheres_above`](crate::lattice::Region::spheres_above). If N < m the line begins at a surface, with
+//! nothing. If N = m it begins at the change of sign, with what the sphere there passes on across it, which needs the
+//! three forces on that sphere, and so on up: a tree whose nodes are pairs of a run and a site. Different branches meet
+//! at the same nodes again and again; each is visited once.
+//!
+//! A straight pile has no change of sign: its tree has no nodes, and every force is closed.
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+
+use num_bigint::{BigInt, BigUint};
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Zero, pow};
+
+use crate::closed_form::Increments;
+use crate::lattice::{Direction, Shape, Site, Stretch};
+use crate::scalar::{Algebra, Ring};
+use crate::stacking::Sign;
+use crate::transfer::turn_numerators;
+use crate::{Error, Pile};
+
+/// The most nodes of a tree that are visited for one row.
+const MAX_NODES: usize = 4_000_000;
+
+/// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
+///
+/// A force after d changes of sign has the denominator [`scale`](Self::scale)(d).
+#[derive(Clone, Debug)]
+pub(crate) struct Lines<'p, T: Algebra> {
+    shape: &'p Shape,
+    /// Of an ordinary sphere.
+    ordinary: Increments<T::Numerator, 3>,
+    /// What some spheres add beside, by line, and by layer on it.
+    extras: BTreeMap<(Line, i128), T::Numerator>,
+    /// What acts on some spheres beside an ordinary weight, in mg/W.
+    extra_weights: BTreeMap<Site, T::Numerator>,
+    scale: T::Numerator,
+    /// Whether a change of sign triples the denominator: the ring of numerators has no thirds.
+    triples: bool,
+}
+
+/// A line of contacts within a run: its direction, and the place where it would cross layer 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Line {
+    run: usize,
+    direction: Direction,
+    place: [i128; 2],
+}
+
+/// The forces from above on some spheres of one layer, as numerators.
+pub(crate) struct Above<T: Algebra> {
+    /// By site, in the order of the question.
+    pub(crate) forces: Vec<[T::Numerator; 3]>,
+    /// The changes of sign before: the denominator is [`Lines::scale`] of it.
+    pub(crate) changes: usize,
+}
+
+/// Spheres of one layer whose forces from above are needed, in order and each once.
+struct Level {
+    stretch: Stretch,
+    k: i128,
+    sites: Vec<[i128; 2]>,
+    /// On which of their lines.
+    wanted: Wanted,
+}
+
+/// The lines of a sphere that an answer needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    One(Direction),
+    All,
+}
+
+impl Wanted {
+    /// What a contact below a sphere needs: its line, or all three where they are mixed by a change of sign.
+    pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
+        let sign = shape.sign_below(site.k);
+        if site.k > 0 && sign != shape.sign_below(site.k - 1) {
+            Self::All
+        } else {
+            Self::One(direction)
+        }
+    }
+
+    fn includes(self, direction: Direction) -> bool {
+        self == Self::All || self == Self::One(direction)
+    }
+}
+
+/// Numerators over the denominator of `least`, which they share.
+fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerator {
+    let ([value, _], _) = T::numerators(&[value, least.clone()]);
+    value
+}
+
+impl<'p, T: Algebra> Lines<'p, T> {
+    pub(crate) fn new(pile: &'p Pile) -> Self {
+        let increments: Increments<BigRational, 3> = pile.increments();
+        let (per_line, loading) = (increments.per_line(), pile.loading());
+        // One denominator for all: of increments, and of weights and loads times increments.
+        let own = per_line.iter().fold(BigInt::one(), |d, w| d.lcm(w.denom()));
+        let given = loading
+            .extras()
+            .fold(BigInt::one(), |d, (_, w)| d.lcm(w.denom()));
+        let least = BigRational::new(BigInt::one(), own * given);
+        let (_, scale) = T::numerators(core::array::from_ref(&least));
+        let ordinary = per_line
+            .each_ref()
+            .map(|w| numerator::<T>(w * loading.ordinary(), &least));
+        let mut lines = Self {
+            shape: pile.shape(),
+            ordinary: Increments::new(ordinary),
+            extras: BTreeMap::new(),
+            extra_weights: BTreeMap::new(),
+            scale,
+            triples: T::divide_numerator(T::Numerator::one(), THREE).is_none(),
+        };
+        for (site, extra) in loading.extras() {
+            let run_below = lines
+                .shape
+                .stretch_to(site.k + 1)
+                .filter(|run| site.k < run.to);
+            for direction in Direction::ALL {
+                if let Some(run) = run_below {
+                    let w = numerator::<T>(&per_line[direction.index()] * &extra, &least);
+                    lines
+                        .extras
+                        .insert((Line::through(site, direction, run), site.k), w);
+                }
+            }
+            let weight = numerator::<T>(increments.sum() * &extra, &least);
+            lines.extra_weights.insert(site, weight);
+        }
+        lines
+    }
+
+    /// The denominator of forces after so many changes of sign.
+    pub(crate) fn scale(&self, changes: usize) -> T::Numerator {
+        self.scaled(self.scale.clone(), changes)
+    }
+
+    /// A numerator over the first denominator, over the one after so many changes.
+    fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
+        if self.triples && changes > 0 {
+            numerator * &pow(T::Numerator::from_i128(3), changes)
+        } else {
+            numerator
+        }
+    }
+
+    /// A numerator over the denominator after `from` changes, over the one after `to`.
+    pub(crate) fn rescaled(&self, numerator: T::Numerator, from: usize, to: usize) -> T::Numerator {
+        self.scaled(numerator, to.saturating_sub(from))
+    }
+
+    /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
+    pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
+        let ordinary = self.ordinary.sum().clone();
+        let weight = match self.extra_weights.get(&site) {
+            Some(extra) => ordinary + extra,
+            None => ordinary,
+        };
+        self.scaled(weight, changes)
+    }
+
+    /// What an ordinary sphere adds to each of its lines after so many changes, in a pile whose directions are alike.
+    pub(crate) fn increment_after(&self, changes: usize) -> T::Numerator {
+        let [w, ..] = self.ordinary.per_line();
+        self.scaled(w.clone(), changes)
+    }
+
+    /// What a sphere adds to its lines in the run below it, beside an ordinary weight.
+    pub(crate) fn extra(&self, site: Site) -> [T::Numerator; 3] {
+        let Some(run) = self.shape.stretch_to(site.k + 1) else {
+            return core::array::from_fn(|_| T::Numerator::zero());
+        };
+        Direction::ALL.map(|direction| {
+            let extra = self
+                .extras
+                .get(&(Line::through(site, direction, run), site.k));
+            let extra = extra.cloned().unwrap_or_else(T::Numerator::zero);
+            self.scaled(extra, run.index)
+        })
+    }
+
+    /// What the spheres of these layers add to their lines beside an ordinary weight.
+    pub(crate) fn extras_in(
+        &self,
+        layers: core::ops::Range<i128>,
+    ) -> impl Iterator<Item = Site> + '_ {
+        let first = |k| Site {
+            i: i128::MIN,
+            j: i128::MIN,
+            k,
+        };
+        let sites = self
+            .extra_weights
+            .range(first(layers.start)..first(layers.end));
+        sites.map(|(site, _)| *site)
+    }
+
+    /// What a sphere passes on in each direction, from what it receives and the changes of sign before.
+    pub(crate) fn to_below(
+        &self,
+        site: Site,
+        from_above: [T::Numerator; 3],
+        changes: usize,
+    ) -> ([T::Numerator; 3], usize) {
+        let Some(run) = self.shape.stretch_to(site.k + 1) else {
+            return (from_above, changes);
+        };
+        let received = if run.index > changes {
+            turn_numerators::<T>(&from_above)
+        } else {
+            from_above
+        };
+        self.with_own(site, received, run.index)
+    }
+
+    /// What a sphere passes on, from what it receives, turned if the sign changes there.
+    pub(crate) fn with_own(
+        &self,
+        site: Site,
+        received: [T::Numerator; 3],
+        changes: usize,
+    ) -> ([T::Numerator; 3], usize) {
+        let mut passed = received;
+        for (force, w) in passed.iter_mut().zip(self.ordinary.per_line()) {
+            *force = self.scaled(w.clone(), changes) + &*force;
+        }
+        if self.extra_weights.contains_key(&site) {
+            for (force, extra) in passed.iter_mut().zip(self.extra(site)) {
+                *force = extra + &*force;
+            }
+        }
+        (passed, changes)
+    }
+
+    /// The forces from above on a sphere above which no sign changes, whose site the caller has checked; zero on lines
+    /// not wanted. `None` below a change.
+    pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
+        let Site { i, j, k } = site;
+        let Some(run) = self.shape.stretch_to(k) else {
+            return Some([(); 3].map(|()| T::Numerator::zero()));
+        };
+        if run.index > 0 {
+            return None;
+        }
+        let counts = self.shape.spheres_above(&run, k, [i, j]);
+        Some(Direction::ALL.map(|direction| {
+            if wanted.includes(direction) {
+                self.counted(run, k, [i, j], direction, counts[direction.index()])
+            } else {
+                T::Numerator::zero()
+            }
+        }))
+    }
+
+    /// The forces from above on spheres of layer `k`, whose sites the caller has checked; zero on lines not wanted.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if the lines above pass more than 4 million spheres at changes of sign.
+    pub(crate) fn forces_above(
+        &self,
+        k: i128,
+        sites: &[[i128; 2]],
+        wanted: Wanted,
+    ) -> Result<Above<T>, Error> {
+        let levels = self.levels(k, sites, wanted)?;
+        let mut levels = levels.into_iter().rev();
+        let Some(first) = levels.next() else {
+            let none = || core::array::from_fn(|_| T::Numerator::zero());
+            let forces = sites.iter().map(|_| none()).collect();
+            return Ok(Above { forces, changes: 0 });
+        };
+        let mut forces = self.received(&first, &[], &[]);
+        let mut level = first;
+        for next in levels {
+            let turned: Vec<_> = forces.iter().map(turn_numerators::<T>).collect();
+            forces = self.received(&next, &level.sites, &turned);
+            level = next;
+        }
+        let changes = level.stretch.index;
+        let of_site = |site: &[i128; 2]| {
+            let place = level.sites.binary_search(site).ok();
+            place.and_then(|place| forces.get(place)).cloned()
+        };
+        let nothing = || core::array::from_fn(|_| T::Numerator::zero());
+        let forces = sites
+            .iter()
+            .map(|site| of_site(site).unwrap_or_else(nothing))
+            .collect();
+        Ok(Above { forces, changes })
+    }
+
+    /// How many spheres at changes of sign the force of a contact depends on.
+    pub(crate) fn nodes(&self, site: Site, direction: Direction) -> Result<usize, Error> {
+        let wanted = Wanted::for_contact(self.shape, site, direction);
+        let levels = self.levels(site.k, &[[site.i, site.j]], wanted)?;
+        let above: usize = levels.iter().skip(1).map(|level| level.sites.len()).sum();
+        Ok(above + usize::from(wanted == Wanted::All))
+    }
+
+    /// The levels of the tree, from the question up.
+    fn levels(&self, k: i128, sites: &[[i128; 2]], wanted: Wanted) -> Result<Vec<Level>, Error> {
+        let mut levels = Vec::new();
+        let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
+        let mut nodes = 0;
+        while let (Some(stretch), false) = (self.shape.stretch_to(k), sites.is_empty()) {
+            sites.sort_unstable();
+            sites.dedup();
+            nodes += sites.len();
+            if nodes > MAX_NODES {
+                return Err(Error::TooLarge {
+                    quantity: "the forces on spheres this far below so many changes of sign",
+                    needed: BigUint::from(nodes),
+                    limit: MAX_NODES as u64,
+                    remedy: "ask for fewer layers or spheres",
+                });
+            }
+            let mut starts = Vec::new();
+            if stretch.index > 0 {
+                for site in &sites {
+                    let counts = self.shape.spheres_above(&stretch, k, *site);
+                    for (direction, count) in Direction::ALL.into_iter().zip(counts) {
+                        if count == k - stretch.from && wanted.includes(direction) {
+                            starts.push(start_of(*site, direction, stretch.sign, count));
+                        }
+                    }
+                }
+            }
+            levels.push(Level {
+                stretch,
+                k,
+                sites,
+                wanted,
+            });
+            (k, sites, wanted) = (stretch.from, starts, Wanted::All);
+        }
+        Ok(levels)
+    }
+
+    /// The forces from above on the spheres of a level, from what the spheres `starts` at the change of sign above
+    /// receive, turned.
+    fn received(
+        &self,
+        level: &Level,
+        starts: &[[i128; 2]],
+        turned: &[[T::Numerator; 3]],
+    ) -> Vec<[T::Numerator; 3]> {
+        let Level {
+            stretch, k, sites, ..
+        } = level;
+        let unit = self.scaled(T::Numerator::one(), stretch.index);
+        let of_site = |site: &[i128; 2]| {
+            let counts = self.shape.spheres_above(stretch, *k, *site);
+            Direction::ALL.map(|direction| {
+                if !level.wanted.includes(direction) {
+                    return T::Numerator::zero();
+                }
+                let n = counts[direction.index()];
+                let counted = self.counted(*stretch, *k, *site, direction, n) * &unit;
+                let start = start_of(*site, direction, stretch.sign, n);
+                let carried = if n == k - stretch.from {
+                    let place = starts.binary_search(&start).ok();
+                    place.and_then(|place| turned.get(place))
+                } else {
+                    None
+                };
+                match carried {
+                    Some(carried) => counted + &carried[direction.index()],
+                    None => counted,
+                }
+            })
+        };
+        sites.iter().map(of_site).collect()
+    }
+
+    /// What the `n` spheres above a site on a line add to it, over the first denominator.
+    fn counted(
+        &self,
+        run: Stretch,
+        k: i128,
+        site: [i128; 2],
+        direction: Direction,
+        n: i128,
+    ) -> T::Numerator {
+        let ordinary = self
+            .ordinary
+            .force(T::Numerator::from_i128(n), direction.index());
+        if self.extras.is_empty() {
+            return ordinary;
+        }
+        let [i, j] = site;
+        let line = Line::through(Site { i, j, k }, direction, run);
+        let extras = self.extras.range((line, k - n)..(line, k));
+        extras.fold(ordinary, |sum, (_, extra)| sum + extra)
+    }
+}
+
+impl Line {
+    fn through(site: Site, direction: Direction, run: Stretch) -> Self {
+        let place = start_of([site.i, site.j], direction, run.sign, site.k);
+        Self {
+            run: run.index,
+            direction,
+            place,
+        }
+    }
+}
+
+/// The site so many steps up a line.
+fn start_of([i, j]: [i128; 2], direction: Direction, sign: Sign, steps: i128) -> [i128; 2] {
+    let [di, dj] = sign.descent(direction);
+    [i - di * steps, j - dj * steps]
+}
+
+// Unwrapped by the compiler: zero would not build.
+const THREE: core::num::NonZeroI64 = core::num::NonZeroI64::new(3).unwrap();

@@ -1,0 +1,195 @@
+//! Where the forces of many spheres come from, sphere after sphere in row order.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::{FloorForce, Statics, edge_all};
+use crate::Error;
+use crate::lattice::{Rows, Site};
+use crate::lines::{Lines, Wanted};
+use crate::scalar::{Algebra, Exactness};
+use crate::sweep::{Cells, Grid, Planes, Sweep};
+
+/// How many spheres of a row share one tree.
+const CHUNK: i128 = 1024;
+
+/// The forces of the spheres of some rows.
+pub(super) enum Source<'p, T: Algebra> {
+    /// Sphere by sphere, of a straight stacking.
+    Closed,
+    /// A piece of a row at a time.
+    Tree(Option<Piece<T>>),
+    /// One layer in memory, in the numbers of the scalar.
+    Sweep(Box<Sweep<'p, T, Cells<T::Numerator>>>),
+    /// One layer in memory, in the exact engine, for a scalar that is exact itself.
+    Integers(Box<Integers<'p>>),
+}
+
+/// A sweep of the exact engine, and the questions put to it.
+pub(super) struct Integers<'p> {
+    statics: Statics<'p, BigRational>,
+    sweep: Sweep<'p, BigRational, Planes>,
+}
+
+/// Consecutive spheres of a row with the forces from above on them.
+pub(super) struct Piece<T: Algebra> {
+    first: Site,
+    forces: Vec<[T::Numerator; 3]>,
+    changes: usize,
+}
+
+impl<'p, T: Algebra> Source<'p, T> {
+    pub(super) fn new(statics: &Statics<'p, T>, rows: &Rows<'p>) -> Self {
+        let pile = statics.pile;
+        let shape = pile.shape();
+        if shape.stacking().is_straight() {
+            return Self::Closed;
+        }
+        // The rows of another pile are asked for site by site, and checked.
+        if rows.one().is_some() || !core::ptr::eq(rows.shape(), shape) {
+            return Self::Tree(None);
+        }
+        let last = rows.layers().end - 1;
+        let size = pile.size_of_sweep(last);
+        if T::EXACTNESS == Exactness::Exact {
+            let Ok(grid) = Grid::new(shape, last, size.planes) else {
+                return Self::Tree(None);
+            };
+            let layer = Planes::new(&grid, size);
+            return Self::Integers(Box::new(Integers {
+                statics: pile.statics(),
+                sweep: Sweep::new(Lines::new(pile), grid, layer),
+            }));
+        }
+        match generic_sweep(statics, last) {
+            Ok(sweep) => Self::Sweep(Box::new(sweep)),
+            Err(_) => Self::Tree(None),
+        }
+    }
+
+    /// The force of a bottom sphere on the floor.
+    pub(super) fn on_floor(
+        &mut self,
+        statics: &Statics<'p, T>,
+        site: Site,
+    ) -> Result<FloorForce<T>, Error> {
+        if site.k != statics.floor() {
+            return statics.on_floor(site);
+        }
+        match self {
+            Self::Closed => statics.on_floor(site),
+            Self::Tree(piece) => {
+                let (above, changes) = Piece::at(piece, statics, site)?;
+                statics.floor_force(site, &above, changes)
+            }
+            Self::Sweep(sweep) => {
+                sweep.advance(site.k);
+                let (above, changes) = sweep.received(site);
+                statics.floor_force(site, &above, changes)
+            }
+            Self::Integers(integers) => {
+                let Integers { statics, sweep } = &mut **integers;
+                sweep.advance(site.k);
+                let (above, changes) = sweep.received(site);
+                let force = statics.floor_force(site, &above, changes)?;
+                Ok(FloorForce {
+                    site,
+                    normal: T::from_rational(&force.normal),
+                    shear_x: T::from_rational(&force.shear_x),
+                    shear_y: T::from_rational(&force.shear_y),
+                })
+            }
+        }
+    }
+
+    /// The forces to the spheres below one that is not on the floor.
+    pub(super) fn passed_on(
+        &mut self,
+        statics: &Statics<'p, T>,
+        site: Site,
+    ) -> Result<[T; 3], Error> {
+        let (forces, changes) = match self {
+            Self::Closed => statics.passed_on(site)?,
+            Self::Tree(piece) => {
+                let (above, changes) = Piece::at(piece, statics, site)?;
+                statics.lines.to_below(site, above, changes)
+            }
+            Self::Sweep(sweep) => {
+                sweep.advance(site.k);
+                sweep.passed_on(site)
+            }
+            Self::Integers(integers) => {
+                let Integers { statics, sweep } = &mut **integers;
+                sweep.advance(site.k);
+                let (forces, changes) = sweep.passed_on(site);
+                let scale = statics.lines.scale(changes);
+                return Ok(
+                    forces.map(|force| T::from_rational(&BigRational::new(force, scale.clone())))
+                );
+            }
+        };
+        edge_all("a contact force", forces, &statics.lines.scale(changes))
+    }
+}
+
+/// A sweep down to layer `last` in the numbers of the scalar.
+fn generic_sweep<'p, T: Algebra>(
+    statics: &Statics<'p, T>,
+    last: i128,
+) -> Result<Sweep<'p, T, Cells<T::Numerator>>, Error> {
+    let mut words = size_of::<T::Numerator>().div_ceil(size_of::<i64>());
+    if T::EXACTNESS == Exactness::Exact {
+        // Integers keep their digits elsewhere.
+        words += statics.pile.size_of_sweep(last).planes;
+    }
+    let grid = Grid::new(statics.pile.shape(), last, words)?;
+    let layer = Cells::new(&grid, &T::Numerator::zero());
+    Ok(Sweep::new(statics.lines.clone(), grid, layer))
+}
+
+/// The forces from above on one sphere, after a sweep of the whole layer.
+pub(super) fn received_by_sweep<T: Algebra>(
+    statics: &Statics<'_, T>,
+    site: Site,
+) -> Result<([T::Numerator; 3], usize), Error> {
+    let mut sweep = generic_sweep(statics, site.k)?;
+    sweep.advance(site.k);
+    Ok(sweep.received(site))
+}
+
+impl<T: Algebra> Piece<T> {
+    /// The forces from above on a sphere: from the piece it is in, or from a new one that begins with it.
+    fn at(
+        piece: &mut Option<Self>,
+        statics: &Statics<'_, T>,
+        site: Site,
+    ) -> Result<([T::Numerator; 3], usize), Error> {
+        if let Some(found) = piece.as_ref().and_then(|piece| piece.get(site)) {
+            return Ok(found);
+        }
+        let Site { i, j, k } = statics.pile.shape().check(site)?;
+        let end = statics.pile.shape().layer(k)?.row(j).end;
+        let sites: Vec<[i128; 2]> = (i..end.min(i + CHUNK)).map(|i| [i, j]).collect();
+        let above = statics.lines.forces_above(k, &sites, Wanted::All)?;
+        let new = piece.insert(Self {
+            first: site,
+            forces: above.forces,
+            changes: above.changes,
+        });
+        // The piece begins with the site.
+        new.get(site).ok_or(Error::LayerOutside {
+            layer: k,
+            layers: statics.pile.layers(),
+        })
+    }
+
+    fn get(&self, site: Site) -> Option<([T::Numerator; 3], usize)> {
+        let same_row = (site.k, site.j) == (self.first.k, self.first.j);
+        let place = usize::try_from(site.i.checked_sub(self.first.i)?).ok()?;
+        let forces = self.forces.get(place).filter(|_| same_row)?;
+        Some((forces.clone(), self.changes))
+    }
+}

@@ -1,0 +1,262 @@
+//! How layers follow one another: Hägg signs, kept as runs, and the notations of the field.
+//!
+//! From one layer to the next a pile steps with a Hägg sign (THEORY §3): under + the sphere (i, j) rests on
+//! (i, j), (i+1, j), (i, j+1) of the layer below, under − on (i, j), (i−1, j), (i, j−1). All + is the paper's
+//! FCC-like pile, alternating signs are HCP, ++−− repeated is DHCP. The same sequence is written as
+//!
+//! | notation | of ++−+ | |
+//! |---|---|---|
+//! | Hägg | `++-+` | a sign for each step |
+//! | ABC | `ABCBC` | a letter for each layer; A→B→C→A is + |
+//! | Jagodzinski | `chh` | a letter for each inner layer: h where the sign changes, c where it does not |
+//! | Zhdanov | `(2,1,1)` | the lengths of the runs |
+//!
+//! The last two do not fix the first sign: it is taken as +.
+
+mod notation;
+
+pub use notation::{Abc, Hagg, Jagodzinski, Zhdanov};
+
+use alloc::vec::Vec;
+use core::ops::Neg;
+
+use crate::Error;
+use crate::lattice::{Direction, MAX_LAYERS};
+
+/// The Hägg sign of a step from a layer to the one below.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Sign {
+    /// (i, j) rests on (i, j), (i+1, j), (i, j+1).
+    Plus,
+    /// (i, j) rests on (i, j), (i−1, j), (i, j−1).
+    Minus,
+}
+
+impl Sign {
+    /// The step (Δi, Δj) to the support in a direction.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Direction;
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// assert_eq!(Sign::Minus.descent(Direction::Gamma), [0, -1]);
+    /// ```
+    #[must_use]
+    pub const fn descent(self, direction: Direction) -> [i128; 2] {
+        let [i, j, _] = direction.descent();
+        match self {
+            Self::Plus => [i, j],
+            Self::Minus => [-i, -j],
+        }
+    }
+
+    /// `+` or `-`.
+    #[must_use]
+    pub const fn symbol(self) -> char {
+        match self {
+            Self::Plus => '+',
+            Self::Minus => '-',
+        }
+    }
+}
+
+impl Neg for Sign {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        match self {
+            Self::Plus => Self::Minus,
+            Self::Minus => Self::Plus,
+        }
+    }
+}
+
+/// Consecutive steps of one sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Run {
+    /// Their sign.
+    pub sign: Sign,
+    /// How many, at least 1.
+    pub steps: i128,
+}
+
+/// The steps of a pile from the top, as runs: neighbouring runs have opposite signs.
+///
+/// A stacking of 10¹⁵ layers with three changes of sign is four runs.
+///
+/// # Examples
+/// ```
+/// use cannonpile::stacking::{Sign, Stacking};
+///
+/// let stacking: Stacking = "++-+".parse()?;
+/// assert_eq!((stacking.layers(), stacking.changes()), (5, 2));
+/// assert_eq!(stacking.abc().to_string(), "ABCBC");
+/// assert_eq!(stacking.zhdanov().to_string(), "(2,1,1)");
+/// assert_eq!(stacking.mirrored().hagg().to_string(), "--+-");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Stacking {
+    first: Sign,
+    /// Positive; of alternating signs.
+    lengths: Vec<i128>,
+}
+
+impl Stacking {
+    /// One layer: no step.
+    #[must_use]
+    pub const fn single_layer() -> Self {
+        Self {
+            first: Sign::Plus,
+            lengths: Vec::new(),
+        }
+    }
+
+    /// The stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
+    ///
+    /// # Errors
+    /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers.
+    pub fn from_runs(runs: impl IntoIterator<Item = Run>) -> Result<Self, Error> {
+        let mut stacking = Self::single_layer();
+        let mut last = None;
+        let mut layers: i128 = 1;
+        for Run { sign, steps } in runs {
+            if steps < 0 {
+                return Err(Error::RunLength { given: steps });
+            }
+            layers = layers.saturating_add(steps);
+            if layers > MAX_LAYERS {
+                return Err(Error::Layers {
+                    given: layers.into(),
+                });
+            }
+            if steps == 0 {
+                continue;
+            }
+            match stacking.lengths.last_mut() {
+                Some(length) if last == Some(sign) => *length += steps,
+                _ => {
+                    if last.is_none() {
+                        stacking.first = sign;
+                    }
+                    stacking.lengths.push(steps);
+                }
+            }
+            last = Some(sign);
+        }
+        Ok(stacking)
+    }
+
+    /// The stacking with these signs from the top.
+    ///
+    /// # Errors
+    /// As for [`from_runs`](Self::from_runs).
+    pub fn from_signs(signs: impl IntoIterator<Item = Sign>) -> Result<Self, Error> {
+        Self::from_runs(signs.into_iter().map(|sign| Run { sign, steps: 1 }))
+    }
+
+    /// All +: the paper's FCC-like pile.
+    ///
+    /// # Errors
+    /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶.
+    pub fn fcc(layers: i128) -> Result<Self, Error> {
+        Self::periodic(layers, 0)
+    }
+
+    /// + − + − …: hexagonal close packing.
+    ///
+    /// # Errors
+    /// [`Error::Layers`], and [`Error::TooManyRuns`] beyond a million changes of sign.
+    pub fn hcp(layers: i128) -> Result<Self, Error> {
+        Self::periodic(layers, 1)
+    }
+
+    /// + + − − …: double hexagonal close packing.
+    ///
+    /// # Errors
+    /// As for [`hcp`](Self::hcp).
+    pub fn dhcp(layers: i128) -> Result<Self, Error> {
+        Self::periodic(layers, 2)
+    }
+
+    /// Runs of `length` steps with alternating signs, the last one as long as the layers allow; all one run
+    /// for 0.
+    fn periodic(layers: i128, length: i128) -> Result<Self, Error> {
+        if !(1..=MAX_LAYERS).contains(&layers) {
+            return Err(Error::Layers {
+                given: layers.into(),
+            });
+        }
+        let steps = layers - 1;
+        let length = if length == 0 { steps.max(1) } else { length };
+        let whole = usize::try_from(steps / length)
+            .ok()
+            .filter(|runs| *runs <= MAX_RUNS);
+        let whole = whole.ok_or(Error::TooManyRuns { limit: MAX_RUNS })?;
+        let mut lengths = alloc::vec![length; whole];
+        lengths.extend(Some(steps % length).filter(|rest| *rest > 0));
+        Ok(Self {
+            first: Sign::Plus,
+            lengths,
+        })
+    }
+
+    /// The number L of layers, one more than there are steps.
+    #[must_use]
+    pub fn layers(&self) -> i128 {
+        // At most 10³⁶, checked when it was made.
+        self.lengths.iter().sum::<i128>() + 1
+    }
+
+    /// The number d of sign changes.
+    #[must_use]
+    pub fn changes(&self) -> usize {
+        self.lengths.len().saturating_sub(1)
+    }
+
+    /// Whether no sign changes.
+    #[must_use]
+    pub fn is_straight(&self) -> bool {
+        self.changes() == 0
+    }
+
+    /// The runs, from the top.
+    #[must_use]
+    pub fn runs(&self) -> impl DoubleEndedIterator<Item = Run> + ExactSizeIterator + '_ {
+        let signs = [self.first, -self.first];
+        self.lengths.iter().enumerate().map(move |(n, steps)| Run {
+            sign: if n % 2 == 0 { signs[0] } else { signs[1] },
+            steps: *steps,
+        })
+    }
+
+    /// The signs, from the top, one a step.
+    #[must_use]
+    pub fn signs(&self) -> impl Iterator<Item = Sign> + '_ {
+        self.runs()
+            .flat_map(|run| (0..run.steps).map(move |_| run.sign))
+    }
+
+    /// The stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        Self {
+            first: -self.first,
+            lengths: self.lengths.clone(),
+        }
+    }
+
+    /// The same steps read from the other end.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let first = self.runs().next_back().map_or(Sign::Plus, |run| run.sign);
+        Self {
+            first,
+            lengths: self.lengths.iter().rev().copied().collect(),
+        }
+    }
+}
+
+/// The most runs a stacking is made of.
+pub const MAX_RUNS: usize = 1_000_000;

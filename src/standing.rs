@@ -1,0 +1,207 @@
+//! Which piles stand.
+//!
+//! Spheres push, they do not pull. Where α, β and γ are the only contacts, the forces are unique: one that is negative
+//! means that no frictionless equilibrium exists, and the pile cannot stand (THEORY §3, "Tension"). A force of zero
+//! stands. Where further spheres touch (q = 1, q = 9/4 with a change of sign, q = 8/3 without), forces that are nowhere
+//! negative still prove that it stands, and a negative one proves nothing.
+//!
+//! Within a run a line only grows, since no weight is negative. So the least force is where a line begins: at a
+//! surface, or at a change of sign; and only the layers where the sign changes need a look.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Signed;
+
+use crate::geometry::Apart;
+use crate::lattice::{Direction, Shape, Site};
+use crate::lines::Lines;
+use crate::sweep::{Grid, Planes, Sweep};
+use crate::{ContactForce, Error, Pile};
+
+/// Whether a pile stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// No contact has to pull.
+    Yes,
+    /// A contact would have to pull, and there is no other way to balance the forces.
+    No,
+    /// A contact would have to pull, but further contacts may take its part.
+    Undetermined,
+}
+
+impl fmt::Display for Verdict {
+    /// `yes`, `no`, `undetermined`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl Verdict {
+    /// `yes`, `no`, `undetermined`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::No => "no",
+            Self::Undetermined => "undetermined",
+        }
+    }
+}
+
+/// The least contact force of a pile, and what follows from it. Exact.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Region;
+/// use cannonpile::{Pile, Verdict};
+///
+/// // Five layers of HCP stand, six do not.
+/// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+/// let standing = pile.standing()?;
+/// assert_eq!(standing.verdict(&[]), Verdict::No);
+/// let least = standing.least.unwrap();
+/// assert_eq!((least.site.k, least.force.to_string()), (4, "-22/81".to_owned()));
+/// assert_eq!(standing.first_failure, Some(4));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Standing {
+    /// The contact with the least force, the first of them in the order of tables; none of a single layer.
+    pub least: Option<ContactForce<BigRational>>,
+    /// The first layer with a sphere that would have to pull at one below it: down to there, and no further, the
+    /// stacking stands.
+    pub first_failure: Option<i128>,
+}
+
+impl Standing {
+    /// Whether the pile stands, at a spacing at which the spheres `touching` touch beside the contacts α, β, γ: none of
+    /// them between the bounds of [`Clearance`](crate::geometry::Clearance).
+    #[must_use]
+    pub fn verdict(&self, touching: &[Apart]) -> Verdict {
+        match (self.first_failure, touching) {
+            (None, _) => Verdict::Yes,
+            (Some(_), []) => Verdict::No,
+            (Some(_), _) => Verdict::Undetermined,
+        }
+    }
+
+    /// Takes in a contact, if its force is less, or as little and it comes before.
+    fn meet(&mut self, contact: ContactForce<BigRational>) {
+        if contact.force.is_negative() {
+            let k = contact.site.k;
+            self.first_failure = Some(self.first_failure.map_or(k, |first| first.min(k)));
+        }
+        let place = |c: &ContactForce<BigRational>| (c.site, c.direction);
+        let less = self.least.as_ref().is_none_or(|least| {
+            let order = contact.force.cmp(&least.force);
+            order
+                .then_with(|| place(&contact).cmp(&place(least)))
+                .is_lt()
+        });
+        if less {
+            self.least = Some(contact);
+        }
+    }
+}
+
+impl Pile {
+    /// The least contact force of the pile, where it is, and the first layer at which the stacking fails.
+    ///
+    /// Takes a sweep in the exact engine from the top to the last change of sign.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if a sign changes at a layer that does not fit in memory.
+    pub fn standing(&self) -> Result<Standing, Error> {
+        let mut standing = Standing {
+            least: None,
+            first_failure: None,
+        };
+        for contact in self.at_surfaces() {
+            standing.meet(contact);
+        }
+        for contact in self.at_changes()? {
+            standing.meet(contact);
+        }
+        Ok(standing)
+    }
+
+    /// The least forces where lines begin at a surface: of ordinary spheres, and of all others.
+    fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
+        let (shape, loading) = (self.shape(), self.loading());
+        let floor = shape.layers() - 1;
+        let contact = |site, direction: Direction| {
+            let increments = self.increments::<BigRational>();
+            ContactForce {
+                site,
+                direction,
+                force: loading.total(site) * &increments.per_line()[direction.index()],
+            }
+        };
+        let special: Vec<Site> = loading.extras().map(|(site, _)| site).collect();
+        // The least increment of an ordinary sphere: each direction where it first begins. No line begins in the
+        // inside, so the first row of the first layers is enough, unless all of it is special.
+        let directions = self.dimension().directions();
+        let mut ordinary = Vec::new();
+        for direction in directions {
+            let rows = shape.sites().take_while(|site| site.k < floor);
+            let mut fresh = rows.filter(|site| begins(shape, *site, *direction));
+            if let Some(site) = fresh.find(|site| !special.contains(site)) {
+                ordinary.push(contact(site, *direction));
+            }
+        }
+        let special = special.into_iter().filter(|site| site.k < floor);
+        let special = special.flat_map(|site| directions.iter().map(move |d| (site, *d)));
+        let special = special.filter(|(site, direction)| begins(shape, *site, *direction));
+        ordinary.extend(special.map(|(site, direction)| contact(site, direction)));
+        ordinary
+    }
+
+    /// The least force below each layer where the sign changes.
+    fn at_changes(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
+        let shape = self.shape();
+        let changes = shape.stacking().changes();
+        let Some(last) = shape.stretch(changes).filter(|_| changes > 0) else {
+            return Ok(Vec::new());
+        };
+        // One layer more, so that the last change is behind.
+        let size = self.size_of_sweep(last.from + 1);
+        let grid = Grid::new(shape, last.from + 1, size.planes)?;
+        let layer = Planes::new(&grid, size);
+        let mut sweep = Sweep::new(Lines::<BigRational>::new(self), grid, layer);
+        let mut contacts = Vec::with_capacity(changes);
+        for run in 1..=changes {
+            let Some(run) = shape.stretch(run) else {
+                break;
+            };
+            sweep.advance(run.from);
+            contacts.extend(sweep.least_passed_on());
+        }
+        Ok(contacts)
+    }
+}
+
+impl Sweep<'_, BigRational, Planes> {
+    /// The least force below the layer it is at, where the sign has just changed.
+    fn least_passed_on(&mut self) -> Option<ContactForce<BigRational>> {
+        let changes = self.pass()?.run.index + 1;
+        self.settle();
+        let least = self.least()?;
+        let [i, j] = least.place;
+        let force: BigInt = least.numerator + self.lines().increment_after(changes);
+        Some(ContactForce {
+            site: Site { i, j, k: self.k() },
+            direction: least.direction,
+            force: BigRational::new(force, self.lines().scale(changes)),
+        })
+    }
+}
+
+/// Whether the line below a site in a direction begins with it: at the top, or at a surface within a run.
+fn begins(shape: &Shape, site: Site, direction: Direction) -> bool {
+    let changes = shape.sign_below(site.k) != shape.sign_below(site.k - 1);
+    site.k == 0 || (!changes && shape.above(site, direction).is_none())
+}

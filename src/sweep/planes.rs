@@ -1,0 +1,222 @@
+//! The exact engine: integer numerators over 3^d, as wide as is proved to be enough.
+//!
+//! # Width
+//! After d changes of sign every force is an integer over D·3^d, D the common denominator of weights and loads
+//! (THEORY §3). A change of sign triples the half-turn, 3G g = 2Σg − 3g, and no division is left. Let layer κ have n_κ
+//! spheres of weight u and loads e, in mg. G is orthogonal, and so is the way from layer to layer, so in ℓ² over a
+//! layer ‖f‖ ≤ ‖g‖ + √3·‖w‖, and over K layers of N spheres in all, by Cauchy–Schwarz,
+//!
+//! ‖f‖ ≤ B = u√(3·K·N) + √3·Σ|e|.
+//!
+//! No sum on the way to 3G g is greater than 2√3·‖g‖: all numbers of a sweep with d changes stay within
+//! 2√3·B·D·3^(d−1), and B·D without one.
+//!
+//! # Limbs and carries
+//! A number is Σ x_p 2^(48p), one limb x_p in each of P planes, all of them `i64`. Passes are linear, so they act on
+//! each plane by itself, in the same loop; only carries lead from one plane to the next, and they can wait. Right after
+//! carrying, the lower limbs lie in [0, 2^48). Let M·2^48 bound them. A pass adds an increment's limb, below 2^48, and
+//! turns: no sum on the way exceeds 6(M+1)·2^48, and the new bound is 5(M+1). From M = 1 that is 10, 55, 280, 1405,
+//! 7030: five turns stay below 2^63, the sixth would not (6·7031 > 2^15), so carries are due after every fifth. The top
+//! limb is the number over 2^(48(P−1)) less what the lower ones still owe, which is below 2^13, and below 2^16 in the
+//! sums of a turn: P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(48(P−1)), and 2^62 + 2^16 < 2^63. With one plane
+//! nothing is ever carried.
+
+use alloc::vec::Vec;
+
+use num_bigint::{BigInt, BigUint};
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+use super::{Cells, Grid, Layer, Pass};
+use crate::lattice::Direction;
+use crate::transfer::tripled_half_turn;
+
+/// The bits of a limb below the top one.
+const LIMB: u32 = 48;
+
+/// How many turns the lower limbs bear between carries.
+const TURNS: u32 = 5;
+
+/// How wide the numbers of a sweep are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Size {
+    /// The bits that the proved bound asks for, without a sign.
+    pub(crate) bits: u64,
+    /// The planes of `i64` that hold them.
+    pub(crate) planes: usize,
+}
+
+impl Size {
+    /// For a sweep over `layers` layers of `spheres` spheres in all, `changes` changes of sign, numerators of
+    /// `ordinary` for an ordinary sphere, and extras that sum to `extras` without their signs.
+    pub(crate) fn new(
+        layers: i128,
+        spheres: &BigUint,
+        changes: usize,
+        ordinary: &BigInt,
+        extras: &BigInt,
+    ) -> Self {
+        // 2√3·B ≤ √(36·K·N)·u + 6·Σ|e|; B itself where nothing turns.
+        let area = BigUint::from(layers.unsigned_abs()) * spheres * 36_u32;
+        let root = BigInt::from(area.sqrt() + 1_u32);
+        let bound = root * ordinary.abs() + extras.abs() * 6_u32;
+        let turned = bound * num_traits::pow(BigInt::from(3), changes.saturating_sub(1));
+        let bits = turned.bits();
+        let planes = match bits.checked_sub(62) {
+            None | Some(0) => 1,
+            Some(over) => 1 + usize::try_from(over.div_ceil(LIMB.into())).unwrap_or(usize::MAX - 1),
+        };
+        Self { bits, planes }
+    }
+
+    /// The bits that there are for them.
+    pub(crate) fn reserved(self) -> u64 {
+        62 + u64::from(LIMB) * (self.planes as u64 - 1)
+    }
+}
+
+/// The numbers of a layer, plane by plane.
+#[derive(Clone, Debug)]
+pub(crate) struct Planes {
+    planes: Vec<Cells<i64>>,
+    /// Turns since the last carry.
+    turns: u32,
+}
+
+impl Planes {
+    pub(crate) fn new(grid: &Grid<'_>, size: Size) -> Self {
+        Self {
+            planes: alloc::vec![Cells::new(grid, &0); size.planes],
+            turns: 0,
+        }
+    }
+
+    /// Brings the lower limbs into [0, 2^48).
+    fn carry(&mut self) {
+        self.turns = 0;
+        for p in 1..self.planes.len() {
+            let (lower, upper) = self.planes.split_at_mut(p);
+            let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
+                return;
+            };
+            for (lower, upper) in lower.0.iter_mut().zip(&mut upper.0) {
+                for (x, next) in lower.iter_mut().zip(upper) {
+                    carry(x, next);
+                }
+            }
+        }
+    }
+
+    /// The same for the three lines of one sphere.
+    fn carry_at(&mut self, cells: [usize; 3]) {
+        for p in 1..self.planes.len() {
+            let (lower, upper) = self.planes.split_at_mut(p);
+            let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
+                return;
+            };
+            for ((lower, upper), cell) in lower.0.iter_mut().zip(&mut upper.0).zip(cells) {
+                if let (Some(x), Some(next)) = (lower.get_mut(cell), upper.get_mut(cell)) {
+                    carry(x, next);
+                }
+            }
+        }
+    }
+
+    /// The least number on the lines of the layer that a pass led to, and the first place (i, j) and direction, in
+    /// row order, that has it. Carries first.
+    pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Option<Least> {
+        self.carry();
+        let mut least: Option<(Vec<i64>, [i128; 2], Direction)> = None;
+        for row in pass.region.rows(pass.k) {
+            let top_down = self.planes.iter().rev();
+            let rows: Vec<[&[i64]; 3]> =
+                top_down.map(|plane| plane.row(grid, pass, row.j)).collect();
+            for (n, i) in row.i.enumerate() {
+                for direction in Direction::ALL {
+                    // From the top limb down, limbs in [0, 2^48) compare like digits.
+                    let limbs = rows.iter().map(|row| row[direction.index()][n]);
+                    let less = match &least {
+                        Some((least, ..)) => limbs.clone().lt(least.iter().copied()),
+                        None => true,
+                    };
+                    if less {
+                        least = Some((limbs.collect(), [i, row.j], direction));
+                    }
+                }
+            }
+        }
+        least.map(|(limbs, place, direction)| Least {
+            numerator: value(limbs.iter()),
+            place,
+            direction,
+        })
+    }
+}
+
+/// A least number, and where it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Least {
+    pub(crate) numerator: BigInt,
+    pub(crate) place: [i128; 2],
+    pub(crate) direction: Direction,
+}
+
+impl Layer<BigRational> for Planes {
+    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increment: &BigInt) {
+        let multiples = (0..=pass.greatest_count()).map(|n| increment * n);
+        let multiples: Vec<Vec<i64>> = multiples.map(|n| limbs(&n, self.planes.len())).collect();
+        for (p, plane) in self.planes.iter_mut().enumerate() {
+            let ramp: Vec<i64> = multiples.iter().map(|limbs| limbs[p]).collect();
+            plane.add_and_turn(grid, pass, &ramp, tripled_half_turn);
+        }
+        self.turns += 1;
+        if self.turns == TURNS {
+            self.carry();
+        }
+    }
+
+    fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) {
+        let values = values
+            .each_ref()
+            .map(|value| limbs(value, self.planes.len()));
+        for (p, plane) in self.planes.iter_mut().enumerate() {
+            plane.add_to(cells, &values.each_ref().map(|limbs| limbs[p]));
+        }
+        // Loads on one line may follow each other without a pass between them.
+        self.carry_at(cells);
+    }
+
+    fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {
+        let top_down = self.planes.iter().rev();
+        let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
+        [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
+    }
+}
+
+/// Hands on to the next limb what is beyond [0, 2^48).
+fn carry(x: &mut i64, next: &mut i64) {
+    *next += *x >> LIMB;
+    *x &= (1 << LIMB) - 1;
+}
+
+/// The number of these limbs, from the top one down.
+fn value<'a>(top_down: impl Iterator<Item = &'a i64>) -> BigInt {
+    top_down.fold(BigInt::zero(), |value, limb| (value << LIMB) + *limb)
+}
+
+/// An integer as limbs, from the lowest up: all but the top one in [0, 2^48).
+fn limbs(value: &BigInt, planes: usize) -> Vec<i64> {
+    let base = BigInt::from(1_u64 << LIMB);
+    let mut rest = value.clone();
+    let mut limbs = Vec::with_capacity(planes);
+    for _ in 1..planes {
+        let (next, limb) = rest.div_mod_floor(&base);
+        limbs.push(limb.to_i64().unwrap_or(0));
+        rest = next;
+    }
+    // The planes are as many as the bound on all numbers asks for.
+    debug_assert!(rest.to_i64().is_some(), "{value} in {planes} planes");
+    limbs.push(rest.to_i64().unwrap_or(0));
+    limbs
+}
