@@ -24,12 +24,14 @@
 mod cell;
 mod file;
 mod json;
+mod summary;
 mod table;
 pub mod tables;
 mod text;
 
 pub use cell::{Cell, NumberFormat};
 pub use file::write_aside;
+pub use summary::Summary;
 pub use table::{Column, Table};
 pub use tables::Units;
 

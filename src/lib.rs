@@ -98,7 +98,7 @@ pub mod theorem;
 pub mod transfer;
 
 pub use error::Error;
-pub use packing::Packing;
+pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
 pub use plan::{Method, Plan};
 pub use query::{ContactForce, FloorForce, Statics};

@@ -1,5 +1,9 @@
 //! A pile with a size and a weight: exact answers in SI.
 
+mod rows;
+
+pub use rows::PackedContact;
+
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
@@ -16,7 +20,7 @@ use crate::{Error, FloorForce, Pile, Statics};
 /// correctly.
 ///
 /// The frame: x and y are the paper's, z points **up**, and z = 0 is the height of the centres of the
-/// bottom layer; x = y = 0 under the apex. (Turning z alone makes a left-handed frame of a right-handed one; the
+/// bottom layer; x = y = 0 under site (0, 0) of the top layer, the apex, or at that of the base if the pile was grown from there. (Turning z alone makes a left-handed frame of a right-handed one; the
 /// mirror α ↔ β, y → −y, leads back, and leaves all forces as they are.) Lengths are in the unit of the radius, forces in the unit of
 /// mass times gravity: with kg, m and m/s², in N.
 ///
@@ -193,6 +197,14 @@ impl<'p> Packing<'p> {
         &self.radius
     }
 
+    /// The mass of a sphere: m, unless it was given another weight.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    pub fn mass_of(&self, site: Site) -> Result<BigRational, Error> {
+        Ok(self.pile().sphere_weight(site)? * &self.mass)
+    }
+
     /// The mass m of one sphere.
     ///
     /// # Examples
@@ -353,8 +365,7 @@ impl<'p> Packing<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<Surd, Error> {
-        let multiple = self.statics.contact(site, direction)?;
-        Ok(self.secant.scaled(&(multiple * self.weight_per_sum())))
+        Ok(self.magnitude(&self.statics.contact(site, direction)?))
     }
 
     /// The same force as a vector (x, y, z up), on the upper sphere.
@@ -376,12 +387,8 @@ impl<'p> Packing<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
-        let force = self.statics.contact_vector(site, direction)?;
-        Ok(on_basis(
-            &self.forces,
-            upwards(force),
-            &self.weight_per_sum(),
-        ))
+        let multiple = self.statics.contact(site, direction)?;
+        self.vector(site, direction, &multiple)
     }
 
     /// Where `site` touches the sphere below it: halfway between the centres.
@@ -404,9 +411,7 @@ impl<'p> Packing<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
-        // Of a pair without contact there is no point either.
-        self.statics.contact(site, direction)?;
-        let lean = upwards(self.statics.direction(direction)?);
+        let lean = upwards(self.statics.contact_direction(site, direction)?);
         let half = BigRational::new((-1).into(), 2.into());
         let point = self.centre(site)? + &lean.scaled(&half);
         Ok(on_basis(&self.lengths, point, &self.diameter()))
@@ -459,24 +464,41 @@ impl<'p> Packing<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<Surd>, Error> {
-        let FloorForce {
-            site,
-            normal,
-            shear_x,
-            shear_y,
-        } = self.statics.on_floor(site)?;
+        Ok(self.floor_force(self.statics.on_floor(site)?))
+    }
+
+    /// A force on the floor, from pile units.
+    fn floor_force(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
+        let site = force.site;
         let force = Vector {
-            x: shear_x,
-            y: shear_y,
-            z: normal,
+            x: force.shear_x,
+            y: force.shear_y,
+            z: force.normal,
         };
         let [shear_x, shear_y, normal] = on_basis(&self.forces, force, &self.sphere_weight());
-        Ok(FloorForce {
+        FloorForce {
             site,
             normal,
             shear_x,
             shear_y,
-        })
+        }
+    }
+
+    /// A contact force, from its multiple of f₀.
+    fn magnitude(&self, multiple: &BigRational) -> Surd {
+        self.secant.scaled(&(multiple * self.weight_per_sum()))
+    }
+
+    /// A contact force as a vector on the upper sphere, from its multiple of f₀.
+    fn vector(
+        &self,
+        site: Site,
+        direction: Direction,
+        multiple: &BigRational,
+    ) -> Result<[Surd; 3], Error> {
+        let along = upwards(self.statics.contact_direction(site, direction)?);
+        let unit = multiple * self.weight_per_sum();
+        Ok(on_basis(&self.forces, along, &unit))
     }
 
     /// The centre of a sphere, in 2R and the symbolic basis, z up from the bottom layer.

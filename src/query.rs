@@ -200,10 +200,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
         site: Site,
         direction: Direction,
     ) -> Result<(T::Numerator, usize), Error> {
-        self.off_the_floor(site)?;
-        if !self.pile.dimension().directions().contains(&direction) {
-            return Err(Error::NoSuchDirection { direction });
-        }
+        self.check_contact(site, direction)?;
         let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
         let (above, changes) = self.received(site, wanted)?;
         let (forces, changes) = self.lines.to_below(site, above, changes);
@@ -239,6 +236,16 @@ impl<'p, T: Algebra> Statics<'p, T> {
         self.off_the_floor(site)?;
         let (above, changes) = self.received(site, Wanted::All)?;
         Ok(self.lines.to_below(site, above, changes))
+    }
+
+    /// That there is a sphere below `site` in a direction.
+    fn check_contact(&self, site: Site, direction: Direction) -> Result<(), Error> {
+        self.off_the_floor(site)?;
+        if self.pile.dimension().directions().contains(&direction) {
+            Ok(())
+        } else {
+            Err(Error::NoSuchDirection { direction })
+        }
     }
 
     /// The site, if the pile has it and it rests on spheres.
@@ -286,17 +293,46 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// ```
     pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
         let (force, changes) = self.contact_numerator(site, direction)?;
-        let sign = self.pile.shape().sign_below(site.k).unwrap_or(Sign::Plus);
-        let [alpha, beta, gamma] = self.directions_under(sign);
-        let along = match direction {
-            Direction::Alpha => alpha,
-            Direction::Beta => beta,
-            Direction::Gamma => gamma,
-        };
+        let along = self.along(site, direction);
         self.edge_vector("a contact force", along.scaled(&force), changes)
     }
 
-    /// ê of a direction, in the symbolic basis.
+    /// The direction of the contact between `site` and the sphere below it, ê or ê turned about the vertical under a −
+    /// step, in the symbolic basis.
+    ///
+    /// # Errors
+    /// As for [`contact`](Self::contact).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::{Direction, Region, Site};
+    ///
+    /// let pile = Pile::under(Region::SITE, "-".parse()?)?;
+    /// let a = pile.statics::<f64>().contact_direction(Site::APEX, Direction::Alpha)?;
+    /// assert_eq!(a, Vector { x: -0.5, y: -0.5, z: -1.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contact_direction(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
+        self.check_contact(site, direction)?;
+        let along = self.along(site, direction).into_array();
+        let [x, y, z] = edge_all("a direction", along, &self.direction_scale)?;
+        Ok(Vector { x, y, z })
+    }
+
+    /// The numerators of a contact's direction.
+    fn along(&self, site: Site, direction: Direction) -> Vector<T::Numerator> {
+        let sign = self.pile.shape().sign_below(site.k).unwrap_or(Sign::Plus);
+        let [alpha, beta, gamma] = self.directions_under(sign);
+        match direction {
+            Direction::Alpha => alpha,
+            Direction::Beta => beta,
+            Direction::Gamma => gamma,
+        }
+    }
+
+    /// ê of a direction under + steps, in the symbolic basis.
     ///
     /// # Errors
     /// [`Error::Overflow`] if the scalar cannot hold it.
@@ -418,12 +454,16 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// assert_eq!(total, 1485.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn contacts(&self, rows: Rows<'p>) -> impl Iterator<Item = Result<ContactForce<T>, Error>> {
+    pub fn contacts(
+        &self,
+        rows: Rows<'p>,
+    ) -> impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T> {
         let directions = self.pile.dimension().directions();
         let rows = rows.off_the_floor();
         let mut source = Source::new(self, &rows);
+        let statics = self.clone();
         rows.flatten().flat_map(move |site| {
-            let forces = match source.passed_on(self, site) {
+            let forces = match source.passed_on(&statics, site) {
                 Ok(forces) => forces.map(Ok),
                 Err(error) => [(); 3].map(|()| Err(error.clone())),
             };
@@ -526,9 +566,14 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// assert!(base?.iter().all(|force| force.normal == 4.0));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn base(&self, rows: Rows<'p>) -> impl Iterator<Item = Result<FloorForce<T>, Error>> {
+    pub fn base(
+        &self,
+        rows: Rows<'p>,
+    ) -> impl Iterator<Item = Result<FloorForce<T>, Error>> + use<'p, T> {
         let mut source = Source::new(self, &rows);
-        rows.flatten().map(move |site| source.on_floor(self, site))
+        let statics = self.clone();
+        rows.flatten()
+            .map(move |site| source.on_floor(&statics, site))
     }
 }
 

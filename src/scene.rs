@@ -2,34 +2,52 @@
 
 pub mod parse;
 
+use alloc::vec::Vec;
+
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
 use crate::geometry::Spacing;
-use crate::lattice::Dimension;
+use crate::lattice::{Dimension, Region, Shape};
+use crate::stacking::Pattern;
 use crate::{Error, Packing, Pile};
 
-/// A straight pile and its spheres, as a user describes them; unchecked until a [`Pile`] or a
-/// [`Packing`] is asked for.
+use parse::At;
+
+/// A pile and its spheres, as a user describes them; unchecked until a [`Pile`] or a [`Packing`] is asked for.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scene::{Scene, parse};
+/// use cannonpile::scene::{Anchor, Scene, parse};
+/// use cannonpile::stacking::Pattern;
 ///
-/// let scene = Scene { layers: 4, spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+/// let scene = Scene { layers: Some(4), spacing: Some(parse::rational("1.2")?), ..Scene::default() };
 /// let pile = scene.pile()?;
 /// assert_eq!(pile.spheres(), 20_u32.into());
 /// assert!(scene.packing(&pile)?.touching().is_empty());
+///
+/// // As high as the base carries.
+/// let anchor = Some(Anchor::Base(parse::region("hexagon:3")?));
+/// let scene = Scene { anchor, stacking: Some(Pattern::Hcp), ..Scene::default() };
+/// assert_eq!(scene.pile()?.layers(), 5);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scene {
-    /// The number of layers (10).
-    pub layers: i128,
+    /// The number of layers: by default 10, those of a stacking that is spelled out, or as many as a base carries.
+    pub layers: Option<i128>,
     /// Discs or spheres (spheres).
     pub dimension: Dimension,
-    /// sin φ (½); none for discs.
+    /// sin φ (½); none for discs and for piles of a stacking, top or base of one's own.
     pub sin_phi: Option<BigRational>,
+    /// How layers follow one another (all +): from the top, or from the base up if the pile is grown from its base.
+    pub stacking: Option<Pattern>,
+    /// The layer that the pile is grown from (one sphere on top).
+    pub anchor: Option<Anchor>,
+    /// Vertical loads on spheres, in mg.
+    pub loads: Vec<(At, BigRational)>,
+    /// Whether the spheres weigh nothing, so that only the loads act.
+    pub weightless: bool,
     /// a/R. One that is given is always checked, the default 6/5 only where geometry is used.
     pub spacing: Option<BigRational>,
     /// The radius R (1).
@@ -40,12 +58,25 @@ pub struct Scene {
     pub gravity: BigRational,
 }
 
+/// The layer that a pile is grown from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// Downwards from its top.
+    Top(Region),
+    /// Upwards from its base.
+    Base(Region),
+}
+
 impl Default for Scene {
     fn default() -> Self {
         Self {
-            layers: 10,
+            layers: None,
             dimension: Dimension::Three,
             sin_phi: None,
+            stacking: None,
+            anchor: None,
+            loads: Vec::new(),
+            weightless: false,
             spacing: None,
             radius: BigRational::one(),
             mass: BigRational::one(),
@@ -54,22 +85,72 @@ impl Default for Scene {
     }
 }
 
+/// The layers of a pile whose number nothing else says.
+const LAYERS: i128 = 10;
+
 impl Scene {
     /// The pile, checked; with the spacing, if one is given.
     ///
     /// # Errors
-    /// Those of [`Pile::isosceles`] and [`Packing::new`], and [`Error::SinPhiOfDiscs`].
+    /// Those of [`Pile`]'s constructors, loads and [`Clearance::check`](crate::geometry::Clearance::check);
+    /// [`Error::SinPhiOfDiscs`] and [`Error::Excluded`] for options that exclude each other.
     pub fn pile(&self) -> Result<Pile, Error> {
-        let pile = match (self.dimension, &self.sin_phi) {
-            (Dimension::Two, None) => Pile::discs(self.layers)?,
-            (Dimension::Two, Some(_)) => return Err(Error::SinPhiOfDiscs),
-            (Dimension::Three, None) => Pile::triangular(self.layers)?,
-            (Dimension::Three, Some(s)) => Pile::isosceles(self.layers, s.clone())?,
-        };
+        let mut pile = self.unloaded()?;
+        for (at, load) in &self.loads {
+            let site = at.site(pile.layers());
+            pile = pile.with_load(site, load.clone())?;
+        }
+        if self.weightless {
+            pile = pile.weightless();
+        }
         if let Some(spacing) = &self.spacing {
             pile.clearance().check(&Spacing::new(spacing.clone())?)?;
         }
         Ok(pile)
+    }
+
+    fn unloaded(&self) -> Result<Pile, Error> {
+        let layers = self.layers.unwrap_or(LAYERS);
+        let stacked = match (&self.anchor, &self.stacking) {
+            (Some(Anchor::Top(_)), _) => Some("top"),
+            (Some(Anchor::Base(_)), _) => Some("base"),
+            (None, Some(_)) => Some("stacking"),
+            (None, None) => None,
+        };
+        match (self.dimension, &self.sin_phi, stacked) {
+            (Dimension::Two, Some(_), _) => Err(Error::SinPhiOfDiscs),
+            (Dimension::Two, None, Some(given)) => Err(Error::Excluded {
+                given,
+                beside: "dimension 2",
+            }),
+            (Dimension::Two, None, None) => Pile::discs(layers),
+            (Dimension::Three, Some(_), Some(beside)) => Err(Error::Excluded {
+                given: "sin-phi",
+                beside,
+            }),
+            (Dimension::Three, Some(s), None) => Pile::isosceles(layers, s.clone()),
+            (Dimension::Three, None, None) => Pile::triangular(layers),
+            (Dimension::Three, None, Some(_)) => self.stacked(),
+        }
+    }
+
+    /// The pile of any stacking, top or base.
+    fn stacked(&self) -> Result<Pile, Error> {
+        let pattern = self.stacking.as_ref().unwrap_or(&Pattern::Fcc);
+        let spelled = self.layers.or(pattern.layers());
+        match self.anchor {
+            Some(Anchor::Base(base)) => {
+                let layers = match spelled {
+                    Some(layers) => layers,
+                    None => Shape::greatest_height(base, pattern)?,
+                };
+                Pile::on(base, pattern.stacking(layers)?.reversed())
+            }
+            Some(Anchor::Top(top)) => {
+                Pile::under(top, pattern.stacking(spelled.unwrap_or(LAYERS))?)
+            }
+            None => Pile::under(Region::SITE, pattern.stacking(spelled.unwrap_or(LAYERS))?),
+        }
     }
 
     /// That radius, mass and gravity are positive, whether they will be used or not.

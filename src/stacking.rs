@@ -116,7 +116,8 @@ impl Stacking {
     /// The stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
     ///
     /// # Errors
-    /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers.
+    /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers, [`Error::TooManyRuns`] beyond
+    /// a million runs.
     pub fn from_runs(runs: impl IntoIterator<Item = Run>) -> Result<Self, Error> {
         let mut stacking = Self::single_layer();
         let mut last = None;
@@ -139,6 +140,9 @@ impl Stacking {
                 _ => {
                     if last.is_none() {
                         stacking.first = sign;
+                    }
+                    if stacking.lengths.len() >= MAX_RUNS {
+                        return Err(Error::TooManyRuns { limit: MAX_RUNS });
                     }
                     stacking.lengths.push(steps);
                 }
@@ -232,10 +236,40 @@ impl Stacking {
     }
 
     /// The signs, from the top, one a step.
-    #[must_use]
     pub fn signs(&self) -> impl Iterator<Item = Sign> + '_ {
         self.runs()
             .flat_map(|run| (0..run.steps).map(move |_| run.sign))
+    }
+
+    /// `fcc`, `hcp` or `dhcp`, if the steps begin so and go on so; a stacking of two layers or one is `fcc`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("+-+-".parse::<Stacking>()?.name(), Some("hcp"));
+    /// assert_eq!("++--+".parse::<Stacking>()?.name(), Some("dhcp"));
+    /// assert_eq!("-".parse::<Stacking>()?.name(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn name(&self) -> Option<&'static str> {
+        if self.first == Sign::Minus {
+            return None;
+        }
+        if self.is_straight() {
+            return Some("fcc");
+        }
+        let named = |length: i128| {
+            let (last, whole) = self.lengths.split_last()?;
+            let runs = whole.iter().all(|steps| *steps == length) && *last <= length;
+            runs.then_some(())
+        };
+        match (named(1), named(2)) {
+            (Some(()), _) => Some("hcp"),
+            (None, Some(())) => Some("dhcp"),
+            (None, None) => None,
+        }
     }
 
     /// The stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
@@ -254,6 +288,59 @@ impl Stacking {
         Self {
             first,
             lengths: self.lengths.iter().rev().copied().collect(),
+        }
+    }
+}
+
+/// How a stacking goes on: for as many layers as there are, or spelled out.
+///
+/// # Examples
+/// ```
+/// use cannonpile::stacking::{Pattern, Stacking};
+///
+/// assert_eq!(Pattern::Dhcp.stacking(6)?.to_string(), "++--+");
+/// let spelled = Pattern::Spelled("++-".parse()?);
+/// assert_eq!(spelled.layers(), Some(4));
+/// assert!(spelled.stacking(5).is_err());
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// All +.
+    Fcc,
+    /// + − + − …
+    Hcp,
+    /// + + − − …
+    Dhcp,
+    /// These steps and no others.
+    Spelled(Stacking),
+}
+
+impl Pattern {
+    /// The layers of a stacking that is spelled out.
+    #[must_use]
+    pub fn layers(&self) -> Option<i128> {
+        match self {
+            Self::Spelled(stacking) => Some(stacking.layers()),
+            _ => None,
+        }
+    }
+
+    /// The stacking of so many layers.
+    ///
+    /// # Errors
+    /// [`Error::Layers`]; [`Error::TooManyRuns`]; [`Error::LayersOfStacking`] if it is spelled out and has another
+    /// number.
+    pub fn stacking(&self, layers: i128) -> Result<Stacking, Error> {
+        match self {
+            Self::Fcc => Stacking::fcc(layers),
+            Self::Hcp => Stacking::hcp(layers),
+            Self::Dhcp => Stacking::dhcp(layers),
+            Self::Spelled(stacking) if stacking.layers() == layers => Ok(stacking.clone()),
+            Self::Spelled(stacking) => Err(Error::LayersOfStacking {
+                layers,
+                spelled: stacking.layers(),
+            }),
         }
     }
 }

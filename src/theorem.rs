@@ -54,6 +54,7 @@ mod dimensions;
 mod display;
 mod formulas;
 mod setting;
+mod stackings;
 
 pub use display::Listing;
 pub use formulas::Formulas;
@@ -206,6 +207,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         balance::THEOREMS,
         base::THEOREMS,
         dimensions::THEOREMS,
+        stackings::THEOREMS,
     ]
     .into_iter()
     .flatten()

@@ -34,7 +34,7 @@ fn names_are_unique_and_found() {
 }
 
 /// What each statement must name.
-const SUBJECTS: [(&str, &str); 23] = [
+const SUBJECTS: [(&str, &str); 28] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
     ("spheres", "L(L+1)(L+2)/6 spheres"),
@@ -58,6 +58,11 @@ const SUBJECTS: [(&str, &str); 23] = [
     ("shear-ratio", "Largest shear/normal ratio"),
     ("discs", "pile of discs"),
     ("dimensions", "d = 2 … 6 dimensions"),
+    ("region-counts", "Any base under straight steps"),
+    ("run", "carries f + m w after m spheres more"),
+    ("tripled-half-turn", "is 3Gg"),
+    ("edge", "no run of five steps or more"),
+    ("point-load", "Σv r² = n²ρ²"),
 ];
 
 #[test]
@@ -125,9 +130,9 @@ macro_rules! fields {
 #[test]
 fn every_formula_is_put_wrong() {
     let fields = fields! {
-        above descent rotate spheres spheres_in_layer contacts contacts_of_strength before directions
-        disc_directions position squared_distance increments from_above to_below carried
-        resultant_above force_on_floor unbalanced corner_shear_ratio half_turn
+        above descent rotate spheres spheres_in_layer contacts contacts_of_strength before bounds_above directions
+        disc_directions position squared_distance increments force from_above to_below carried
+        resultant_above force_on_floor unbalanced corner_shear_ratio half_turn tripled_half_turn
     };
     let wrong: BTreeSet<_> = faults::all().iter().map(|fault| fault.field).collect();
     assert_eq!(wrong, BTreeSet::from(fields));

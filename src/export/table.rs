@@ -63,6 +63,8 @@ pub struct Table<'a> {
     pub(super) layout: Layout,
     /// The rows in which every column takes its extremes.
     pub(super) extremes: Vec<Row>,
+    /// A row that no row exceeds, where the extremes are not known.
+    pub(super) bounds: Vec<Cell>,
     pub(super) rows: Box<dyn Iterator<Item = Row> + 'a>,
 }
 
@@ -114,6 +116,9 @@ impl Table<'_> {
     ) -> Result<(), WriteError> {
         for row in &self.extremes {
             self.texts(row.as_ref().map_err(Clone::clone)?, numbers)?;
+        }
+        if self.extremes.is_empty() {
+            self.texts(&self.bounds, numbers)?;
         }
         match format {
             FileFormat::Text => text::write(self, numbers, out),

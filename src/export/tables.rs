@@ -1,16 +1,17 @@
-//! The tables there are: summary, base, contacts, spheres, theorems.
+//! The tables there are: base, contacts, spheres, theorems, census.
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::One;
 
+use super::summary::steps;
 use super::table::{Layout, Row};
 use super::{Cell, Column, Table};
-use crate::geometry::Apart;
-use crate::lattice::{Dimension, Direction, Selection, Site, count};
+use crate::census::Entry;
+use crate::lattice::{Dimension, Direction, Rows, Selection, Site};
 use crate::scalar::{Ring, Surd};
 use crate::theorem::{Proof, Theorem};
-use crate::{Error, FloorForce, Packing, Pile, Statics};
+use crate::{ContactForce, Error, FloorForce, Packing, Pile, Statics};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;
@@ -64,33 +65,73 @@ impl<'p> Units<'p> {
         Self::Si(Box::new(packing))
     }
 
-    fn pile(&self) -> &'p Pile {
+    pub(super) fn pile(&self) -> &'p Pile {
         match self {
             Self::Pile(statics) => statics.pile(),
             Self::Si(packing) => packing.pile(),
         }
     }
 
-    fn on_floor(&self, site: Site) -> Result<FloorForce<Surd>, Error> {
+    /// The forces of the bottom spheres of these rows on the floor.
+    fn base(
+        &self,
+        rows: Rows<'p>,
+    ) -> Box<dyn Iterator<Item = Result<FloorForce<Surd>, Error>> + 'p> {
         match self {
-            Self::Pile(statics) => statics.on_floor(site).map(|force| FloorForce {
-                site,
-                normal: force.normal.into(),
-                shear_x: force.shear_x.into(),
-                shear_y: force.shear_y.into(),
-            }),
-            Self::Si(packing) => packing.on_floor(site),
+            Self::Pile(statics) => Box::new(statics.base(rows).map(|force| {
+                let force = force?;
+                Ok(FloorForce {
+                    site: force.site,
+                    normal: force.normal.into(),
+                    shear_x: force.shear_x.into(),
+                    shear_y: force.shear_y.into(),
+                })
+            })),
+            Self::Si(packing) => Box::new(packing.base(rows)),
         }
     }
 
-    fn contact(&self, site: Site, direction: Direction) -> Result<Surd, Error> {
+    /// The contacts of the spheres of these rows, as the cells of a table.
+    fn contacts(&self, rows: Rows<'p>) -> Box<dyn Iterator<Item = Row> + 'p> {
+        let pile = self.pile();
+        let first = move |site: Site, direction: Direction, force: Cell| {
+            let mut cells = vec![site.k.into()];
+            cells.extend(places(pile, site));
+            cells.extend([direction.name().into(), force]);
+            cells
+        };
         match self {
-            Self::Pile(statics) => Ok(statics.contact(site, direction)?.into()),
-            Self::Si(packing) => packing.contact(site, direction),
+            Self::Pile(statics) => Box::new(statics.contacts(rows).map(move |contact| {
+                let contact = contact?;
+                Ok(first(contact.site, contact.direction, contact.force.into()))
+            })),
+            Self::Si(packing) => Box::new(packing.contacts(rows).map(move |contact| {
+                let contact = contact?;
+                let mut cells = first(contact.site, contact.direction, contact.force.into());
+                cells.extend(contact.vector.map(Cell::from));
+                cells.extend(contact.point.map(Cell::from));
+                Ok(cells)
+            })),
         }
     }
 
-    fn force(&self) -> &'static str {
+    /// A number that no force of the pile exceeds, in mg or f₀: in ℓ² over a layer, no more is passed on than √3 times
+    /// the sum of all weights (THEORY §3).
+    fn greatest_force(&self) -> Surd {
+        let bound = self.pile().weight() * BigRational::from_i128(3);
+        match self {
+            Self::Pile(_) => bound.into(),
+            // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.
+            Self::Si(packing) => {
+                let unit = packing.sphere_weight() * bound;
+                let cos2 = packing.inclination().cos2();
+                // 1/cosθ and tanθ are both at most this; a rational bound is enough.
+                (unit / cos2).into()
+            }
+        }
+    }
+
+    pub(super) fn force(&self) -> &'static str {
         match self {
             Self::Si(_) => "N",
             Self::Pile(_) if self.pile().dimension() == Dimension::Two => "mg/(2cosθ)",
@@ -99,7 +140,7 @@ impl<'p> Units<'p> {
         }
     }
 
-    fn normal(&self) -> &'static str {
+    pub(super) fn normal(&self) -> &'static str {
         if let Self::Si(_) = self { "N" } else { "mg" }
     }
 
@@ -150,21 +191,23 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     if pile.dimension() == Dimension::Three {
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
-    let units = units.clone();
-    let row = move |site| -> Row {
-        let force = units.on_floor(site)?;
-        let mut cells = places(pile, site);
+    let row = move |force: Result<FloorForce<Surd>, Error>| -> Row {
+        let force = force?;
+        let mut cells = places(pile, force.site);
         cells.extend([force.normal.into(), force.shear_x.into()]);
         if pile.dimension() == Dimension::Three {
             cells.push(force.shear_y.into());
         }
         Ok(cells)
     };
+    let corners = corners(pile, &rows);
+    let extremes = corners.flat_map(|rows| units.base(rows)).map(row).collect();
     Ok(Table {
+        bounds: bounds(&columns, units),
         columns,
         layout: Layout::Rows("bottom spheres"),
-        extremes: rows.corners().map(&row).collect(),
-        rows: Box::new(rows.flatten().map(row)),
+        extremes,
+        rows: Box::new(units.base(rows).map(row)),
     })
 }
 
@@ -205,25 +248,40 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         columns.extend(["fx", "fy", "fz"].map(|name| Column::measured(name, "N")));
         columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
     }
-    let units = units.clone();
-    let row = move |(site, direction): (Site, Direction)| -> Row {
-        let mut cells = vec![site.k.into()];
-        cells.extend(places(pile, site));
-        cells.push(direction.name().into());
-        cells.push(units.contact(site, direction)?.into());
-        if let Units::Si(packing) = &units {
-            cells.extend(packing.contact_vector(site, direction)?.map(Cell::from));
-            cells.extend(packing.contact_point(site, direction)?.map(Cell::from));
-        }
-        Ok(cells)
-    };
-    let below = move |site| directions.iter().map(move |direction| (site, *direction));
+    let corners = corners(pile, &rows);
+    let extremes = corners.flat_map(|rows| units.contacts(rows)).collect();
     Ok(Table {
+        bounds: bounds(&columns, units),
         columns,
         layout: Layout::Rows("contacts"),
-        extremes: rows.corners().flat_map(below).map(&row).collect(),
-        rows: Box::new(rows.flatten().flat_map(below).map(row)),
+        extremes,
+        rows: units.contacts(rows),
     })
+}
+
+/// The single spheres in which the columns of a table take their extremes, of a pile that the paper solved.
+fn corners<'p>(pile: &'p Pile, rows: &Rows<'p>) -> impl Iterator<Item = Rows<'p>> + use<'p> {
+    let corners: Vec<Site> = if pile.is_paper_pile() {
+        rows.corners().collect()
+    } else {
+        Vec::new()
+    };
+    corners
+        .into_iter()
+        .filter_map(|site| pile.rows(Selection::One(site)).ok())
+}
+
+/// A row that no row of the table exceeds, for the columns that hold forces.
+fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
+    let greatest = units.greatest_force();
+    let bound = |column: &Column| {
+        if column.unit.is_empty() || column.unit == "m" {
+            Cell::Missing
+        } else {
+            greatest.clone().into()
+        }
+    };
+    columns.iter().map(bound).collect()
 }
 
 /// The spheres, in SI: `id, k, i, j, x, y, z, radius, mass, fixed`; for discs without `j`.
@@ -261,22 +319,32 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
     columns.push(Column::summed("mass", "kg"));
     columns.push(Column::plain("fixed"));
     let packing = packing.clone();
-    let row = move |site: Site| -> Row {
-        let mut cells = vec![Cell::Integer(id(pile, site)), site.k.into()];
+    let row = move |(id, site): (BigInt, Site)| -> Row {
+        let mut cells = vec![Cell::Integer(id), site.k.into()];
         cells.extend(places(pile, site));
         cells.extend(packing.position(site)?.map(Cell::from));
         cells.extend([
             packing.radius().clone().into(),
-            packing.mass().clone().into(),
+            packing.mass_of(site)?.into(),
         ]);
         cells.push(Cell::Flag(site.k + 1 == pile.layers()));
         Ok(cells)
     };
+    let id = |site| Ok((BigInt::from(pile.shape().before(site)?) + 1, site));
+    let extremes = rows.corners().map(|site| row(id(site)?)).collect();
+    // Rows follow each other, and so do numbers.
+    let first = rows
+        .clone()
+        .flatten()
+        .next()
+        .map_or(Ok(BigInt::one()), |site| Ok(id(site)?.0));
+    let numbers = core::iter::successors(Some(first?), |id| Some(id + 1));
     Ok(Table {
         columns,
         layout: Layout::Rows("spheres"),
-        extremes: rows.corners().map(&row).collect(),
-        rows: Box::new(rows.flatten().map(row)),
+        extremes,
+        bounds: Vec::new(),
+        rows: Box::new(numbers.zip(rows.flatten()).map(row)),
     })
 }
 
@@ -310,129 +378,77 @@ pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> 
         columns: columns.into(),
         layout: Layout::Rows("theorems"),
         extremes: Vec::new(),
+        bounds: Vec::new(),
         rows: Box::new(proved.map(row)),
     }
 }
 
-/// The pile in one row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres,
-/// normal_min, normal_max, max_shear_ratio, touching, plan`.
+/// Stackings and whether they stand, one a row: `stacking, layers, stands, min_contact, base_spheres, normal_min,
+/// normal_max`, and where the least contact is, `k, i, j, direction`.
 ///
-/// `touching` is what touches beside the contacts at the spacing in question, if there is one. The least
-/// and greatest values are taken from the corners, where a linear function has them.
-///
-/// # Errors
-/// None of a pile that exists; those of its forces are handed on.
+/// The normal forces of those that do not stand are left out.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::Pile;
-/// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+/// use cannonpile::census;
+/// use cannonpile::export::{FileFormat, NumberFormat, tables};
 ///
-/// let pile = Pile::triangular(10)?;
-/// let table = tables::summary(&Units::of_pile(&pile), None)?;
-/// let mut text = Vec::new();
-/// table.write(FileFormat::Text, NumberFormat::Exact, &mut text)?;
-/// let text = String::from_utf8(text)?;
-/// assert!(text.starts_with("layers           10\nstacking         fcc\nspheres          220\n"));
+/// let table = tables::census(census::under_one_sphere(3, false)?);
+/// let mut csv = Vec::new();
+/// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(
+///     String::from_utf8(csv)?,
+///     "stacking,layers,stands,min_contact,base_spheres,normal_min,normal_max,k,i,j,direction\n\
+///      ++,3,yes,1,6,5/3,5/3,0,0,0,alpha\n+-,3,yes,2/3,7,14/9,5/3,1,0,0,alpha\n",
+/// );
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn summary<'p>(units: &Units<'p>, touching: Option<&[Apart]>) -> Result<Table<'p>, Error> {
-    let pile = units.pile();
-    let base = pile.rows(Selection::Base)?;
-    let normals: Result<Vec<Surd>, Error> = base
-        .corners()
-        .map(|site| Ok(units.on_floor(site)?.normal))
-        .collect();
-    let normals = normals?;
-    let directions = pile.dimension().directions();
-    let first_contacts: Result<Vec<Surd>, Error> = match pile.layers() {
-        1 => Ok(Vec::new()),
-        _ => directions
-            .iter()
-            .map(|d| units.contact(Site::APEX, *d))
-            .collect(),
+pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> Table<'t> {
+    let mut columns: Vec<Column> = ["stacking", "layers", "stands"].map(Column::plain).into();
+    columns.push(Column::measured("min_contact", "mg/(3cosθ)"));
+    columns.push(Column::plain("base_spheres"));
+    columns.extend(["normal_min", "normal_max"].map(|name| Column::measured(name, "mg")));
+    columns.extend(["k", "i", "j", "direction"].map(Column::plain));
+    let row = |entry: Result<Entry, Error>| -> Row {
+        let Entry { pile, standing, .. } = entry?;
+        let mut cells = vec![
+            Cell::Word(steps(&pile).into()),
+            pile.layers().into(),
+            standing.verdict(&[]).name().into(),
+        ];
+        let least = standing.least.as_ref();
+        cells.push(least.map_or(Cell::Missing, |least| least.force.clone().into()));
+        cells.push(Cell::Integer(pile.base_spheres().into()));
+        let base = match standing.first_failure {
+            Some(_) => None,
+            None => match pile.base_extremes() {
+                Err(Error::TooLarge { .. }) => None,
+                base => Some(base?),
+            },
+        };
+        cells.extend(match base {
+            Some(base) => [base.normal_min.into(), base.normal_max.into()],
+            None => [Cell::Missing, Cell::Missing],
+        });
+        cells.extend(match least {
+            Some(ContactForce {
+                site, direction, ..
+            }) => [
+                site.k.into(),
+                site.i.into(),
+                site.j.into(),
+                direction.name().into(),
+            ],
+            None => [(); 4].map(|()| Cell::Missing),
+        });
+        Ok(cells)
     };
-    let ratio = pile.base_extremes()?.max_shear_ratio;
-    let (weight, ratio) = match units {
-        Units::Pile(_) => (BigRational::one(), ratio),
-        Units::Si(packing) => (
-            packing.sphere_weight(),
-            packing.inclination().tan() * &ratio,
-        ),
-    };
-    let spheres = BigInt::from(pile.spheres());
-    let or_missing = |value: Option<&Surd>| value.map_or(Cell::Missing, |x| x.clone().into());
-    let entries = [
-        (Column::plain("layers"), pile.layers().into()),
-        (Column::plain("stacking"), stacking(pile).into()),
-        (Column::plain("spheres"), Cell::Integer(spheres.clone())),
-        (
-            Column::plain("contacts"),
-            Cell::Integer(pile.contacts().into()),
-        ),
-        (
-            Column::measured("weight", units.normal()),
-            (weight * BigRational::from_integer(spheres)).into(),
-        ),
-        // Every force of a straight pile is a positive number of increments.
-        (Column::plain("stands"), "yes".into()),
-        (
-            Column::measured("min_contact", units.force()),
-            or_missing(first_contacts?.iter().min()),
-        ),
-        (
-            Column::plain("base_spheres"),
-            Cell::Integer(pile.base_spheres().into()),
-        ),
-        (
-            Column::measured("normal_min", units.normal()),
-            or_missing(normals.iter().min()),
-        ),
-        (
-            Column::measured("normal_max", units.normal()),
-            or_missing(normals.iter().max()),
-        ),
-        (
-            Column::measured(
-                "max_shear_ratio",
-                if let Units::Pile(_) = units {
-                    "tanθ"
-                } else {
-                    ""
-                },
-            ),
-            ratio.into(),
-        ),
-        (
-            Column::plain("touching"),
-            touching.map_or(Cell::Missing, describe),
-        ),
-        (Column::plain("plan"), "closed".into()),
-    ];
-    let (columns, row): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
-    Ok(Table {
+    Table {
         columns,
-        layout: Layout::Record,
-        extremes: vec![Ok(row.clone())],
-        rows: Box::new(core::iter::once(Ok(row))),
-    })
-}
-
-/// The name of a straight pile's stacking.
-fn stacking(pile: &Pile) -> &'static str {
-    match pile.dimension() {
-        Dimension::Two => "discs",
-        Dimension::Three => "fcc",
-    }
-}
-
-/// `none`, `in one layer and 3 layers apart`.
-fn describe(touching: &[Apart]) -> Cell {
-    let words: Vec<String> = touching.iter().map(ToString::to_string).collect();
-    if words.is_empty() {
-        "none".into()
-    } else {
-        Cell::Word(words.join(" and ").into())
+        layout: Layout::Rows("stackings"),
+        extremes: Vec::new(),
+        bounds: Vec::new(),
+        rows: Box::new(entries.map(row)),
     }
 }
 
@@ -459,13 +475,7 @@ fn places(pile: &Pile, site: Site) -> Vec<Cell> {
     }
 }
 
-/// The number of a sphere, from 1 in row order from the top.
-fn id(pile: &Pile, site: Site) -> BigInt {
-    let [i, j, k] = [site.i, site.j, site.k].map(BigRational::from_i128);
-    count::before(&i, &j, &k, pile.dimension().number()).to_integer() + 1
-}
-
-fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {
+pub(super) fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {
     if *rows <= BigUint::from(MAX_ROWS) {
         return Ok(());
     }

@@ -26,6 +26,42 @@ where
     [k.clone() - i - j, i.clone(), j.clone()]
 }
 
+/// What bounds the number of spheres above (i, j) on its lines α, β, γ, in a layer `steps` steps of sign + into a run
+/// of any region: N is the least of each four.
+///
+/// THEORY §3, "Lines": N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
+/// N_γ = min(m, j−y₀, x₁−i, i+j−s₀), with `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) the bounds of i, j and i+j
+/// in that layer. For − steps the same under (i, j) → (−i, −j).
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::count;
+///
+/// // Layer 5 of the paper's pile: (k−i−j, i, j) = (2, 1, 2).
+/// let bounds = count::bounds_above(&1_i128, &2, &[0, 0, 0], &[5, 5, 5], &5);
+/// assert_eq!(bounds.map(|bounds| bounds.into_iter().min()), [Some(2), Some(1), Some(2)]);
+/// ```
+pub fn bounds_above<T>(i: &T, j: &T, lower: &[T; 3], upper: &[T; 3], steps: &T) -> [[T; 4]; 3]
+where
+    T: Clone + for<'a> Sub<&'a T, Output = T>,
+{
+    let ([x0, y0, s0], [x1, y1, s1]) = (lower, upper);
+    let right = x1.clone() - i;
+    let upper = y1.clone() - j;
+    // i + j − s₀, without a sum.
+    let outer = i.clone() - &(s0.clone() - j);
+    [
+        [
+            steps.clone(),
+            right.clone(),
+            upper.clone(),
+            s1.clone() - i - j,
+        ],
+        [steps.clone(), i.clone() - x0, upper, outer.clone()],
+        [steps.clone(), j.clone() - y0, right, outer],
+    ]
+}
+
 /// The binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
 ///
 /// # Examples

@@ -286,10 +286,19 @@ impl Region {
     /// ```
     #[must_use]
     pub fn spheres_above(&self, i: i128, j: i128, sign: Sign, steps: i128) -> [i128; 3] {
-        self.row_counts(j, sign, steps).map(|count| count.at(i))
+        let (lower, upper) = (&self.lower, &self.upper);
+        let bounds = match sign {
+            Sign::Plus => count::bounds_above(&i, &j, lower, upper, &steps),
+            Sign::Minus => {
+                let [lower, upper] = [upper, lower].map(|bounds| bounds.map(|bound| -bound));
+                count::bounds_above(&-i, &-j, &lower, &upper, &steps)
+            }
+        };
+        bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
-    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction.
+    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction: the same bounds, one row's
+    /// taken together.
     pub(crate) fn row_counts(&self, j: i128, sign: Sign, steps: i128) -> [Trapezoid; 3] {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let (rises, falls) = (x0.max(s0 - j), x1.min(s1 - j));
@@ -405,5 +414,42 @@ impl Trapezoid {
         let rise = self.rises.map_or(self.cap, |from| i - from);
         let fall = self.falls.map_or(self.cap, |until| until - i);
         self.cap.min(rise).min(fall)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row at a time or a site at a time, it is the same count.
+    #[test]
+    fn rows_count_as_sites_do() {
+        let shapes = [
+            Region::triangle(5),
+            Region::hexagon(3, 4),
+            Region::new(-2..=3, 0..=2, -1..=4),
+        ];
+        let mut compared = 0;
+        for region in shapes.map(|region| region.unwrap()) {
+            for (sign, steps) in [Sign::Plus, Sign::Minus]
+                .into_iter()
+                .flat_map(|sign| (0..6).map(move |m| (sign, m)))
+            {
+                for row in region.rows(0) {
+                    let counts = region.row_counts(row.j, sign, steps);
+                    for i in row.i {
+                        let of_site = region.spheres_above(i, row.j, sign, steps);
+                        assert_eq!(
+                            counts.map(|count| count.at(i)),
+                            of_site,
+                            "{region} {i} {}",
+                            row.j
+                        );
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert!(compared > 500);
     }
 }

@@ -10,7 +10,7 @@ use num_traits::Zero;
 
 use super::{Dimension, Direction, MAX_LAYERS, Region, Rows, Selection, Site};
 use crate::Error;
-use crate::stacking::{Run, Sign, Stacking};
+use crate::stacking::{Pattern, Run, Sign, Stacking};
 
 /// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
 ///
@@ -555,20 +555,12 @@ impl Shape {
         Ok(self.spheres_in(0..k) + in_layer)
     }
 
-    /// The greatest number of layers that these steps, read from the base up and repeated as they are asked for,
-    /// carry a base to.
-    pub(crate) fn greatest_height(
-        base: Region,
-        stacking: impl Fn(i128) -> Result<Stacking, Error>,
-    ) -> Result<i128, Error> {
+    /// The greatest number of layers that a pattern, read from the base up, carries a base to.
+    pub(crate) fn greatest_height(base: Region, pattern: &Pattern) -> Result<i128, Error> {
         // Each step takes at least one off each width, and none gets below 0.
         let [x, y, s] = base.widths();
         let most = (x.min(y).min(s) + 1).min(MAX_LAYERS);
-        let probe = Self::new(
-            Dimension::Three,
-            stacking(most)?.reversed(),
-            Anchor::Base(base),
-        );
-        Ok(probe.height_above_base())
+        let steps = pattern.stacking(most)?.reversed();
+        Ok(Self::new(Dimension::Three, steps, Anchor::Base(base)).height_above_base())
     }
 }

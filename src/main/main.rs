@@ -5,14 +5,15 @@ mod options;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
-use cannonpile::export::{NumberFormat, Table, Units, WriteError, tables, write_aside};
+use cannonpile::census::{self, Entry};
+use cannonpile::export::{NumberFormat, Summary, Table, Units, WriteError, tables, write_aside};
 use cannonpile::scene::Scene;
 use cannonpile::theorem::{self, Listing};
-use cannonpile::{Error, Pile};
+use cannonpile::{Error, Pile, Verdict};
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use options::{Arguments, Command, Format, Numbers, Output, UnitSystem};
+use options::{Arguments, Command, Format, Number, Numbers, Output, Refused, UnitSystem};
 
 /// The answer is no.
 const NO: u8 = 1;
@@ -25,33 +26,64 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
+    let target = || arguments.command.output().target();
     match run(&arguments.command) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(NO),
         // Whoever reads has seen enough.
-        Err(WriteError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+        Err(Failure::Write(WriteError::Io(error))) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
-        Err(WriteError::Answer(error)) => {
-            complain(&format!("error: {}{error}", option_of(&error)));
-            ExitCode::from(BAD_USE)
-        }
-        Err(error) => {
-            let target = arguments.command.output().target();
+        Err(Failure::Write(WriteError::Answer(error))) => refuse(&error.into()),
+        Err(Failure::Refused(refused)) => refuse(&refused),
+        Err(Failure::Write(error)) => {
             let reason = match &error {
                 // The text of an error may name the file written aside; its kind does not.
                 WriteError::Io(error) => error.kind().to_string(),
                 other => other.to_string(),
             };
             let remedy = "choose a place that exists and can be written";
-            complain(&format!("error: cannot write {target}: {reason}; {remedy}"));
+            complain(&format!(
+                "error: cannot write {}: {reason}; {remedy}",
+                target()
+            ));
             ExitCode::from(BAD_USE)
         }
     }
 }
 
+/// Why there is no answer.
+enum Failure {
+    Refused(Refused),
+    Write(WriteError),
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        Self::Refused(refused)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Refused(error.into())
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Self::Write(error)
+    }
+}
+
+fn refuse(Refused { option, error }: &Refused) -> ExitCode {
+    let option = option.map_or_else(|| option_of(error), |option| format!("--{option}: "));
+    complain(&format!("error: {option}{error}"));
+    ExitCode::from(BAD_USE)
+}
+
 /// Answers, and tells whether the answer is yes.
-fn run(command: &Command) -> Result<bool, WriteError> {
+fn run(command: &Command) -> Result<bool, Failure> {
     match command {
         Command::Summary {
             scene,
@@ -62,8 +94,9 @@ fn run(command: &Command) -> Result<bool, WriteError> {
             let units = units(&scene, &pile, numbers)?;
             // At the default spacing, where none is given: if that fits.
             let touching = pile.clearance().check(&scene.spacing()?).ok();
-            let table = tables::summary(&units, touching.as_deref())?;
-            write_table(table, numbers, output)?;
+            let summary = Summary::new(&units, touching)?;
+            write_table(summary.table()?, numbers.number, output)?;
+            return Ok(matches!(summary.verdict(), None | Some(Verdict::Yes)));
         }
         Command::Base {
             scene,
@@ -74,7 +107,8 @@ fn run(command: &Command) -> Result<bool, WriteError> {
             let (scene, pile) = scene.read()?;
             let selection = at.on_base(&pile)?;
             let table = tables::base(&units(&scene, &pile, numbers)?, selection)?;
-            write_table(table, numbers, output)?;
+            write_table(table, numbers.number, output)?;
+            warn_if_it_falls(&pile);
         }
         Command::Contacts {
             scene,
@@ -85,7 +119,8 @@ fn run(command: &Command) -> Result<bool, WriteError> {
             let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
             let table = tables::contacts(&units(&scene, &pile, numbers)?, selection)?;
-            write_table(table, numbers, output)?;
+            write_table(table, numbers.number, output)?;
+            warn_if_it_falls(&pile);
         }
         Command::Spheres {
             scene,
@@ -96,11 +131,50 @@ fn run(command: &Command) -> Result<bool, WriteError> {
             let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
             let table = tables::spheres(&scene.packing(&pile)?, selection)?;
-            write_table(table, numbers, output)?;
+            write_table(table, numbers.number, output)?;
+            warn_if_it_falls(&pile);
         }
-        Command::Prove { theorem, output } => return prove(theorem.as_deref(), output),
+        Command::Census {
+            layers,
+            base,
+            standing,
+            number,
+            output,
+        } => {
+            let table = match base {
+                None => tables::census(census::under_one_sphere(*layers, !standing)?),
+                Some(base) => {
+                    let entries = census::on_base(*base);
+                    let wanted = |entry: &Result<Entry, Error>| {
+                        !standing || entry.as_ref().map_or(true, Entry::stands)
+                    };
+                    tables::census(entries.filter(move |entry| wanted(entry)))
+                }
+            };
+            write_table(table, *number, output)?;
+        }
+        Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)
+}
+
+/// One line on stderr for forces that no pile can bear.
+fn warn_if_it_falls(pile: &Pile) {
+    if pile.is_weightless() {
+        return;
+    }
+    let told = match pile.standing() {
+        Ok(standing) => standing.first_failure.map(|layer| {
+            format!(
+                "note: this pile does not stand without further contacts: below layer {layer} spheres would have to \
+                 pull; its forces are the only balance there is"
+            )
+        }),
+        Err(error) => Some(format!("note: whether this pile stands is not known: {error}")),
+    };
+    if let Some(told) = told {
+        complain(&told);
+    }
 }
 
 fn units<'p>(scene: &Scene, pile: &'p Pile, numbers: &Numbers) -> Result<Units<'p>, Error> {
@@ -141,9 +215,9 @@ fn prove(name: Option<&str>, output: &Output) -> Result<bool, WriteError> {
     Ok(all_hold)
 }
 
-fn write_table(table: Table<'_>, numbers: &Numbers, output: &Output) -> Result<(), WriteError> {
+fn write_table(table: Table<'_>, number: Number, output: &Output) -> Result<(), WriteError> {
     write(output, |out| {
-        table.write(output.format.into(), numbers.number.into(), out)
+        table.write(output.format.into(), number.into(), out)
     })
 }
 
@@ -163,7 +237,14 @@ fn write(
 /// The option to change, as a prefix of the message.
 fn option_of(error: &Error) -> String {
     match error {
-        Error::Layers { .. } | Error::TooManyRows { .. } => "--layers: ".into(),
+        Error::Layers { .. }
+        | Error::TooManyRows { .. }
+        | Error::TooHigh { .. }
+        | Error::RegionTooLarge { .. }
+        | Error::LayersOfStacking { .. } => "--layers: ".into(),
+        Error::TooManyRuns { .. } => "--stacking: ".into(),
+        Error::NegativeLoad { .. } => "--load: ".into(),
+        Error::Excluded { given, .. } => format!("--{given}: "),
         Error::SinPhi { .. } | Error::SinPhiOfDiscs | Error::NoSpacing { .. } => {
             "--sin-phi: ".into()
         }

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use cannonpile::export::{FileFormat, NumberFormat};
-use cannonpile::lattice::{Dimension, Selection};
-use cannonpile::scene::{Scene, parse};
+use cannonpile::lattice::{Dimension, Region, Selection};
+use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::stacking::Pattern;
 use cannonpile::{Error, Pile, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -62,6 +63,24 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// Which stackings stand, under one sphere or on a base
+    Census {
+        /// Number of layers, 1 to 10^36
+        #[arg(long, value_name = "L", default_value = "10", allow_hyphen_values = true, value_parser = parse::layers)]
+        layers: i128,
+        /// Every stacking of this base, carried as high as it goes: hexagon:P,Q, hexagon:N, triangle:N or
+        /// region:x0..x1,y0..y1,s0..s1
+        #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region, conflicts_with = "layers")]
+        base: Option<Region>,
+        /// Only those that stand
+        #[arg(long)]
+        standing: bool,
+        /// How numbers are printed
+        #[arg(long, value_enum, default_value = "exact", help_heading = "Output")]
+        number: Number,
+        #[command(flatten)]
+        output: Output,
+    },
     /// What is proved for every pile, with the proofs; exit status 1 if one fails
     Prove {
         /// One theorem only, with its whole derivation
@@ -79,6 +98,7 @@ impl Command {
             | Self::Base { output, .. }
             | Self::Contacts { output, .. }
             | Self::Spheres { output, .. }
+            | Self::Census { output, .. }
             | Self::Prove { output, .. } => output,
         }
     }
@@ -87,15 +107,31 @@ impl Command {
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
-    /// Number of layers, 1 to 10^36
-    #[arg(long, value_name = "L", default_value = "10", allow_hyphen_values = true, value_parser = parse::layers)]
-    layers: i128,
+    /// Number of layers, 1 to 10^36 [default: 10, those of a stacking that is spelled out, or as many as a base carries]
+    #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
+    layers: Option<i128>,
+    /// How layers follow one another: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); from the top, or from
+    /// the base up with --base [default: fcc]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::stacking)]
+    stacking: Option<Pattern>,
+    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region, conflicts_with = "base")]
+    top: Option<Region>,
+    /// Grow up from this layer
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region)]
+    base: Option<Region>,
     /// 2 for discs, 3 for spheres
     #[arg(long, value_name = "D", default_value = "3", allow_hyphen_values = true, value_parser = parse::dimension)]
     dimension: Dimension,
     /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
     sin_phi: Option<BigRational>,
+    /// A vertical load on one sphere, in mg; may be given again
+    #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
+    load: Vec<String>,
+    /// The spheres weigh nothing: only the loads act
+    #[arg(long)]
+    weightless: bool,
     /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
     spacing: Option<BigRational>,
@@ -114,19 +150,55 @@ impl SceneOptions {
     /// The scene described, and its pile.
     ///
     /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
-    pub(crate) fn read(&self) -> Result<(Scene, Pile), Error> {
+    pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
+        let load = |text: &String| {
+            parse::load(text, self.dimension).map_err(|error| Refused::of("load", error))
+        };
         let scene = Scene {
             layers: self.layers,
             dimension: self.dimension,
             sin_phi: self.sin_phi.clone(),
+            stacking: self.stacking.clone(),
+            anchor: self.top.map(Anchor::Top).or(self.base.map(Anchor::Base)),
+            loads: self.load.iter().map(load).collect::<Result<_, _>>()?,
+            weightless: self.weightless,
             spacing: self.spacing.clone(),
             radius: self.radius.clone(),
             mass: self.mass.clone(),
             gravity: self.gravity.clone(),
         };
         scene.check_sizes()?;
-        let pile = scene.pile()?;
+        let pile = scene.pile().map_err(|error| match error {
+            // The only sites of a scene.
+            Error::SiteOutside { .. } => Refused::of("load", error),
+            error => error.into(),
+        })?;
         Ok((scene, pile))
+    }
+}
+
+/// A refusal, and the option to change if it is known.
+#[derive(Debug)]
+pub(crate) struct Refused {
+    pub(crate) option: Option<&'static str>,
+    pub(crate) error: Error,
+}
+
+impl Refused {
+    fn of(option: &'static str, error: Error) -> Self {
+        Self {
+            option: Some(option),
+            error,
+        }
+    }
+}
+
+impl From<Error> for Refused {
+    fn from(error: Error) -> Self {
+        Self {
+            option: None,
+            error,
+        }
     }
 }
 

@@ -1,4 +1,8 @@
-//! Numbers and sites from text, exactly.
+//! Numbers, sites and shapes from text, exactly.
+
+mod shapes;
+
+pub use shapes::{load, region, stacking};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::str::FromStr;
 
-use super::{MAX_RUNS, Run, Sign, Stacking};
+use super::{Run, Sign, Stacking};
 use crate::Error;
 
 /// The longest text read, in bytes.
@@ -101,12 +101,28 @@ impl fmt::Display for Zhdanov<'_> {
     }
 }
 
+/// The longest stacking shown sign by sign.
+const LONGEST_HAGG: i128 = 64;
+
+impl fmt::Display for Stacking {
+    /// What reads back the same: the signs of up to 65 layers, Zhdanov's lengths beyond, with `-` before them if the
+    /// first sign is −. One layer is `A`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.layers() {
+            1 => f.write_str("A"),
+            layers if layers <= LONGEST_HAGG + 1 => self.hagg().fmt(f),
+            _ if self.first == Sign::Minus => write!(f, "-{}", self.zhdanov()),
+            _ => self.zhdanov().fmt(f),
+        }
+    }
+}
+
 impl FromStr for Stacking {
     type Err = Error;
 
     /// Reads any of the four notations; which one, its characters say.
     ///
-    /// An empty text is not a stacking; one layer is `A` or `()`.
+    /// An empty text is not a stacking; one layer is `A` or `()`. A `-` before Zhdanov's lengths makes the first sign −.
     fn from_str(text: &str) -> Result<Self, Error> {
         let expected = "a stacking such as ++-+, ABCBC, chh or (2,1,1)";
         let syntax = || Error::syntax(text, expected);
@@ -117,6 +133,10 @@ impl FromStr for Stacking {
             ));
         }
         let parsed = match text.as_bytes().first() {
+            Some(b'-') if text.starts_with("-(") => {
+                let from_plus: Self = text.get(1..).ok_or_else(syntax)?.parse()?;
+                return Ok(from_plus.mirrored());
+            }
             Some(b'+' | b'-') => signs_of_hagg(text).map(Self::from_signs),
             Some(b'A' | b'B' | b'C') => signs_of_abc(text).map(Self::from_signs),
             Some(b'h' | b'c') => signs_of_jagodzinski(text).map(Self::from_signs),
@@ -127,11 +147,7 @@ impl FromStr for Stacking {
             }
             _ => None,
         };
-        let stacking = parsed.ok_or_else(syntax)??;
-        if stacking.changes() >= MAX_RUNS {
-            return Err(Error::TooManyRuns { limit: MAX_RUNS });
-        }
-        Ok(stacking)
+        parsed.ok_or_else(syntax)?
     }
 }
 

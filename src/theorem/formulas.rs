@@ -9,6 +9,8 @@ use crate::transfer;
 type P = Polynomial;
 /// ê_a, ê_b, ê_c.
 type Directions = [Vector<P>; 3];
+/// Lower or upper bounds of i, j and i+j.
+type Bounds = [P; 3];
 /// What a sphere adds to its three lines.
 type Added = Increments<P, 3>;
 
@@ -31,6 +33,8 @@ pub struct Formulas {
     pub contacts_of_strength: fn(&P, &P, u32) -> P,
     /// [`count::before`].
     pub before: fn(&P, &P, &P, u32) -> P,
+    /// [`count::bounds_above`].
+    pub bounds_above: fn(&P, &P, &Bounds, &Bounds, &P) -> [[P; 4]; 3],
     /// [`geometry::directions`].
     pub directions: fn(&P) -> Directions,
     /// [`geometry::disc_directions`].
@@ -41,6 +45,8 @@ pub struct Formulas {
     pub squared_distance: fn(&[P; 3], &P, &P) -> P,
     /// [`Increments::isosceles`].
     pub increments: fn(&P) -> Added,
+    /// [`Increments::force`].
+    pub force: fn(&Added, P, usize) -> P,
     /// [`Increments::from_above`].
     pub from_above: fn(&Added, &[P; 3]) -> [P; 3],
     /// [`Increments::to_below`].
@@ -57,6 +63,8 @@ pub struct Formulas {
     pub corner_shear_ratio: fn(&P, &Added, usize) -> (P, P),
     /// [`transfer::half_turn`].
     pub half_turn: fn(&[P; 3]) -> [P; 3],
+    /// [`transfer::tripled_half_turn`].
+    pub tripled_half_turn: fn(&[P; 3]) -> [P; 3],
 }
 
 impl Formulas {
@@ -70,11 +78,13 @@ impl Formulas {
         contacts: count::contacts,
         contacts_of_strength: count::contacts_of_strength,
         before: count::before,
+        bounds_above: count::bounds_above,
         directions: geometry::directions,
         disc_directions: geometry::disc_directions,
         position: geometry::position,
         squared_distance: geometry::squared_distance,
         increments: Increments::isosceles,
+        force: Increments::force,
         from_above: Increments::from_above,
         to_below: Increments::to_below,
         carried: Increments::carried,
@@ -83,5 +93,6 @@ impl Formulas {
         unbalanced: closed_form::unbalanced,
         corner_shear_ratio: closed_form::corner_shear_ratio,
         half_turn: transfer::half_turn,
+        tripled_half_turn: transfer::tripled_half_turn,
     };
 }

@@ -16,10 +16,11 @@ pub(crate) fn any_scene(u: &mut Unstructured<'_>) -> Checked {
         Ok(pile) => pile,
         Err(refusal) => return one_line(&refusal),
     };
-    demand((1..=MAX_LAYERS).contains(&scene.layers), || {
-        format!("a pile of {} layers", scene.layers)
+    let layers = scene.layers.unwrap_or(10);
+    demand((1..=MAX_LAYERS).contains(&layers), || {
+        format!("a pile of {layers} layers")
     })?;
-    same("layers", &pile.layers(), &scene.layers)?;
+    same("layers", &pile.layers(), &layers)?;
     same("dimension", &pile.dimension(), &scene.dimension)?;
     let s = scene.sin_phi.clone();
     let s = s.unwrap_or_else(|| match scene.dimension {
@@ -74,12 +75,13 @@ fn scene(u: &mut Unstructured<'_>) -> arbitrary::Result<Scene> {
         _ => Some(BigRational::one() + number::fraction(u)?),
     };
     Ok(Scene {
-        layers,
+        layers: Some(layers),
         dimension: *u.choose(&[Dimension::Three, Dimension::Three, Dimension::Two])?,
         sin_phi,
         spacing,
         radius,
         mass,
         gravity,
+        ..Scene::default()
     })
 }

@@ -5,7 +5,7 @@ use cannonpile::scalar::Ring;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
-use super::{Fault, P, RIGHT, faults, over, swapped};
+use super::{Fault, P, RIGHT, faults, over, swapped, twice};
 
 /// L − 1.
 fn one_less(l: &P) -> P {
@@ -30,20 +30,20 @@ pub(super) fn faults() -> Vec<Fault> {
         "β goes down along j, γ along i": descent = |direction| {
             let [di, dj, dk] = direction.descent();
             [dj, di, dk]
-        } => ["counts", "action-reaction"];
+        } => ["counts", "action-reaction", "region-counts"];
         "α goes down along j, γ straight": descent = |direction| match direction {
             Direction::Alpha => Direction::Gamma.descent(),
             Direction::Beta => Direction::Beta.descent(),
             Direction::Gamma => Direction::Alpha.descent(),
-        } => ["counts", "action-reaction"];
+        } => ["counts", "action-reaction", "region-counts"];
         "α goes down two layers": descent = |direction| match direction {
             Direction::Alpha => [0, 0, 2],
             other => other.descent(),
-        } => ["counts", "action-reaction"];
+        } => ["counts", "action-reaction", "region-counts"];
         "γ goes up": descent = |direction| match direction {
             Direction::Gamma => [0, -1, -1],
             other => other.descent(),
-        } => ["counts", "action-reaction"];
+        } => ["counts", "action-reaction", "region-counts"];
 
         "turned the other way": rotate = |above| Symmetry::ALL[2].permute(above) => ["rotation"];
         "mirrored": rotate = |above| Symmetry::MIRROR.permute(above) => ["rotation"];
@@ -91,5 +91,28 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.spheres)(k, d) + &(j.clone() * &(k.clone() + &P::one())) + i
         } => ["spheres"];
         "one more in each layer": before = |i, j, k, d| (RIGHT.before)(i, j, k, d) + k => ["spheres"];
+
+        "lines of α and β for each other": bounds_above = |i, j, lower, upper, m| {
+            let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m);
+            [beta, alpha, gamma]
+        } => ["region-counts"];
+        "a surface one site too far out": bounds_above = |i, j, lower, upper, m| {
+            let wider = upper.each_ref().map(|bound| bound.clone() + &P::one());
+            (RIGHT.bounds_above)(i, j, lower, &wider, m)
+        } => ["region-counts"];
+        "a surface one site too far in": bounds_above = |i, j, lower, upper, m| {
+            let narrower = lower.each_ref().map(|bound| bound.clone() + &P::one());
+            (RIGHT.bounds_above)(i, j, &narrower, upper, m)
+        } => ["region-counts"];
+        "every sphere twice": bounds_above = |i, j, lower, upper, m| {
+            (RIGHT.bounds_above)(i, j, lower, upper, m).map(|of_line| of_line.each_ref().map(twice))
+        } => ["region-counts"];
+        "runs without end": bounds_above = |i, j, lower, upper, m| {
+            let mut bounds = (RIGHT.bounds_above)(i, j, lower, upper, m);
+            for of_line in &mut bounds {
+                of_line[0] = of_line[1].clone();
+            }
+            bounds
+        } => ["region-counts"];
     }
 }

@@ -14,14 +14,14 @@ pub(super) fn faults() -> Vec<Fault> {
                 "total-moment", "second-moment", "discs"];
         "Δγ = s": increments = |s| Increments::new([P::one(), P::one(), s.clone()])
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio"];
+                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "point-load"];
         "Δβ = −Δα": increments = |s| Increments::new([P::one(), -P::one(), twice(s)])
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs"];
+                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs", "point-load"];
         "increments for twice the weight": increments = |s| {
             Increments::new((RIGHT.increments)(s).per_line().each_ref().map(twice))
         } => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis",
-              "shear-ratio", "discs"];
+              "shear-ratio", "discs", "point-load"];
 
         "a wall pushes on the surface": from_above = |increments, above| {
             let pushed = above.clone().map(|n| if n.is_zero() { P::one() } else { n });
@@ -57,10 +57,23 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.unbalanced)(above, increments, directions, &P::zero())
         } => ["equilibrium", "discs"];
 
-        "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn"];
-        "I": half_turn = Clone::clone => ["half-turn"];
-        "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn"];
-        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn"];
-        "a third of a turn": half_turn = |g| Symmetry::ROTATION.permute(g) => ["half-turn"];
+        "an increment too much": force = |increments, n, line| {
+            (RIGHT.force)(increments, n + &P::one(), line)
+        } => ["run"];
+        "the next line's increment": force = |increments, n, line| {
+            (RIGHT.force)(increments, n, (line + 1) % 3)
+        } => ["run"];
+        "the last line's increment": force = |increments, n, line| {
+            (RIGHT.force)(increments, n, (line + 2) % 3)
+        } => ["run"];
+
+        "the half-turn itself": tripled_half_turn = RIGHT.half_turn => ["tripled-half-turn"];
+        "2Σ − g": tripled_half_turn = |g| g.clone().map(|x| twice(&sum(g)) - &x) => ["tripled-half-turn"];
+
+        "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn", "tripled-half-turn", "edge", "point-load"];
+        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "edge", "point-load"];
+        "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn", "edge", "point-load"];
+        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn", "tripled-half-turn", "edge", "point-load"];
+        "a third of a turn": half_turn = |g| Symmetry::ROTATION.permute(g) => ["half-turn", "tripled-half-turn", "edge", "point-load"];
     }
 }

@@ -22,12 +22,12 @@ pub(super) fn faults() -> Vec<Fault> {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, Vector { x: -c.x, ..c }]
         } => ["unit-directions", "equilibrium", "shear", "total-shear", "total-moment", "second-moment",
-              "shear-ratio"];
+              "shear-ratio", "point-load"];
         "ê_c twice as long": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, c.map(|part| twice(&part))]
         } => ["unit-directions", "equilibrium", "base-normal", "uniform-base", "weight", "shear",
-              "total-shear", "total-moment", "second-moment", "shear-ratio"];
+              "total-shear", "total-moment", "second-moment", "shear-ratio", "point-load"];
         "contacts point down": directions = |s| (RIGHT.directions)(s).map(|e| -e)
             => ["equilibrium", "base-normal", "uniform-base", "weight", "shear", "total-moment",
                 "second-moment", "shear-ratio"];
@@ -36,7 +36,7 @@ pub(super) fn faults() -> Vec<Fault> {
         "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["shear"];
         "y in units of cosφ": directions = |s| {
             (RIGHT.directions)(s).map(|e| Vector { y: twice(&e.y), ..e })
-        } => ["unit-directions", "shear", "second-moment", "shear-ratio"];
+        } => ["unit-directions", "shear", "second-moment", "shear-ratio", "point-load"];
 
         "both supports of a disc on one side": disc_directions = || {
             let [a, _, c] = (RIGHT.disc_directions)();

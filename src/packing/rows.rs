@@ -1,0 +1,88 @@
+//! Many answers in SI, one after the other.
+
+use crate::lattice::{Direction, Rows, Site};
+use crate::scalar::Surd;
+use crate::{Error, FloorForce, Packing};
+
+/// A contact between two spheres, in the units and the frame of a [`Packing`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::lattice::Selection;
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+/// for contact in packing.contacts(pile.rows(Selection::All)?) {
+///     let contact = contact?;
+///     assert_eq!(contact.force.to_string(), "5/39*sqrt(13)");
+///     // On the upper sphere, upwards.
+///     assert_eq!(contact.vector[2].to_string(), "1/3");
+/// }
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct PackedContact {
+    /// The upper sphere.
+    pub site: Site,
+    /// The direction in which the lower one lies.
+    pub direction: Direction,
+    /// The magnitude of the force; positive is push.
+    pub force: Surd,
+    /// The force on the upper sphere, z up.
+    pub vector: [Surd; 3],
+    /// Where they touch.
+    pub point: [Surd; 3],
+}
+
+impl<'p> Packing<'p> {
+    /// The contacts of the spheres in `rows`, each with the spheres below it, lazily.
+    ///
+    /// As [`Statics::contacts`](crate::Statics::contacts).
+    pub fn contacts(
+        &self,
+        rows: Rows<'p>,
+    ) -> impl Iterator<Item = Result<PackedContact, Error>> + use<'p> {
+        let packing = self.clone();
+        self.statics.contacts(rows).map(move |contact| {
+            let contact = contact?;
+            let (site, direction) = (contact.site, contact.direction);
+            Ok(PackedContact {
+                site,
+                direction,
+                force: packing.magnitude(&contact.force),
+                vector: packing.vector(site, direction, &contact.force)?,
+                point: packing.contact_point(site, direction)?,
+            })
+        })
+    }
+
+    /// The forces of the bottom spheres in `rows` on the floor, lazily.
+    ///
+    /// As [`Statics::base`](crate::Statics::base).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Region, Selection};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-".parse()?)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// for force in packing.base(pile.rows(Selection::Base)?) {
+    ///     println!("{}", force?.normal);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn base(
+        &self,
+        rows: Rows<'p>,
+    ) -> impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p> {
+        let packing = self.clone();
+        let forces = self.statics.base(rows);
+        forces.map(move |force| Ok(packing.floor_force(force?)))
+    }
+}
