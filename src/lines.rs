@@ -79,6 +79,9 @@ pub(crate) enum Wanted {
 impl Wanted {
     /// What a contact below a sphere needs: its line, or all three where they are mixed by a change of sign.
     pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
+        if shape.stacking().is_straight() {
+            return Self::One(direction);
+        }
         let sign = shape.sign_below(site.k);
         if site.k > 0 && sign != shape.sign_below(site.k - 1) {
             Self::All
@@ -233,7 +236,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         for (force, w) in passed.iter_mut().zip(self.ordinary.per_line()) {
             *force = self.scaled(w.clone(), changes) + &*force;
         }
-        if self.extra_weights.contains_key(&site) {
+        if !self.extra_weights.is_empty() && self.extra_weights.contains_key(&site) {
             for (force, extra) in passed.iter_mut().zip(self.extra(site)) {
                 *force = extra + &*force;
             }

@@ -170,6 +170,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_above(&self, site: Site) -> Result<[T; 3], Error> {
+        let site = self.pile.shape().check(site)?;
         let (forces, changes) = self.received(site, Wanted::All)?;
         edge_all("a contact force", forces, &self.lines.scale(changes))
     }
@@ -213,13 +214,12 @@ impl<'p, T: Algebra> Statics<'p, T> {
         Ok((force, changes))
     }
 
-    /// The forces from above as numerators, and the changes of sign down to the site.
+    /// The forces from above on a sphere of the pile as numerators, and the changes of sign down to it.
     fn received(&self, site: Site, wanted: Wanted) -> Result<([T::Numerator; 3], usize), Error> {
-        let Site { i, j, k } = self.pile.shape().check(site)?;
         if let Some(forces) = self.lines.closed(site, wanted) {
             return Ok((forces, 0));
         }
-        let above = match self.lines.forces_above(k, &[[i, j]], wanted) {
+        let above = match self.lines.forces_above(site.k, &[[site.i, site.j]], wanted) {
             // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
             Err(too_large @ Error::TooLarge { .. }) => {
                 return source::received_by_sweep(self, site).map_err(|_| too_large);
@@ -372,6 +372,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
+        let site = self.pile.shape().check(site)?;
         let (above, changes) = self.received(site, Wanted::All)?;
         let directions = self.directions_under(self.sign_above(site.k));
         let force = closed_form::resultant(&above, &directions);
@@ -521,11 +522,12 @@ impl<'p, T: Algebra> Statics<'p, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
-        let (above, changes) = self.received(site, Wanted::All)?;
-        if site.k != self.floor() {
-            let floor = self.floor();
+        let site = self.pile.shape().check(site)?;
+        let floor = self.floor();
+        if site.k != floor {
             return Err(Error::NotOnFloor { site, floor });
         }
+        let (above, changes) = self.received(site, Wanted::All)?;
         self.floor_force(site, &above, changes)
     }
 

@@ -300,10 +300,19 @@ impl Shape {
         })
     }
 
+    /// The place of the run whose steps lead down to layer k; none for the top.
+    fn run_to(&self, k: i128) -> Option<usize> {
+        if let [_] = *self.starts {
+            return (k > 0).then_some(0);
+        }
+        self.starts
+            .partition_point(|start| start.layer < k)
+            .checked_sub(1)
+    }
+
     /// The steps from the top to layer k.
     fn descent(&self, k: i128) -> Descent {
-        let run = self.starts.partition_point(|start| start.layer < k);
-        match run.checked_sub(1).and_then(|run| self.starts.get(run)) {
+        match self.run_to(k).and_then(|run| self.starts.get(run)) {
             Some(start) => start.descent.further(start.sign, k - start.layer),
             None => Descent::default(),
         }
@@ -325,8 +334,7 @@ impl Shape {
 
     /// The run whose steps lead down to layer k; none for the top.
     pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
-        let run = self.starts.partition_point(|start| start.layer < k);
-        self.stretch(run.checked_sub(1)?)
+        self.stretch(self.run_to(k)?)
     }
 
     /// The run of a place in the stacking.
@@ -345,8 +353,8 @@ impl Shape {
     #[must_use]
     pub fn sign_below(&self, k: i128) -> Option<Sign> {
         let inside = (0..self.layers() - 1).contains(&k);
-        let stretch = inside.then(|| self.stretch_to(k + 1))??;
-        Some(stretch.sign)
+        let run = inside.then(|| self.run_to(k + 1))??;
+        self.starts.get(run).map(|start| start.sign)
     }
 
     /// Whether the pile has this site.
