@@ -9,6 +9,8 @@
 //!
 //! A straight pile has no change of sign: its tree has no nodes, and every force is closed.
 
+mod corners;
+
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 

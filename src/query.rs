@@ -9,6 +9,7 @@ mod source;
 use num_rational::BigRational;
 use num_traits::Zero;
 
+pub(crate) use source::COST_OF_A_TREE;
 use source::Source;
 
 use crate::closed_form::{self, Increments};
@@ -538,11 +539,7 @@ impl<'p, T: Algebra> Statics<'p, T> {
         above: &[T::Numerator; 3],
         changes: usize,
     ) -> Result<FloorForce<T>, Error> {
-        let directions = self.directions_under(self.sign_above(site.k));
-        let force = closed_form::handed_on(above, &directions, &self.weight(site, changes));
-        // mg is W of the unit of forces along lines.
-        let unit = self.lines.scale(changes) * &self.direction_scale * &self.increment_sum;
-        let force = force.scaled(&self.sum_scale);
+        let (force, unit) = self.floor_numerators(site, above, changes);
         let [shear_x, shear_y, normal] =
             edge_all("a force on the floor", force.into_array(), &unit)?;
         Ok(FloorForce {
@@ -551,6 +548,20 @@ impl<'p, T: Algebra> Statics<'p, T> {
             shear_x,
             shear_y,
         })
+    }
+
+    /// The same as numerators of (shear_x, shear_y, normal), and their denominator.
+    fn floor_numerators(
+        &self,
+        site: Site,
+        above: &[T::Numerator; 3],
+        changes: usize,
+    ) -> (Vector<T::Numerator>, T::Numerator) {
+        let directions = self.directions_under(self.sign_above(site.k));
+        let force = closed_form::handed_on(above, &directions, &self.weight(site, changes));
+        // mg is W of the unit of forces along lines.
+        let unit = self.lines.scale(changes) * &self.direction_scale * &self.increment_sum;
+        (force.scaled(&self.sum_scale), unit)
     }
 
     /// The forces of the bottom spheres in `rows` on the floor, lazily.

@@ -2,11 +2,11 @@
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
-use crate::lattice::Selection;
+use crate::geometry::Vector;
 use crate::scalar::{Ring, Surd};
-use crate::{Error, FloorForce, Pile};
+use crate::{Error, Pile};
 
 /// The extremes of the force on the floor over the base of a pile. Exact.
 ///
@@ -35,65 +35,48 @@ pub struct BaseExtremes {
 impl Pile {
     /// The extremes of the force on the floor.
     ///
-    /// Of a straight pile under one sphere they are at the corners of the base, since the normal force is linear, and
-    /// the ratio the norm of a linear function over it. Of any other pile every bottom sphere is looked at.
+    /// The normal force is linear in i and j between few places, and the ratio the norm of a linear function over it: of
+    /// a straight pile under one sphere the extremes are at its corners, of others with few changes of sign among few
+    /// spheres of each row. Otherwise every bottom sphere is looked at.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for a base of more than 10⁸ spheres, unless it is that of a straight pile under one sphere.
+    /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would have to be looked at.
     pub fn base_extremes(&self) -> Result<BaseExtremes, Error> {
-        const MOST: u64 = 100_000_000;
-        let rows = self.rows(Selection::Base)?;
         let statics = self.statics::<BigRational>();
-        // 4cos²φ, which the shear along y is in.
+        // The squared length of the unit of shear along y, 4cos²φ.
         let s = self.sin_phi();
         let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
         let mut extremes = Extremes::default();
-        if self.is_paper_pile() {
-            for corner in rows.corners() {
-                extremes.meet(&statics.on_floor(corner)?, &across);
-            }
-        } else {
-            if rows.sites() > MOST.into() {
-                return Err(Error::TooLarge {
-                    quantity: "the extremes over this base",
-                    needed: rows.sites(),
-                    limit: MOST,
-                    remedy: "ask for single spheres",
-                });
-            }
-            for force in statics.base(rows) {
-                extremes.meet(&force?, &across);
-            }
-        }
-        extremes.finish()
+        let unit = statics.ends_of_base(|force| extremes.meet(force, &across))?;
+        extremes.over(&unit)
     }
 }
 
-/// The extremes so far.
+/// The extremes so far, as integers.
 #[derive(Default)]
 struct Extremes {
-    normals: Option<(BigRational, BigRational)>,
-    /// The greatest squared ratio, as numerator and denominator of squares: reduced at the end.
+    normals: Option<(BigInt, BigInt)>,
+    /// The greatest squared ratio, as numerator and denominator: reduced at the end.
     ratio: Option<(BigInt, BigInt)>,
 }
 
 impl Extremes {
-    fn meet(&mut self, force: &FloorForce<BigRational>, across: &BigRational) {
-        let normal = &force.normal;
-        self.normals = Some(match self.normals.take() {
-            None => (normal.clone(), normal.clone()),
-            Some((least, most)) if *normal < least => (normal.clone(), most),
-            Some((least, most)) if *normal > most => (least, normal.clone()),
-            Some(normals) => normals,
-        });
+    fn meet(&mut self, force: &Vector<BigInt>, across: &BigRational) {
+        let Vector { x, y, z: normal } = force;
+        let (least, most) = self
+            .normals
+            .get_or_insert_with(|| (normal.clone(), normal.clone()));
+        if normal < least {
+            least.clone_from(normal);
+        }
+        if normal > most {
+            most.clone_from(normal);
+        }
         if normal.is_zero() {
             return;
         }
-        let shear2 = &force.shear_x * &force.shear_x + &force.shear_y * &force.shear_y * across;
-        let (n, d) = (
-            shear2.numer() * normal.denom().pow(2),
-            shear2.denom() * normal.numer().pow(2),
-        );
+        let n = x * x * across.denom() + y * y * across.numer();
+        let d = normal * normal * across.denom();
         let greater = self
             .ratio
             .as_ref()
@@ -103,21 +86,17 @@ impl Extremes {
         }
     }
 
-    fn finish(self) -> Result<BaseExtremes, Error> {
+    /// Their values, for forces over this denominator.
+    fn over(self, unit: &BigInt) -> Result<BaseExtremes, Error> {
         // A base has a sphere.
-        let (normal_min, normal_max) = self.normals.unwrap_or_default();
+        let (least, most) = self.normals.unwrap_or_default();
         let (n, d) = self
             .ratio
             .unwrap_or_else(|| (BigInt::zero(), BigInt::one()));
-        let squared = if d.is_positive() {
-            BigRational::new(n, d)
-        } else {
-            BigRational::zero()
-        };
         Ok(BaseExtremes {
-            normal_min,
-            normal_max,
-            max_shear_ratio: Surd::sqrt(squared)?,
+            normal_min: BigRational::new(least, unit.clone()),
+            normal_max: BigRational::new(most, unit.clone()),
+            max_shear_ratio: Surd::sqrt(BigRational::new(n, d))?,
         })
     }
 }

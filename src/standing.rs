@@ -11,14 +11,15 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::{One, Signed, Zero};
 
 use crate::geometry::Apart;
 use crate::lattice::{Direction, Shape, Site};
-use crate::lines::Lines;
-use crate::sweep::{Grid, Planes, Sweep};
+use crate::lines::{Lines, Wanted};
+use crate::query::COST_OF_A_TREE;
+use crate::sweep::{Grid, MAX_NUMBERS, Planes, Sweep};
 use crate::{ContactForce, Error, Pile};
 
 /// Whether a pile stands.
@@ -111,10 +112,11 @@ impl Standing {
 impl Pile {
     /// The least contact force of the pile, where it is, and the first layer at which the stacking fails.
     ///
-    /// Takes a sweep in the exact engine from the top to the last change of sign.
+    /// Takes a sweep in the exact engine from the top to the last change of sign; or, after long runs, the few spheres
+    /// of each row between which the forces are linear.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if a sign changes at a layer that does not fit in memory.
+    /// [`Error::TooLarge`] if a sign changes at a layer of more than 10⁷ rows.
     pub fn standing(&self) -> Result<Standing, Error> {
         let mut standing = Standing {
             least: None,
@@ -163,25 +165,75 @@ impl Pile {
     /// The least force below each layer where the sign changes.
     fn at_changes(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
         let shape = self.shape();
-        let changes = shape.stacking().changes();
-        let Some(last) = shape.stretch(changes).filter(|_| changes > 0) else {
+        let runs = (1..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+        let layers: Vec<i128> = runs.map(|run| run.from).collect();
+        let Some(last) = layers.last() else {
             return Ok(Vec::new());
         };
+        let lines = Lines::<BigRational>::new(self);
+        let ends = layers
+            .iter()
+            .map(|k| lines.most_ends_of_pieces(*k))
+            .sum::<BigUint>();
+        let sites = layers
+            .iter()
+            .filter_map(|k| shape.layer(*k).ok())
+            .map(|region| region.sites());
         // One layer more, so that the last change is behind.
-        let size = self.size_of_sweep(last.from + 1);
-        let grid = Grid::new(shape, last.from + 1, size.planes)?;
-        let layer = Planes::new(&grid, size);
-        let mut sweep = Sweep::new(Lines::<BigRational>::new(self), grid, layer);
-        let mut contacts = Vec::with_capacity(changes);
-        for run in 1..=changes {
-            let Some(run) = shape.stretch(run) else {
-                break;
-            };
-            sweep.advance(run.from);
-            contacts.extend(sweep.least_passed_on());
+        let size = self.size_of_sweep(last + 1);
+        let grid = Grid::new(shape, last + 1, size.planes);
+        if ends.clone() * COST_OF_A_TREE < sites.sum::<BigUint>() || grid.is_err() {
+            if ends > BigUint::from(MAX_NUMBERS) {
+                return Err(Error::TooLarge {
+                    quantity: "whether it stands",
+                    needed: ends,
+                    limit: MAX_NUMBERS,
+                    remedy: "let the sign change nearer to the top",
+                });
+            }
+            return layers
+                .into_iter()
+                .map(|k| least_at_ends(&lines, k))
+                .collect();
         }
-        Ok(contacts)
+        let grid = grid?;
+        let layer = Planes::new(&grid, size);
+        let mut sweep = Sweep::new(lines, grid, layer);
+        let least = layers.into_iter().filter_map(|k| {
+            sweep.advance(k);
+            sweep.least_passed_on()
+        });
+        Ok(least.collect())
     }
+}
+
+/// The least force below a layer where the sign changes, among the spheres between which the forces are linear.
+fn least_at_ends(
+    lines: &Lines<'_, BigRational>,
+    k: i128,
+) -> Result<ContactForce<BigRational>, Error> {
+    let mut least: Option<(BigInt, Site, Direction)> = None;
+    let mut denominator = BigInt::one();
+    for (_, row) in lines.ends_of_pieces(k) {
+        let above = lines.forces_above(k, &row, Wanted::All)?;
+        for ([i, j], above_it) in row.into_iter().zip(above.forces) {
+            let site = Site { i, j, k };
+            let (forces, changes) = lines.to_below(site, above_it, above.changes);
+            denominator = lines.scale(changes);
+            for (force, direction) in forces.into_iter().zip(Direction::ALL) {
+                if least.as_ref().is_none_or(|(least, ..)| force < *least) {
+                    least = Some((force, site, direction));
+                }
+            }
+        }
+    }
+    // A layer has a sphere.
+    let (force, site, direction) = least.unwrap_or((BigInt::zero(), Site::APEX, Direction::Alpha));
+    Ok(ContactForce {
+        site,
+        direction,
+        force: BigRational::new(force, denominator),
+    })
 }
 
 impl Sweep<'_, BigRational, Planes> {

@@ -123,6 +123,7 @@ impl Region {
 
     /// Whether the region has the site (i, j).
     #[must_use]
+    #[inline]
     pub fn contains(&self, i: i128, j: i128) -> bool {
         // Within x and y the sum cannot overflow.
         self.x().contains(&i) && self.y().contains(&j) && self.s().contains(&(i + j))
@@ -285,6 +286,7 @@ impl Region {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn spheres_above(&self, i: i128, j: i128, sign: Sign, steps: i128) -> [i128; 3] {
         let (lower, upper) = (&self.lower, &self.upper);
         let bounds = match sign {
@@ -326,6 +328,7 @@ impl Region {
     }
 
     /// The layer this many + and − steps further down; bounds must stay within `i128`.
+    #[inline]
     pub(super) fn grown(&self, plus: i128, minus: i128) -> Self {
         Self {
             lower: self.lower.map(|bound| bound - minus),

@@ -8,7 +8,7 @@ use num_bigint::BigUint;
 use num_integer::Integer;
 use num_traits::Zero;
 
-use super::{Dimension, Direction, MAX_LAYERS, Region, Rows, Selection, Site};
+use super::{Dimension, Direction, MAX_LAYERS, Region, Rows, Selection, Site, Trapezoid};
 use crate::Error;
 use crate::stacking::{Pattern, Run, Sign, Stacking};
 
@@ -272,6 +272,7 @@ impl Shape {
         }
     }
 
+    #[inline]
     fn region(&self, k: i128) -> Option<Region> {
         let whole = self.whole_region(k)?;
         match self.dimension {
@@ -281,6 +282,7 @@ impl Shape {
     }
 
     /// The region of a layer; for discs that of the pile of spheres which has them in its row j = 0.
+    #[inline]
     fn whole_region(&self, k: i128) -> Option<Region> {
         if !(0..self.layers()).contains(&k) {
             return None;
@@ -293,6 +295,7 @@ impl Shape {
     }
 
     /// How many spheres lie above a site of layer k on each of its lines, within the run down to there.
+    #[inline]
     pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
         region.map_or([0; 3], |region| {
@@ -300,7 +303,21 @@ impl Shape {
         })
     }
 
+    /// The same along row j of layer k.
+    pub(crate) fn row_counts(&self, run: &Stretch, k: i128, j: i128) -> [Trapezoid; 3] {
+        let nothing = Trapezoid {
+            cap: 0,
+            rises: None,
+            falls: None,
+        };
+        let region = self.whole_region(k);
+        region.map_or([nothing; 3], |region| {
+            region.row_counts(j, run.sign, k - run.from)
+        })
+    }
+
     /// The place of the run whose steps lead down to layer k; none for the top.
+    #[inline]
     fn run_to(&self, k: i128) -> Option<usize> {
         if let [_] = *self.starts {
             return (k > 0).then_some(0);
@@ -311,6 +328,7 @@ impl Shape {
     }
 
     /// The steps from the top to layer k.
+    #[inline]
     fn descent(&self, k: i128) -> Descent {
         match self.run_to(k).and_then(|run| self.starts.get(run)) {
             Some(start) => start.descent.further(start.sign, k - start.layer),
@@ -333,11 +351,13 @@ impl Shape {
     }
 
     /// The run whose steps lead down to layer k; none for the top.
+    #[inline]
     pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
         self.stretch(self.run_to(k)?)
     }
 
     /// The run of a place in the stacking.
+    #[inline]
     pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
         let start = self.starts.get(index)?;
         let next = self.starts.get(index + 1);
@@ -351,6 +371,7 @@ impl Shape {
 
     /// The sign of the step down from layer k; none from the floor.
     #[must_use]
+    #[inline]
     pub fn sign_below(&self, k: i128) -> Option<Sign> {
         let inside = (0..self.layers() - 1).contains(&k);
         let run = inside.then(|| self.run_to(k + 1))??;
@@ -369,6 +390,7 @@ impl Shape {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn contains(&self, site: Site) -> bool {
         let region = self.region(site.k);
         region.is_some_and(|region| region.contains(site.i, site.j))
@@ -388,6 +410,7 @@ impl Shape {
     /// assert!(pyramid.check(Site { i: 1, j: 0, k: 0 }).is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
+    #[inline]
     pub fn check(&self, site: Site) -> Result<Site, Error> {
         if self.contains(site) {
             return Ok(site);

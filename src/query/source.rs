@@ -3,12 +3,14 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::{FloorForce, Statics, edge_all};
 use crate::Error;
-use crate::lattice::{Rows, Site};
+use crate::geometry::Vector;
+use crate::lattice::{Rows, Selection, Site};
 use crate::lines::{Lines, Wanted};
 use crate::scalar::{Algebra, Exactness};
 use crate::sweep::{Cells, Grid, Planes, Sweep};
@@ -191,5 +193,77 @@ impl<T: Algebra> Piece<T> {
         let place = usize::try_from(site.i.checked_sub(self.first.i)?).ok()?;
         let forces = self.forces.get(place).filter(|_| same_row)?;
         Some((forces.clone(), self.changes))
+    }
+}
+
+impl<'p> Statics<'p, BigRational> {
+    /// Shows the forces of bottom spheres on the floor as integers (shear_x, shear_y, normal), and returns the
+    /// denominator of all of them: of the corners of a straight pile under one sphere; of those spheres between which
+    /// the forces are linear, where they are far fewer; or of every bottom sphere.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 10⁸ of them.
+    pub(crate) fn ends_of_base(
+        &self,
+        mut meet: impl FnMut(&Vector<BigInt>),
+    ) -> Result<BigInt, Error> {
+        const MOST: u64 = 100_000_000;
+        let (shape, floor) = (self.pile.shape(), self.floor());
+        let changes = shape.stretch_to(floor).map_or(0, |run| run.index);
+        let mut meet = |site, above: &[BigInt; 3]| {
+            meet(&self.floor_numerators(site, above, changes).0);
+        };
+        let rows = self.pile.rows(Selection::Base)?;
+        let (sites, ends) = (rows.sites(), self.lines.most_ends_of_pieces(floor));
+        if self.pile.is_paper_pile() {
+            for corner in rows.corners() {
+                meet(corner, &self.received(corner, Wanted::All)?.0);
+            }
+        } else if sites.clone().min(ends.clone()) > MOST.into() {
+            return Err(Error::TooLarge {
+                quantity: "the extremes over this base",
+                needed: sites.min(ends),
+                limit: MOST,
+                remedy: "ask for single spheres",
+            });
+        } else if ends * COST_OF_A_TREE < sites {
+            for (_, row) in self.lines.ends_of_pieces(floor) {
+                let above = self.lines.forces_above(floor, &row, Wanted::All)?;
+                for ([i, j], above) in row.into_iter().zip(&above.forces) {
+                    meet(Site { i, j, k: floor }, above);
+                }
+            }
+        } else {
+            let mut source = Source::new(self, &rows);
+            for site in rows.flatten() {
+                meet(site, &source.received(self, site)?.0);
+            }
+        }
+        Ok(self.lines.scale(changes) * &self.direction_scale * &self.increment_sum)
+    }
+}
+
+/// How many spheres of a sweep cost as much as one of a tree, roughly.
+pub(crate) const COST_OF_A_TREE: u32 = 16;
+
+impl<'p> Source<'p, BigRational> {
+    /// The forces from above on a sphere of the last layer, as integers, and the changes of sign before.
+    fn received(
+        &mut self,
+        statics: &Statics<'p, BigRational>,
+        site: Site,
+    ) -> Result<([BigInt; 3], usize), Error> {
+        match self {
+            Self::Closed => statics.received(site, Wanted::All),
+            Self::Tree(piece) => Piece::at(piece, statics, site),
+            Self::Sweep(sweep) => {
+                sweep.advance(site.k);
+                Ok(sweep.received(site))
+            }
+            Self::Integers(integers) => {
+                integers.sweep.advance(site.k);
+                Ok(integers.sweep.received(site))
+            }
+        }
     }
 }
