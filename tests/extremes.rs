@@ -9,50 +9,34 @@ fn ratio(n: i64, d: i64) -> BigRational {
     BigRational::new(n.into(), d.into())
 }
 
-/// Piles with long runs, most of them large enough to be looked at in few places.
+/// Piles with runs so long that a layer has hundreds of times more spheres than rows.
 fn piles() -> Vec<Pile> {
-    let tops = [
-        Region::SITE,
-        Region::triangle(7).unwrap(),
-        Region::hexagon(4, 9).unwrap(),
-        Region::new(-3..=12, 0..=5, -2..=14).unwrap(),
-    ];
-    let stackings = [
-        "(70)",
-        "-(90)",
-        "(3,80)",
-        "(2,1,75)",
-        "-(40,50)",
-        "(1,1,1,60)",
-        "(30,1,60)",
-    ];
+    let tops = [Region::SITE, Region::new(-3..=12, 0..=5, -2..=14).unwrap()];
+    let stackings = ["(490)", "(2,1,480)", "-(490,2)", "(300,1,180)"];
     let mut piles = Vec::new();
-    for top in tops {
-        for stacking in stackings {
-            let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
-            let [[i, j], ..] = top.corners();
-            let on_top = Site { i, j, k: 0 };
-            let below = pile
-                .rows(Selection::Layer(45))
-                .unwrap()
-                .flatten()
-                .nth(77)
-                .unwrap();
-            let loaded = pile.clone().with_load(on_top, ratio(25, 3)).unwrap();
-            let loaded = loaded.with_load(below, ratio(50, 7)).unwrap();
-            piles.extend([
-                loaded.clone().with_weight(below, ratio(1, 9)).unwrap(),
-                loaded.weightless(),
-                pile,
-            ]);
-        }
+    for (top, stacking) in tops.into_iter().flat_map(|top| stackings.map(|s| (top, s))) {
+        let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+        let [[i, j], ..] = top.corners();
+        let below = pile
+            .rows(Selection::Layer(245))
+            .unwrap()
+            .flatten()
+            .nth(770)
+            .unwrap();
+        let loaded = pile
+            .clone()
+            .with_load(Site { i, j, k: 0 }, ratio(25, 3))
+            .unwrap();
+        let loaded = loaded.with_load(below, ratio(5000, 7)).unwrap();
+        piles.push(if piles.len() % 2 == 0 {
+            loaded.weightless()
+        } else {
+            loaded
+        });
+        piles.push(pile);
     }
-    for (base, stacking) in [
-        (Region::triangle(80), "(30,4)"),
-        (Region::hexagon(50, 40), "(1,25)"),
-    ] {
-        piles.push(Pile::on(base.unwrap(), stacking.parse().unwrap()).unwrap());
-    }
+    let base = Region::hexagon(400, 500).unwrap();
+    piles.push(Pile::on(base, "(20,3,400)".parse().unwrap()).unwrap());
     piles
 }
 
@@ -85,34 +69,44 @@ fn of_the_base() {
     }
 }
 
+/// Lines only grow within a run: the least contact is where they begin, and a pull only where the sign changes.
 #[test]
 fn of_contacts() {
-    for pile in piles().into_iter().filter(|pile| pile.layers() < 90) {
+    let mut failures = 0;
+    for pile in piles() {
         let standing = pile.standing().unwrap();
         let statics = pile.statics::<BigRational>();
-        let contacts = statics.contacts(pile.rows(Selection::All).unwrap());
+        let changes = pile.shape().stacking().runs().scan(0, |layer, run| {
+            *layer += run.steps;
+            Some(*layer)
+        });
+        // And the first layers, where surfaces begin.
+        let layers = changes
+            .take(pile.shape().stacking().changes())
+            .chain([0, 1]);
+        let mut layers: Vec<i128> = layers.collect();
+        layers.sort_unstable();
         let mut least: Option<ContactForce<BigRational>> = None;
         let mut first_failure = None;
-        for contact in contacts.map(Result::unwrap) {
-            if contact.force < BigRational::zero() && first_failure.is_none() {
-                first_failure = Some(contact.site.k);
-            }
-            if least
-                .as_ref()
-                .is_none_or(|least| contact.force < least.force)
-            {
-                least = Some(contact);
+        for k in layers {
+            for contact in statics.contacts(pile.rows(Selection::Layer(k)).unwrap()) {
+                let contact = contact.unwrap();
+                if contact.force < BigRational::zero() && first_failure.is_none() {
+                    first_failure = Some(contact.site.k);
+                }
+                if least
+                    .as_ref()
+                    .is_none_or(|least| contact.force < least.force)
+                {
+                    least = Some(contact);
+                }
             }
         }
         let stacking = pile.shape().stacking();
         assert_eq!(standing.first_failure, first_failure, "{stacking}");
-        let (found, least) = (standing.least.unwrap(), least.unwrap());
-        assert_eq!(found.force, least.force, "{stacking}");
+        failures += usize::from(first_failure.is_some());
         // Where several are least, the first is told.
-        assert_eq!(
-            (found.site, found.direction),
-            (least.site, least.direction),
-            "{stacking}"
-        );
+        assert_eq!(standing.least, least, "{stacking}");
     }
+    assert!(failures > 3);
 }

@@ -196,7 +196,7 @@ impl<T: Algebra> Piece<T> {
     }
 }
 
-impl<'p> Statics<'p, BigRational> {
+impl Statics<'_, BigRational> {
     /// Shows the forces of bottom spheres on the floor as integers (shear_x, shear_y, normal), and returns the
     /// denominator of all of them: of the corners of a straight pile under one sphere; of those spheres between which
     /// the forces are linear, where they are far fewer; or of every bottom sphere.
