@@ -1,0 +1,165 @@
+//! Stackings, tops, bases and loads on the command line, and which piles stand.
+
+use super::{cannonpile, refusal, stdout};
+
+/// The named columns of the one row of a summary, and the exit status.
+fn summary(arguments: &str, names: &[&str]) -> (Vec<String>, Option<i32>) {
+    let output = cannonpile(&format!("summary {arguments} --format csv"));
+    assert!(output.stderr.is_empty(), "{arguments}: {output:?}");
+    let csv = String::from_utf8(output.stdout).expect("text");
+    let mut reader = csv::Reader::from_reader(csv.as_bytes());
+    let headers = reader.headers().expect("headers").clone();
+    let row = reader.records().next().expect("a row").expect("a record");
+    let column = |name: &&str| {
+        let place = headers.iter().position(|header| header == *name);
+        row[place.expect("a column")].to_owned()
+    };
+    (names.iter().map(column).collect(), output.status.code())
+}
+
+#[test]
+fn the_exit_status_says_whether_it_stands() {
+    for (arguments, stands, status) in [
+        ("--stacking hcp --layers 5", "yes", 0),
+        ("--stacking hcp --layers 6", "no", 1),
+        ("--stacking dhcp --layers 6", "no", 1),
+        // Spheres two layers apart touch.
+        ("--stacking hcp --layers 6 --spacing 3/2", "undetermined", 1),
+        ("--stacking hcp --layers 5 --spacing 3/2", "yes", 0),
+        ("--stacking hcp --layers 6 --spacing 1", "undetermined", 1),
+        ("--top hexagon:9 --layers 40", "yes", 0),
+        // Nothing is asked of spheres that weigh nothing.
+        (
+            "--stacking hcp --layers 6 --weightless --load 0,0,0=1",
+            "",
+            0,
+        ),
+    ] {
+        let (row, code) = summary(arguments, &["stands"]);
+        assert_eq!(
+            (row[0].as_str(), code),
+            (stands, Some(status)),
+            "{arguments}"
+        );
+    }
+}
+
+#[test]
+fn one_row_says_it_all() {
+    let names = [
+        "layers",
+        "stacking",
+        "spheres",
+        "min_contact",
+        "base_spheres",
+        "weight",
+        "plan",
+    ];
+    let (row, _) = summary("--stacking hcp --layers 5", &names);
+    assert_eq!(row[3..6], ["8/27", "19", "42"]);
+    // A load may be more than a pile can bear.
+    let (row, _) = summary("--stacking hcp --layers 5 --load 0,0,0=5/2", &names);
+    assert_eq!(row, ["5", "hcp", "42", "-1/6", "19", "89/2", "sweep"]);
+    let (row, _) = summary("--base hexagon:3 --stacking=+--", &names);
+    assert_eq!(row[..3], ["4", "+--", "44"]);
+    let (row, _) = summary("--base triangle:6", &names);
+    assert_eq!(row[..3], ["6", "fcc", "56"]);
+    let (row, _) = summary("--stacking=-(2,1,1000000000000)", &names);
+    assert_eq!(row[..2], ["1000000000004", "-(2,1,1000000000000)"]);
+    assert_eq!(row[6], "tree");
+}
+
+/// Four notations for one stacking.
+#[test]
+fn notations_agree() {
+    let base = stdout("base --stacking=++-+ --format csv");
+    for stacking in ["ABCBC", "BCACA", "chh", "(2,1,1)"] {
+        assert_eq!(
+            stdout(&format!("base --stacking={stacking} --format csv")),
+            base
+        );
+    }
+}
+
+#[test]
+fn a_pile_of_ten_to_the_thirty_with_two_changes() {
+    let csv = stdout("base --stacking (2,1,1000000000000000000000000000000) --at 5,7 --format csv");
+    let row = "5,7,1000000000000000000000000000007/3,-499999999999999999999999999990/3,\
+               -166666666666666666666666666664";
+    assert_eq!(csv.lines().nth(1), Some(row));
+}
+
+/// Forces of a pile that falls are there, and one line says that it does.
+#[test]
+fn a_pile_that_falls_is_told() {
+    for command in ["base", "contacts", "spheres"] {
+        let output = cannonpile(&format!("{command} --stacking hcp --layers 7 --format csv"));
+        assert_eq!(output.status.code(), Some(0), "{command}");
+        assert!(output.stdout.len() > 500, "{command}");
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(told.lines().count(), 1, "{told}");
+        assert!(
+            told.contains("does not stand") && told.contains("below layer 4"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn a_census() {
+    let csv = stdout("census --layers 7 --standing --format csv");
+    assert_eq!(
+        csv.lines().next(),
+        Some(
+            "stacking,layers,stands,min_contact,base_spheres,normal_min,normal_max,k,i,j,direction"
+        )
+    );
+    assert_eq!(csv.lines().count(), 1 + 11);
+    assert!(csv.lines().skip(1).all(|row| row.contains(",7,yes,")));
+    let all = stdout("census --layers 7 --format csv");
+    assert!(
+        all.lines()
+            .any(|row| row.starts_with("+-+-+,6,no,-22/81,27,,,4,1,-2,gamma"))
+    );
+    let on_base = stdout("census --base triangle:4 --format csv");
+    assert!(
+        on_base
+            .lines()
+            .any(|row| row.starts_with("+++,4,yes,1,10,2,2,")),
+        "{on_base}"
+    );
+}
+
+#[test]
+fn refusals_name_the_option() {
+    for (arguments, told) in [
+        ("summary --stacking bcc", "--stacking"),
+        (
+            "summary --stacking ++ --layers 4",
+            "--layers: the stacking has 3 layers, not 4",
+        ),
+        ("summary --base triangle:3 --layers 5", "at most 3"),
+        ("summary --base triangle:3 --top triangle:3", "--top"),
+        ("summary --top hexagon:0", "--top"),
+        ("summary --top region:1..0,0..1,0..1", "no site"),
+        ("summary --stacking hcp --dimension 2", "--stacking"),
+        ("summary --top triangle:2 --sin-phi 1/3", "--sin-phi"),
+        ("base --load 0,0,0", "--load"),
+        (
+            "base --load 0,0,0=-1",
+            "--load: the load of sphere (0,0,0) must not be negative",
+        ),
+        ("base --load 0,5,0=1", "--load: no sphere"),
+        (
+            "base --stacking hcp --layers 4 --at 9,9",
+            "--at: no sphere at k=3, i=9, j=9: layer 3 has",
+        ),
+        ("base --stacking hcp --layers 3 --spacing 8/5", "--spacing"),
+        ("base --stacking hcp --layers 10000000", "--stacking"),
+        ("census --base triangle:3 --layers 5", "--base"),
+        ("census --layers 0", "--layers"),
+    ] {
+        let line = refusal(arguments);
+        assert!(line.contains(told), "{arguments}: {line}");
+    }
+}
