@@ -1,14 +1,15 @@
 //! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
 
+mod display;
+
 use alloc::boxed::Box;
 use alloc::string::String;
-use core::fmt;
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
-use crate::geometry::{Apart, Bound, Spacing};
-use crate::lattice::{Dimension, Direction, MAX_LAYERS, Region, Site};
+use crate::geometry::{Apart, Spacing};
+use crate::lattice::{Dimension, Direction, Region, Site};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -225,203 +226,6 @@ impl Error {
             text: quoted,
             expected,
         }
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Layers { given } => {
-                let digits = MAX_LAYERS.ilog10();
-                write!(
-                    f,
-                    "layers must be at least 1 and at most 10^{digits}, not {given}"
-                )
-            }
-            Self::SinPhi { given } => write!(
-                f,
-                "sin phi must lie between 0 and 1, both excluded, not {given}; 1/2 is the equilateral base"
-            ),
-            Self::SinPhiOfDiscs => {
-                f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
-            }
-            Self::SiteOutside {
-                site,
-                layers,
-                dimension,
-                region,
-            } => {
-                if let Some(region) = region {
-                    let Site { i, j, k } = site;
-                    return write!(
-                        f,
-                        "no sphere at k={k}, i={i}, j={j}: layer {k} has the sites {region} of i, j and i+j"
-                    );
-                }
-                let sites = match dimension {
-                    Dimension::Two => "0 <= i <= k, j = 0",
-                    Dimension::Three => "0 <= j <= k, 0 <= i <= k-j",
-                };
-                let Site { i, j, k } = site;
-                write!(
-                    f,
-                    "no sphere at k={k}, i={i}, j={j}: the pile has the sites 0 <= k <= {}, {sites}",
-                    layers - 1
-                )
-            }
-            Self::LayerOutside { layer, layers } => write!(
-                f,
-                "no layer {layer}: the layers run from 0 at the top to {} on the floor",
-                layers - 1
-            ),
-            Self::OnFloor { site } => write!(
-                f,
-                "the sphere (i,j,k) = {site} rests on the floor and has no contact below; ask for the force on the floor"
-            ),
-            Self::NotOnFloor { site, floor } => write!(
-                f,
-                "the sphere (i,j,k) = {site} does not touch the floor; spheres of layer k = {floor} do"
-            ),
-            Self::NoSuchDirection { direction } => write!(
-                f,
-                "a pile of discs has no {direction} contacts; its directions are alpha and beta"
-            ),
-            _ => self.fmt_shape(f),
-        }
-    }
-}
-
-impl Error {
-    /// Errors of the shape of a pile: regions, stackings, loads.
-    fn fmt_shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::EmptyRegion { region } => write!(
-                f,
-                "the region {region} has no site: its bounds must leave some i, j and i+j"
-            ),
-            Self::RegionTooLarge { region } => write!(
-                f,
-                "the region {region} reaches beyond +-10^{}: use a smaller one, or fewer layers",
-                MAX_LAYERS.ilog10()
-            ),
-            Self::RegionSide { given } => write!(
-                f,
-                "a side must be at least 1 and at most 10^{} spheres, not {given}",
-                MAX_LAYERS.ilog10()
-            ),
-            Self::RunLength { given } => {
-                write!(f, "a run of a stacking has at least 1 step, not {given}")
-            }
-            Self::TooManyRuns { limit } => write!(
-                f,
-                "a stacking of more than {limit} runs is too long to keep: use fewer sign changes"
-            ),
-            Self::LayersOfStacking { layers, spelled } => write!(
-                f,
-                "the stacking has {spelled} layers, not {layers}: leave one of the two out"
-            ),
-            Self::TooHigh {
-                layers,
-                greatest,
-                base,
-            } => write!(
-                f,
-                "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
-            ),
-            Self::NegativeLoad {
-                quantity,
-                site,
-                given,
-            } => write!(
-                f,
-                "the {quantity} of sphere {site} must not be negative, but is {given}"
-            ),
-            _ => self.fmt_rest(f),
-        }
-    }
-
-    /// Errors of sizes, numbers and texts.
-    fn fmt_rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotPositive { quantity, given } => {
-                write!(f, "{quantity} must be positive, not {given}")
-            }
-            Self::Overlap {
-                spacing,
-                apart,
-                allowed,
-            } => {
-                write!(f, "spacing {spacing} lets spheres {apart} overlap: ")?;
-                write_allowed(f, allowed)
-            }
-            Self::TooFlat { spacing, limit } => write!(
-                f,
-                "spacing {spacing} is too wide for a sphere to rest on those below: a/R must be below {}",
-                Bound {
-                    spacing: limit,
-                    up: false
-                }
-            ),
-            Self::NoSpacing { sin_phi, layers } => write!(
-                f,
-                "no spacing keeps the spheres of {layers} layers apart at sin phi = {sin_phi}: use sin phi at most 5/6"
-            ),
-            Self::Overflow { quantity, scalar } => write!(
-                f,
-                "{quantity} does not fit in {scalar}: ask for it in exact numbers"
-            ),
-            Self::NegativeRadicand { given } => {
-                write!(
-                    f,
-                    "the root of {given} is not real: the radicand must not be negative"
-                )
-            }
-            Self::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
-            Self::TooManyRows {
-                rows,
-                limit,
-                remedy,
-            } => {
-                write!(
-                    f,
-                    "{rows} rows are too many to print, at most {limit}: {remedy}"
-                )
-            }
-            Self::Excluded { given, beside } => write!(
-                f,
-                "{given} has no meaning beside {beside}: leave one of the two out"
-            ),
-            Self::TooLarge {
-                quantity,
-                needed,
-                limit,
-                remedy,
-            } => write!(
-                f,
-                "{quantity} would keep {needed} numbers, at most {limit}: {remedy}"
-            ),
-            // Every variant has its text in one of the three.
-            _ => write!(f, "{self:?}"),
-        }
-    }
-}
-
-/// `a/R must be at least 1 and at most 2/3*sqrt(6) = 1.632993…`.
-fn write_allowed(
-    f: &mut fmt::Formatter<'_>,
-    (least, most): &(Option<Spacing>, Option<Spacing>),
-) -> fmt::Result {
-    let bound = |spacing, up| Bound { spacing, up };
-    f.write_str("a/R must be ")?;
-    match (least, most) {
-        (Some(least), Some(most)) => {
-            let (least, most) = (bound(least, true), bound(most, false));
-            write!(f, "at least {least} and at most {most}")
-        }
-        (Some(least), None) => write!(f, "at least {}", bound(least, true)),
-        (None, Some(most)) => write!(f, "at most {}", bound(most, false)),
-        // Something set the bound that was broken.
-        (None, None) => f.write_str("another"),
     }
 }
 

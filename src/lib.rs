@@ -3,7 +3,8 @@
 //! G. Oron and H. J. Herrmann ("Contact forces in regular 3D granular pile", 1998) solved the stack of
 //! cannonballs: identical, stiff, frictionless spheres piled on a triangle. Every contact force is an
 //! integer multiple of mg/(3 cosθ), and the pressure on the base is uniform. This crate gives their
-//! result as numbers of any precision, for whoever needs a many-contact static case with a known answer.
+//! result as numbers of any precision, for whoever needs a many-contact static case with a known answer, and goes on
+//! to any stacking, on any six-sided layer, under loads, and to which of these piles stand.
 //!
 //! # One pile in four scalars
 //! The formulas are written once, over [`scalar::Algebra`]; the scalar decides how exact they are.
@@ -31,6 +32,18 @@
 //! assert!(matches!(refused, Err(Error::Overflow { .. })));
 //! # Ok::<(), Error>(())
 //! ```
+//! Any other pile is asked in the same words:
+//! ```
+//! use cannonpile::lattice::Region;
+//! use cannonpile::stacking::Stacking;
+//! use cannonpile::{Pile, Verdict};
+//!
+//! let pile = Pile::under(Region::hexagon(3, 3)?, Stacking::hcp(4)?)?;
+//! let standing = pile.standing()?;
+//! assert_eq!(standing.verdict(&[]), Verdict::Yes);
+//! assert_eq!(standing.least.unwrap().force.to_string(), "2/9");
+//! # Ok::<(), cannonpile::Error>(())
+//! ```
 //! Forces in newtons and positions in metres carry roots. They are exact too: a [`Packing`] answers in
 //! numbers c·√n ([`scalar::Surd`]), which round to the nearest float.
 //!
@@ -44,9 +57,10 @@
 //! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
 //! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
-//! | [`Pile`], [`Statics`] | a validated pile; its forces in pile units, in any scalar |
+//! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
+//! | [`Plan`], [`Standing`], [`BaseExtremes`] | how a question is answered; whether a pile stands; what its base feels at most |
 //! | [`Packing`] | the same in SI, exactly |
-//! | [`theorem`] | what is proved for every pile, and how |
+//! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
 //! | `export` | tables as csv, json and text (feature `export`) |
 //!

@@ -10,24 +10,23 @@
 //! A straight pile has no change of sign: its tree has no nodes, and every force is closed.
 
 mod corners;
+mod tree;
+
+pub(crate) use tree::Wanted;
 
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
 
-use num_bigint::{BigInt, BigUint};
+use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
+use crate::Pile;
 use crate::closed_form::Increments;
 use crate::lattice::{Direction, Shape, Site, Stretch};
 use crate::scalar::{Algebra, Ring};
 use crate::stacking::Sign;
 use crate::transfer::turn_numerators;
-use crate::{Error, Pile};
-
-/// The most nodes of a tree that are visited for one row.
-const MAX_NODES: usize = 4_000_000;
 
 /// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
 ///
@@ -52,49 +51,6 @@ struct Line {
     run: usize,
     direction: Direction,
     place: [i128; 2],
-}
-
-/// The forces from above on some spheres of one layer, as numerators.
-pub(crate) struct Above<T: Algebra> {
-    /// By site, in the order of the question.
-    pub(crate) forces: Vec<[T::Numerator; 3]>,
-    /// The changes of sign before: the denominator is [`Lines::scale`] of it.
-    pub(crate) changes: usize,
-}
-
-/// Spheres of one layer whose forces from above are needed, in order and each once.
-struct Level {
-    stretch: Stretch,
-    k: i128,
-    sites: Vec<[i128; 2]>,
-    /// On which of their lines.
-    wanted: Wanted,
-}
-
-/// The lines of a sphere that an answer needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Wanted {
-    One(Direction),
-    All,
-}
-
-impl Wanted {
-    /// What a contact below a sphere needs: its line, or all three where they are mixed by a change of sign.
-    pub(crate) fn for_contact(shape: &Shape, site: Site, direction: Direction) -> Self {
-        if shape.stacking().is_straight() {
-            return Self::One(direction);
-        }
-        let sign = shape.sign_below(site.k);
-        if site.k > 0 && sign != shape.sign_below(site.k - 1) {
-            Self::All
-        } else {
-            Self::One(direction)
-        }
-    }
-
-    fn includes(self, direction: Direction) -> bool {
-        self == Self::All || self == Self::One(direction)
-    }
 }
 
 /// Numerators over the denominator of `least`, which they share.
@@ -244,167 +200,6 @@ impl<'p, T: Algebra> Lines<'p, T> {
             }
         }
         (passed, changes)
-    }
-
-    /// The forces from above on a sphere above which no sign changes, whose site the caller has checked; zero on lines
-    /// not wanted. `None` below a change.
-    pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
-        let Site { i, j, k } = site;
-        let Some(run) = self.shape.stretch_to(k) else {
-            return Some([(); 3].map(|()| T::Numerator::zero()));
-        };
-        if run.index > 0 {
-            return None;
-        }
-        let counts = self.shape.spheres_above(&run, k, [i, j]);
-        Some(Direction::ALL.map(|direction| {
-            if wanted.includes(direction) {
-                self.counted(run, k, [i, j], direction, counts[direction.index()])
-            } else {
-                T::Numerator::zero()
-            }
-        }))
-    }
-
-    /// The forces from above on spheres of layer `k`, whose sites the caller has checked; zero on lines not wanted.
-    ///
-    /// # Errors
-    /// [`Error::TooLarge`] if the lines above pass more than 4 million spheres at changes of sign.
-    pub(crate) fn forces_above(
-        &self,
-        k: i128,
-        sites: &[[i128; 2]],
-        wanted: Wanted,
-    ) -> Result<Above<T>, Error> {
-        let levels = self.levels(k, sites, wanted)?;
-        let mut levels = levels.into_iter().rev();
-        let Some(first) = levels.next() else {
-            let none = || core::array::from_fn(|_| T::Numerator::zero());
-            let forces = sites.iter().map(|_| none()).collect();
-            return Ok(Above { forces, changes: 0 });
-        };
-        let mut forces = self.received(&first, &[], &[]);
-        let mut level = first;
-        for next in levels {
-            let turned: Vec<_> = forces.iter().map(turn_numerators::<T>).collect();
-            forces = self.received(&next, &level.sites, &turned);
-            level = next;
-        }
-        let changes = level.stretch.index;
-        let of_site = |site: &[i128; 2]| {
-            let place = level.sites.binary_search(site).ok();
-            place.and_then(|place| forces.get(place)).cloned()
-        };
-        let nothing = || core::array::from_fn(|_| T::Numerator::zero());
-        let forces = sites
-            .iter()
-            .map(|site| of_site(site).unwrap_or_else(nothing))
-            .collect();
-        Ok(Above { forces, changes })
-    }
-
-    /// How many spheres at changes of sign the force of a contact depends on.
-    pub(crate) fn nodes(&self, site: Site, direction: Direction) -> Result<usize, Error> {
-        let wanted = Wanted::for_contact(self.shape, site, direction);
-        let levels = self.levels(site.k, &[[site.i, site.j]], wanted)?;
-        let above: usize = levels.iter().skip(1).map(|level| level.sites.len()).sum();
-        Ok(above + usize::from(wanted == Wanted::All))
-    }
-
-    /// The levels of the tree, from the question up.
-    fn levels(&self, k: i128, sites: &[[i128; 2]], wanted: Wanted) -> Result<Vec<Level>, Error> {
-        let mut levels = Vec::new();
-        let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
-        let mut nodes = 0;
-        while let (Some(stretch), false) = (self.shape.stretch_to(k), sites.is_empty()) {
-            sites.sort_unstable();
-            sites.dedup();
-            nodes += sites.len();
-            if nodes > MAX_NODES {
-                return Err(Error::TooLarge {
-                    quantity: "the forces on spheres this far below so many changes of sign",
-                    needed: BigUint::from(nodes),
-                    limit: MAX_NODES as u64,
-                    remedy: "ask for fewer layers or spheres",
-                });
-            }
-            let mut starts = Vec::new();
-            if stretch.index > 0 {
-                for site in &sites {
-                    let counts = self.shape.spheres_above(&stretch, k, *site);
-                    for (direction, count) in Direction::ALL.into_iter().zip(counts) {
-                        if count == k - stretch.from && wanted.includes(direction) {
-                            starts.push(start_of(*site, direction, stretch.sign, count));
-                        }
-                    }
-                }
-            }
-            levels.push(Level {
-                stretch,
-                k,
-                sites,
-                wanted,
-            });
-            (k, sites, wanted) = (stretch.from, starts, Wanted::All);
-        }
-        Ok(levels)
-    }
-
-    /// The forces from above on the spheres of a level, from what the spheres `starts` at the change of sign above
-    /// receive, turned.
-    fn received(
-        &self,
-        level: &Level,
-        starts: &[[i128; 2]],
-        turned: &[[T::Numerator; 3]],
-    ) -> Vec<[T::Numerator; 3]> {
-        let Level {
-            stretch, k, sites, ..
-        } = level;
-        let unit = self.scaled(T::Numerator::one(), stretch.index);
-        let of_site = |site: &[i128; 2]| {
-            let counts = self.shape.spheres_above(stretch, *k, *site);
-            Direction::ALL.map(|direction| {
-                if !level.wanted.includes(direction) {
-                    return T::Numerator::zero();
-                }
-                let n = counts[direction.index()];
-                let counted = self.counted(*stretch, *k, *site, direction, n) * &unit;
-                let start = start_of(*site, direction, stretch.sign, n);
-                let carried = if n == k - stretch.from {
-                    let place = starts.binary_search(&start).ok();
-                    place.and_then(|place| turned.get(place))
-                } else {
-                    None
-                };
-                match carried {
-                    Some(carried) => counted + &carried[direction.index()],
-                    None => counted,
-                }
-            })
-        };
-        sites.iter().map(of_site).collect()
-    }
-
-    /// What the `n` spheres above a site on a line add to it, over the first denominator.
-    fn counted(
-        &self,
-        run: Stretch,
-        k: i128,
-        site: [i128; 2],
-        direction: Direction,
-        n: i128,
-    ) -> T::Numerator {
-        let ordinary = self
-            .ordinary
-            .force(T::Numerator::from_i128(n), direction.index());
-        if self.extras.is_empty() {
-            return ordinary;
-        }
-        let [i, j] = site;
-        let line = Line::through(Site { i, j, k }, direction, run);
-        let extras = self.extras.range((line, k - n)..(line, k));
-        extras.fold(ordinary, |sum, (_, extra)| sum + extra)
     }
 }
 

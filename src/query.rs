@@ -4,17 +4,21 @@
 //! mg/(2 cosθ) for discs; forces on the floor in mg, mg·tanθ and 2cosφ·mg·tanθ. In them every answer
 //! is rational, and neither spacing nor mass is needed. [`Packing`](crate::Packing) gives SI.
 
+mod contacts;
+mod floor;
 mod source;
+
+pub use contacts::ContactForce;
+pub use floor::FloorForce;
 
 use num_rational::BigRational;
 use num_traits::Zero;
 
 pub(crate) use source::COST_OF_A_TREE;
-use source::Source;
 
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
-use crate::lattice::{Direction, Rows, Site, count};
+use crate::lattice::{Direction, Site, count};
 use crate::lines::{Lines, Wanted};
 use crate::scalar::{Algebra, Ring};
 use crate::stacking::Sign;
@@ -50,58 +54,6 @@ pub struct Statics<'p, T: Algebra> {
     /// Numerators over `direction_scale`.
     directions: [Vector<T::Numerator>; 3],
     direction_scale: T::Numerator,
-}
-
-/// The force of contact between a sphere and the one below it.
-///
-/// # Examples
-/// ```
-/// use cannonpile::lattice::{Direction, Selection, Site};
-/// use cannonpile::{ContactForce, Pile};
-///
-/// let pile = Pile::triangular(10)?;
-/// let first = pile.statics::<f64>().contacts(pile.rows(Selection::All)?).next();
-/// let (site, direction) = (Site::APEX, Direction::Alpha);
-/// assert_eq!(first, Some(Ok(ContactForce { site, direction, force: 1.0 })));
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ContactForce<T> {
-    /// The upper sphere.
-    pub site: Site,
-    /// The direction in which the lower one lies.
-    pub direction: Direction,
-    /// The magnitude, in f₀; positive is push.
-    pub force: T,
-}
-
-/// The force of one bottom sphere on the floor.
-///
-/// Paper, eqs. (result-normal) and (result-shear). In the units below from [`Statics`]; from a
-/// [`Packing`](crate::Packing) all three in units of force.
-///
-/// # Examples
-/// ```
-/// use cannonpile::lattice::Site;
-/// use cannonpile::{FloorForce, Pile};
-///
-/// let pile = Pile::triangular(10)?;
-/// // In the middle of the base there is no shear.
-/// let site = Site { i: 3, j: 3, k: 9 };
-/// let force = pile.statics::<f64>().on_floor(site)?;
-/// assert_eq!(force, FloorForce { site, normal: 4.0, shear_x: 0.0, shear_y: 0.0 });
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FloorForce<T> {
-    /// The bottom sphere.
-    pub site: Site,
-    /// The normal force, in mg, downwards.
-    pub normal: T,
-    /// The shear along x, in mg·tanθ.
-    pub shear_x: T,
-    /// The shear along y, in 2cosφ·mg·tanθ (√3·mg·tanθ on an equilateral base); zero for discs.
-    pub shear_y: T,
 }
 
 impl<'p, T: Algebra> Statics<'p, T> {
@@ -176,45 +128,6 @@ impl<'p, T: Algebra> Statics<'p, T> {
         edge_all("a contact force", forces, &self.lines.scale(changes))
     }
 
-    /// The magnitude of the contact force between `site` and the sphere below it, in f₀.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::OnFloor`] for a sphere of the bottom layer;
-    /// [`Error::NoSuchDirection`] for γ in a pile of discs; [`Error::Overflow`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::{Direction, Site};
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// assert_eq!(pile.statics::<f64>().contact(Site::APEX, Direction::Gamma)?, 1.0);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn contact(&self, site: Site, direction: Direction) -> Result<T, Error> {
-        let (force, changes) = self.contact_numerator(site, direction)?;
-        edge("a contact force", force, &self.lines.scale(changes))
-    }
-
-    /// The force as a numerator, and the changes of sign down to it.
-    fn contact_numerator(
-        &self,
-        site: Site,
-        direction: Direction,
-    ) -> Result<(T::Numerator, usize), Error> {
-        self.check_contact(site, direction)?;
-        let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
-        let (above, changes) = self.received(site, wanted)?;
-        let (forces, changes) = self.lines.to_below(site, above, changes);
-        let [alpha, beta, gamma] = forces;
-        let force = match direction {
-            Direction::Alpha => alpha,
-            Direction::Beta => beta,
-            Direction::Gamma => gamma,
-        };
-        Ok((force, changes))
-    }
-
     /// The forces from above on a sphere of the pile as numerators, and the changes of sign down to it.
     fn received(&self, site: Site, wanted: Wanted) -> Result<([T::Numerator; 3], usize), Error> {
         if let Some(forces) = self.lines.closed(site, wanted) {
@@ -237,16 +150,6 @@ impl<'p, T: Algebra> Statics<'p, T> {
         self.off_the_floor(site)?;
         let (above, changes) = self.received(site, Wanted::All)?;
         Ok(self.lines.to_below(site, above, changes))
-    }
-
-    /// That there is a sphere below `site` in a direction.
-    fn check_contact(&self, site: Site, direction: Direction) -> Result<(), Error> {
-        self.off_the_floor(site)?;
-        if self.pile.dimension().directions().contains(&direction) {
-            Ok(())
-        } else {
-            Err(Error::NoSuchDirection { direction })
-        }
     }
 
     /// The site, if the pile has it and it rests on spheres.
@@ -272,65 +175,6 @@ impl<'p, T: Algebra> Statics<'p, T> {
     fn sign_above(&self, k: i128) -> Sign {
         let sign = self.pile.shape().sign_below(k - 1);
         sign.unwrap_or(Sign::Plus)
-    }
-
-    /// The same force as a vector, on the upper sphere, in f₀ and the symbolic basis: f·ê.
-    ///
-    /// The lower sphere feels the opposite.
-    ///
-    /// # Errors
-    /// As for [`contact`](Self::contact).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::geometry::Vector;
-    /// use cannonpile::lattice::{Direction, Site};
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let force = pile.statics::<f64>().contact_vector(Site { i: 1, j: 0, k: 1 }, Direction::Beta)?;
-    /// assert_eq!(force, Vector { x: 1.0, y: -1.0, z: -2.0 });
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
-        let (force, changes) = self.contact_numerator(site, direction)?;
-        let along = self.along(site, direction);
-        self.edge_vector("a contact force", along.scaled(&force), changes)
-    }
-
-    /// The direction of the contact between `site` and the sphere below it, ê or ê turned about the vertical under a −
-    /// step, in the symbolic basis.
-    ///
-    /// # Errors
-    /// As for [`contact`](Self::contact).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::geometry::Vector;
-    /// use cannonpile::lattice::{Direction, Region, Site};
-    ///
-    /// let pile = Pile::under(Region::SITE, "-".parse()?)?;
-    /// let a = pile.statics::<f64>().contact_direction(Site::APEX, Direction::Alpha)?;
-    /// assert_eq!(a, Vector { x: -0.5, y: -0.5, z: -1.0 });
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn contact_direction(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
-        self.check_contact(site, direction)?;
-        let along = self.along(site, direction).into_array();
-        let [x, y, z] = edge_all("a direction", along, &self.direction_scale)?;
-        Ok(Vector { x, y, z })
-    }
-
-    /// The numerators of a contact's direction.
-    fn along(&self, site: Site, direction: Direction) -> Vector<T::Numerator> {
-        let sign = self.pile.shape().sign_below(site.k).unwrap_or(Sign::Plus);
-        let [alpha, beta, gamma] = self.directions_under(sign);
-        match direction {
-            Direction::Alpha => alpha,
-            Direction::Beta => beta,
-            Direction::Gamma => gamma,
-        }
     }
 
     /// ê of a direction under + steps, in the symbolic basis.
@@ -437,50 +281,6 @@ impl<'p, T: Algebra> Statics<'p, T> {
         self.edge_vector("a resultant force", left, changes)
     }
 
-    /// The contact forces of the spheres in `rows`, each with the spheres below it, lazily.
-    ///
-    /// Spheres on the floor have none. An item is an error if the scalar overflows, or if the rows are
-    /// another pile's and name a site that this one lacks.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let statics = pile.statics::<f64>();
-    /// let mut total = 0.0;
-    /// for contact in statics.contacts(pile.rows(Selection::All)?) {
-    ///     total += contact?.force;
-    /// }
-    /// assert_eq!(total, 1485.0);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn contacts(
-        &self,
-        rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T> {
-        let directions = self.pile.dimension().directions();
-        let rows = rows.off_the_floor();
-        let mut source = Source::new(self, &rows);
-        let statics = self.clone();
-        rows.flatten().flat_map(move |site| {
-            let forces = match source.passed_on(&statics, site) {
-                Ok(forces) => forces.map(Ok),
-                Err(error) => [(); 3].map(|()| Err(error.clone())),
-            };
-            let contacts = forces.into_iter().zip(directions);
-            contacts.map(move |(force, &direction)| {
-                let force = force?;
-                Ok(ContactForce {
-                    site,
-                    direction,
-                    force,
-                })
-            })
-        })
-    }
-
     /// The layer on the floor.
     fn floor(&self) -> i128 {
         self.pile.layers() - 1
@@ -501,92 +301,6 @@ impl<'p, T: Algebra> Statics<'p, T> {
         let scale = self.lines.scale(changes) * &self.direction_scale;
         let [x, y, z] = edge_all(quantity, vector.into_array(), &scale)?;
         Ok(Vector { x, y, z })
-    }
-
-    /// The force of a bottom sphere on the floor.
-    ///
-    /// Normal mg(L+2)/3 under every sphere on an equilateral base (paper, eq. (result-normal)), and
-    /// mg[1 + ((L−1−j) + 2sj)/(2(1+s))] in general. Shear −mg·tanθ/3·((L−1−3j)/2, √3/2·(L−1−2i−j)) on an
-    /// equilateral base (eq. (result-shear)).
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::NotOnFloor`] for a sphere of another layer; [`Error::Overflow`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Site;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let force = pile.statics::<f64>().on_floor(Site { i: 0, j: 0, k: 9 })?;
-    /// assert_eq!((force.normal, force.shear_x, force.shear_y), (4.0, -1.5, -1.5));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
-        let site = self.pile.shape().check(site)?;
-        let floor = self.floor();
-        if site.k != floor {
-            return Err(Error::NotOnFloor { site, floor });
-        }
-        let (above, changes) = self.received(site, Wanted::All)?;
-        self.floor_force(site, &above, changes)
-    }
-
-    /// What a bottom sphere hands on to the floor.
-    fn floor_force(
-        &self,
-        site: Site,
-        above: &[T::Numerator; 3],
-        changes: usize,
-    ) -> Result<FloorForce<T>, Error> {
-        let (force, unit) = self.floor_numerators(site, above, changes);
-        let [shear_x, shear_y, normal] =
-            edge_all("a force on the floor", force.into_array(), &unit)?;
-        Ok(FloorForce {
-            site,
-            normal,
-            shear_x,
-            shear_y,
-        })
-    }
-
-    /// The same as numerators of (shear_x, shear_y, normal), and their denominator.
-    fn floor_numerators(
-        &self,
-        site: Site,
-        above: &[T::Numerator; 3],
-        changes: usize,
-    ) -> (Vector<T::Numerator>, T::Numerator) {
-        let directions = self.directions_under(self.sign_above(site.k));
-        let force = closed_form::handed_on(above, &directions, &self.weight(site, changes));
-        // mg is W of the unit of forces along lines.
-        let unit = self.lines.scale(changes) * &self.direction_scale * &self.increment_sum;
-        (force.scaled(&self.sum_scale), unit)
-    }
-
-    /// The forces of the bottom spheres in `rows` on the floor, lazily.
-    ///
-    /// Each item is an error if the row is not of the bottom layer, or the scalar overflows.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let statics = pile.statics::<f64>();
-    /// let base: Result<Vec<_>, _> = statics.base(pile.rows(Selection::Base)?).collect();
-    /// assert!(base?.iter().all(|force| force.normal == 4.0));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn base(
-        &self,
-        rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<FloorForce<T>, Error>> + use<'p, T> {
-        let mut source = Source::new(self, &rows);
-        let statics = self.clone();
-        rows.flatten()
-            .map(move |site| source.on_floor(&statics, site))
     }
 }
 

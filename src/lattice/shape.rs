@@ -1,12 +1,13 @@
 //! The sites of a pile, layer by layer, and how its layers are stacked.
 
+mod counts;
+mod runs;
+
+pub(crate) use runs::Stretch;
+use runs::{Descent, Start};
+
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::ops::Range;
-
-use num_bigint::BigUint;
-use num_integer::Integer;
-use num_traits::Zero;
 
 use super::{Dimension, Direction, MAX_LAYERS, Region, Rows, Selection, Site, Trapezoid};
 use crate::Error;
@@ -51,49 +52,6 @@ pub struct Shape {
 enum Anchor {
     Top(Region),
     Base(Region),
-}
-
-/// How many steps of each sign lead from one layer to another.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Descent {
-    plus: i128,
-    minus: i128,
-}
-
-impl Descent {
-    fn further(self, sign: Sign, steps: i128) -> Self {
-        let Self { plus, minus } = self;
-        match sign {
-            Sign::Plus => Self {
-                plus: plus + steps,
-                minus,
-            },
-            Sign::Minus => Self {
-                plus,
-                minus: minus + steps,
-            },
-        }
-    }
-}
-
-/// The layer above the first step of a run, and the way there from the top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Start {
-    layer: i128,
-    sign: Sign,
-    descent: Descent,
-}
-
-/// A run of steps of one sign, and the layers it leads from and to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Stretch {
-    /// The place of the run in the stacking: how often the sign changes before it.
-    pub(crate) index: usize,
-    pub(crate) sign: Sign,
-    /// The layer above the first step.
-    pub(crate) from: i128,
-    /// The layer below the last step.
-    pub(crate) to: i128,
 }
 
 impl Shape {
@@ -316,68 +274,6 @@ impl Shape {
         })
     }
 
-    /// The place of the run whose steps lead down to layer k; none for the top.
-    #[inline]
-    fn run_to(&self, k: i128) -> Option<usize> {
-        if let [_] = *self.starts {
-            return (k > 0).then_some(0);
-        }
-        self.starts
-            .partition_point(|start| start.layer < k)
-            .checked_sub(1)
-    }
-
-    /// The steps from the top to layer k.
-    #[inline]
-    fn descent(&self, k: i128) -> Descent {
-        match self.run_to(k).and_then(|run| self.starts.get(run)) {
-            Some(start) => start.descent.further(start.sign, k - start.layer),
-            None => Descent::default(),
-        }
-    }
-
-    /// The net number of + steps from the top to layer k: where site (0, 0) of layer k lies, in units of −ê_a.
-    pub(crate) fn shift(&self, k: i128) -> i128 {
-        let Descent { plus, minus } = self.descent(k);
-        plus - minus
-    }
-
-    /// The net number of + steps above layer k, from the site under which x = y = 0.
-    pub(crate) fn shift_from_origin(&self, k: i128) -> i128 {
-        match self.anchor {
-            Anchor::Top(_) => self.shift(k),
-            Anchor::Base(_) => self.shift(k) - (self.whole.plus - self.whole.minus),
-        }
-    }
-
-    /// The run whose steps lead down to layer k; none for the top.
-    #[inline]
-    pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
-        self.stretch(self.run_to(k)?)
-    }
-
-    /// The run of a place in the stacking.
-    #[inline]
-    pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
-        let start = self.starts.get(index)?;
-        let next = self.starts.get(index + 1);
-        Some(Stretch {
-            index,
-            sign: start.sign,
-            from: start.layer,
-            to: next.map_or(self.layers() - 1, |next| next.layer),
-        })
-    }
-
-    /// The sign of the step down from layer k; none from the floor.
-    #[must_use]
-    #[inline]
-    pub fn sign_below(&self, k: i128) -> Option<Sign> {
-        let inside = (0..self.layers() - 1).contains(&k);
-        let run = inside.then(|| self.run_to(k + 1))??;
-        self.starts.get(run).map(|start| start.sign)
-    }
-
     /// Whether the pile has this site.
     ///
     /// # Examples
@@ -497,93 +393,6 @@ impl Shape {
     /// ```
     pub fn sites(&self) -> impl Iterator<Item = Site> + '_ {
         Rows::of_layers(self, 0..self.layers()).flatten()
-    }
-
-    /// The number of spheres, of any size.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::{Region, Shape};
-    /// use cannonpile::stacking::Stacking;
-    ///
-    /// let shape = Shape::under(Region::SITE, Stacking::fcc(10)?)?;
-    /// assert_eq!(shape.spheres(), 220_u32.into());
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn spheres(&self) -> BigUint {
-        self.spheres_in(0..self.layers())
-    }
-
-    /// The number of spheres in these layers.
-    ///
-    /// Between the layers where a sign changes, or a side of the region ends, the spheres of a layer are a polynomial
-    /// of degree two in k: Newton's forward differences sum it.
-    pub(crate) fn spheres_in(&self, layers: Range<i128>) -> BigUint {
-        let mut sum = BigUint::zero();
-        let mut from = layers.start.max(0);
-        let end = layers.end.min(self.layers());
-        while from < end {
-            let to = self.end_of_piece(from).min(end);
-            sum += self.spheres_in_piece(from..to);
-            from = to;
-        }
-        sum
-    }
-
-    /// The first layer past `k` where the count of spheres begins to follow another polynomial.
-    fn end_of_piece(&self, k: i128) -> i128 {
-        let Some(Stretch { sign, to, .. }) = self.stretch_to(k + 1) else {
-            return k + 1;
-        };
-        let (Anchor::Base(_), Some(bottom)) = (self.anchor, self.region(to)) else {
-            return to + 1;
-        };
-        // Going up from the bottom of the run, sides shrink to nothing.
-        let breaks = bottom.vanishing_sides(sign).map(|steps| to - steps);
-        breaks
-            .into_iter()
-            .filter(|layer| *layer > k)
-            .min()
-            .map_or(to, |layer| layer.min(to))
-            + 1
-    }
-
-    fn spheres_in_piece(&self, layers: Range<i128>) -> BigUint {
-        let count = |k| self.region(k).map_or_else(BigUint::zero, |r| r.sites());
-        let n = layers.end - layers.start;
-        if n <= 3 {
-            return layers.map(count).sum();
-        }
-        let [c0, c1, c2] = [0, 1, 2].map(|t| num_bigint::BigInt::from(count(layers.start + t)));
-        let n = num_bigint::BigInt::from(n);
-        let pairs = (&n * (&n - 1_u32)).div_floor(&2.into());
-        let triples = (&pairs * (&n - 2_u32)).div_floor(&3.into());
-        let first = &c1 - &c0;
-        let second = c2 - &c1 - &first;
-        // A count: not negative.
-        (n * c0 + pairs * first + triples * second).into_parts().1
-    }
-
-    /// How many spheres come before this one, in row order from the top.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
-    ///
-    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
-    /// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
-    /// assert_eq!(pyramid.before(Site { i: 1, j: 1, k: 2 })?, 8_u32.into());
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn before(&self, site: Site) -> Result<BigUint, Error> {
-        let Site { i, j, k } = self.check(site)?;
-        let region = self.layer(k)?;
-        let in_layer = region.sites_before(i, j);
-        Ok(self.spheres_in(0..k) + in_layer)
     }
 
     /// The greatest number of layers that a pattern, read from the base up, carries a base to.

@@ -61,7 +61,7 @@ fn one_row_says_it_all() {
     let (row, _) = summary("--stacking hcp --layers 5 --load 0,0,0=5/2", &names);
     assert_eq!(row, ["5", "hcp", "42", "-1/6", "19", "89/2", "sweep"]);
     let (row, _) = summary("--base hexagon:3 --stacking=+--", &names);
-    assert_eq!(row[..3], ["4", "+--", "44"]);
+    assert_eq!(row[..3], ["4", "+--", "41"]);
     let (row, _) = summary("--base triangle:6", &names);
     assert_eq!(row[..3], ["6", "fcc", "56"]);
     let (row, _) = summary("--stacking=-(2,1,1000000000000)", &names);

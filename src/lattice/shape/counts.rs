@@ -1,0 +1,100 @@
+//! How many spheres a pile has, in closed form.
+
+use core::ops::Range;
+
+use num_bigint::BigUint;
+use num_integer::Integer;
+use num_traits::Zero;
+
+use super::{Anchor, Shape, Stretch};
+use crate::Error;
+use crate::lattice::Site;
+
+impl Shape {
+    /// The number of spheres, of any size.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let shape = Shape::under(Region::SITE, Stacking::fcc(10)?)?;
+    /// assert_eq!(shape.spheres(), 220_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spheres(&self) -> BigUint {
+        self.spheres_in(0..self.layers())
+    }
+
+    /// The number of spheres in these layers.
+    ///
+    /// Between the layers where a sign changes, or a side of the region ends, the spheres of a layer are a polynomial
+    /// of degree two in k: Newton's forward differences sum it.
+    pub(crate) fn spheres_in(&self, layers: Range<i128>) -> BigUint {
+        let mut sum = BigUint::zero();
+        let mut from = layers.start.max(0);
+        let end = layers.end.min(self.layers());
+        while from < end {
+            let to = self.end_of_piece(from).min(end);
+            sum += self.spheres_in_piece(from..to);
+            from = to;
+        }
+        sum
+    }
+
+    /// The first layer past `k` where the count of spheres begins to follow another polynomial.
+    fn end_of_piece(&self, k: i128) -> i128 {
+        let Some(Stretch { sign, to, .. }) = self.stretch_to(k + 1) else {
+            return k + 1;
+        };
+        let (Anchor::Base(_), Some(bottom)) = (self.anchor, self.region(to)) else {
+            return to + 1;
+        };
+        // Going up from the bottom of the run, sides shrink to nothing.
+        let breaks = bottom.vanishing_sides(sign).map(|steps| to - steps);
+        breaks
+            .into_iter()
+            .filter(|layer| *layer > k)
+            .min()
+            .map_or(to, |layer| layer.min(to))
+            + 1
+    }
+
+    fn spheres_in_piece(&self, layers: Range<i128>) -> BigUint {
+        let count = |k| self.region(k).map_or_else(BigUint::zero, |r| r.sites());
+        let n = layers.end - layers.start;
+        if n <= 3 {
+            return layers.map(count).sum();
+        }
+        let [c0, c1, c2] = [0, 1, 2].map(|t| num_bigint::BigInt::from(count(layers.start + t)));
+        let n = num_bigint::BigInt::from(n);
+        let pairs = (&n * (&n - 1_u32)).div_floor(&2.into());
+        let triples = (&pairs * (&n - 2_u32)).div_floor(&3.into());
+        let first = &c1 - &c0;
+        let second = c2 - &c1 - &first;
+        // A count: not negative.
+        (n * c0 + pairs * first + triples * second).into_parts().1
+    }
+
+    /// How many spheres come before this one, in row order from the top.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
+    /// assert_eq!(pyramid.before(Site { i: 1, j: 1, k: 2 })?, 8_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn before(&self, site: Site) -> Result<BigUint, Error> {
+        let Site { i, j, k } = self.check(site)?;
+        let region = self.layer(k)?;
+        let in_layer = region.sites_before(i, j);
+        Ok(self.spheres_in(0..k) + in_layer)
+    }
+}
