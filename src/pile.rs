@@ -460,7 +460,9 @@ impl Pile {
     /// A straight pile under one sphere whose spheres all weigh mg: the one that the paper solved, of any sin φ.
     pub(crate) fn is_paper_pile(&self) -> bool {
         let loading = &self.loading;
-        self.shape.is_pyramid() && !loading.is_weightless() && loading.extras().next().is_none()
+        self.shape.is_straight_under_one_sphere()
+            && !loading.is_weightless()
+            && loading.extras().next().is_none()
     }
 
     /// What a sphere of this pile adds to its lines.

@@ -194,10 +194,12 @@ impl Stacking {
         }
         let steps = layers - 1;
         let length = if length == 0 { steps.max(1) } else { length };
-        let whole = usize::try_from(steps / length)
-            .ok()
-            .filter(|runs| *runs <= MAX_RUNS);
-        let whole = whole.ok_or(Error::TooManyRuns { limit: MAX_RUNS })?;
+        let runs = usize::try_from(steps / length + i128::from(steps % length > 0));
+        if !runs.is_ok_and(|runs| runs <= MAX_RUNS) {
+            return Err(Error::TooManyRuns { limit: MAX_RUNS });
+        }
+        // Not more than there are runs.
+        let whole = usize::try_from(steps / length).unwrap_or(MAX_RUNS);
         let mut lengths = alloc::vec![length; whole];
         lengths.extend(Some(steps % length).filter(|rest| *rest > 0));
         Ok(Self {
@@ -275,8 +277,13 @@ impl Stacking {
     /// The stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
     #[must_use]
     pub fn mirrored(&self) -> Self {
+        let first = if self.lengths.is_empty() {
+            self.first
+        } else {
+            -self.first
+        };
         Self {
-            first: -self.first,
+            first,
             lengths: self.lengths.clone(),
         }
     }

@@ -144,10 +144,13 @@ impl Region {
     /// The layer `steps` steps of one sign further down.
     ///
     /// # Errors
-    /// [`Error::RegionTooLarge`] beyond ±10³⁶.
+    /// [`Error::RegionTooLarge`] beyond ±10³⁶; [`Error::RunLength`] for negative steps.
     pub fn dilated_by(&self, sign: Sign, steps: i128) -> Result<Self, Error> {
+        if steps < 0 {
+            return Err(Error::RunLength { given: steps });
+        }
         // Steps beyond the limit lead beyond it from anywhere, and without overflow.
-        let steps = steps.clamp(-LIMIT, 3 * LIMIT);
+        let steps = steps.min(3 * LIMIT);
         let region = match sign {
             Sign::Plus => self.grown(steps, 0),
             Sign::Minus => self.grown(0, steps),

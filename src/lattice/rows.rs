@@ -182,6 +182,9 @@ impl<'p> Rows<'p> {
         if self.one.is_some() {
             return 1_u32.into();
         }
+        if self.k >= self.end {
+            return 0_u32.into();
+        }
         let given = self.j.zip(self.shape.layer(self.k).ok());
         let given = given.map(|(j, region)| region.sites_before(region.row(j).start, j));
         self.shape.spheres_in(self.k..self.end) - given.unwrap_or_default()

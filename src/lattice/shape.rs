@@ -193,6 +193,11 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.whole.minus == 0
     }
 
+    /// Whether this is the paper's pile or its mirror image, or of discs.
+    pub(crate) fn is_straight_under_one_sphere(&self) -> bool {
+        self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
+    }
+
     /// Whether the pile was grown up from its base.
     #[must_use]
     pub const fn is_grown_from_base(&self) -> bool {

@@ -113,6 +113,10 @@ impl<'p, T: Algebra> Source<'p, T> {
         statics: &Statics<'p, T>,
         site: Site,
     ) -> Result<[T; 3], Error> {
+        // In the rows of another pile.
+        if site.k == statics.floor() {
+            return Err(Error::OnFloor { site });
+        }
         let (forces, changes) = match self {
             Self::Closed => statics.passed_on(site)?,
             Self::Tree(piece) => {

@@ -9,7 +9,7 @@ impl Region {
     ///
     /// THEORY §3, "Lines". For + steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
     /// N_γ = min(m, j−y₀, x₁−i, i+j−s₀), with the bounds of the layer of (i, j); for − steps the same under
-    /// (i, j) → (−i, −j). Each argument grows by one per step down and vanishes at its surface.
+    /// (i, j) → (−i, −j). Each argument grows by one per step down and vanishes at its surface. None outside the region.
     ///
     /// # Examples
     /// ```
@@ -24,6 +24,9 @@ impl Region {
     #[must_use]
     #[inline]
     pub fn spheres_above(&self, i: i128, j: i128, sign: Sign, steps: i128) -> [i128; 3] {
+        if !self.contains(i, j) {
+            return [0; 3];
+        }
         let (lower, upper) = (&self.lower, &self.upper);
         let bounds = match sign {
             Sign::Plus => count::bounds_above(&i, &j, lower, upper, &steps),
