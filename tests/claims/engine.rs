@@ -7,18 +7,16 @@
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Selection, Site};
-use cannonpile::{ContactForce, Error, FloorForce, Statics};
+use cannonpile::{Error, FloorForce, Statics};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::handed_on::{Balance, Sphere};
+use super::handed_on::{Balance, Contacts, Floor, contacts_of, floor_of, site_of};
 use super::{Checked, demand, in_lowest_terms, same};
 use crate::generators::number::ratio;
 use crate::generators::region;
 
 type Exact<'p> = Statics<'p, BigRational>;
-type Contacts = Vec<ContactForce<BigRational>>;
-type Floor = Vec<FloorForce<BigRational>>;
 
 /// Every sphere of a small pile of any stacking, with weights and loads.
 pub(crate) fn every_way(u: &mut Unstructured<'_>) -> Checked {
@@ -46,6 +44,7 @@ pub(crate) fn every_way(u: &mut Unstructured<'_>) -> Checked {
     }
     let k = u.int_in_range(0..=pile.layers() - 1)?;
     of_one_layer(&statics, k, &contacts)?;
+    begun_already(&statics, u.int_in_range(0..=20)?, &contacts)?;
     // A tree for every sphere would be slow where there are many.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
@@ -88,43 +87,6 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
     Ok(())
 }
 
-fn site_of((k, (j, i)): Sphere) -> Site {
-    Site { i, j, k }
-}
-
-/// The contacts of every sphere in row order, as the library lists them.
-fn contacts_of(balance: &Balance) -> Contacts {
-    let spheres = balance.passed_on.iter();
-    let contacts = spheres.flat_map(|(sphere, forces)| {
-        let site = site_of(*sphere);
-        Direction::ALL
-            .into_iter()
-            .zip(forces)
-            .map(move |(direction, force)| ContactForce {
-                site,
-                direction,
-                force: force.clone(),
-            })
-    });
-    contacts.collect()
-}
-
-/// What bottom spheres hand on, in the units of the library: along x it is H_j/2, along y (H_i + H_j/2)/3.
-fn floor_of(balance: &Balance) -> Floor {
-    let force = |sphere: Sphere| {
-        let handed = &balance.handed[&sphere];
-        let [i, j] = &handed.across;
-        let half = j / ratio(2, 1);
-        FloorForce {
-            site: site_of(sphere),
-            normal: handed.down.clone(),
-            shear_y: (i + &half) / ratio(3, 1),
-            shear_x: half,
-        }
-    };
-    balance.base().map(force).collect()
-}
-
 /// Contact by contact; in lowest terms.
 fn agree(got: &Contacts, want: &Contacts) -> Checked {
     for (got, want) in got.iter().zip(want) {
@@ -139,6 +101,19 @@ fn of_one_layer(statics: &Exact<'_>, k: i128, contacts: &Contacts) -> Checked {
     let swept: Result<Contacts, Error> = statics.contacts(rows).collect();
     let here = contacts.iter().filter(|contact| contact.site.k == k);
     agree(&swept?, &here.cloned().collect())
+}
+
+/// Rows of which some have been given away.
+fn begun_already(statics: &Exact<'_>, given: usize, contacts: &Contacts) -> Checked {
+    let mut rows = statics.pile().rows(Selection::All)?;
+    let spheres: i128 = rows
+        .by_ref()
+        .take(given)
+        .map(|row| row.i.end - row.i.start)
+        .sum();
+    let swept: Result<Contacts, Error> = statics.contacts(rows).collect();
+    let before = usize::try_from(3 * spheres).unwrap_or_default();
+    agree(&swept?, &contacts.iter().skip(before).cloned().collect())
 }
 
 /// What the library says of one sphere, by the lines above it.

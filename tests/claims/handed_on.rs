@@ -8,7 +8,9 @@
 
 use std::collections::BTreeMap;
 
+use cannonpile::lattice::{Direction, Site};
 use cannonpile::stacking::Sign;
+use cannonpile::{ContactForce, FloorForce};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -29,6 +31,12 @@ pub(crate) struct Handed {
     /// Along i and j.
     pub(crate) across: [BigRational; 2],
 }
+
+/// Contacts as the library lists them.
+pub(crate) type Contacts = Vec<ContactForce<BigRational>>;
+
+/// Forces on the floor as the library lists them.
+pub(crate) type Floor = Vec<FloorForce<BigRational>>;
 
 /// A pile and its forces.
 pub(crate) struct Balance {
@@ -152,4 +160,42 @@ fn acting(described: &Described, layers: &[Sites]) -> BTreeMap<Sphere, BigRation
         *acting.entry((site.k, (site.j, site.i))).or_default() += load;
     }
     acting
+}
+
+/// As the library names it.
+pub(crate) fn site_of((k, (j, i)): Sphere) -> Site {
+    Site { i, j, k }
+}
+
+/// The contacts of every sphere in row order, as the library lists them.
+pub(crate) fn contacts_of(balance: &Balance) -> Contacts {
+    let spheres = balance.passed_on.iter();
+    let contacts = spheres.flat_map(|(sphere, forces)| {
+        let site = site_of(*sphere);
+        Direction::ALL
+            .into_iter()
+            .zip(forces)
+            .map(move |(direction, force)| ContactForce {
+                site,
+                direction,
+                force: force.clone(),
+            })
+    });
+    contacts.collect()
+}
+
+/// What bottom spheres hand on, in the units of the library: along x it is H_j/2, along y (H_i + H_j/2)/3.
+pub(crate) fn floor_of(balance: &Balance) -> Floor {
+    let force = |sphere: Sphere| {
+        let handed = &balance.handed[&sphere];
+        let [i, j] = &handed.across;
+        let half = j / ratio(2, 1);
+        FloorForce {
+            site: site_of(sphere),
+            normal: handed.down.clone(),
+            shear_y: (i + &half) / ratio(3, 1),
+            shear_x: half,
+        }
+    };
+    balance.base().map(force).collect()
 }
