@@ -3,7 +3,7 @@
 use arbitrary::Unstructured;
 use cannonpile::Error;
 use cannonpile::lattice::{MAX_LAYERS, Region, Row, Shape, Site};
-use cannonpile::stacking::{Sign, Stacking};
+use cannonpile::stacking::Stacking;
 use num_bigint::{BigInt, BigUint};
 
 use super::{Checked, same};
@@ -81,8 +81,8 @@ fn without_a_gap(
     )
 }
 
-/// Grown down from any region, or up again from a base that is wider by a few sites or many, so that sides vanish on
-/// the way; none if the runs are no stacking or lead beyond the limit.
+/// Grown down from any region, or up again from a base that is wider, by a few sites or many on each side, so that
+/// sides vanish on the way; none if the runs are no stacking or lead beyond the limit.
 fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
     let top = region::region(u)?;
     let made =
@@ -93,11 +93,16 @@ fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
     if u.arbitrary()? {
         return Ok(Some(shape));
     }
-    let steps = u.int_in_range(0..=MAX_LAYERS)? >> u.int_in_range(0..=120)?;
-    let [low, high] = [u.int_in_range(0..=steps)?, u.int_in_range(0..=steps)?];
-    let wider = shape.base().dilated_by(Sign::Plus, high);
-    let wider = wider.and_then(|base| base.dilated_by(Sign::Minus, low));
-    let base = wider.unwrap_or(shape.base());
+    let base = shape.base();
+    // Comparable with the height, or far from it.
+    let most = [9, shape.layers(), MAX_LAYERS / 2][u.choose_index(3)?];
+    let mut sides = [base.x(), base.y(), base.s()];
+    for side in &mut sides {
+        let [low, high] = [u.int_in_range(0..=most)?, u.int_in_range(0..=most)?];
+        *side = side.start() - low..=side.end() + high;
+    }
+    let [x, y, s] = sides;
+    let base = Region::new(x, y, s).unwrap_or(base);
     Ok(Shape::on(base, shape.stacking().clone()).ok())
 }
 
