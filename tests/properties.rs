@@ -13,13 +13,14 @@ use arbitrary::Unstructured;
 use cannonpile::Error;
 use cannonpile::lattice::{Dimension, Region, Selection, Site};
 use cannonpile::scene::parse;
-use cannonpile::stacking::Stacking;
+use cannonpile::stacking::{Sign, Stacking};
 use proptest::collection::vec;
 use proptest::prelude::any;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};
 
 use claims::{Claim, Failure};
-use generators::{pile, region, stacking, text};
+use generators::region::Described;
+use generators::{number, pile, region, stacking, text};
 
 /// As many bytes as any claim uses up; one that gets fewer reads zeros.
 const BYTES: usize = 256;
@@ -65,6 +66,33 @@ properties! {
     spheres_of_any_pile_are_numbered_without_gaps: claims::numbered::any_pile, 1024;
     forces_of_mixed_piles_are_one_whoever_is_asked: claims::engine::every_way, 512;
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
+}
+
+/// So many changes of sign that a number takes several words, with heavy and with weightless spheres.
+#[test]
+fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {
+    let steps = 15;
+    let sign = |plus: bool| if plus { Sign::Plus } else { Sign::Minus };
+    let low = Site { i: 0, j: 0, k: 5 };
+    for (period, load) in [(1, 0), (2, -90), (3, 200), (1, 90)] {
+        let described = Described {
+            region: Region::SITE,
+            from_base: false,
+            signs: (0..steps).map(|n| sign(n / period % 2 == 0)).collect(),
+            weightless: load > 100,
+            weights: vec![
+                (low, number::ratio(0, 1)),
+                (Site::APEX, number::ratio(22, 7)),
+            ],
+            loads: vec![
+                (low, number::power(2, load)),
+                (Site::APEX, number::power(10, 40)),
+            ],
+        };
+        if let Err(failure) = claims::engine::throughout(&described, 11, 40) {
+            panic!("{failure}");
+        }
+    }
 }
 
 /// The claim holds for `cases` random byte strings, the same in every run.

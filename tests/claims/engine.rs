@@ -14,20 +14,24 @@ use num_traits::{Signed, Zero};
 use super::handed_on::{Balance, Contacts, Floor, contacts_of, floor_of, site_of};
 use super::{Checked, demand, in_lowest_terms, same};
 use crate::generators::number::ratio;
-use crate::generators::region;
+use crate::generators::region::{self, Described};
 
 type Exact<'p> = Statics<'p, BigRational>;
 
 /// Every sphere of a small pile of any stacking, with weights and loads.
 pub(crate) fn every_way(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
-    let balance = Balance::of(&described);
+    let steps = i128::try_from(described.signs.len()).unwrap_or_default();
+    let k = u.int_in_range(0..=steps)?;
+    throughout(&described, k, u.int_in_range(0..=20)?)
+}
+
+/// All of the pile, the layer k alone, and what is left when some rows have been given.
+pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checked {
+    let balance = Balance::of(described);
     let pile = described.pile()?;
-    let sites: Vec<Site> = balance
-        .received
-        .keys()
-        .map(|sphere| site_of(*sphere))
-        .collect();
+    let spheres = balance.received.keys();
+    let sites: Vec<Site> = spheres.map(|sphere| site_of(*sphere)).collect();
     demand(pile.shape().sites().eq(sites.iter().copied()), || {
         format!("{described:?}")
     })?;
@@ -42,9 +46,8 @@ pub(crate) fn every_way(u: &mut Unstructured<'_>) -> Checked {
         let swept: Result<Floor, Error> = statics.base(base).collect();
         same("the base", &swept?, &floor)?;
     }
-    let k = u.int_in_range(0..=pile.layers() - 1)?;
     of_one_layer(&statics, k, &contacts)?;
-    begun_already(&statics, u.int_in_range(0..=20)?, &contacts)?;
+    begun_already(&statics, given, &contacts)?;
     // A tree for every sphere would be slow where there are many.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
@@ -185,7 +188,6 @@ fn bears_what_acts(floor: &[FloorForce<BigRational>], balance: &Balance) -> Chec
 mod planted {
     use super::*;
     use crate::generators::number::power;
-    use crate::generators::region::Described;
     use cannonpile::Pile;
     use cannonpile::lattice::Region;
     use cannonpile::stacking::Sign::{Minus, Plus};
