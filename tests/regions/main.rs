@@ -8,9 +8,11 @@
 //! | `growth` | dilation, erosion, and the spheres above on each line |
 //! | `limits` | regions about the greatest coordinates |
 //! | `shapes` | piles grown down and up: layers, counts, walks |
+//! | `edges` | what is promised at the edges: mirrored nothing, the most runs, steps back, far sites, walks begun |
 //! | `greatest_height` | how high a base carries a stacking |
 
 mod bounds;
+mod edges;
 mod greatest_height;
 mod growth;
 mod limits;
