@@ -11,14 +11,16 @@ use std::collections::BTreeMap;
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::lattice::{Dimension, Site};
+use cannonpile::lattice::{Dimension, Region, Selection, Site};
 use cannonpile::scene::parse;
+use cannonpile::stacking::{Sign, Stacking};
 use proptest::collection::vec;
 use proptest::prelude::any;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};
 
 use claims::{Claim, Failure};
-use generators::{pile, text};
+use generators::region::Described;
+use generators::{number, pile, region, stacking, text};
 
 /// As many bytes as any claim uses up; one that gets fewer reads zeros.
 const BYTES: usize = 256;
@@ -56,6 +58,41 @@ properties! {
     what_is_printed_is_read_back: claims::parsers::a_value, 512;
     every_scalar_keeps_the_laws: claims::laws::every_scalar, 512;
     ratios_are_in_lowest_terms: claims::laws::ratios_of_integers, 512;
+    stackings_are_read_by_the_rules: claims::stackings::any_text, 2048;
+    stackings_are_made_of_runs: claims::stackings::of_runs, 1024;
+    regions_are_tight_or_refused: claims::regions::any_bounds, 2048;
+    small_regions_have_their_sites: claims::regions::small, 512;
+    regions_grow_and_shrink_as_their_sites: claims::growth::grown, 2048;
+    spheres_of_any_pile_are_numbered_without_gaps: claims::numbered::any_pile, 1024;
+    forces_of_mixed_piles_are_one_whoever_is_asked: claims::engine::every_way, 512;
+    floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
+}
+
+/// So many changes of sign that a number takes several words, with heavy and with weightless spheres.
+#[test]
+fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {
+    let steps = 15;
+    let sign = |plus: bool| if plus { Sign::Plus } else { Sign::Minus };
+    let low = Site { i: 0, j: 0, k: 5 };
+    for (period, load) in [(1, 0), (2, -90), (3, 200), (1, 90)] {
+        let described = Described {
+            region: Region::SITE,
+            from_base: false,
+            signs: (0..steps).map(|n| sign(n / period % 2 == 0)).collect(),
+            weightless: load > 100,
+            weights: vec![
+                (low, number::ratio(0, 1)),
+                (Site::APEX, number::ratio(22, 7)),
+            ],
+            loads: vec![
+                (low, number::power(2, load)),
+                (Site::APEX, number::power(10, 40)),
+            ],
+        };
+        if let Err(failure) = claims::engine::throughout(&described, 11, 40) {
+            panic!("{failure}");
+        }
+    }
 }
 
 /// The claim holds for `cases` random byte strings, the same in every run.
@@ -148,4 +185,61 @@ fn texts_are_accepted_and_refused() {
     // A site has commas, a number none.
     assert_eq!(kinds.len(), 3, "{kinds:?}");
     assert!(kinds.values().all(|count| *count >= 10), "{kinds:?}");
+}
+
+#[test]
+fn stackings_are_accepted_and_refused_in_every_notation() {
+    let kinds = census(|u| {
+        let text = stacking::text(u)?;
+        let notation = match text.chars().next() {
+            Some('+' | '-') => "Hägg",
+            Some('A'..='C') => "ABC",
+            Some('h' | 'c') => "Jagodzinski",
+            Some('(') => "Zhdanov",
+            _ => "none",
+        };
+        let verdict = match text.parse::<Stacking>() {
+            Ok(stacking) if stacking.changes() > 1 => "mixed",
+            Ok(_) => "plain",
+            Err(Error::Layers { .. }) => "too tall",
+            Err(_) => "refused",
+        };
+        Ok(format!("{notation} {verdict}"))
+    });
+    // Only numbers can be too tall, and no notation is no stacking.
+    assert_eq!(kinds.len(), 4 * 3 + 1 + 1, "{kinds:?}");
+}
+
+#[test]
+fn bounds_are_made_and_refused() {
+    let kinds = census(|u| {
+        let [x0, x1, y0, y1, s0, s1] = region::bounds(u)?;
+        Ok(match Region::new(x0..=x1, y0..=y1, s0..=s1) {
+            Ok(region) if region.sites().bits() > 64 => "huge".into(),
+            Ok(region) if region.x() == (x0..=x1) && region.s() == (s0..=s1) => "as given".into(),
+            Ok(_) => "tightened".into(),
+            Err(Error::EmptyRegion { .. }) => "empty".into(),
+            Err(Error::RegionTooLarge { .. }) => "too large".into(),
+            Err(other) => other.to_string(),
+        })
+    });
+    assert_eq!(kinds.len(), 5, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 8), "{kinds:?}");
+}
+
+#[test]
+fn mixed_piles_are_of_every_kind() {
+    let kinds = census(|u| {
+        let described = region::described(u)?;
+        let pile = described.pile().expect("what was described is a pile");
+        let method = pile.plan(Selection::Base).expect("a base").method;
+        let changes = pile.shape().stacking().changes().min(2);
+        let (from_base, loaded) = (described.from_base, !described.loads.is_empty());
+        Ok(format!(
+            "{method} changes={changes} from_base={from_base} loaded={loaded}"
+        ))
+    });
+    // Straight piles are not swept, others are.
+    assert_eq!(kinds.len(), 3 * 2 * 2, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 4), "{kinds:?}");
 }

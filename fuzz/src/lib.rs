@@ -92,6 +92,38 @@ pub fn scalar_laws(bytes: &[u8]) -> Corpus {
     )
 }
 
+/// Any text is a stacking by the rules or is refused, and what is one is printed and read again in every notation.
+#[must_use]
+pub fn stackings(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[claims::stackings::any_text, claims::stackings::of_runs],
+    )
+}
+
+/// Regions of any size are tight, grow and shrink as their sites do, and the spheres of piles on them are counted.
+#[must_use]
+pub fn regions(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::regions::any_bounds,
+            claims::regions::small,
+            claims::growth::grown,
+            claims::numbered::any_pile,
+        ],
+    )
+}
+
+/// The forces of a small mixed pile are those of the equations of equilibrium, by every way to ask for them.
+#[must_use]
+pub fn engine(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[claims::engine::every_way, claims::engine::in_floats],
+    )
+}
+
 /// Polynomials compute what their values compute.
 #[must_use]
 pub fn polynomial(bytes: &[u8]) -> Corpus {

@@ -19,18 +19,32 @@
 //! | `parsers` | a parser never panics, and reads what is printed |
 //! | `scene` | a scene makes the pile that it describes, or is refused |
 //! | `laws` | every scalar passes the law suite |
+//! | `stackings` | a text is read as a stacking by the rules of its notation, and printed again |
+//! | `regions` | bounds are tightened completely, and small regions have their sites |
+//! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
+//! | `numbered` | the spheres of any pile are numbered without a gap |
+//! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
+//!
+//! Two oracles have files of their own: `sets`, layers as sets of sites, and `handed_on`, forces sphere by sphere.
 
+pub(crate) mod engine;
 pub(crate) mod equilibrium;
 pub(crate) mod fixed;
 pub(crate) mod floats;
+pub(crate) mod growth;
+pub(crate) mod handed_on;
 pub(crate) mod laws;
 pub(crate) mod nearest;
+pub(crate) mod numbered;
 pub(crate) mod order;
 pub(crate) mod overlap;
 pub(crate) mod packing;
 pub(crate) mod parsers;
+pub(crate) mod regions;
 pub(crate) mod scene;
+pub(crate) mod sets;
 pub(crate) mod sites;
+pub(crate) mod stackings;
 
 use core::fmt::{self, Debug, Display};
 

@@ -9,8 +9,12 @@
 //! |---|---|
 //! | `number` | integers, rationals, floats, sin φ, radii and masses, roots |
 //! | `pile` | layers, piles, sites, directions, spacings, packings |
+//! | `region` | regions and their bounds, sites about them, small piles with weights and loads |
+//! | `stacking` | signs, runs, stackings as text |
 //! | `text` | numbers and sites as text: valid, with their values, and damaged |
 
 pub(crate) mod number;
 pub(crate) mod pile;
+pub(crate) mod region;
+pub(crate) mod stacking;
 pub(crate) mod text;
