@@ -88,7 +88,7 @@ impl Error {
                 MAX_LAYERS.ilog10()
             ),
             Self::RunLength { given } => {
-                write!(f, "a run of a stacking has at least 1 step, not {given}")
+                write!(f, "a run cannot have {given} steps: use a positive number")
             }
             Self::TooManyRuns { limit } => write!(
                 f,

@@ -141,6 +141,12 @@ impl FromStr for Stacking {
             Some(b'A' | b'B' | b'C') => signs_of_abc(text).map(Self::from_signs),
             Some(b'h' | b'c') => signs_of_jagodzinski(text).map(Self::from_signs),
             Some(b'(') => {
+                // Digits, but more than any number of layers has.
+                let tall =
+                    |length: &str| length.len() > 38 && length.bytes().all(|b| b.is_ascii_digit());
+                if text.trim_matches(['(', ')']).split(',').any(tall) {
+                    return Err(Error::syntax(text, "a stacking of at most 10^36 layers"));
+                }
                 return runs_of_zhdanov(text)
                     .ok_or_else(syntax)
                     .and_then(Self::from_runs);

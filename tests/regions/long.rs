@@ -1,7 +1,5 @@
 //! Stackings of many layers, which are as small as their changes of sign, and what is refused.
 
-use std::time::{Duration, Instant};
-
 use cannonpile::Error;
 use cannonpile::lattice::MAX_LAYERS;
 use cannonpile::stacking::{MAX_RUNS, Run, Sign, Stacking};
@@ -30,21 +28,14 @@ fn a_long_stacking_is_a_few_numbers() {
     );
 }
 
-/// A thousand round trips in the time that 10¹⁵ of anything would take many times over: a mean of a millisecond
-/// allows for any machine and a build without optimisation.
+/// A thousand round trips: none would end if 10¹⁵ of anything were done or kept.
 #[test]
 fn a_long_stacking_is_read_and_printed_at_once() {
-    let begun = Instant::now();
     for _ in 0..1_000 {
         let stacking: Stacking = LONG.parse().expect("four runs");
         assert_eq!(stacking.zhdanov().to_string(), LONG);
         assert_eq!(stacking.reversed().mirrored().layers(), 10_i128.pow(15));
     }
-    assert!(
-        begun.elapsed() < Duration::from_secs(1),
-        "{:?}",
-        begun.elapsed()
-    );
 }
 
 /// One line that names the value and the remedy.
