@@ -142,8 +142,10 @@ impl FromStr for Stacking {
             Some(b'h' | b'c') => signs_of_jagodzinski(text).map(Self::from_signs),
             Some(b'(') => {
                 // Digits, but more than any number of layers has.
-                let tall =
-                    |length: &str| length.len() > 38 && length.bytes().all(|b| b.is_ascii_digit());
+                let digits = |length: &str| length.bytes().all(|b| b.is_ascii_digit());
+                let tall = |length: &str| {
+                    length.len() > 38 && digits(length) && length.parse::<i128>().is_err()
+                };
                 if text.trim_matches(['(', ')']).split(',').any(tall) {
                     return Err(Error::syntax(text, "a stacking of at most 10^36 layers"));
                 }
