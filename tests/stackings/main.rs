@@ -16,17 +16,17 @@
 //! | `planted` | what the comparisons catch |
 
 mod agreement;
-//TMP mod brute;
+mod brute;
 mod cases;
-//TMP mod census;
+mod census;
 mod compare;
-//TMP mod invariants;
+mod invariants;
 mod loads;
-//TMP mod mirrors;
+mod mirrors;
 mod oracle;
 //TMP mod planted;
-//TMP mod response;
+mod response;
 mod scalars;
 mod shapes;
-//TMP mod trees;
-//TMP mod widths;
+mod trees;
+mod widths;
