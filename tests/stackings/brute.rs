@@ -123,7 +123,7 @@ where
 
 /// The common denominator of weights and loads.
 pub(crate) fn denominator(naive: &Naive) -> BigInt {
-    let denominators = naive.weights.values().map(|weight| weight.denom());
+    let denominators = naive.weights.values().map(BigRational::denom);
     denominators.fold(BigInt::one(), |d, denom| d.lcm(denom))
 }
 

@@ -1,12 +1,13 @@
 //! Random tops and bases, stackings, weights and loads: every answer as the oracle has it.
 
-use cannonpile::lattice::Region;
+use cannonpile::Pile;
+use cannonpile::lattice::{Region, Site};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::cases::{Bounds, Case, Random};
-use crate::compare::agrees;
-use crate::oracle::ratio;
+use crate::cases::{Bounds, Case, Random, stacking};
+use crate::compare::{agrees, all_agree};
+use crate::oracle::{Naive, ratio};
 
 #[test]
 fn random_tops_without_loads() {
@@ -138,19 +139,31 @@ fn extremes_over_the_base_are_those_of_the_oracle() {
 }
 
 #[test]
-fn any_region_is_its_sites() {
-    let mut random = Random(10);
-    for _ in 0..300 {
-        let bounds = random.bounds(6);
-        let (region, sites) = (bounds.region(), bounds.sites());
-        assert_eq!(region.sites(), sites.len().into());
-        let by_i = |pick: fn(&(i128, i128)) -> i128| {
-            let values = || sites.iter().map(pick);
-            values().min().unwrap()..=values().max().unwrap()
-        };
-        let tight = Region::new(by_i(|s| s.1), by_i(|s| s.0), by_i(|s| s.0 + s.1));
-        assert_eq!(tight, Ok(region), "{bounds:?}");
-        assert_eq!((region.x(), region.y()), (by_i(|s| s.1), by_i(|s| s.0)));
-        assert_eq!(region.s(), by_i(|s| s.0 + s.1));
-    }
+fn weights_replace_loads_add_up_and_without_weight_only_loads_are_left() {
+    let at = |i, j, k| Site { i, j, k };
+    let pile = Pile::under(Region::SITE, stacking("+-+")).unwrap();
+    let (here, there) = (at(1, 0, 1), at(0, 0, 2));
+    let pile = pile.with_weight(here, ratio(9, 1)).unwrap();
+    let pile = pile.with_load(here, ratio(1, 2)).unwrap();
+    let pile = pile.with_weight(here, ratio(3, 1)).unwrap();
+    let pile = pile.with_load(here, ratio(1, 3)).unwrap();
+    let pile = pile.with_load(there, ratio(2, 1)).unwrap();
+    let top = Bounds::SITE.sites();
+    let mut naive = Naive::under(&top, "+-+");
+    naive.weights.insert((1, 0, 1), ratio(23, 6));
+    naive.weights.insert((2, 0, 0), ratio(3, 1));
+    all_agree(&pile, &naive.forces()).unwrap();
+    assert_eq!(pile.sphere_weight(here), Ok(ratio(3, 1)));
+    assert_eq!(pile.sphere_weight(there), Ok(ratio(1, 1)));
+    assert_eq!(pile.weight(), naive.whole_weight());
+    let pile = pile.weightless();
+    naive.ordinary = BigRational::zero();
+    naive.weights.insert((1, 0, 1), ratio(5, 6));
+    naive.weights.insert((2, 0, 0), ratio(2, 1));
+    all_agree(&pile, &naive.forces()).unwrap();
+    assert_eq!(pile.sphere_weight(here), Ok(ratio(0, 1)));
+    assert_eq!(pile.weight(), naive.whole_weight());
+    assert!(pile.clone().with_load(here, ratio(-1, 9)).is_err());
+    assert!(pile.clone().with_weight(here, ratio(-1, 9)).is_err());
+    assert!(pile.clone().with_load(at(2, 0, 1), ratio(1, 9)).is_err());
 }

@@ -7,11 +7,15 @@
 //! | `compare` | every answer of the library beside that of the oracle |
 //! | `agreement` | all stackings under one sphere and on small bases |
 //! | `loads` | random tops, weights and loads |
+//! | `notations` | stackings as they are written |
+//! | `regions` | six-sided regions as sets of sites |
 //! | `shapes` | sites, neighbours, counts |
+//! | `parts` | rows begun in the middle, of one sphere, of another pile; loads on other straight piles |
+//! | `vectors` | forces as vectors, positions |
 //! | `scalars` | rounded, enclosing and bounded scalars |
 //! | `invariants`, `response`, `mirrors` | what THEORY §3 says of all of them |
 //! | `widths` | the limbs of the exact engine, on both sides of every switch |
-//! | `trees` | how much a tree visits, and piles too high for anything else |
+//! | `trees`, `high` | how much a tree visits, and piles too high for anything else |
 //! | `brute`, `census` | the census against all stackings, by integers |
 //! | `planted` | what the comparisons catch |
 
@@ -20,13 +24,18 @@ mod brute;
 mod cases;
 mod census;
 mod compare;
+mod high;
 mod invariants;
 mod loads;
 mod mirrors;
+mod notations;
 mod oracle;
-//TMP mod planted;
+mod parts;
+mod planted;
+mod regions;
 mod response;
 mod scalars;
 mod shapes;
 mod trees;
+mod vectors;
 mod widths;

@@ -4,7 +4,7 @@ use cannonpile::lattice::{Selection, Site};
 use num_bigint::BigUint;
 
 use crate::cases::{Bounds, Case, Random, all_on, all_signs};
-use crate::oracle::{Place, direction, place, site};
+use crate::oracle::{Place, Sites, direction, place, site};
 
 fn big(n: usize) -> BigUint {
     n.into()
@@ -36,7 +36,7 @@ fn sites_in_order(Case { pile, naive }: &Case) {
 }
 
 fn counts(Case { pile, naive }: &Case) {
-    let spheres: usize = naive.layers.iter().map(|layer| layer.len()).sum();
+    let spheres: usize = naive.layers.iter().map(Sites::len).sum();
     let bottom = naive.layers.last().expect("a layer").len();
     assert_eq!(pile.layers(), i128::try_from(naive.layers.len()).unwrap());
     assert_eq!(pile.spheres(), big(spheres));
