@@ -17,6 +17,7 @@
 //! | `widths` | the limbs of the exact engine, on both sides of every switch |
 //! | `trees`, `high` | how much a tree visits, and piles too high for anything else |
 //! | `brute`, `census` | the census against all stackings, by integers |
+//! | `contracts` | what the documentation promises at the edges |
 //! | `planted` | what the comparisons catch |
 
 mod agreement;
@@ -24,6 +25,7 @@ mod brute;
 mod cases;
 mod census;
 mod compare;
+mod contracts;
 mod high;
 mod invariants;
 mod loads;
