@@ -1,16 +1,13 @@
 //! Which spacings fit, and what touches: the library against the distances of all pairs.
 
-mod answers;
-mod oracle;
-
 use std::collections::BTreeSet;
 
-use answers::{Shape, ratio};
+use crate::answers::{Shape, ratio};
+use crate::oracle::overlap::{self, Difference};
 use cannonpile::Error;
 use cannonpile::geometry::Spacing;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
-use oracle::overlap::{self, Difference};
 
 fn spacing(q: &BigRational) -> Spacing {
     Spacing::from_square(q.clone()).unwrap()

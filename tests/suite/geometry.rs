@@ -1,16 +1,13 @@
 //! Where the spheres are, in lengths: contacts are a diameter long, contact points halfway.
 
-mod answers;
-mod oracle;
-
-use answers::{Shape, below, ratio};
+use crate::answers::{Shape, below, ratio};
+use crate::oracle::overlap;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Surd;
 use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
-use oracle::overlap;
 
 const LAYERS: i128 = 4;
 

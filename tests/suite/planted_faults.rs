@@ -1,15 +1,11 @@
 //! Every theorem about forces, and their oracle, refuses something: one planted fault each, at least.
 
-mod answers;
-mod oracle;
-mod theorems;
-
-use answers::{Answers, Contact, Shape, ratio};
+use crate::answers::{Answers, Contact, Shape, ratio};
+use crate::theorems::symmetry::{MIRRORED, TURNS, invariant};
+use crate::theorems::{Verdict, balance, base};
 use cannonpile::lattice::{Direction, Site, Symmetry};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
-use theorems::symmetry::{MIRRORED, TURNS, invariant};
-use theorems::{Verdict, balance, base};
 
 const LAYERS: i128 = 5;
 
@@ -219,8 +215,8 @@ fn symmetries() {
 
 #[test]
 fn the_oracle_of_forces() {
-    let solved = oracle::solve(&Shape::equilateral(), LAYERS);
-    let agrees = |pile: &Answers| theorems::agree(pile, &solved);
+    let solved = crate::oracle::solve(&Shape::equilateral(), LAYERS);
+    let agrees = |pile: &Answers| crate::theorems::agree(pile, &solved);
     for fault in [
         one_increment_more,
         neighbours_transposed,
@@ -246,8 +242,8 @@ fn the_oracle_of_forces() {
     });
     // It is no constant either.
     for other in [Shape::Spheres(ratio(501, 1000)), Shape::Discs] {
-        assert!(theorems::agree(&Answers::of(&other, LAYERS), &solved).is_err());
+        assert!(crate::theorems::agree(&Answers::of(&other, LAYERS), &solved).is_err());
     }
     let taller = Answers::of(&Shape::equilateral(), LAYERS + 1);
-    assert!(theorems::agree(&taller, &solved).is_err());
+    assert!(crate::theorems::agree(&taller, &solved).is_err());
 }

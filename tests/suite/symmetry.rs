@@ -1,11 +1,8 @@
 //! The symmetries of a pile carry its forces along; the others do not.
 
-mod answers;
-mod theorems;
-
-use answers::{Answers, Shape, ratio};
+use crate::answers::{Answers, Shape, ratio};
+use crate::theorems::symmetry::{MIRRORED, MIRRORED_DISCS, TURNS, invariant};
 use cannonpile::lattice::{Direction, Site, Symmetry, count};
-use theorems::symmetry::{MIRRORED, MIRRORED_DISCS, TURNS, invariant};
 
 #[test]
 fn equilateral_piles_have_all_six() {

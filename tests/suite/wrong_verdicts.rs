@@ -1,15 +1,11 @@
 //! The checks of overlap and of rounding refuse wrong verdicts.
 
-mod answers;
-mod oracle;
-mod theorems;
-
-use answers::{Shape, ratio};
+use crate::answers::{Shape, ratio};
+use crate::oracle::overlap;
+use crate::theorems::rounding::{beyond_greatest, exact, is_nearest, midpoint};
 use cannonpile::Error;
 use cannonpile::geometry::{Clearance, Spacing};
 use num_rational::BigRational;
-use oracle::overlap;
-use theorems::rounding::{beyond_greatest, exact, is_nearest, midpoint};
 
 const LAYERS: i128 = 5;
 

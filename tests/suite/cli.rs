@@ -1,7 +1,5 @@
 //! The command line as a user meets it: what it prints, what it refuses, how it ends.
-#![cfg(feature = "cli")]
 
-#[path = "cli/stackings.rs"]
 mod stackings;
 
 use std::fs;

@@ -1,14 +1,12 @@
 //! Every theorem holds of the crate's formulas, says what it is about, and refuses wrong formulas.
 
-#[path = "theorem/faults/mod.rs"]
 mod faults;
-#[path = "theorem/numbers/mod.rs"]
 mod numbers;
 
 use std::collections::BTreeSet;
 
+use self::faults::Fault;
 use cannonpile::theorem::{self, Formulas, Listing, Method};
-use faults::Fault;
 
 #[test]
 fn every_theorem_holds() {

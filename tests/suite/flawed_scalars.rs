@@ -1,13 +1,10 @@
 //! For every law of scalars a scalar that breaks it, and is caught.
 
-mod answers;
-mod flawed;
-
 use std::collections::BTreeSet;
 
-use answers::ratio;
+use crate::answers::ratio;
+use crate::flawed::{Fault, Flawed, flawed};
 use cannonpile::scalar::{Exactness, NearestFloat, Sign, laws};
-use flawed::{Fault, Flawed, flawed};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Signed, Zero};

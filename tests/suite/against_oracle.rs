@@ -1,15 +1,11 @@
 //! Every contact and every base sphere of every pile up to 12 layers, against the naive oracle.
 
-mod answers;
-mod oracle;
-mod theorems;
-
-use answers::{Answers, Shape};
+use crate::answers::{Answers, Shape};
 
 fn agrees(shape: &Shape) {
     for layers in 1..=12 {
         let library = Answers::of(shape, layers);
-        let verdict = theorems::agree(&library, &oracle::solve(shape, layers));
+        let verdict = crate::theorems::agree(&library, &crate::oracle::solve(shape, layers));
         assert_eq!(verdict, Ok(()), "{shape:?}, {layers} layers");
     }
 }

@@ -1,15 +1,12 @@
 //! Roots: their order, form and products.
 
-mod answers;
-mod theorems;
-
 use core::cmp::Ordering;
 
-use answers::ratio;
+use crate::answers::ratio;
+use crate::theorems::rounding::exact;
 use cannonpile::scalar::{Sign, Surd};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};
-use theorems::rounding::exact;
 
 fn surd(c: (i64, i64), r: (i64, i64)) -> Surd {
     Surd::new(ratio(c.0, c.1), ratio(r.0, r.1)).unwrap()

@@ -1,12 +1,9 @@
 //! Every sphere of every pile up to a size is in exact equilibrium, and the base carries the pile.
 
-mod answers;
-mod theorems;
-
-use answers::{Answers, Shape};
+use crate::answers::{Answers, Shape};
+use crate::theorems::{Verdict, balance, base};
 use cannonpile::geometry::Vector;
 use num_rational::BigRational;
-use theorems::{Verdict, balance, base};
 
 /// What holds of a pile of any shape.
 fn stands(shape: &Shape, layers: i128) -> Verdict {

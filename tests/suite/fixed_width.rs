@@ -1,10 +1,8 @@
 //! Fixed-width rationals say what big ones say, or that it does not fit; nothing else.
 
-mod answers;
-
 use core::num::NonZeroI64;
 
-use answers::{Shape, ratio};
+use crate::answers::{Shape, ratio};
 use cannonpile::lattice::{Direction, MAX_LAYERS, Site};
 use cannonpile::scalar::{Algebra, FixedInteger, FixedRational, RealEmbeddable, Ring, Sign};
 use cannonpile::{Error, Pile, Statics};

@@ -1,14 +1,11 @@
 //! The float nearest to a root, checked without taking one: by the squares of the midpoints between floats.
 
-mod answers;
-mod theorems;
-
-use answers::ratio;
+use crate::answers::ratio;
+use crate::theorems::rounding::{Binary, beyond_greatest, exact, is_nearest, midpoint};
 use cannonpile::scalar::{NearestFloat, Surd};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed};
-use theorems::rounding::{Binary, beyond_greatest, exact, is_nearest, midpoint};
 
 /// 2^exponent.
 fn power(exponent: i32) -> BigRational {

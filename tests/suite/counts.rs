@@ -1,10 +1,8 @@
 //! Sites, neighbours, rows and sums, against lists made by hand.
 
-mod answers;
-
 use std::collections::BTreeSet;
 
-use answers::{Shape, above, below, ratio};
+use crate::answers::{Shape, above, below, ratio};
 use cannonpile::lattice::{
     Dimension, Direction, MAX_LAYERS, Row, Selection, Shape as Sites, Site, count,
 };

@@ -1,8 +1,6 @@
 //! Every error can happen, and says in one line what was given and what would do.
 
-mod answers;
-
-use answers::{Shape, ratio};
+use crate::answers::{Shape, ratio};
 use cannonpile::geometry::{Inclination, Spacing};
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Selection, Site};
 use cannonpile::scalar::{FixedRational, Surd};

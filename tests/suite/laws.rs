@@ -1,8 +1,6 @@
 //! Every scalar of the crate obeys the laws, on operands chosen to break them.
 
-mod answers;
-
-use answers::ratio;
+use crate::answers::ratio;
 use cannonpile::scalar::{Algebra, Field, FixedInteger, FixedRational, RealEmbeddable, laws};
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -1,0 +1,32 @@
+//! The exhaustive and the fixed tests, one module a subject; shared are the answers of the library collected by pile,
+//! the oracle, the judges of theorems, and scalars that are flawed on purpose.
+
+mod against_oracle;
+mod answers;
+mod clearance;
+#[cfg(feature = "cli")]
+mod cli;
+mod counts;
+mod double_double;
+mod equilibrium;
+mod errors;
+mod extremes;
+mod fixed_width;
+mod flawed;
+mod flawed_scalars;
+mod geometry;
+mod interval;
+mod laws;
+mod nearest;
+mod new_scalar_laws;
+mod one_body;
+mod oracle;
+mod pair;
+mod planted_faults;
+mod polynomial;
+mod sums;
+mod surd;
+mod symmetry;
+mod theorem;
+mod theorems;
+mod wrong_verdicts;
