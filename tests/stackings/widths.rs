@@ -95,7 +95,7 @@ fn the_bound_holds_for_many_loads() {
 
 #[test]
 fn what_weighs_less_does_not_make_up_for_a_load() {
-    for signs in ["+-+-", "+-+-+-+-+-"] {
+    for signs in ["+-+-+-+-+-", "+-+++++++++++", "+-+-+++++++++++"] {
         let mut case = Case::under(&Bounds::SITE, signs);
         let below: Vec<_> = case.naive.places().skip(1).collect();
         let load = ratio(i64::try_from(below.len()).unwrap(), 1);
