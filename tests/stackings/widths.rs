@@ -93,6 +93,19 @@ fn the_bound_holds_for_many_loads() {
     }
 }
 
+#[test]
+fn what_weighs_less_does_not_make_up_for_a_load() {
+    for signs in ["+-+-+-+-+-", "+-+++++++++++", "+-+-+++++++++++"] {
+        let mut case = Case::under(&Bounds::SITE, signs);
+        let below: Vec<_> = case.naive.places().skip(1).collect();
+        let load = ratio(i64::try_from(below.len()).unwrap(), 1);
+        for place in below {
+            case = case.with_weight(place, &ratio(0, 1));
+        }
+        is_wide_enough(&case.with_load((0, 0, 0), &load), 8);
+    }
+}
+
 /// The sweep of the whole pile beside brute force; the tree for one contact of many.
 fn is_brute_force(case: &Case, selection: Selection) {
     let (passed, d) = (brute::all(&case.naive), brute::denominator(&case.naive));
