@@ -120,6 +120,22 @@ pub enum Error {
         /// The value asked for.
         given: Box<BigRational>,
     },
+    /// A pile whose forces do not follow the paper's closed form.
+    NotStraight,
+    /// A row that has no spheres with others below them.
+    NoSuchRow {
+        /// The layer asked for.
+        k: usize,
+        /// The row asked for.
+        j: usize,
+    },
+    /// A slice that does not have one place for each force.
+    Length {
+        /// How many forces there are.
+        needed: usize,
+        /// How many places.
+        given: usize,
+    },
     /// Two options of a scene that exclude each other.
     Excluded {
         /// The one.

@@ -60,6 +60,7 @@
 //! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
 //! | [`Plan`], [`Standing`], [`BaseExtremes`] | how a question is answered; whether a pile stands; what its base feels at most |
 //! | [`Packing`] | the same in SI, exactly |
+//! | [`Strengths`] | all contact forces of a straight pile, written into slices |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
 //! | `export` | tables as csv, json and text (feature `export`) |
@@ -94,6 +95,7 @@ mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod export;
+mod fill;
 pub mod geometry;
 pub mod lattice;
 mod lines;
@@ -112,6 +114,7 @@ pub mod theorem;
 pub mod transfer;
 
 pub use error::Error;
+pub use fill::Strengths;
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
 pub use plan::{Method, Plan};

@@ -224,7 +224,8 @@ impl<'p, T: Algebra> Statics<'p, T> {
         self.edge_vector("a resultant force", force, changes)
     }
 
-    /// The position of a sphere from the apex, in 2R and the symbolic basis, z down.
+    /// The position of a sphere, in 2R and the symbolic basis, z down from the top layer: from the apex; of a pile grown
+    /// from a base, horizontally from site (0, 0) of the base, else from that of the top layer, occupied or not.
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::Overflow`].

@@ -14,29 +14,29 @@ fn piles() -> Vec<Pile> {
     let tops = [Region::SITE, Region::new(-3..=12, 0..=5, -2..=14).unwrap()];
     let stackings = ["(490)", "(2,1,480)", "-(490,2)", "(300,1,180)"];
     let mut piles = Vec::new();
-    for (top, stacking) in tops.into_iter().flat_map(|top| stackings.map(|s| (top, s))) {
+    for (n, stacking) in stackings.into_iter().enumerate() {
+        let top = tops[n % 2];
         let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
         let [[i, j], ..] = top.corners();
-        let below = pile
-            .rows(Selection::Layer(245))
-            .unwrap()
-            .flatten()
-            .nth(770)
-            .unwrap();
+        let mut below = pile.rows(Selection::Layer(245)).unwrap().flatten();
+        let below = below.nth(770).unwrap();
         let loaded = pile
             .clone()
             .with_load(Site { i, j, k: 0 }, ratio(25, 3))
             .unwrap();
         let loaded = loaded.with_load(below, ratio(5000, 7)).unwrap();
-        piles.push(if piles.len() % 2 == 0 {
-            loaded.weightless()
-        } else {
-            loaded
-        });
-        piles.push(pile);
+        piles.push(if n < 2 { pile } else { loaded.weightless() });
     }
-    let base = Region::hexagon(400, 500).unwrap();
-    piles.push(Pile::on(base, "(20,3,400)".parse().unwrap()).unwrap());
+    let pile = Pile::under(tops[0], "(1,480)".parse().unwrap()).unwrap();
+    let below = pile
+        .rows(Selection::Layer(300))
+        .unwrap()
+        .flatten()
+        .nth(9999)
+        .unwrap();
+    piles.push(pile.with_load(below, ratio(5000, 7)).unwrap());
+    let base = Region::hexagon(240, 300).unwrap();
+    piles.push(Pile::on(base, "(20,3,200)".parse().unwrap()).unwrap());
     piles
 }
 
@@ -108,5 +108,5 @@ fn of_contacts() {
         // Where several are least, the first is told.
         assert_eq!(standing.least, least, "{stacking}");
     }
-    assert!(failures > 3);
+    assert!(failures > 1);
 }

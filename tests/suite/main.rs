@@ -24,6 +24,7 @@ mod oracle;
 mod pair;
 mod planted_faults;
 mod polynomial;
+mod strengths;
 mod sums;
 mod surd;
 mod symmetry;
