@@ -76,7 +76,7 @@ where
             let time = seconds(|| {
                 strengths
                     .fill(black_box([a, b, c]))
-                    .expect("lengths that fit")
+                    .expect("lengths that fit");
             });
             black_box(&slices);
             time

@@ -102,7 +102,7 @@ impl<V: TryFrom<i128>> Strengths<V> {
 }
 
 /// The most layers: the contacts of as many take 10¹⁹ bytes.
-const MOST_LAYERS: i128 = 1_000_000;
+const MOST_LAYERS: u32 = 1_000_000;
 
 impl<V> Strengths<V> {
     fn from_pile(
@@ -112,11 +112,11 @@ impl<V> Strengths<V> {
         if !pile.is_paper_pile() || pile.dimension() == Dimension::Two {
             return Err(Error::NotStraight);
         }
-        if pile.layers() > MOST_LAYERS {
+        if pile.layers() > MOST_LAYERS.into() {
             return Err(Error::TooLarge {
                 quantity: "a table of forces",
                 needed: pile.layers().unsigned_abs().into(),
-                limit: MOST_LAYERS.unsigned_abs() as u64,
+                limit: MOST_LAYERS.into(),
                 remedy: "ask for single rows of the pile",
             });
         }
@@ -201,11 +201,9 @@ impl<V: Copy> Strengths<V> {
         for slice in &slices {
             check_length(slice.len(), spheres)?;
         }
-        let [mut alpha, mut beta, mut gamma] = slices;
+        let mut rest = slices;
         for k in 0..self.tables[0].len() {
-            let n = (k + 1) * (k + 2) / 2;
-            let layer = [&mut alpha, &mut beta, &mut gamma].map(|rest| split(rest, n));
-            self.layer(k, layer);
+            self.layer(k, first(&mut rest, (k + 1) * (k + 2) / 2));
         }
         Ok(())
     }
@@ -219,12 +217,12 @@ impl<V: Copy> Strengths<V> {
         let [alpha, beta, gamma] = &self.tables;
         let mut rest = forces;
         for k in 0..alpha.len() {
-            for j in 0..=k {
+            for (j, c) in gamma[..=k].iter().enumerate() {
                 let n = k - j + 1;
-                let row = split(&mut rest, n);
+                let row = rest.split_off_mut(..n).unwrap_or_default();
                 let values = alpha[..n].iter().rev().zip(&beta[..n]);
                 for (force, (a, b)) in row.iter_mut().zip(values) {
-                    *force = [*a, *b, gamma[j]];
+                    *force = [*a, *b, *c];
                 }
             }
         }
@@ -232,10 +230,9 @@ impl<V: Copy> Strengths<V> {
     }
 
     fn layer(&self, k: usize, slices: [&mut [V]; 3]) {
-        let [mut alpha, mut beta, mut gamma] = slices;
+        let mut rest = slices;
         for j in 0..=k {
-            let row = [&mut alpha, &mut beta, &mut gamma].map(|rest| split(rest, k - j + 1));
-            self.row(k, j, row);
+            self.row(k, j, first(&mut rest, k - j + 1));
         }
     }
 
@@ -255,11 +252,10 @@ impl<V: Copy> Strengths<V> {
     }
 }
 
-/// The first `n` of what is left, which is left without them.
-fn split<'a, V>(rest: &mut &'a mut [V], n: usize) -> &'a mut [V] {
-    let (first, others) = core::mem::take(rest).split_at_mut(n);
-    *rest = others;
-    first
+/// The first `n` of what is left of each slice, which is left without them; lengths have been checked.
+fn first<'a, V>(rest: &mut [&'a mut [V]; 3], n: usize) -> [&'a mut [V]; 3] {
+    rest.each_mut()
+        .map(|rest| rest.split_off_mut(..n).unwrap_or_default())
 }
 
 fn check_length(given: usize, needed: usize) -> Result<(), Error> {
