@@ -13,11 +13,12 @@
 //! (1,2,*), (2,1,*), (3,1,*), (1,1,1,*), (1,2,1,*) and (2,1,1,*): the sign changes three times at most, within the first five
 //! layers, and then the pile is straight for ever. HCP and DHCP stand up to five layers. The proof:
 //!
-//! 1. *A run before a change has at most four steps.* Let a run of + steps begin at a layer with the sides s₀ ≤ i+j;
-//!    the spheres on that side have no β and no γ line above them all the way down the run, and along α they receive
-//!    f + m − 1 after m steps, where f ≥ 0 is what a sphere of the first layer passes on along α, itself included. If
-//!    the sign changes there, such a sphere passes on 1 − (f + m − 1)/3 along α: negative if f + m > 4, hence for all
-//!    m ≥ 5. (Proved for all f and m: theorem `run` of [`theorem`](crate::theorem). Of − runs the mirror image.)
+//! 1. *A run before a change has at most four steps.* Let a run of + steps begin at a layer with the side s₀ ≤ i+j, and
+//!    take a sphere on that side, and the one m steps straight along α below it. No β and no γ line within the run lies
+//!    above the latter, and along α it receives f + m − 1, where f ≥ 0 is what the former passes on along α, itself
+//!    included. If the sign changes there, it passes on 1 − (f + m − 1)/3 along α: negative if f + m > 4, hence for all
+//!    m ≥ 5. (Proved for all f and m: theorem `edge` of [`theorem`](crate::theorem). Of − runs the mirror image.) This
+//!    holds under any top.
 //! 2. *The rest is a finite search*, in exact arithmetic: of runs of at most four steps no fourth change of sign
 //!    stands ([`under_one_sphere`] carries it out).
 //! 3. *A last run of any length stands* if its first step does, since within a run lines only grow.
@@ -27,6 +28,8 @@
 //! way round. So every stacking is carried as high as it goes, and looked at there ([`on_base`]); nothing is pruned.
 
 use alloc::vec::Vec;
+
+use num_bigint::BigUint;
 
 use crate::lattice::Region;
 use crate::stacking::{Run, Sign, Stacking};
@@ -58,8 +61,8 @@ impl Entry {
 /// The stackings of `layers` layers under one sphere that stand, one of each mirror pair (the one that begins with +);
 /// with `failing`, also the shortest beginnings that fail. In order of their runs.
 ///
-/// Of those that stand there are at most eleven (module documentation); what fails first grows like 8L, and
-/// so does the time for its long runs.
+/// Of those that stand there are at most eleven (module documentation); with what fails there are 11(L − 5) + 6 for six
+/// layers or more, and the time for all of them grows like L³.
 ///
 /// # Errors
 /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooLarge`] for failing beginnings of thousands of layers.
@@ -89,7 +92,10 @@ pub fn under_one_sphere(
     Ok(Search {
         steps,
         failing,
-        waiting: alloc::vec![Beginning::default()],
+        waiting: alloc::vec![Waiting {
+            beginning: Beginning::default(),
+            next: None,
+        }],
     })
 }
 
@@ -120,29 +126,36 @@ impl Beginning {
 struct Search {
     steps: i128,
     failing: bool,
-    waiting: Vec<Beginning>,
+    waiting: Vec<Waiting>,
+}
+
+/// A beginning itself, or the beginnings that follow it with one run more, from the next length on.
+struct Waiting {
+    beginning: Beginning,
+    next: Option<i128>,
 }
 
 impl Search {
     /// The entry of a beginning: itself carried to all layers, if its last change of sign stands, with the longer
     /// beginnings put in line; or its failure.
-    fn visit(&mut self, beginning: &Beginning) -> Result<Option<Entry>, Error> {
-        let done: i128 = beginning.0.iter().sum();
+    fn visit(&mut self, beginning: Beginning) -> Result<Option<Entry>, Error> {
         if !beginning.0.is_empty() {
             let first_step = Entry::new(beginning.pile(1)?)?;
             if !first_step.stands() {
                 return Ok(Some(first_step).filter(|_| self.failing));
             }
         }
-        let left = self.steps - done;
-        let longest = if self.failing {
-            left - 1
-        } else {
-            (left - 1).min(LONGEST_RUN)
-        };
-        self.waiting
-            .extend((1..=longest).rev().map(|run| beginning.followed_by(run)));
-        Entry::new(beginning.pile(left)?).map(Some)
+        let entry = Entry::new(beginning.pile(self.left(&beginning))?)?;
+        self.waiting.push(Waiting {
+            beginning,
+            next: Some(1),
+        });
+        Ok(Some(entry))
+    }
+
+    /// The steps after a beginning.
+    fn left(&self, beginning: &Beginning) -> i128 {
+        self.steps - beginning.0.iter().sum::<i128>()
     }
 }
 
@@ -151,8 +164,26 @@ impl Iterator for Search {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let beginning = self.waiting.pop()?;
-            if let Some(entry) = self.visit(&beginning).transpose() {
+            let Waiting { beginning, next } = self.waiting.pop()?;
+            let visited = match next {
+                None => beginning,
+                Some(run) => {
+                    let left = self.left(&beginning) - 1;
+                    let longest = if self.failing {
+                        left
+                    } else {
+                        left.min(LONGEST_RUN)
+                    };
+                    if run > longest {
+                        continue;
+                    }
+                    let longer = beginning.followed_by(run);
+                    let next = Some(run + 1);
+                    self.waiting.push(Waiting { beginning, next });
+                    longer
+                }
+            };
+            if let Some(entry) = self.visit(visited).transpose() {
                 return Some(entry);
             }
         }
@@ -164,39 +195,56 @@ impl Iterator for Search {
 ///
 /// As many as 2^(L−2) for a base that carries L layers, made one by one.
 ///
+/// # Errors
+/// [`Error::TooManyRows`] for a base that is sure to have more than 2³⁶ stackings.
+///
 /// # Examples
 /// ```
 /// use cannonpile::census;
 /// use cannonpile::lattice::Region;
 ///
-/// let mut entries = census::on_base(Region::triangle(4)?);
+/// let mut entries = census::on_base(Region::triangle(4)?)?;
 /// let straight = entries.next().unwrap()?;
 /// assert_eq!((straight.pile.layers(), straight.stands()), (4, true));
+/// assert!(census::on_base(Region::hexagon(50, 50)?).is_err());
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub fn on_base(base: Region) -> impl Iterator<Item = Result<Entry, Error>> {
+pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
+    /// Bits of the most stackings.
+    const MOST: u32 = 36;
+    // While t steps of either sign leave a site, t steps can be taken in any order.
+    let free = (1..=MOST + 2).take_while(|t| base.shrunk((*t).into(), (*t).into()).is_some());
+    let free = free.last().unwrap_or(0);
+    if free > MOST {
+        return Err(Error::TooManyRows {
+            rows: BigUint::from(1_u32) << free,
+            limit: 1 << MOST,
+            remedy: "ask for a smaller base",
+        });
+    }
     let one_of_two = base.is_its_own_mirror_image();
-    let mut waiting: Vec<(Vec<Sign>, Region)> = alloc::vec![(Vec::new(), base)];
-    core::iter::from_fn(move || {
+    // The steps up to a layer, from the base, and the layers still to be visited, each with the last step to it.
+    let mut signs: Vec<Sign> = Vec::new();
+    let mut waiting: Vec<(usize, Option<Sign>, Region)> = alloc::vec![(0, None, base)];
+    Ok(core::iter::from_fn(move || {
         loop {
-            let (signs, top) = waiting.pop()?;
+            let (height, last, top) = waiting.pop()?;
+            signs.truncate(height.saturating_sub(1));
+            signs.extend(last);
             let mut higher = false;
             for sign in [Sign::Minus, Sign::Plus] {
                 let Some(above) = top.eroded(sign) else {
                     continue;
                 };
                 higher = true;
-                if signs.is_empty() && one_of_two && sign == Sign::Minus {
-                    continue;
+                if height > 0 || !one_of_two || sign == Sign::Plus {
+                    waiting.push((height + 1, Some(sign), above));
                 }
-                let mut signs = signs.clone();
-                signs.push(sign);
-                waiting.push((signs, above));
             }
             if !higher {
-                let from_top = Stacking::from_signs(signs.into_iter().rev());
+                let from_top = Stacking::from_signs(signs.iter().rev().copied());
                 return Some(from_top.and_then(|stacking| Entry::new(Pile::on(base, stacking)?)));
             }
         }
-    })
+    }))
 }

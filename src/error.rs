@@ -23,7 +23,7 @@ use crate::lattice::{Dimension, Direction, Region, Site};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The number of layers is not between 1 and [`MAX_LAYERS`].
+    /// The number of layers is not between 1 and [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
     Layers {
         /// The number asked for.
         given: BigInt,

@@ -1,5 +1,6 @@
 //! How a question is answered, and how much it takes: decided before anything is computed.
 
+use alloc::vec::Vec;
 use core::fmt;
 
 use num_bigint::{BigInt, BigUint};
@@ -8,6 +9,7 @@ use num_traits::{Signed, Zero};
 
 use crate::lattice::{Direction, Selection, Site};
 use crate::lines::Lines;
+use crate::query::CHUNK;
 use crate::sweep::{Grid, Size};
 use crate::{Error, Pile};
 
@@ -91,7 +93,8 @@ impl Pile {
     /// memory. Of a straight stacking everything is closed.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] or [`Error::LayerOutside`].
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer neither fits in memory nor has few
+    /// enough spheres at the changes of sign above it.
     pub fn plan(&self, selection: Selection) -> Result<Plan, Error> {
         let rows = self.rows(selection)?;
         let last = rows.one().map_or(rows.layers().end - 1, |site| site.k);
@@ -107,8 +110,19 @@ impl Pile {
         if self.shape().stacking().is_straight() {
             return Ok(by_lines(Method::Closed));
         }
+        if rows.one().is_some() {
+            return Ok(by_lines(Method::Tree));
+        }
         let size = self.size_of_sweep(last);
-        if rows.one().is_some() || Grid::new(self.shape(), last, size.planes).is_err() {
+        if Grid::new(self.shape(), last, size.planes).is_err() {
+            // The lines of the middle lead highest: if its tree is not too large, no piece of a row has one that is.
+            let region = self.shape().layer(last)?;
+            let j = region.y().start().midpoint(*region.y().end());
+            let row = region.row(j);
+            let middle = row.start.midpoint(row.end - 1);
+            let piece = middle - CHUNK / 2..middle + CHUNK / 2;
+            let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
+            Lines::<BigRational>::new(self).check_tree(last, &sites)?;
             return Ok(by_lines(Method::Tree));
         }
         Ok(Plan {

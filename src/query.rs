@@ -14,7 +14,7 @@ pub use floor::FloorForce;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-pub(crate) use source::COST_OF_A_TREE;
+pub(crate) use source::{CHUNK, COST_OF_A_TREE};
 
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
@@ -24,11 +24,14 @@ use crate::scalar::{Algebra, Ring};
 use crate::stacking::Sign;
 use crate::{Error, Pile};
 
-/// The forces of a pile in the scalar `T`, each by closed form: O(1), whatever the number of layers.
+/// The forces of a pile in the scalar `T`: of a straight stacking each by closed form, O(1), whatever the number of
+/// layers; of any other from the lines above a sphere, or for many spheres in a sweep ([`Pile::plan`]).
 ///
-/// Exact scalars give exact answers. Of rounded ones, contact forces and normal forces are a few units in the
-/// last place off; shear, resultants and positions are differences, and a few units of the greatest term off,
-/// max(N)·f₀, which is all there is where they cancel. A number that the scalar cannot hold is [`Error::Overflow`], never a wrong value.
+/// Exact scalars give exact answers. Of rounded ones, contact forces and normal forces of a straight stacking are a few
+/// units in the last place off; shear, resultants and positions are differences, and a few units of the greatest term
+/// off, max(N)·f₀, which is all there is where they cancel. A change of sign subtracts too, and amplifies nothing: after
+/// d changes a force is off by some 16·(layers + loads) roundings of the greatest force on its way. A number that the
+/// scalar cannot hold is [`Error::Overflow`], never a wrong value.
 ///
 /// Inside, formulas run on the scalar's [numerators](Algebra::Numerator): for rationals on integers over a
 /// denominator known beforehand, reduced once at the end.

@@ -28,7 +28,8 @@ pub struct BaseExtremes {
     /// The greatest normal force, in mg.
     pub normal_max: BigRational,
     /// The greatest ratio of shear to normal force, in tanθ: necessary for a base that does not slide; a base that may
-    /// roll needs more (THEORY, erratum 4). Of bottom spheres that feel nothing there is no ratio.
+    /// roll needs more (THEORY, erratum 4). Of bottom spheres without a normal force there is none, and of those that
+    /// would be pulled it is that of the magnitudes: both occur only in piles without weight, or that do not stand.
     pub max_shear_ratio: Surd,
 }
 
@@ -40,7 +41,8 @@ impl Pile {
     /// spheres of each row. Otherwise every bottom sphere is looked at.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would have to be looked at.
+    /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would have to be looked at, or one of them depends on too many
+    /// spheres at changes of sign.
     pub fn base_extremes(&self) -> Result<BaseExtremes, Error> {
         let statics = self.statics::<BigRational>();
         // The squared length of the unit of shear along y, 4cos²φ.

@@ -8,6 +8,7 @@
 //! Within a run a line only grows, since no weight is negative. So the least force is where a line begins: at a
 //! surface, or at a change of sign; and only the layers where the sign changes need a look.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -16,7 +17,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::geometry::Apart;
-use crate::lattice::{Direction, Shape, Site};
+use crate::lattice::{Direction, Selection, Shape, Site};
 use crate::lines::{Lines, Wanted};
 use crate::query::COST_OF_A_TREE;
 use crate::sweep::{Grid, MAX_NUMBERS, Planes, Sweep};
@@ -71,7 +72,8 @@ impl Verdict {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Standing {
-    /// The contact with the least force, the first of them in the order of tables; none of a single layer.
+    /// The contact with the least force, the first of them in the order of tables; none of a single layer, and none where
+    /// a pile fails near the top and more than 10⁹ numbers would have to be looked at below.
     pub least: Option<ContactForce<BigRational>>,
     /// The first layer with a sphere that would have to pull at one below it: down to there, and no further, the
     /// stacking stands.
@@ -116,8 +118,61 @@ impl Pile {
     /// of each row between which the forces are linear.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if a sign changes at a layer of more than 10⁷ rows.
+    /// [`Error::TooLarge`] if what stands above a change of sign does not fit in memory, or the forces there depend on too
+    /// many spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-++".parse()?)?;
+    /// assert_eq!(pile.standing()?.least.unwrap().force.to_string(), "4/9");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn standing(&self) -> Result<Standing, Error> {
+        const MOST_WORK: u64 = 1_000_000_000;
+        let changes = self.changes();
+        let sites = changes.iter().filter_map(|k| self.shape().layer(*k).ok());
+        let sites = sites.map(|region| region.sites()).sum::<BigUint>();
+        let planes = self.size_of_sweep(self.layers() - 1).planes;
+        let whole = sites * planes * 3_u32 <= BigUint::from(MOST_WORK);
+        let mut standing = self.standing_until(!whole)?;
+        if !whole && standing.first_failure.is_some() {
+            standing.least = None;
+        }
+        Ok(standing)
+    }
+
+    /// The first layer with a sphere that would have to pull at one below it: down to there, and no further, the stacking
+    /// stands. What lies below is not looked at.
+    ///
+    /// # Errors
+    /// As for [`standing`](Self::standing).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let pile = Pile::under(Region::SITE, Stacking::hcp(1_000_000)?)?;
+    /// assert_eq!(pile.first_failure()?, Some(4));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn first_failure(&self) -> Result<Option<i128>, Error> {
+        Ok(self.standing_until(true)?.first_failure)
+    }
+
+    /// The layers at which the sign changes.
+    fn changes(&self) -> Vec<i128> {
+        let shape = self.shape();
+        let runs = (1..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+        runs.map(|run| run.from).collect()
+    }
+
+    /// The least contact, of all or down to the first failure.
+    fn standing_until(&self, failure: bool) -> Result<Standing, Error> {
         let mut standing = Standing {
             least: None,
             first_failure: None,
@@ -125,8 +180,20 @@ impl Pile {
         for contact in self.at_surfaces() {
             standing.meet(contact);
         }
-        for contact in self.at_changes()? {
-            standing.meet(contact);
+        let changes = self.changes();
+        let mut looked_at = 0;
+        while looked_at < changes.len() && !(failure && standing.first_failure.is_some()) {
+            // Twice as far each time, so that a failure near the top is found there, and all is not much dearer.
+            let next = if failure {
+                2 * looked_at + 4
+            } else {
+                changes.len()
+            };
+            let next = next.min(changes.len());
+            for contact in self.at_changes(&changes[looked_at..next])? {
+                standing.meet(contact);
+            }
+            looked_at = next;
         }
         Ok(standing)
     }
@@ -135,38 +202,44 @@ impl Pile {
     fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
         let (shape, loading) = (self.shape(), self.loading());
         let floor = shape.layers() - 1;
-        let contact = |site, direction: Direction| {
-            let increments = self.increments::<BigRational>();
-            ContactForce {
-                site,
-                direction,
-                force: loading.total(site) * &increments.per_line()[direction.index()],
-            }
+        let increments = self.increments::<BigRational>();
+        let contact = |site, direction: Direction| ContactForce {
+            site,
+            direction,
+            force: loading.total(site) * &increments.per_line()[direction.index()],
         };
-        let special: Vec<Site> = loading.extras().map(|(site, _)| site).collect();
-        // The least increment of an ordinary sphere: each direction where it first begins. No line begins in the
-        // inside, so the first row of the first layers is enough, unless all of it is special.
+        let special: BTreeSet<Site> = loading.extras().map(|(site, _)| site).collect();
         let directions = self.dimension().directions();
-        let mut ordinary = Vec::new();
+        // All lines of the top begin there, and some in the first row of every layer inside a run.
+        let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
+        let inside = runs.flat_map(|run| run.from + 1..run.to);
+        let layers = || {
+            core::iter::once(0)
+                .chain(inside.clone())
+                .take_while(|k| *k < floor)
+        };
+        let mut least = Vec::new();
         for direction in directions {
-            let rows = shape.sites().take_while(|site| site.k < floor);
-            let mut fresh = rows.filter(|site| begins(shape, *site, *direction));
+            let sites = layers()
+                .filter_map(|k| shape.rows(Selection::Layer(k)).ok())
+                .flatten();
+            let mut fresh = sites
+                .flatten()
+                .filter(|site| begins(shape, *site, *direction));
             if let Some(site) = fresh.find(|site| !special.contains(site)) {
-                ordinary.push(contact(site, *direction));
+                least.push(contact(site, *direction));
             }
         }
         let special = special.into_iter().filter(|site| site.k < floor);
         let special = special.flat_map(|site| directions.iter().map(move |d| (site, *d)));
         let special = special.filter(|(site, direction)| begins(shape, *site, *direction));
-        ordinary.extend(special.map(|(site, direction)| contact(site, direction)));
-        ordinary
+        least.extend(special.map(|(site, direction)| contact(site, direction)));
+        least
     }
 
-    /// The least force below each layer where the sign changes.
-    fn at_changes(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
+    /// The least force below each of these layers, at which the sign changes.
+    fn at_changes(&self, layers: &[i128]) -> Result<Vec<ContactForce<BigRational>>, Error> {
         let shape = self.shape();
-        let runs = (1..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
-        let layers: Vec<i128> = runs.map(|run| run.from).collect();
         let Some(last) = layers.last() else {
             return Ok(Vec::new());
         };
@@ -175,32 +248,27 @@ impl Pile {
             .iter()
             .map(|k| lines.most_ends_of_pieces(*k))
             .sum::<BigUint>();
-        let sites = layers
-            .iter()
-            .filter_map(|k| shape.layer(*k).ok())
-            .map(|region| region.sites());
+        let sites = layers.iter().filter_map(|k| shape.layer(*k).ok());
+        let sites = sites.map(|region| region.sites()).sum::<BigUint>();
         // One layer more, so that the last change is behind.
         let size = self.size_of_sweep(last + 1);
         let grid = Grid::new(shape, last + 1, size.planes);
-        if ends.clone() * COST_OF_A_TREE < sites.sum::<BigUint>() || grid.is_err() {
+        if ends.clone() * COST_OF_A_TREE < sites || grid.is_err() {
             if ends > BigUint::from(MAX_NUMBERS) {
                 return Err(Error::TooLarge {
-                    quantity: "whether it stands",
+                    quantity: "the verdict on this pile",
                     needed: ends,
                     limit: MAX_NUMBERS,
                     remedy: "let the sign change nearer to the top",
                 });
             }
-            return layers
-                .into_iter()
-                .map(|k| least_at_ends(&lines, k))
-                .collect();
+            return layers.iter().map(|k| least_at_ends(&lines, *k)).collect();
         }
         let grid = grid?;
         let layer = Planes::new(&grid, size);
         let mut sweep = Sweep::new(lines, grid, layer);
-        let least = layers.into_iter().filter_map(|k| {
-            sweep.advance(k);
+        let least = layers.iter().filter_map(|k| {
+            sweep.advance(*k);
             sweep.least_passed_on()
         });
         Ok(least.collect())

@@ -186,7 +186,7 @@ impl Error {
                 remedy,
             } => write!(
                 f,
-                "{quantity} would keep {needed} numbers, at most {limit}: {remedy}"
+                "{quantity} would take {needed} numbers, more than {limit}: {remedy}"
             ),
             // Every variant has its text in one of the three.
             _ => write!(f, "{self:?}"),

@@ -97,7 +97,11 @@ impl<'p> Summary<'p> {
         let ratio_unit = if tan.is_none() { "tanθ" } else { "" };
         let least = self.standing.least.as_ref();
         let least = least.map(|contact| self.least(contact)).transpose()?;
-        let plan = pile.plan(Selection::Base)?.method.to_string();
+        let plan = match pile.plan(Selection::Base) {
+            // Its base cannot be answered whole.
+            Err(Error::TooLarge { .. }) => Cell::Missing,
+            plan => Cell::Word(plan?.method.to_string().into()),
+        };
         let entries = [
             (Column::plain("layers"), pile.layers().into()),
             (Column::plain("stacking"), Cell::Word(stacking(pile).into())),
@@ -142,7 +146,7 @@ impl<'p> Summary<'p> {
                 Column::plain("touching"),
                 self.touching.as_deref().map_or(Cell::Missing, describe),
             ),
-            (Column::plain("plan"), Cell::Word(plan.into())),
+            (Column::plain("plan"), plan),
         ];
         let (columns, row): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
         Ok(Table {

@@ -286,7 +286,7 @@ impl Region {
     }
 
     /// The layer this many + and − steps further up; `None` if no site is left.
-    pub(super) fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
+    pub(crate) fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
         self.grown(-plus, -minus).tightened()
     }
 

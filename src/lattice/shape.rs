@@ -300,7 +300,7 @@ impl Shape {
     /// The site itself, if the pile has it.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`].
+    /// [`Error::SiteOutside`]; [`Error::LayerOutside`] if a pile of another shape than the paper's has no such layer.
     ///
     /// # Examples
     /// ```
@@ -315,6 +315,10 @@ impl Shape {
     pub fn check(&self, site: Site) -> Result<Site, Error> {
         if self.contains(site) {
             return Ok(site);
+        }
+        if !self.is_pyramid() {
+            // A layer that is there has other sites.
+            self.layer(site.k)?;
         }
         Err(Error::SiteOutside {
             site,

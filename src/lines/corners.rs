@@ -3,8 +3,10 @@
 //! Along a row the count of spheres on a line rises, is level, and falls, and so the forces are linear between few
 //! places, but where a line comes from a change of sign, or a sphere weighs more. A function that is linear in the
 //! three forces takes its extremes over the row at the ends of those pieces, and so does, as far as its maximum goes, the
-//! ratio of the length of a linear function to a positive linear one. A layer has as many rows as a side has spheres: far
-//! fewer places than spheres.
+//! ratio of the length of a linear function to a positive linear one: that ratio is quasiconvex. (The normal force is
+//! positive between the ends: every sphere that a change of sign or an extra weight reaches is an end itself, and the
+//! others count ordinary weights only; where those are zero there is no force at all.) A layer has as many rows as a
+//! side has spheres: far fewer places than spheres.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -38,7 +40,7 @@ impl<T: Algebra> Lines<'_, T> {
         k: i128,
     ) -> impl Iterator<Item = (i128, Vec<[i128; 2]>)> + use<'_, T> {
         let run = self.shape.stretch_to(k);
-        let special = run.map_or_else(BTreeMap::new, |run| self.ends_of_extras(k, run));
+        let special = self.ends_of_extras(k, run);
         let region = self.shape.layer(k).ok();
         region
             .into_iter()
@@ -54,7 +56,7 @@ impl<T: Algebra> Lines<'_, T> {
                         );
                         ends.extend([level.0, level.1]);
                         if let (Some(from), Some(until)) = (count.rises, count.falls) {
-                            let top = from.midpoint(until);
+                            let top = (from + until).div_euclid(2);
                             ends.extend([top, top + 1]);
                         }
                         if run.index > 0 && count.cap == steps {
@@ -70,14 +72,21 @@ impl<T: Algebra> Lines<'_, T> {
             })
     }
 
-    /// Where the lines of spheres that weigh more, within the run down to layer `k`, meet it, and the places beside, by
-    /// row.
-    fn ends_of_extras(&self, k: i128, run: Stretch) -> BTreeMap<i128, Vec<i128>> {
+    /// The spheres of layer `k` that weigh more, and those on whose lines, within the run down to there, such spheres
+    /// lie, with the places beside them, by row.
+    fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> BTreeMap<i128, Vec<i128>> {
         let mut rows: BTreeMap<i128, Vec<i128>> = BTreeMap::new();
-        for site in self.extras_in(run.from..k) {
-            for direction in Direction::ALL {
-                let [i, j] = start_of([site.i, site.j], direction, run.sign, site.k - k);
-                rows.entry(j).or_default().extend([i - 1, i, i + 1]);
+        let mut meet = |[i, j]: [i128; 2]| {
+            rows.entry(j).or_default().extend([i - 1, i, i + 1]);
+        };
+        for site in self.extras_in(k..k + 1) {
+            meet([site.i, site.j]);
+        }
+        if let Some(run) = run {
+            for site in self.extras_in(run.from..k) {
+                for direction in Direction::ALL {
+                    meet(start_of([site.i, site.j], direction, run.sign, site.k - k));
+                }
             }
         }
         rows

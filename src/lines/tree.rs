@@ -115,6 +115,11 @@ impl<T: Algebra> Lines<'_, T> {
         Ok(Above { forces, changes })
     }
 
+    /// That the forces above these spheres do not depend on too many.
+    pub(crate) fn check_tree(&self, k: i128, sites: &[[i128; 2]]) -> Result<(), Error> {
+        self.levels(k, sites, Wanted::All).map(|_| ())
+    }
+
     /// How many spheres at changes of sign the force of a contact depends on.
     pub(crate) fn nodes(&self, site: Site, direction: Direction) -> Result<usize, Error> {
         let wanted = Wanted::for_contact(self.shape, site, direction);

@@ -144,7 +144,8 @@ fn run(command: &Command) -> Result<bool, Failure> {
             let table = match base {
                 None => tables::census(census::under_one_sphere(*layers, !standing)?),
                 Some(base) => {
-                    let entries = census::on_base(*base);
+                    let entries =
+                        census::on_base(*base).map_err(|error| Refused::of("base", error))?;
                     let wanted = |entry: &Result<Entry, Error>| {
                         !standing || entry.as_ref().map_or(true, Entry::stands)
                     };
@@ -163,8 +164,8 @@ fn warn_if_it_falls(pile: &Pile) {
     if pile.is_weightless() {
         return;
     }
-    let told = match pile.standing() {
-        Ok(standing) => standing.first_failure.map(|layer| {
+    let told = match pile.first_failure() {
+        Ok(failure) => failure.map(|layer| {
             format!(
                 "note: this pile does not stand without further contacts: below layer {layer} spheres would have to \
                  pull; its forces are the only balance there is"
@@ -241,6 +242,7 @@ fn option_of(error: &Error) -> String {
         | Error::TooManyRows { .. }
         | Error::TooHigh { .. }
         | Error::RegionTooLarge { .. }
+        | Error::TooLarge { .. }
         | Error::LayersOfStacking { .. } => "--layers: ".into(),
         Error::TooManyRuns { .. } => "--stacking: ".into(),
         Error::NegativeLoad { .. } => "--load: ".into(),

@@ -170,7 +170,7 @@ impl SceneOptions {
         scene.check_sizes()?;
         let pile = scene.pile().map_err(|error| match error {
             // The only sites of a scene.
-            Error::SiteOutside { .. } => Refused::of("load", error),
+            Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
             error => error.into(),
         })?;
         Ok((scene, pile))
@@ -185,7 +185,7 @@ pub(crate) struct Refused {
 }
 
 impl Refused {
-    fn of(option: &'static str, error: Error) -> Self {
+    pub(crate) fn of(option: &'static str, error: Error) -> Self {
         Self {
             option: Some(option),
             error,
@@ -212,7 +212,7 @@ pub(crate) struct BaseAt {
 }
 
 impl BaseAt {
-    pub(crate) fn on_base(&self, pile: &Pile) -> Result<Selection, Error> {
+    pub(crate) fn on_base(&self, pile: &Pile) -> Result<Selection, Refused> {
         Ok(one(self.at.as_deref(), pile)?.unwrap_or(Selection::Base))
     }
 }
@@ -235,15 +235,17 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Error> {
+    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Refused> {
         let whole = self.layer.map_or(Selection::All, Selection::Layer);
         Ok(one(self.at.as_deref(), pile)?.unwrap_or(whole))
     }
 }
 
-fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Selection>, Error> {
+fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Selection>, Refused> {
     let Some(text) = at else { return Ok(None) };
-    let site = parse::at(text, pile.dimension())?.site(pile.layers());
+    let at = parse::at(text, pile.dimension()).map_err(|error| Refused::of("at", error))?;
+    let site = pile.shape().check(at.site(pile.layers()));
+    let site = site.map_err(|error| Refused::of("at", error))?;
     Ok(Some(Selection::One(site)))
 }
 

@@ -16,7 +16,7 @@ use crate::scalar::{Algebra, Exactness};
 use crate::sweep::{Cells, Grid, Planes, Sweep};
 
 /// How many spheres of a row share one tree.
-const CHUNK: i128 = 1024;
+pub(crate) const CHUNK: i128 = 1024;
 
 /// The forces of the spheres of some rows.
 pub(super) enum Source<'p, T: Algebra> {

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use cannonpile::Error;
 use cannonpile::census::{self, Entry};
+use cannonpile::lattice::Region;
 
 use crate::brute::Front;
 use crate::cases::{Bounds, Case, Random, all_on};
@@ -146,7 +148,10 @@ fn on_base_is_the_oracle(base: &Bounds) {
     };
     let kept = |signs: &&String| !(one_of_two && signs.ends_with('-'));
     let expected: BTreeSet<&String> = all.iter().filter(highest).filter(kept).collect();
-    let entries: Vec<Entry> = census::on_base(base.region()).map(Result::unwrap).collect();
+    let entries: Vec<Entry> = census::on_base(base.region())
+        .unwrap()
+        .map(Result::unwrap)
+        .collect();
     let found: BTreeSet<String> = entries.iter().map(signs).collect();
     assert_eq!(found.len(), entries.len(), "each once");
     assert!(found.iter().eq(expected), "{base:?}");
@@ -184,5 +189,22 @@ fn on_parallelograms_and_random_bases() {
     let mut random = Random(91);
     for _ in 0..40 {
         on_base_is_the_oracle(&random.bounds(6));
+    }
+}
+
+/// Nothing is kept of the beginnings to come, nor of the stackings of a base.
+#[test]
+fn a_census_of_any_size_begins_at_once() {
+    let all = census::under_one_sphere(10_i128.pow(36), true).unwrap();
+    let first: Vec<Entry> = all.take(20).map(Result::unwrap).collect();
+    assert!(first[0].stands() && first[1].stands() && !first[19].stands());
+    let mut wide = census::on_base(Region::new(0..=30_000, 0..=20, 0..=30_020).unwrap()).unwrap();
+    assert_eq!(wide.next().unwrap().unwrap().pile.layers(), 21);
+    for side in [40, 1_000_000] {
+        let refused = census::on_base(Region::hexagon(side, side).unwrap());
+        assert!(
+            matches!(refused.err(), Some(Error::TooManyRows { .. })),
+            "{side}"
+        );
     }
 }

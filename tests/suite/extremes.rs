@@ -1,6 +1,7 @@
 //! Extremes over a base, and the least contact, found among few spheres, are those of all.
 
 use cannonpile::lattice::{Region, Selection, Site};
+use cannonpile::stacking::Stacking;
 use cannonpile::{BaseExtremes, ContactForce, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -35,6 +36,32 @@ fn piles() -> Vec<Pile> {
         .nth(9999)
         .unwrap();
     piles.push(pile.with_load(below, ratio(5000, 7)).unwrap());
+    // On the floor itself, and on a layer where the sign changes: on no line of the run above.
+    let pile = Pile::triangular(480).unwrap();
+    let on_floor = Site {
+        i: 150,
+        j: 201,
+        k: 479,
+    };
+    piles.push(pile.with_load(on_floor, ratio(1000, 1)).unwrap());
+    let pile = Pile::under(tops[0], "(470,2)".parse().unwrap()).unwrap();
+    let worst = pile.standing().unwrap().least.unwrap().site;
+    let inside = Site {
+        i: 100,
+        j: 200,
+        ..worst
+    };
+    let lighter = pile.clone().with_weight(worst, ratio(0, 1)).unwrap();
+    piles.extend([lighter, pile.with_weight(inside, ratio(0, 1)).unwrap()]);
+    let layer = Pile::under(Region::hexagon(300, 300).unwrap(), Stacking::single_layer());
+    let pile = layer
+        .unwrap()
+        .with_load(Site { i: -20, j: 7, k: 0 }, ratio(5, 1));
+    piles.push(
+        pile.unwrap()
+            .with_weight(Site { i: 9, j: 9, k: 0 }, ratio(1, 5))
+            .unwrap(),
+    );
     let base = Region::hexagon(240, 300).unwrap();
     piles.push(Pile::on(base, "(20,3,200)".parse().unwrap()).unwrap());
     piles
@@ -84,7 +111,7 @@ fn of_contacts() {
         let layers = changes
             .take(pile.shape().stacking().changes())
             .chain([0, 1]);
-        let mut layers: Vec<i128> = layers.collect();
+        let mut layers: Vec<i128> = layers.filter(|k| *k < pile.layers()).collect();
         layers.sort_unstable();
         let mut least: Option<ContactForce<BigRational>> = None;
         let mut first_failure = None;

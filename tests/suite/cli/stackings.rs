@@ -158,8 +158,29 @@ fn refusals_name_the_option() {
         ("base --stacking hcp --layers 10000000", "--stacking"),
         ("census --base triangle:3 --layers 5", "--base"),
         ("census --layers 0", "--layers"),
+        ("census --base hexagon:40", "--base"),
+        (
+            "contacts --stacking hcp --at=99,0,0",
+            "--at: no layer 99: the layers run from 0",
+        ),
     ] {
         let line = refusal(arguments);
         assert!(line.contains(told), "{arguments}: {line}");
     }
+}
+
+/// Where all forces are too much, what is known is still told: the stacking fails near the top.
+#[test]
+fn a_verdict_on_what_is_too_large() {
+    let (row, code) = summary(
+        "--stacking hcp --layers 3000 --load 0,0,0=1",
+        &["stands", "min_contact", "normal_max", "plan"],
+    );
+    assert_eq!(
+        (row, code),
+        (
+            vec!["no".into(), String::new(), String::new(), String::new()],
+            Some(1)
+        )
+    );
 }
