@@ -36,6 +36,15 @@ use crate::stacking::{Run, Sign, Stacking};
 use crate::{Error, Pile, Standing};
 
 /// A stacking, and whether it stands.
+///
+/// # Examples
+/// ```
+/// use cannonpile::census;
+///
+/// let entry = census::under_one_sphere(4, false)?.next().unwrap()?;
+/// assert_eq!(entry.pile.layers(), 4);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Entry {
@@ -52,6 +61,15 @@ impl Entry {
     }
 
     /// Whether it stands.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::census;
+    ///
+    /// let entries: Result<Vec<_>, _> = census::under_one_sphere(6, true)?.collect();
+    /// assert_eq!(entries?.iter().filter(|entry| !entry.stands()).count(), 5);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn stands(&self) -> bool {
         self.standing.first_failure.is_none()

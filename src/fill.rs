@@ -239,12 +239,10 @@ impl<V: Copy> Strengths<V> {
     fn row(&self, k: usize, j: usize, [a, b, c]: [&mut [V]; 3]) {
         let [alpha, beta, gamma] = &self.tables;
         let n = k - j + 1;
-        for (force, value) in a.iter_mut().zip(alpha[..n].iter().rev()) {
-            *force = *value;
-        }
-        // Backwards too: forwards, a short row would be a call that costs more than its loop.
-        for (force, value) in b.iter_mut().rev().zip(beta[..n].iter().rev()) {
-            *force = *value;
+        // In one loop: two of them, or a copy, take half as long again on rows this short.
+        let values = alpha[..n].iter().rev().zip(&beta[..n]);
+        for ((a, b), (down, up)) in a.iter_mut().zip(b).zip(values) {
+            (*a, *b) = (*down, *up);
         }
         for force in c {
             *force = gamma[j];

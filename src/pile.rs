@@ -325,11 +325,29 @@ impl Pile {
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.sphere_weight(Site::APEX)?.to_string(), "1");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn sphere_weight(&self, site: Site) -> Result<BigRational, Error> {
         Ok(self.loading.weight(self.shape.check(site)?))
     }
 
     /// Whether the spheres weigh nothing, so that only the loads act.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert!(Pile::triangular(10)?.weightless().is_weightless());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn is_weightless(&self) -> bool {
         self.loading.is_weightless()

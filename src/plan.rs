@@ -14,6 +14,15 @@ use crate::sweep::{Grid, Size};
 use crate::{Error, Pile};
 
 /// How forces are found.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Selection;
+/// use cannonpile::{Method, Pile};
+///
+/// assert_eq!(Pile::triangular(10)?.plan(Selection::All)?.method, Method::Closed);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
@@ -95,6 +104,17 @@ impl Pile {
     /// # Errors
     /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer neither fits in memory nor has few
     /// enough spheres at the changes of sign above it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Selection};
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let plan = pile.plan(Selection::Base)?;
+    /// assert_eq!((plan.method, plan.planes), (Method::Sweep, 1));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn plan(&self, selection: Selection) -> Result<Plan, Error> {
         let rows = self.rows(selection)?;
         let last = rows.one().map_or(rows.layers().end - 1, |site| site.k);

@@ -43,6 +43,17 @@ impl Pile {
     /// # Errors
     /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would have to be looked at, or one of them depends on too many
     /// spheres at changes of sign.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-".parse()?)?;
+    /// let base = pile.base_extremes()?;
+    /// assert_eq!((base.normal_min.to_string(), base.normal_max.to_string()), ("14/9".into(), "5/3".into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn base_extremes(&self) -> Result<BaseExtremes, Error> {
         let statics = self.statics::<BigRational>();
         // The squared length of the unit of shear along y, 4cos²φ.

@@ -24,6 +24,13 @@ use crate::Error;
 use crate::lattice::{Direction, MAX_LAYERS};
 
 /// The Hägg sign of a step from a layer to the one below.
+///
+/// # Examples
+/// ```
+/// use cannonpile::stacking::Sign;
+///
+/// assert_eq!(-Sign::Plus, Sign::Minus);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Sign {
     /// (i, j) rests on (i, j), (i+1, j), (i, j+1).
@@ -52,6 +59,13 @@ impl Sign {
     }
 
     /// `+` or `-`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// assert_eq!(Sign::Minus.symbol(), '-');
+    /// ```
     #[must_use]
     pub const fn symbol(self) -> char {
         match self {
@@ -73,6 +87,16 @@ impl Neg for Sign {
 }
 
 /// Consecutive steps of one sign.
+///
+/// # Examples
+/// ```
+/// use cannonpile::stacking::{Run, Sign, Stacking};
+///
+/// let stacking: Stacking = "+++-".parse()?;
+/// let first = stacking.runs().next();
+/// assert_eq!(first, Some(Run { sign: Sign::Plus, steps: 3 }));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Run {
     /// Their sign.
@@ -105,6 +129,13 @@ pub struct Stacking {
 
 impl Stacking {
     /// One layer: no step.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!(Stacking::single_layer().layers(), 1);
+    /// ```
     #[must_use]
     pub const fn single_layer() -> Self {
         Self {
@@ -118,6 +149,15 @@ impl Stacking {
     /// # Errors
     /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers, [`Error::TooManyRuns`] beyond
     /// a million runs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::{Run, Sign, Stacking};
+    ///
+    /// let runs = [(Sign::Plus, 2), (Sign::Plus, 1), (Sign::Minus, 5)].map(|(sign, steps)| Run { sign, steps });
+    /// assert_eq!(Stacking::from_runs(runs)?.zhdanov().to_string(), "(3,5)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn from_runs(runs: impl IntoIterator<Item = Run>) -> Result<Self, Error> {
         let mut stacking = Self::single_layer();
         let mut last = None;
@@ -156,6 +196,15 @@ impl Stacking {
     ///
     /// # Errors
     /// As for [`from_runs`](Self::from_runs).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::{Sign, Stacking};
+    ///
+    /// let stacking = Stacking::from_signs([Sign::Minus, Sign::Plus])?;
+    /// assert_eq!(stacking.hagg().to_string(), "-+");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn from_signs(signs: impl IntoIterator<Item = Sign>) -> Result<Self, Error> {
         Self::from_runs(signs.into_iter().map(|sign| Run { sign, steps: 1 }))
     }
@@ -164,6 +213,14 @@ impl Stacking {
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!(Stacking::fcc(4)?.hagg().to_string(), "+++");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn fcc(layers: i128) -> Result<Self, Error> {
         Self::periodic(layers, 0)
     }
@@ -172,6 +229,14 @@ impl Stacking {
     ///
     /// # Errors
     /// [`Error::Layers`], and [`Error::TooManyRuns`] beyond a million changes of sign.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!(Stacking::hcp(4)?.hagg().to_string(), "+-+");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn hcp(layers: i128) -> Result<Self, Error> {
         Self::periodic(layers, 1)
     }
@@ -180,6 +245,14 @@ impl Stacking {
     ///
     /// # Errors
     /// As for [`hcp`](Self::hcp).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!(Stacking::dhcp(4)?.hagg().to_string(), "++-");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn dhcp(layers: i128) -> Result<Self, Error> {
         Self::periodic(layers, 2)
     }
@@ -209,6 +282,14 @@ impl Stacking {
     }
 
     /// The number L of layers, one more than there are steps.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("++-".parse::<Stacking>()?.layers(), 4);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn layers(&self) -> i128 {
         // At most 10³⁶, checked when it was made.
@@ -216,18 +297,43 @@ impl Stacking {
     }
 
     /// The number d of sign changes.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("++-+".parse::<Stacking>()?.changes(), 2);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn changes(&self) -> usize {
         self.lengths.len().saturating_sub(1)
     }
 
     /// Whether no sign changes.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert!("---".parse::<Stacking>()?.is_straight());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn is_straight(&self) -> bool {
         self.changes() == 0
     }
 
     /// The runs, from the top.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let stacking: Stacking = "++-+".parse()?;
+    /// assert!(stacking.runs().map(|run| run.steps).eq([2, 1, 1]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn runs(&self) -> impl DoubleEndedIterator<Item = Run> + ExactSizeIterator + '_ {
         let signs = [self.first, -self.first];
@@ -238,6 +344,17 @@ impl Stacking {
     }
 
     /// The signs, from the top, one a step.
+    ///
+    /// As many as there are steps: of 10¹⁵ layers, ask for [`runs`](Self::runs).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::{Sign, Stacking};
+    ///
+    /// let stacking: Stacking = "+-".parse()?;
+    /// assert!(stacking.signs().eq([Sign::Plus, Sign::Minus]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn signs(&self) -> impl Iterator<Item = Sign> + '_ {
         self.runs()
             .flat_map(|run| (0..run.steps).map(move |_| run.sign))
@@ -275,6 +392,15 @@ impl Stacking {
     }
 
     /// The stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let stacking: Stacking = "++-".parse()?;
+    /// assert_eq!(stacking.mirrored().hagg().to_string(), "--+");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let first = if self.lengths.is_empty() {
@@ -289,6 +415,15 @@ impl Stacking {
     }
 
     /// The same steps read from the other end.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let stacking: Stacking = "++-".parse()?;
+    /// assert_eq!(stacking.reversed().hagg().to_string(), "-++");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn reversed(&self) -> Self {
         let first = self.runs().next_back().map_or(Sign::Plus, |run| run.sign);

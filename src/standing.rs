@@ -24,6 +24,15 @@ use crate::sweep::{Grid, MAX_NUMBERS, Planes, Sweep};
 use crate::{ContactForce, Error, Pile};
 
 /// Whether a pile stands.
+///
+/// # Examples
+/// ```
+/// use cannonpile::{Pile, Verdict};
+///
+/// let standing = Pile::triangular(10)?.standing()?;
+/// assert_eq!(standing.verdict(&[]), Verdict::Yes);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
     /// No contact has to pull.
@@ -43,6 +52,13 @@ impl fmt::Display for Verdict {
 
 impl Verdict {
     /// `yes`, `no`, `undetermined`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Verdict;
+    ///
+    /// assert_eq!(Verdict::Undetermined.name(), "undetermined");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -83,6 +99,18 @@ pub struct Standing {
 impl Standing {
     /// Whether the pile stands, at a spacing at which the spheres `touching` touch beside the contacts α, β, γ: none of
     /// them between the bounds of [`Clearance`](crate::geometry::Clearance).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::{Pile, Verdict};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let touching = [Apart { layers: 2 }];
+    /// assert_eq!(pile.standing()?.verdict(&touching), Verdict::Undetermined);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn verdict(&self, touching: &[Apart]) -> Verdict {
         match (self.first_failure, touching) {

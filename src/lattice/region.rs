@@ -89,6 +89,14 @@ impl Region {
     ///
     /// # Errors
     /// [`Error::RegionSide`] unless both sides are between 1 and 10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::hexagon(3, 2)?.to_string(), "-1..2,-1..2,-1..2");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn hexagon(p: i128, q: i128) -> Result<Self, Error> {
         for side in [p, q] {
             if !(1..=LIMIT).contains(&side) {
@@ -103,29 +111,70 @@ impl Region {
     ///
     /// # Errors
     /// [`Error::RegionSide`] unless 1 ≤ `n` ≤ 10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::triangle(4)?.to_string(), "0..3,0..3,0..3");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn triangle(n: i128) -> Result<Self, Error> {
         Self::hexagon(n, 1)
     }
 
     /// x₀ … x₁.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::hexagon(3, 2)?.x(), -1..=2);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn x(&self) -> RangeInclusive<i128> {
         self.lower[0]..=self.upper[0]
     }
 
     /// y₀ … y₁.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::hexagon(3, 2)?.y(), -1..=2);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn y(&self) -> RangeInclusive<i128> {
         self.lower[1]..=self.upper[1]
     }
 
     /// s₀ … s₁.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::hexagon(3, 2)?.s(), -1..=2);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn s(&self) -> RangeInclusive<i128> {
         self.lower[2]..=self.upper[2]
     }
 
     /// Whether the region has the site (i, j).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert!(Region::hexagon(3, 2)?.contains(2, 0));
+    /// assert!(!Region::hexagon(3, 2)?.contains(2, 1));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     #[inline]
     pub fn contains(&self, i: i128, j: i128) -> bool {
@@ -137,6 +186,16 @@ impl Region {
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] beyond ±10³⁶.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// assert_eq!(Region::SITE.dilated(Sign::Minus)?.to_string(), "-1..0,-1..0,-1..0");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn dilated(&self, sign: Sign) -> Result<Self, Error> {
         self.dilated_by(sign, 1)
     }
@@ -145,6 +204,16 @@ impl Region {
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] beyond ±10³⁶; [`Error::RunLength`] for negative steps.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// assert_eq!(Region::SITE.dilated_by(Sign::Plus, 9)?, Region::triangle(10)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn dilated_by(&self, sign: Sign, steps: i128) -> Result<Self, Error> {
         if steps < 0 {
             return Err(Error::RunLength { given: steps });
@@ -164,6 +233,17 @@ impl Region {
     }
 
     /// The layer above: every site whose three supports are all here; `None` if there is none.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// assert_eq!(Region::triangle(4)?.eroded(Sign::Plus), Some(Region::triangle(3)?));
+    /// assert_eq!(Region::SITE.eroded(Sign::Plus), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn eroded(&self, sign: Sign) -> Option<Self> {
         match sign {
@@ -173,6 +253,14 @@ impl Region {
     }
 
     /// The mirror image (i, j) → (−i, −j).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!(Region::hexagon(3, 2)?.mirrored(), Region::hexagon(2, 3)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn mirrored(&self) -> Self {
         Self {

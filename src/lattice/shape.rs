@@ -170,24 +170,60 @@ impl Shape {
     }
 
     /// The number L of layers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    ///
+    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+    /// assert_eq!(shape.layers(), 3);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn layers(&self) -> i128 {
         self.whole.plus + self.whole.minus + 1
     }
 
     /// Discs or spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Region, Shape};
+    ///
+    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+    /// assert_eq!(shape.dimension(), Dimension::Three);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn dimension(&self) -> Dimension {
         self.dimension
     }
 
     /// How layers follow one another, from the top.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    ///
+    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+    /// assert_eq!(shape.stacking().changes(), 1);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn stacking(&self) -> &Stacking {
         &self.stacking
     }
 
     /// Whether this is a straight pile of + steps under one sphere, or of discs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    ///
+    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+    /// assert!(!shape.is_pyramid());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn is_pyramid(&self) -> bool {
         self.anchor == Anchor::Top(Region::SITE) && self.whole.minus == 0
@@ -199,6 +235,15 @@ impl Shape {
     }
 
     /// Whether the pile was grown up from its base.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    ///
+    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+    /// assert!(shape.is_grown_from_base());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn is_grown_from_base(&self) -> bool {
         matches!(self.anchor, Anchor::Base(_))
@@ -226,6 +271,15 @@ impl Shape {
     }
 
     /// The layer on the floor.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    ///
+    /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
+    /// assert_eq!(shape.base(), Region::hexagon(3, 3)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn base(&self) -> Region {
         match self.anchor {

@@ -58,6 +58,19 @@ impl Wanted {
 }
 
 impl<T: Algebra> Lines<'_, T> {
+    /// The force below a sphere of a straight stacking, whose site the caller has checked: one increment more than the
+    /// spheres above it on the line. `None` if a sign changes.
+    pub(crate) fn closed_contact(&self, site: Site, direction: Direction) -> Option<T::Numerator> {
+        if !self.shape.stacking().is_straight() {
+            return None;
+        }
+        let Site { i, j, k } = site;
+        let run = self.shape.stretch_to(k + 1)?;
+        let above = self.shape.spheres_above(&run, k, [i, j])[direction.index()];
+        let below = start_of([i, j], direction, run.sign, -1);
+        Some(self.counted(run, k + 1, below, direction, above + 1))
+    }
+
     /// The forces from above on a sphere above which no sign changes, whose site the caller has checked; zero on lines
     /// not wanted. `None` below a change.
     pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {

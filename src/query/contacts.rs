@@ -60,6 +60,9 @@ impl<'p, T: Algebra> Statics<'p, T> {
         direction: Direction,
     ) -> Result<(T::Numerator, usize), Error> {
         self.check_contact(site, direction)?;
+        if let Some(force) = self.lines.closed_contact(site, direction) {
+            return Ok((force, 0));
+        }
         let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
         let (above, changes) = self.received(site, wanted)?;
         let (forces, changes) = self.lines.to_below(site, above, changes);

@@ -28,24 +28,62 @@ pub struct Zhdanov<'a>(&'a Stacking);
 
 impl Stacking {
     /// A sign for each step, for display.
+    ///
+    /// As long as the stacking; [`Display`](fmt::Display) of the stacking itself stays short.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("++-+".parse::<Stacking>()?.hagg().to_string(), "++-+");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn hagg(&self) -> Hagg<'_> {
         Hagg(self)
     }
 
     /// A letter for each layer, for display; the top one is A.
+    ///
+    /// As long as the stacking.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("++-+".parse::<Stacking>()?.abc().to_string(), "ABCBC");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn abc(&self) -> Abc<'_> {
         Abc(self)
     }
 
     /// A letter for each inner layer, for display. Does not tell the first sign.
+    ///
+    /// As long as the stacking.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("++-+".parse::<Stacking>()?.jagodzinski().to_string(), "chh");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn jagodzinski(&self) -> Jagodzinski<'_> {
         Jagodzinski(self)
     }
 
     /// The lengths of the runs, for display. Does not tell the first sign.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// assert_eq!("++-+".parse::<Stacking>()?.zhdanov().to_string(), "(2,1,1)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub const fn zhdanov(&self) -> Zhdanov<'_> {
         Zhdanov(self)
