@@ -220,3 +220,46 @@ fn limbs(value: &BigInt, planes: usize) -> Vec<i64> {
     limbs.push(rest.to_i64().unwrap_or(0));
     limbs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::{Dimension, Shape};
+
+    fn two_planes(grid: &Grid<'_>) -> Planes {
+        Planes::new(
+            grid,
+            Size {
+                bits: 100,
+                planes: 2,
+            },
+        )
+    }
+
+    /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^48.
+    #[test]
+    fn loads_that_follow_each_other_do_not_fill_a_limb() {
+        let shape = Shape::pyramid(2, Dimension::Three).unwrap();
+        let grid = Grid::new(&shape, 1, 2).unwrap();
+        let (mut planes, cells) = (two_planes(&grid), grid.site(0, 0, 0));
+        let load = BigInt::from((1_u64 << LIMB) - 1);
+        let loads = 1_u32 << 16;
+        for _ in 0..loads {
+            planes.add_at(cells, &[load.clone(), BigInt::zero(), -load.clone()]);
+        }
+        let sum = load * loads;
+        assert_eq!(planes.at(cells), [sum.clone(), BigInt::zero(), -sum]);
+    }
+
+    #[test]
+    fn limbs_are_digits_of_the_number() {
+        for power in 0..94 {
+            for sign in [1, -1] {
+                let number = (BigInt::from(1) << power) * sign - 1;
+                let limbs = limbs(&number, 2);
+                assert!((0..1 << LIMB).contains(&limbs[0]), "{number}");
+                assert_eq!(value(limbs.iter().rev()), number);
+            }
+        }
+    }
+}

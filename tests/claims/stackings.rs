@@ -88,12 +88,15 @@ fn read(text: &str) -> Option<Runs> {
             push(&mut runs, plus, BigUint::one());
         }
     } else {
-        let inside = text.strip_prefix('(')?.strip_suffix(')')?;
+        // A − before the lengths is the first sign.
+        let minus = text.starts_with('-');
+        let lengths = text.strip_prefix('-').unwrap_or(text);
+        let inside = lengths.strip_prefix('(')?.strip_suffix(')')?;
         let lengths = inside.split(',').filter(|_| !inside.is_empty());
         for (n, length) in lengths.enumerate() {
             let digits = !length.is_empty() && length.bytes().all(|byte| byte.is_ascii_digit());
             let steps: BigUint = digits.then(|| length.parse().ok())??;
-            (!steps.is_zero()).then(|| push(&mut runs, n % 2 == 0, steps))?;
+            (!steps.is_zero()).then(|| push(&mut runs, (n % 2 == 0) != minus, steps))?;
         }
     }
     Some(runs)
