@@ -58,7 +58,8 @@
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
 //! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
 //! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
-//! | [`Plan`], [`Standing`], [`BaseExtremes`] | how a question is answered; whether a pile stands; what its base feels at most |
+//! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
+//! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
 //! | [`Packing`] | the same in SI, exactly |
 //! | [`Strengths`] | all contact forces of a straight pile, written into slices |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
@@ -100,6 +101,7 @@ pub mod geometry;
 pub mod lattice;
 mod lines;
 mod load;
+mod meter;
 mod packing;
 mod pile;
 mod plan;
@@ -117,7 +119,8 @@ pub use error::Error;
 pub use fill::Strengths;
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
-pub use plan::{Method, Plan};
+pub use meter::{Counters, Meter};
+pub use plan::{Method, Plan, Quantity, Question};
 pub use query::{ContactForce, FloorForce, Statics};
 pub use reactions::BaseExtremes;
 pub use standing::{Standing, Verdict};

@@ -12,7 +12,7 @@
 mod corners;
 mod tree;
 
-pub(crate) use tree::Wanted;
+pub(crate) use tree::{Above, MAX_NODES, Wanted};
 
 use alloc::collections::BTreeMap;
 
@@ -24,6 +24,7 @@ use num_traits::{One, Zero, pow};
 use crate::Pile;
 use crate::closed_form::Increments;
 use crate::lattice::{Direction, Shape, Site, Stretch};
+use crate::meter::Meter;
 use crate::scalar::{Algebra, Ring};
 use crate::stacking::Sign;
 use crate::transfer::turn_numerators;
@@ -171,11 +172,13 @@ impl<'p, T: Algebra> Lines<'p, T> {
         site: Site,
         from_above: [T::Numerator; 3],
         changes: usize,
+        meter: impl Meter,
     ) -> ([T::Numerator; 3], usize) {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
             return (from_above, changes);
         };
         let received = if run.index > changes {
+            meter.turn(1);
             turn_numerators::<T>(&from_above)
         } else {
             from_above

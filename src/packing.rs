@@ -1,5 +1,6 @@
 //! A pile with a size and a weight: exact answers in SI.
 
+mod roots;
 mod rows;
 
 pub use rows::PackedContact;
@@ -11,8 +12,11 @@ use num_traits::{One, Signed};
 
 use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
+use crate::meter::Meter;
 use crate::scalar::{Ring, Surd};
-use crate::{Error, FloorForce, Pile, Statics};
+use crate::{Error, FloorForce, Method, Pile, Statics};
+
+use roots::Roots;
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
 ///
@@ -45,16 +49,11 @@ use crate::{Error, FloorForce, Pile, Statics};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Packing<'p> {
-    statics: Statics<'p, BigRational>,
+pub struct Packing<'p, M = ()> {
+    statics: Statics<'p, BigRational, M>,
     inclination: Inclination,
     touching: Vec<Apart>,
-    /// (sinθ, 2cosφ·sinθ, cosθ).
-    lengths: [Surd; 3],
-    /// (tanθ, 2cosφ·tanθ, 1): the symbolic basis over cosθ.
-    forces: [Surd; 3],
-    /// 1/cosθ.
-    secant: Surd,
+    roots: Roots,
     /// W.
     increment_sum: BigRational,
     radius: BigRational,
@@ -83,22 +82,60 @@ impl<'p> Packing<'p> {
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
         let inclination = Inclination::new(spacing, pile.dimension())?;
-        let s = pile.sin_phi();
-        let twice_cos_phi = Surd::sqrt(BigRational::from_i128(4) * (BigRational::one() - s * s))?;
-        let (sin, tan) = (inclination.sin(), inclination.tan());
         let statics = pile.statics::<BigRational>();
         Ok(Self {
             increment_sum: statics.increment_sum()?,
             statics,
             touching,
-            lengths: [sin.clone(), sin * &twice_cos_phi, inclination.cos()],
-            forces: [tan.clone(), tan * &twice_cos_phi, BigRational::one().into()],
-            secant: Surd::sqrt(inclination.cos2().recip())?,
+            roots: Roots::new(&inclination, pile.sin_phi()),
             inclination,
             radius: BigRational::one(),
             mass: BigRational::one(),
             gravity: BigRational::one(),
         })
+    }
+}
+
+impl<'p, M: Meter> Packing<'p, M> {
+    /// The same, telling a meter what every answer takes.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Counters, Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let counters = Counters::default();
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
+    /// assert_eq!(packing.base(pile.rows(Selection::Base)?).count(), 55);
+    /// // Of tan²θ and of 4cos²φ.
+    /// assert_eq!(counters.roots(), 2);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn metered<N: Meter>(self, meter: N) -> Packing<'p, N> {
+        Packing {
+            statics: self.statics.metered(meter),
+            inclination: self.inclination,
+            touching: self.touching,
+            roots: self.roots,
+            increment_sum: self.increment_sum,
+            radius: self.radius,
+            mass: self.mass,
+            gravity: self.gravity,
+        }
+    }
+
+    /// The same by this method, whether it is the cheapest or not: for comparison.
+    ///
+    /// # Errors
+    /// As for [`Statics::by`].
+    pub fn by(self, method: Method) -> Result<Self, Error> {
+        let statics = self.statics.by(method)?;
+        Ok(Self { statics, ..self })
     }
 
     /// The same packing with spheres of this radius.
@@ -321,7 +358,7 @@ impl<'p> Packing<'p> {
     /// ```
     #[must_use]
     pub fn unit_force(&self) -> Surd {
-        self.secant.scaled(&self.weight_per_sum())
+        self.secant().scaled(&self.weight_per_sum())
     }
 
     /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
@@ -414,7 +451,7 @@ impl<'p> Packing<'p> {
         let lean = upwards(self.statics.contact_direction(site, direction)?);
         let half = BigRational::new((-1).into(), 2.into());
         let point = self.centre(site)? + &lean.scaled(&half);
-        Ok(on_basis(&self.lengths, point, &self.diameter()))
+        Ok(on_basis(self.lengths(), point, &self.diameter()))
     }
 
     /// The centre of a sphere.
@@ -438,7 +475,7 @@ impl<'p> Packing<'p> {
     /// ```
     pub fn position(&self, site: Site) -> Result<[Surd; 3], Error> {
         Ok(on_basis(
-            &self.lengths,
+            self.lengths(),
             self.centre(site)?,
             &self.diameter(),
         ))
@@ -475,7 +512,7 @@ impl<'p> Packing<'p> {
             y: force.shear_y,
             z: force.normal,
         };
-        let [shear_x, shear_y, normal] = on_basis(&self.forces, force, &self.sphere_weight());
+        let [shear_x, shear_y, normal] = on_basis(self.forces(), force, &self.sphere_weight());
         FloorForce {
             site,
             normal,
@@ -486,7 +523,7 @@ impl<'p> Packing<'p> {
 
     /// A contact force, from its multiple of f₀.
     fn magnitude(&self, multiple: &BigRational) -> Surd {
-        self.secant.scaled(&(multiple * self.weight_per_sum()))
+        self.secant().scaled(&(multiple * self.weight_per_sum()))
     }
 
     /// A contact force as a vector on the upper sphere, from its multiple of f₀.
@@ -498,7 +535,7 @@ impl<'p> Packing<'p> {
     ) -> Result<[Surd; 3], Error> {
         let along = upwards(self.statics.contact_direction(site, direction)?);
         let unit = multiple * self.weight_per_sum();
-        Ok(on_basis(&self.forces, along, &unit))
+        Ok(on_basis(self.forces(), along, &unit))
     }
 
     /// The centre of a sphere, in 2R and the symbolic basis, z up from the bottom layer.
@@ -536,7 +573,7 @@ fn upwards(v: Vector<BigRational>) -> Vector<BigRational> {
 }
 
 /// The components of a vector in the symbolic basis times a rational unit, as numbers.
-fn on_basis(basis: &[Surd; 3], v: Vector<BigRational>, unit: &BigRational) -> [Surd; 3] {
+fn on_basis(basis: [&Surd; 3], v: Vector<BigRational>, unit: &BigRational) -> [Surd; 3] {
     let [sin, across, cos] = basis;
     [
         sin.scaled(&(v.x * unit)),

@@ -1,16 +1,20 @@
 //! How a question is answered, and how much it takes: decided before anything is computed.
 
-use alloc::vec::Vec;
+mod question;
+mod route;
+
+pub use question::{Quantity, Question};
+pub(crate) use route::{CHUNK, Route, trees_are_cheaper};
+
 use core::fmt;
 
-use num_bigint::{BigInt, BigUint};
+use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
-use crate::lattice::{Direction, Selection, Site};
-use crate::lines::Lines;
-use crate::query::CHUNK;
-use crate::sweep::{Grid, Size};
+use crate::lattice::{Direction, Rows, Site};
+use crate::lines::{Lines, MAX_NODES};
+use crate::sweep::Size;
 use crate::{Error, Pile};
 
 /// How forces are found.
@@ -68,8 +72,14 @@ impl fmt::Display for Method {
 pub struct Plan {
     /// How forces are found.
     pub method: Method,
-    /// The runs of steps above the lowest layer asked for.
+    /// The runs of steps above the lowest layer asked for: a sweep jumps each of them, a tree has a level for each.
     pub runs: usize,
+    /// The spheres whose forces are worked out or looked up, at most.
+    pub visited: BigUint,
+    /// Those of them that forces are turned on, across a change of sign, at most.
+    pub turned: BigUint,
+    /// The runs, or parts of one, that a sweep goes through at once, at most; 0 for the other methods.
+    pub passes: BigUint,
     /// How many numbers a sweep keeps; 0 for the other methods.
     pub numbers: BigUint,
     /// The bits that exact numerators may need, by the proved bound; 0 where numbers grow as they must.
@@ -78,6 +88,12 @@ pub struct Plan {
     pub reserved: u64,
     /// The `i64` limbs of each of them.
     pub planes: usize,
+    /// The square roots that are taken, at most.
+    pub roots: u64,
+    /// How many answers there are.
+    pub rows: BigUint,
+    /// The memory that a sweep keeps its numbers in.
+    pub bytes: BigUint,
 }
 
 impl fmt::Display for Plan {
@@ -96,63 +112,143 @@ impl fmt::Display for Plan {
 }
 
 impl Pile {
-    /// How the forces of a part of the pile are found exactly.
+    /// How a question is answered exactly, and how much it takes at most.
     ///
     /// One sphere by the lines above it; a layer or more by a sweep, or row by row where that would not fit in
-    /// memory. Of a straight stacking everything is closed.
+    /// memory. Of a straight stacking everything is closed. A [`Counters`](crate::Counters) tells what it took.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer neither fits in memory nor has few
-    /// enough spheres at the changes of sign above it.
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::NotOnFloor`] if forces on the floor are asked of a
+    /// sphere that is not there; [`Error::TooLarge`] if a layer neither fits in memory nor has few enough spheres at the
+    /// changes of sign above it; [`Error::NotStraight`] if a closed form is asked for where there is none.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::lattice::{Region, Selection};
-    /// use cannonpile::{Method, Pile};
+    /// use cannonpile::{Method, Pile, Question};
     ///
     /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
     /// let plan = pile.plan(Selection::Base)?;
     /// assert_eq!((plan.method, plan.planes), (Method::Sweep, 1));
+    ///
+    /// let by_trees = Question { method: Some(Method::Tree), ..Selection::Base.into() };
+    /// assert_eq!(pile.plan(by_trees)?.method, Method::Tree);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn plan(&self, selection: Selection) -> Result<Plan, Error> {
-        let rows = self.rows(selection)?;
-        let last = rows.one().map_or(rows.layers().end - 1, |site| site.k);
-        let runs = self.shape().stretch_to(last).map_or(0, |run| run.index + 1);
-        let by_lines = |method| Plan {
+    pub fn plan(&self, question: impl Into<Question>) -> Result<Plan, Error> {
+        let Question {
+            part,
+            quantity,
             method,
-            runs,
+        } = question.into();
+        let mut rows = self.rows(part)?;
+        let mut answers = rows.sites();
+        if quantity.is_of_contacts() {
+            rows = rows.off_the_floor();
+            answers = rows.sites() * self.dimension().directions().len();
+        } else if quantity != Quantity::Positions {
+            self.check_on_floor(&rows)?;
+        }
+        let last = last_of(&rows);
+        let mut plan = Plan {
+            method: Method::Closed,
+            runs: self.shape().stretch_to(last).map_or(0, |run| run.index + 1),
+            visited: rows.sites(),
+            turned: BigUint::zero(),
+            passes: BigUint::zero(),
             numbers: BigUint::zero(),
             bits: 0,
             reserved: 0,
             planes: 0,
+            roots: quantity.roots(),
+            rows: answers,
+            bytes: BigUint::zero(),
         };
-        if self.shape().stacking().is_straight() {
-            return Ok(by_lines(Method::Closed));
+        if quantity == Quantity::Positions {
+            plan.visited = BigUint::zero();
+            return Ok(plan);
         }
-        if rows.one().is_some() {
-            return Ok(by_lines(Method::Tree));
+        match self.route::<BigRational>(&rows, method)? {
+            Route::Closed => {}
+            Route::Tree => match self.by_trees(plan.clone(), &rows) {
+                // The one sphere is left to a sweep where its tree is too large.
+                Err(too_large) if rows.one().is_some() && method.is_none() => {
+                    match self.route::<BigRational>(&rows, Some(Method::Sweep)) {
+                        Ok(Route::Sweep(size)) => self.by_sweep(&mut plan, &rows, size)?,
+                        _ => return Err(too_large),
+                    }
+                }
+                by_trees => plan = by_trees?,
+            },
+            Route::Sweep(size) => self.by_sweep(&mut plan, &rows, size)?,
         }
-        let size = self.size_of_sweep(last);
-        if Grid::new(self.shape(), last, size.planes).is_err() {
-            // The lines of the middle lead highest: if its tree is not too large, no piece of a row has one that is.
-            let region = self.shape().layer(last)?;
-            let j = region.y().start().midpoint(*region.y().end());
-            let row = region.row(j);
-            let middle = row.start.midpoint(row.end - 1);
-            let piece = middle - CHUNK / 2..middle + CHUNK / 2;
-            let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
-            Lines::<BigRational>::new(self).check_tree(last, &sites)?;
-            return Ok(by_lines(Method::Tree));
+        Ok(plan)
+    }
+
+    fn check_on_floor(&self, rows: &Rows<'_>) -> Result<(), Error> {
+        let floor = self.layers() - 1;
+        match rows.clone().flatten().next() {
+            Some(site) if site.k != floor => Err(Error::NotOnFloor { site, floor }),
+            _ => Ok(()),
         }
-        Ok(Plan {
-            method: Method::Sweep,
-            runs,
-            numbers: self.shape().layer(last)?.sites() * 3_u32,
-            bits: size.bits,
-            reserved: size.reserved(),
-            planes: size.planes,
-        })
+    }
+
+    /// Trees, each of a piece of a row.
+    fn by_trees(&self, mut plan: Plan, rows: &Rows<'_>) -> Result<Plan, Error> {
+        plan.method = Method::Tree;
+        let last = last_of(rows);
+        let (pieces, sites) = match rows.one() {
+            Some(_) => (BigUint::from(1_u32), rows.sites()),
+            None => {
+                let height = self.shape().layer(last)?.widths()[1];
+                let layers = rows.layers();
+                let lines = BigUint::from((layers.end - layers.start).max(0).unsigned_abs())
+                    * (height.unsigned_abs() + 1);
+                (lines + rows.sites() / CHUNK.unsigned_abs(), rows.sites())
+            }
+        };
+        // At a change of sign, three for each below, and no more than there are.
+        let most = BigUint::from(MAX_NODES);
+        let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
+        let mut above = BigUint::zero();
+        let mut run = self.shape().stretch_to(last).filter(|run| run.index > 0);
+        while let (Some(stretch), true) = (run, above <= most) {
+            level = (level * 3_u32).min(self.shape().layer(stretch.from)?.sites());
+            above += &level;
+            run = self.shape().stretch(stretch.index - 1);
+            run = run.filter(|run| run.index > 0);
+        }
+        if above > most {
+            // It may be less, and is more for none.
+            match rows.one() {
+                Some(Site { i, j, k }) => {
+                    Lines::<BigRational>::new(self).check_tree(k, &[[i, j]])?;
+                }
+                None => self.check_trees(last)?,
+            }
+            above = most;
+        }
+        above *= pieces;
+        plan.turned = &above + &sites;
+        plan.visited = above + sites;
+        Ok(plan)
+    }
+
+    /// One sweep, down to the last layer.
+    fn by_sweep(&self, plan: &mut Plan, rows: &Rows<'_>, size: Size) -> Result<(), Error> {
+        let (last, shape) = (last_of(rows), self.shape());
+        plan.method = Method::Sweep;
+        plan.numbers = shape.layer(last)?.sites() * 3_u32;
+        plan.bytes = &plan.numbers * size.planes * size_of::<i64>();
+        (plan.bits, plan.reserved, plan.planes) = (size.bits, size.reserved(), size.planes);
+        let changes = (1..).map_while(|run| shape.stretch(run));
+        for change in changes.take_while(|run| run.from <= last) {
+            plan.turned += shape.layer(change.from)?.sites();
+        }
+        let layers = rows.layers();
+        let stops = (layers.end - layers.start).max(1).unsigned_abs();
+        plan.passes = BigUint::from(stops) + plan.runs;
+        Ok(())
     }
 
     /// How many spheres at changes of sign the force of a contact depends on: the nodes that its tree visits.
@@ -183,27 +279,10 @@ impl Pile {
         }
         Lines::<BigRational>::new(self).nodes(site, direction)
     }
+}
 
-    /// How wide the exact numerators of a sweep down to layer `last` are.
-    pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
-        let lines = Lines::<BigRational>::new(self);
-        let changes = self
-            .shape()
-            .stretch_to(last + 1)
-            .or(self.shape().stretch_to(last));
-        let changes = changes.map_or(0, |run| run.index);
-        let scale = BigRational::from_integer(lines.scale(0));
-        let extras = self.loading().extras().map(|(_, extra)| extra.abs());
-        let extras = extras.fold(BigRational::zero(), |sum, extra| sum + extra) * scale;
-        // An integer: the scale is a multiple of all denominators.
-        let extras: BigInt = extras.to_integer();
-        let spheres = self.shape().spheres_in(0..last + 1);
-        Size::new(
-            last + 1,
-            &spheres,
-            changes,
-            &lines.increment_after(0),
-            &extras,
-        )
-    }
+/// The lowest layer that rows are of.
+pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
+    let last = rows.one().map_or(rows.layers().end - 1, |site| site.k);
+    last.max(0)
 }

@@ -14,12 +14,12 @@ pub use floor::FloorForce;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-pub(crate) use source::{CHUNK, COST_OF_A_TREE};
-
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
 use crate::lattice::{Direction, Site, count};
-use crate::lines::{Lines, Wanted};
+use crate::lines::{Above, Lines, Wanted};
+use crate::meter::Meter;
+use crate::plan::Method;
 use crate::scalar::{Algebra, Ring};
 use crate::stacking::Sign;
 use crate::{Error, Pile};
@@ -48,7 +48,7 @@ use crate::{Error, Pile};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Statics<'p, T: Algebra> {
+pub struct Statics<'p, T: Algebra, M = ()> {
     pile: &'p Pile,
     lines: Lines<'p, T>,
     /// W, over `sum_scale`.
@@ -57,6 +57,9 @@ pub struct Statics<'p, T: Algebra> {
     /// Numerators over `direction_scale`.
     directions: [Vector<T::Numerator>; 3],
     direction_scale: T::Numerator,
+    /// The method asked for, if it is not the cheapest.
+    method: Option<Method>,
+    meter: M,
 }
 
 impl<'p, T: Algebra> Statics<'p, T> {
@@ -78,7 +81,65 @@ impl<'p, T: Algebra> Statics<'p, T> {
             sum_scale,
             directions,
             direction_scale,
+            method: None,
+            meter: (),
         }
+    }
+}
+
+impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
+    /// The same, telling a meter what every answer takes.
+    #[must_use]
+    pub fn metered<N: Meter>(self, meter: N) -> Statics<'p, T, N> {
+        Statics {
+            pile: self.pile,
+            lines: self.lines,
+            increment_sum: self.increment_sum,
+            sum_scale: self.sum_scale,
+            directions: self.directions,
+            direction_scale: self.direction_scale,
+            method: self.method,
+            meter,
+        }
+    }
+
+    /// The same by this method, whether it is the cheapest or not: for comparison. Exact answers do not depend on it.
+    ///
+    /// # Errors
+    /// [`Error::NotStraight`] for the closed form of a pile that has none. What does not fit in memory is an error of
+    /// the answers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let statics = pile.statics::<f64>();
+    /// let swept = statics.clone().by(Method::Sweep)?;
+    /// let base = |statics: &cannonpile::Statics<'_, f64>| {
+    ///     statics.base(pile.rows(Selection::Base)?).collect::<Result<Vec<_>, _>>()
+    /// };
+    /// assert_eq!(base(&swept)?, base(&statics)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn by(self, method: Method) -> Result<Self, Error> {
+        if method == Method::Closed && !self.pile.shape().stacking().is_straight() {
+            return Err(Error::NotStraight);
+        }
+        Ok(Self {
+            method: Some(method),
+            ..self
+        })
+    }
+
+    pub(crate) fn meter(&self) -> M {
+        self.meter
+    }
+
+    /// Whether forces are counted where nothing turns: unless another method is asked for.
+    fn is_closed(&self) -> bool {
+        matches!(self.method, None | Some(Method::Closed))
     }
 
     /// The pile that is asked.
@@ -133,12 +194,18 @@ impl<'p, T: Algebra> Statics<'p, T> {
 
     /// The forces from above on a sphere of the pile as numerators, and the changes of sign down to it.
     fn received(&self, site: Site, wanted: Wanted) -> Result<([T::Numerator; 3], usize), Error> {
-        if let Some(forces) = self.lines.closed(site, wanted) {
+        if self.method == Some(Method::Sweep) {
+            return source::received_by_sweep(self, site);
+        }
+        if self.is_closed()
+            && let Some(forces) = self.lines.closed(site, wanted)
+        {
+            self.meter.visit(1);
             return Ok((forces, 0));
         }
-        let above = match self.lines.forces_above(site.k, &[[site.i, site.j]], wanted) {
+        let above = match self.above(site.k, &[[site.i, site.j]], wanted) {
             // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
-            Err(too_large @ Error::TooLarge { .. }) => {
+            Err(too_large @ Error::TooLarge { .. }) if self.method.is_none() => {
                 return source::received_by_sweep(self, site).map_err(|_| too_large);
             }
             above => above?,
@@ -152,7 +219,15 @@ impl<'p, T: Algebra> Statics<'p, T> {
     fn passed_on(&self, site: Site) -> Result<([T::Numerator; 3], usize), Error> {
         self.off_the_floor(site)?;
         let (above, changes) = self.received(site, Wanted::All)?;
-        Ok(self.lines.to_below(site, above, changes))
+        Ok(self.lines.to_below(site, above, changes, self.meter))
+    }
+
+    /// The forces from above on some spheres of layer `k`, from their trees.
+    fn above(&self, k: i128, sites: &[[i128; 2]], wanted: Wanted) -> Result<Above<T>, Error> {
+        let above = self.lines.forces_above(k, sites, wanted)?;
+        self.meter.visit(above.nodes + sites.len());
+        self.meter.turn(above.nodes);
+        Ok(above)
     }
 
     /// The site, if the pile has it and it rests on spheres.

@@ -19,8 +19,8 @@ use num_traits::{One, Signed, Zero};
 use crate::geometry::Apart;
 use crate::lattice::{Direction, Selection, Shape, Site};
 use crate::lines::{Lines, Wanted};
-use crate::query::COST_OF_A_TREE;
-use crate::sweep::{Grid, MAX_NUMBERS, Planes, Sweep};
+use crate::plan::trees_are_cheaper;
+use crate::sweep::{Descent, Grid, MAX_NUMBERS, Planes};
 use crate::{ContactForce, Error, Pile};
 
 /// Whether a pile stands.
@@ -281,7 +281,7 @@ impl Pile {
         // One layer more, so that the last change is behind.
         let size = self.size_of_sweep(last + 1);
         let grid = Grid::new(shape, last + 1, size.planes);
-        if ends.clone() * COST_OF_A_TREE < sites || grid.is_err() {
+        if trees_are_cheaper(&ends, &sites) || grid.is_err() {
             if ends > BigUint::from(MAX_NUMBERS) {
                 return Err(Error::TooLarge {
                     quantity: "the verdict on this pile",
@@ -294,9 +294,9 @@ impl Pile {
         }
         let grid = grid?;
         let layer = Planes::new(&grid, size);
-        let mut sweep = Sweep::new(lines, grid, layer);
+        let mut sweep = Descent::new(lines, grid, layer);
         let least = layers.iter().filter_map(|k| {
-            sweep.advance(*k);
+            sweep.advance(*k, ());
             sweep.least_passed_on()
         });
         Ok(least.collect())
@@ -314,7 +314,7 @@ fn least_at_ends(
         let above = lines.forces_above(k, &row, Wanted::All)?;
         for ([i, j], above_it) in row.into_iter().zip(above.forces) {
             let site = Site { i, j, k };
-            let (forces, changes) = lines.to_below(site, above_it, above.changes);
+            let (forces, changes) = lines.to_below(site, above_it, above.changes, ());
             denominator = lines.scale(changes);
             for (force, direction) in forces.into_iter().zip(Direction::ALL) {
                 if least.as_ref().is_none_or(|(least, ..)| force < *least) {
@@ -332,7 +332,7 @@ fn least_at_ends(
     })
 }
 
-impl Sweep<'_, BigRational, Planes> {
+impl Descent<'_, BigRational, Planes> {
     /// The least force below the layer it is at, where the sign has just changed.
     fn least_passed_on(&mut self) -> Option<ContactForce<BigRational>> {
         let changes = self.pass()?.run.index + 1;

@@ -24,10 +24,12 @@ use core::ops::{Add, Range};
 
 use num_bigint::BigUint;
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 
 use crate::Error;
 use crate::lattice::{Region, Shape, Site, Stretch, Trapezoid};
 use crate::lines::Lines;
+use crate::meter::Meter;
 use crate::scalar::{Algebra, Ring};
 use crate::transfer::turn_numerators;
 
@@ -76,16 +78,8 @@ impl<'p> Grid<'p> {
     /// # Errors
     /// [`Error::TooLarge`], with the size; [`Error::LayerOutside`].
     pub(crate) fn new(shape: &'p Shape, last: i128, planes: usize) -> Result<Self, Error> {
+        Self::numbers(shape, last, planes)?;
         let region = shape.layer(last)?;
-        let numbers = region.sites() * 3_u32 * planes;
-        if numbers > BigUint::from(MAX_NUMBERS) {
-            return Err(Error::TooLarge {
-                quantity: "a sweep down to this layer",
-                needed: numbers,
-                limit: MAX_NUMBERS,
-                remedy: "ask for one sphere, or for fewer layers",
-            });
-        }
         let mut rows = Vec::new();
         let mut cells = 0;
         for row in region.rows(last) {
@@ -99,6 +93,23 @@ impl<'p> Grid<'p> {
             rows,
             cells,
         })
+    }
+
+    /// How many numbers they are.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn numbers(shape: &Shape, last: i128, planes: usize) -> Result<BigUint, Error> {
+        let numbers = shape.layer(last)?.sites() * 3_u32 * planes;
+        if numbers > BigUint::from(MAX_NUMBERS) {
+            return Err(Error::TooLarge {
+                quantity: "a sweep down to this layer",
+                needed: numbers,
+                limit: MAX_NUMBERS,
+                remedy: "ask for one sphere, or for fewer layers",
+            });
+        }
+        Ok(numbers)
     }
 
     /// The passes from layer `from` to layer `to`, one for each run between them.
@@ -172,7 +183,7 @@ pub(crate) trait Layer<T: Algebra> {
 
 /// A pile on its way down: the forces of one layer.
 #[derive(Clone, Debug)]
-pub(crate) struct Sweep<'p, T: Algebra, S> {
+pub(crate) struct Descent<'p, T: Algebra, S> {
     lines: Lines<'p, T>,
     grid: Grid<'p>,
     layer: S,
@@ -183,7 +194,7 @@ pub(crate) struct Sweep<'p, T: Algebra, S> {
     settled: bool,
 }
 
-impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
+impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     pub(crate) fn new(lines: Lines<'p, T>, grid: Grid<'p>, layer: S) -> Self {
         Self {
             lines,
@@ -209,7 +220,7 @@ impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
     }
 
     /// Goes down to layer `k`, if it is further down.
-    pub(crate) fn advance(&mut self, k: i128) {
+    pub(crate) fn advance(&mut self, k: i128, meter: impl Meter) {
         loop {
             let Some(pass) = self.grid.passes(self.k, k).next() else {
                 return;
@@ -218,6 +229,10 @@ impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
             self.add_extras(pass.from + 1..pass.k);
             let increment = self.lines.increment_after(pass.run.index);
             self.layer.pass(&self.grid, &pass, &increment);
+            meter.pass();
+            if pass.turns {
+                meter.turn(pass.region.sites().to_usize().unwrap_or(usize::MAX));
+            }
             (self.k, self.pass, self.settled) = (pass.k, Some(pass), false);
         }
     }
@@ -247,11 +262,11 @@ impl<'p, T: Algebra, S: Layer<T>> Sweep<'p, T, S> {
     }
 
     /// What a sphere of this layer passes on, and the changes of sign down to there.
-    pub(crate) fn passed_on(&self, site: Site) -> ([T::Numerator; 3], usize) {
+    pub(crate) fn passed_on(&self, site: Site, meter: impl Meter) -> ([T::Numerator; 3], usize) {
         let (carried, changes) = self.received(site);
         match self.pass {
             Some(pass) if pass.turns => self.lines.with_own(site, carried, changes + 1),
-            _ => self.lines.to_below(site, carried, changes),
+            _ => self.lines.to_below(site, carried, changes, meter),
         }
     }
 }
@@ -317,7 +332,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
     }
 }
 
-impl Sweep<'_, BigRational, Planes> {
+impl Descent<'_, BigRational, Planes> {
     /// The least number on the lines of this layer.
     pub(crate) fn least(&mut self) -> Option<Least> {
         self.layer.least(&self.grid, self.pass.as_ref()?)

@@ -12,7 +12,7 @@ use crate::scalar::{Algebra, Ring};
 use crate::transfer::turn_numerators;
 
 /// The most nodes of a tree that are visited for one row.
-const MAX_NODES: usize = 4_000_000;
+pub(crate) const MAX_NODES: usize = 4_000_000;
 
 /// The forces from above on some spheres of one layer, as numerators.
 pub(crate) struct Above<T: Algebra> {
@@ -20,6 +20,8 @@ pub(crate) struct Above<T: Algebra> {
     pub(crate) forces: Vec<[T::Numerator; 3]>,
     /// The changes of sign before: the denominator is [`Lines::scale`] of it.
     pub(crate) changes: usize,
+    /// The spheres at changes of sign that they depend on.
+    pub(crate) nodes: usize,
 }
 
 /// Spheres of one layer whose forces from above are needed, in order and each once.
@@ -102,11 +104,16 @@ impl<T: Algebra> Lines<'_, T> {
         wanted: Wanted,
     ) -> Result<Above<T>, Error> {
         let levels = self.levels(k, sites, wanted)?;
+        let nodes = levels.iter().skip(1).map(|level| level.sites.len()).sum();
         let mut levels = levels.into_iter().rev();
         let Some(first) = levels.next() else {
             let none = || core::array::from_fn(|_| T::Numerator::zero());
             let forces = sites.iter().map(|_| none()).collect();
-            return Ok(Above { forces, changes: 0 });
+            return Ok(Above {
+                forces,
+                changes: 0,
+                nodes: 0,
+            });
         };
         let mut forces = self.received(&first, &[], &[]);
         let mut level = first;
@@ -125,7 +132,11 @@ impl<T: Algebra> Lines<'_, T> {
             .iter()
             .map(|site| of_site(site).unwrap_or_else(nothing))
             .collect();
-        Ok(Above { forces, changes })
+        Ok(Above {
+            forces,
+            changes,
+            nodes,
+        })
     }
 
     /// That the forces above these spheres do not depend on too many.

@@ -1,8 +1,9 @@
 //! Many answers in SI, one after the other.
 
 use crate::lattice::{Direction, Rows, Site};
+use crate::meter::Meter;
 use crate::scalar::Surd;
-use crate::{Error, FloorForce, Packing};
+use crate::{ContactForce, Error, FloorForce, Packing};
 
 /// A contact between two spheres, in the units and the frame of a [`Packing`].
 ///
@@ -37,14 +38,16 @@ pub struct PackedContact {
     pub point: [Surd; 3],
 }
 
-impl<'p> Packing<'p> {
+impl<'p, M: Meter> Packing<'p, M> {
     /// The contacts of the spheres in `rows`, each with the spheres below it, lazily.
     ///
     /// As [`Statics::contacts`](crate::Statics::contacts).
     pub fn contacts(
         &self,
         rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<PackedContact, Error>> + use<'p> {
+    ) -> impl Iterator<Item = Result<PackedContact, Error>> + use<'p, M> {
+        // Before it is cloned, so that the next question finds the roots taken.
+        let _ = (self.secant(), self.forces(), self.lengths());
         let packing = self.clone();
         self.statics.contacts(rows).map(move |contact| {
             let contact = contact?;
@@ -55,6 +58,43 @@ impl<'p> Packing<'p> {
                 force: packing.magnitude(&contact.force),
                 vector: packing.vector(site, direction, &contact.force)?,
                 point: packing.contact_point(site, direction)?,
+            })
+        })
+    }
+
+    /// The magnitudes alone of the same forces, lazily: one root in all, where vectors and points take five.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let forces = packing.magnitudes(pile.rows(Selection::All)?);
+    /// let forces: Result<Vec<_>, _> = forces.map(|contact| Ok(contact?.force)).collect();
+    /// assert_eq!(forces.as_ref().map(Vec::len), Ok(12));
+    /// assert_eq!(forces?.iter().max().unwrap().to_string(), "10/39*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn magnitudes(
+        &self,
+        rows: Rows<'p>,
+    ) -> impl Iterator<Item = Result<ContactForce<Surd>, Error>> + use<'p, M> {
+        let _ = self.secant();
+        let packing = self.clone();
+        self.statics.contacts(rows).map(move |contact| {
+            let ContactForce {
+                site,
+                direction,
+                force,
+            } = contact?;
+            Ok(ContactForce {
+                site,
+                direction,
+                force: packing.magnitude(&force),
             })
         })
     }
@@ -80,7 +120,8 @@ impl<'p> Packing<'p> {
     pub fn base(
         &self,
         rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p> {
+    ) -> impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p, M> {
+        let _ = self.forces();
         let packing = self.clone();
         let forces = self.statics.base(rows);
         forces.map(move |force| Ok(packing.floor_force(force?)))

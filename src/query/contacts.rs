@@ -6,6 +6,7 @@ use crate::Error;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Rows, Site};
 use crate::lines::Wanted;
+use crate::meter::Meter;
 use crate::scalar::Algebra;
 use crate::stacking::Sign;
 
@@ -32,7 +33,7 @@ pub struct ContactForce<T> {
     pub force: T,
 }
 
-impl<'p, T: Algebra> Statics<'p, T> {
+impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// The magnitude of the contact force between `site` and the sphere below it, in f₀.
     ///
     /// # Errors
@@ -60,12 +61,15 @@ impl<'p, T: Algebra> Statics<'p, T> {
         direction: Direction,
     ) -> Result<(T::Numerator, usize), Error> {
         self.check_contact(site, direction)?;
-        if let Some(force) = self.lines.closed_contact(site, direction) {
+        if self.is_closed()
+            && let Some(force) = self.lines.closed_contact(site, direction)
+        {
+            self.meter.visit(1);
             return Ok((force, 0));
         }
         let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
         let (above, changes) = self.received(site, wanted)?;
-        let (forces, changes) = self.lines.to_below(site, above, changes);
+        let (forces, changes) = self.lines.to_below(site, above, changes, self.meter);
         let [alpha, beta, gamma] = forces;
         let force = match direction {
             Direction::Alpha => alpha,
@@ -166,12 +170,13 @@ impl<'p, T: Algebra> Statics<'p, T> {
     pub fn contacts(
         &self,
         rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T> {
+    ) -> impl Iterator<Item = Result<ContactForce<T>, Error>> + use<'p, T, M> {
         let directions = self.pile.dimension().directions();
         let rows = rows.off_the_floor();
         let mut source = Source::new(self, &rows);
         let statics = self.clone();
         rows.flatten().flat_map(move |site| {
+            statics.meter.answer(directions.len());
             let forces = match source.passed_on(&statics, site) {
                 Ok(forces) => forces.map(Ok),
                 Err(error) => [(); 3].map(|()| Err(error.clone())),

@@ -7,6 +7,7 @@ use crate::closed_form;
 use crate::geometry::Vector;
 use crate::lattice::{Rows, Site};
 use crate::lines::Wanted;
+use crate::meter::Meter;
 use crate::scalar::Algebra;
 
 /// The force of one bottom sphere on the floor.
@@ -38,7 +39,7 @@ pub struct FloorForce<T> {
     pub shear_y: T,
 }
 
-impl<'p, T: Algebra> Statics<'p, T> {
+impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// The force of a bottom sphere on the floor.
     ///
     /// Normal mg(L+2)/3 under every sphere on an equilateral base (paper, eq. (result-normal)), and
@@ -118,10 +119,12 @@ impl<'p, T: Algebra> Statics<'p, T> {
     pub fn base(
         &self,
         rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<FloorForce<T>, Error>> + use<'p, T> {
+    ) -> impl Iterator<Item = Result<FloorForce<T>, Error>> + use<'p, T, M> {
         let mut source = Source::new(self, &rows);
         let statics = self.clone();
-        rows.flatten()
-            .map(move |site| source.on_floor(&statics, site))
+        rows.flatten().map(move |site| {
+            statics.meter.answer(1);
+            source.on_floor(&statics, site)
+        })
     }
 }

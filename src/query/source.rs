@@ -12,28 +12,29 @@ use crate::Error;
 use crate::geometry::Vector;
 use crate::lattice::{Rows, Selection, Site};
 use crate::lines::{Lines, Wanted};
+use crate::meter::Meter;
+use crate::plan::{CHUNK, Route, last_of, trees_are_cheaper};
 use crate::scalar::{Algebra, Exactness};
-use crate::sweep::{Cells, Grid, Planes, Sweep};
-
-/// How many spheres of a row share one tree.
-pub(crate) const CHUNK: i128 = 1024;
+use crate::sweep::{Cells, Descent, Grid, Planes};
 
 /// The forces of the spheres of some rows.
-pub(super) enum Source<'p, T: Algebra> {
+pub(super) enum Source<'p, T: Algebra, M> {
     /// Sphere by sphere, of a straight stacking.
     Closed,
     /// A piece of a row at a time.
     Tree(Option<Piece<T>>),
     /// One layer in memory, in the numbers of the scalar.
-    Sweep(Box<Sweep<'p, T, Cells<T::Numerator>>>),
+    Sweep(Box<Descent<'p, T, Cells<T::Numerator>>>),
     /// One layer in memory, in the exact engine, for a scalar that is exact itself.
-    Integers(Box<Integers<'p>>),
+    Integers(Box<Integers<'p, M>>),
+    /// The method asked for does not do.
+    Refused(Error),
 }
 
 /// A sweep of the exact engine, and the questions put to it.
-pub(super) struct Integers<'p> {
-    statics: Statics<'p, BigRational>,
-    sweep: Sweep<'p, BigRational, Planes>,
+pub(super) struct Integers<'p, M> {
+    statics: Statics<'p, BigRational, M>,
+    sweep: Descent<'p, BigRational, Planes>,
 }
 
 /// Consecutive spheres of a row with the forces from above on them.
@@ -43,39 +44,38 @@ pub(super) struct Piece<T: Algebra> {
     changes: usize,
 }
 
-impl<'p, T: Algebra> Source<'p, T> {
-    pub(super) fn new(statics: &Statics<'p, T>, rows: &Rows<'p>) -> Self {
-        let pile = statics.pile;
-        let shape = pile.shape();
-        if shape.stacking().is_straight() {
-            return Self::Closed;
-        }
+impl<'p, T: Algebra, M: Meter> Source<'p, T, M> {
+    pub(super) fn new(statics: &Statics<'p, T, M>, rows: &Rows<'p>) -> Self {
         // The rows of another pile are asked for site by site, and checked.
-        if rows.one().is_some() || !core::ptr::eq(rows.shape(), shape) {
+        if !core::ptr::eq(rows.shape(), statics.pile.shape()) {
             return Self::Tree(None);
         }
-        let last = rows.layers().end - 1;
-        let size = pile.size_of_sweep(last);
-        if T::EXACTNESS == Exactness::Exact {
-            let Ok(grid) = Grid::new(shape, last, size.planes) else {
-                return Self::Tree(None);
-            };
-            let layer = Planes::new(&grid, size);
-            return Self::Integers(Box::new(Integers {
-                statics: pile.statics(),
-                sweep: Sweep::new(Lines::new(pile), grid, layer),
-            }));
-        }
-        match generic_sweep(statics, last) {
-            Ok(sweep) => Self::Sweep(Box::new(sweep)),
-            Err(_) => Self::Tree(None),
-        }
+        let route = statics.pile.route::<T>(rows, statics.method);
+        let source = route.and_then(|route| Self::by(route, statics, last_of(rows)));
+        source.unwrap_or_else(Self::Refused)
+    }
+
+    fn by(route: Route, statics: &Statics<'p, T, M>, last: i128) -> Result<Self, Error> {
+        let pile = statics.pile;
+        Ok(match route {
+            Route::Closed => Self::Closed,
+            Route::Tree => Self::Tree(None),
+            Route::Sweep(size) if T::EXACTNESS == Exactness::Exact => {
+                let grid = Grid::new(pile.shape(), last, size.planes)?;
+                let layer = Planes::new(&grid, size);
+                Self::Integers(Box::new(Integers {
+                    statics: pile.statics().metered(statics.meter),
+                    sweep: Descent::new(Lines::new(pile), grid, layer),
+                }))
+            }
+            Route::Sweep(_) => Self::Sweep(Box::new(generic_sweep(statics, last)?)),
+        })
     }
 
     /// The force of a bottom sphere on the floor.
     pub(super) fn on_floor(
         &mut self,
-        statics: &Statics<'p, T>,
+        statics: &Statics<'p, T, M>,
         site: Site,
     ) -> Result<FloorForce<T>, Error> {
         if site.k != statics.floor() {
@@ -88,13 +88,16 @@ impl<'p, T: Algebra> Source<'p, T> {
                 statics.floor_force(site, &above, changes)
             }
             Self::Sweep(sweep) => {
-                sweep.advance(site.k);
+                sweep.advance(site.k, statics.meter);
+                statics.meter.visit(1);
                 let (above, changes) = sweep.received(site);
                 statics.floor_force(site, &above, changes)
             }
+            Self::Refused(error) => Err(error.clone()),
             Self::Integers(integers) => {
                 let Integers { statics, sweep } = &mut **integers;
-                sweep.advance(site.k);
+                sweep.advance(site.k, statics.meter);
+                statics.meter.visit(1);
                 let (above, changes) = sweep.received(site);
                 let force = statics.floor_force(site, &above, changes)?;
                 Ok(FloorForce {
@@ -110,7 +113,7 @@ impl<'p, T: Algebra> Source<'p, T> {
     /// The forces to the spheres below one that is not on the floor.
     pub(super) fn passed_on(
         &mut self,
-        statics: &Statics<'p, T>,
+        statics: &Statics<'p, T, M>,
         site: Site,
     ) -> Result<[T; 3], Error> {
         // In the rows of another pile.
@@ -119,18 +122,21 @@ impl<'p, T: Algebra> Source<'p, T> {
         }
         let (forces, changes) = match self {
             Self::Closed => statics.passed_on(site)?,
+            Self::Refused(error) => return Err(error.clone()),
             Self::Tree(piece) => {
                 let (above, changes) = Piece::at(piece, statics, site)?;
-                statics.lines.to_below(site, above, changes)
+                statics.lines.to_below(site, above, changes, statics.meter)
             }
             Self::Sweep(sweep) => {
-                sweep.advance(site.k);
-                sweep.passed_on(site)
+                sweep.advance(site.k, statics.meter);
+                statics.meter.visit(1);
+                sweep.passed_on(site, statics.meter)
             }
             Self::Integers(integers) => {
                 let Integers { statics, sweep } = &mut **integers;
-                sweep.advance(site.k);
-                let (forces, changes) = sweep.passed_on(site);
+                sweep.advance(site.k, statics.meter);
+                statics.meter.visit(1);
+                let (forces, changes) = sweep.passed_on(site, statics.meter);
                 let scale = statics.lines.scale(changes);
                 return Ok(
                     forces.map(|force| T::from_rational(&BigRational::new(force, scale.clone())))
@@ -142,10 +148,10 @@ impl<'p, T: Algebra> Source<'p, T> {
 }
 
 /// A sweep down to layer `last` in the numbers of the scalar.
-fn generic_sweep<'p, T: Algebra>(
-    statics: &Statics<'p, T>,
+fn generic_sweep<'p, T: Algebra, M>(
+    statics: &Statics<'p, T, M>,
     last: i128,
-) -> Result<Sweep<'p, T, Cells<T::Numerator>>, Error> {
+) -> Result<Descent<'p, T, Cells<T::Numerator>>, Error> {
     let mut words = size_of::<T::Numerator>().div_ceil(size_of::<i64>());
     if T::EXACTNESS == Exactness::Exact {
         // Integers keep their digits elsewhere.
@@ -153,24 +159,25 @@ fn generic_sweep<'p, T: Algebra>(
     }
     let grid = Grid::new(statics.pile.shape(), last, words)?;
     let layer = Cells::new(&grid, &T::Numerator::zero());
-    Ok(Sweep::new(statics.lines.clone(), grid, layer))
+    Ok(Descent::new(statics.lines.clone(), grid, layer))
 }
 
 /// The forces from above on one sphere, after a sweep of the whole layer.
-pub(super) fn received_by_sweep<T: Algebra>(
-    statics: &Statics<'_, T>,
+pub(super) fn received_by_sweep<T: Algebra, M: Meter>(
+    statics: &Statics<'_, T, M>,
     site: Site,
 ) -> Result<([T::Numerator; 3], usize), Error> {
     let mut sweep = generic_sweep(statics, site.k)?;
-    sweep.advance(site.k);
+    sweep.advance(site.k, statics.meter);
+    statics.meter.visit(1);
     Ok(sweep.received(site))
 }
 
 impl<T: Algebra> Piece<T> {
     /// The forces from above on a sphere: from the piece it is in, or from a new one that begins with it.
-    fn at(
+    fn at<M: Meter>(
         piece: &mut Option<Self>,
-        statics: &Statics<'_, T>,
+        statics: &Statics<'_, T, M>,
         site: Site,
     ) -> Result<([T::Numerator; 3], usize), Error> {
         if let Some(found) = piece.as_ref().and_then(|piece| piece.get(site)) {
@@ -179,7 +186,7 @@ impl<T: Algebra> Piece<T> {
         let Site { i, j, k } = statics.pile.shape().check(site)?;
         let end = statics.pile.shape().layer(k)?.row(j).end;
         let sites: Vec<[i128; 2]> = (i..end.min(i + CHUNK)).map(|i| [i, j]).collect();
-        let above = statics.lines.forces_above(k, &sites, Wanted::All)?;
+        let above = statics.above(k, &sites, Wanted::All)?;
         let new = piece.insert(Self {
             first: site,
             forces: above.forces,
@@ -230,7 +237,7 @@ impl Statics<'_, BigRational> {
                 limit: MOST,
                 remedy: "ask for single spheres",
             });
-        } else if ends * COST_OF_A_TREE < sites {
+        } else if trees_are_cheaper(&ends, &sites) {
             for (_, row) in self.lines.ends_of_pieces(floor) {
                 let above = self.lines.forces_above(floor, &row, Wanted::All)?;
                 for ([i, j], above) in row.into_iter().zip(&above.forces) {
@@ -247,10 +254,7 @@ impl Statics<'_, BigRational> {
     }
 }
 
-/// How many spheres of a sweep cost as much as one of a tree, roughly.
-pub(crate) const COST_OF_A_TREE: u32 = 16;
-
-impl<'p> Source<'p, BigRational> {
+impl<'p> Source<'p, BigRational, ()> {
     /// The forces from above on a sphere of the last layer, as integers, and the changes of sign before.
     fn received(
         &mut self,
@@ -260,12 +264,13 @@ impl<'p> Source<'p, BigRational> {
         match self {
             Self::Closed => statics.received(site, Wanted::All),
             Self::Tree(piece) => Piece::at(piece, statics, site),
+            Self::Refused(error) => Err(error.clone()),
             Self::Sweep(sweep) => {
-                sweep.advance(site.k);
+                sweep.advance(site.k, ());
                 Ok(sweep.received(site))
             }
             Self::Integers(integers) => {
-                integers.sweep.advance(site.k);
+                integers.sweep.advance(site.k, ());
                 Ok(integers.sweep.received(site))
             }
         }

@@ -1,0 +1,135 @@
+//! What an answer really took, counted by the engines while they work.
+
+use core::cell::Cell;
+use core::fmt;
+
+/// Is told by the engines what they do; `()` ignores all of it, and costs nothing.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Direction, Site};
+/// use cannonpile::{Counters, Pile};
+///
+/// let counters = Counters::default();
+/// let pile = Pile::triangular(1_000_000)?;
+/// let statics = pile.statics::<f64>().metered(&counters);
+/// statics.contact(Site { i: 5, j: 7, k: 999_000 }, Direction::Alpha)?;
+/// // No other sphere was looked at.
+/// assert_eq!(counters.visited(), 1);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub trait Meter: Copy {
+    /// The forces at so many spheres were worked out or looked up.
+    fn visit(self, _spheres: usize) {}
+
+    /// The forces on so many spheres were turned, across a change of sign.
+    fn turn(self, _spheres: usize) {}
+
+    /// A layer was led through a run, or a part of one, at once.
+    fn pass(self) {}
+
+    /// A square root was taken.
+    fn take_root(self) {}
+
+    /// So many answers were given.
+    fn answer(self, _rows: usize) {}
+}
+
+impl Meter for () {}
+
+/// Counts what a [`Meter`] is told.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Region, Selection};
+/// use cannonpile::{Counters, Pile};
+///
+/// let counters = Counters::default();
+/// let pile = Pile::under(Region::SITE, "++-+".parse()?)?;
+/// let statics = pile.statics::<f64>().metered(&counters);
+/// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 12);
+/// // The two changes of sign, in layers of 6 and 8 spheres, and then the base.
+/// assert_eq!((counters.turned(), counters.visited(), counters.passes()), (14, 12, 3));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    visited: Cell<u64>,
+    turned: Cell<u64>,
+    passes: Cell<u64>,
+    roots: Cell<u64>,
+    rows: Cell<u64>,
+}
+
+impl Counters {
+    /// Spheres whose forces were worked out or looked up.
+    #[must_use]
+    pub fn visited(&self) -> u64 {
+        self.visited.get()
+    }
+
+    /// Spheres whose forces were turned, across a change of sign: the transfer.
+    #[must_use]
+    pub fn turned(&self) -> u64 {
+        self.turned.get()
+    }
+
+    /// Runs, or parts of one, that a sweep went through at once.
+    #[must_use]
+    pub fn passes(&self) -> u64 {
+        self.passes.get()
+    }
+
+    /// Square roots taken.
+    #[must_use]
+    pub fn roots(&self) -> u64 {
+        self.roots.get()
+    }
+
+    /// Answers given.
+    #[must_use]
+    pub fn rows(&self) -> u64 {
+        self.rows.get()
+    }
+}
+
+impl Meter for &Counters {
+    fn visit(self, spheres: usize) {
+        add(&self.visited, spheres);
+    }
+
+    fn turn(self, spheres: usize) {
+        add(&self.turned, spheres);
+    }
+
+    fn pass(self) {
+        add(&self.passes, 1);
+    }
+
+    fn take_root(self) {
+        add(&self.roots, 1);
+    }
+
+    fn answer(self, rows: usize) {
+        add(&self.rows, rows);
+    }
+}
+
+fn add(counter: &Cell<u64>, more: usize) {
+    counter.set(counter.get().saturating_add(more as u64));
+}
+
+impl fmt::Display for Counters {
+    /// `12 visited, 14 turned, 3 passes, 0 roots, 12 rows`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} visited, {} turned, {} passes, {} roots, {} rows",
+            self.visited(),
+            self.turned(),
+            self.passes(),
+            self.roots(),
+            self.rows()
+        )
+    }
+}

@@ -1,0 +1,111 @@
+//! What can be asked of a pile.
+
+use core::fmt;
+
+use super::Method;
+use crate::lattice::Selection;
+
+/// What is wanted of the spheres asked about.
+///
+/// # Examples
+/// ```
+/// use cannonpile::{Pile, Quantity, Question};
+/// use cannonpile::lattice::Selection;
+///
+/// let pile = Pile::triangular(10)?;
+/// let roots = |quantity| {
+///     pile.plan(Question { quantity, ..Selection::All.into() }).map(|plan| plan.roots)
+/// };
+/// assert_eq!(roots(Quantity::ContactMultiples)?, 0);
+/// assert_eq!(roots(Quantity::ContactMagnitudes)?, 1);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// The forces to the spheres below, in f₀: [`Statics::contacts`](crate::Statics::contacts).
+    ContactMultiples,
+    /// Their magnitudes in SI: [`Packing::magnitudes`](crate::Packing::magnitudes).
+    ContactMagnitudes,
+    /// The same with their vectors and the contact points: [`Packing::contacts`](crate::Packing::contacts).
+    ContactVectors,
+    /// The forces on the floor, in mg and mg·tanθ: [`Statics::base`](crate::Statics::base).
+    FloorMultiples,
+    /// The same in SI: [`Packing::base`](crate::Packing::base).
+    FloorForces,
+    /// Where the centres are, in SI: [`Packing::position`](crate::Packing::position).
+    Positions,
+}
+
+impl Quantity {
+    /// The square roots that it takes, at most: of 1/cos²θ; of tan²θ; of sin²θ and cos²θ; and of 4cos²φ, wherever there
+    /// is a component along y.
+    #[must_use]
+    pub const fn roots(self) -> u64 {
+        match self {
+            Self::ContactMultiples | Self::FloorMultiples => 0,
+            Self::ContactMagnitudes => 1,
+            Self::FloorForces => 2,
+            Self::Positions => 3,
+            Self::ContactVectors => 5,
+        }
+    }
+
+    /// Whether it is of contacts, between spheres.
+    #[must_use]
+    pub const fn is_of_contacts(self) -> bool {
+        matches!(
+            self,
+            Self::ContactMultiples | Self::ContactMagnitudes | Self::ContactVectors
+        )
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::ContactMultiples => "contact multiples",
+            Self::ContactMagnitudes => "contact magnitudes",
+            Self::ContactVectors => "contact vectors",
+            Self::FloorMultiples => "floor multiples",
+            Self::FloorForces => "floor forces",
+            Self::Positions => "positions",
+        })
+    }
+}
+
+/// A question: which spheres, what of them, and by which method, if not the cheapest.
+///
+/// Of a [`Selection`] alone it is the multiples: on the floor for the base, of the contacts for any other.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Selection;
+/// use cannonpile::{Quantity, Question};
+///
+/// let question = Question::from(Selection::Base);
+/// assert_eq!((question.quantity, question.method), (Quantity::FloorMultiples, None));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Question {
+    /// Which spheres.
+    pub part: Selection,
+    /// What of them.
+    pub quantity: Quantity,
+    /// The method, or `None` for the cheapest.
+    pub method: Option<Method>,
+}
+
+impl From<Selection> for Question {
+    fn from(part: Selection) -> Self {
+        let quantity = match part {
+            Selection::Base => Quantity::FloorMultiples,
+            _ => Quantity::ContactMultiples,
+        };
+        Self {
+            part,
+            quantity,
+            method: None,
+        }
+    }
+}

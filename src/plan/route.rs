@@ -1,0 +1,102 @@
+//! The one decision how forces are found, for plans and for whoever carries them out.
+
+use alloc::vec::Vec;
+
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use super::Method;
+use crate::lattice::Rows;
+use crate::lines::Lines;
+use crate::scalar::{Algebra, Exactness};
+use crate::sweep::{Grid, Size};
+use crate::{Error, Pile};
+
+/// How many spheres of a row share one tree.
+pub(crate) const CHUNK: i128 = 1024;
+
+/// The way to the forces on the spheres of some rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Route {
+    Closed,
+    /// A piece of a row at a time.
+    Tree,
+    /// In exact numerators of this size, or in the numbers of another scalar.
+    Sweep(Size),
+}
+
+/// Whether trees above some spheres cost less than a sweep over others.
+pub(crate) fn trees_are_cheaper(above: &BigUint, sweep: &BigUint) -> bool {
+    /// How many spheres of a sweep cost as much as one of a tree, roughly.
+    const COST_OF_A_TREE: u32 = 16;
+    above * COST_OF_A_TREE < *sweep
+}
+
+impl Pile {
+    /// The cheapest way to the forces on the spheres of `rows` in the scalar `T`, or the one asked for.
+    ///
+    /// # Errors
+    /// [`Error::NotStraight`] if a closed form is asked for where there is none; [`Error::TooLarge`] if a sweep is asked
+    /// for that does not fit in memory.
+    pub(crate) fn route<T: Algebra>(
+        &self,
+        rows: &Rows<'_>,
+        asked: Option<Method>,
+    ) -> Result<Route, Error> {
+        let straight = self.shape().stacking().is_straight();
+        let last = super::last_of(rows);
+        let sweep = || {
+            let size = self.size_of_sweep(last);
+            let words = match T::EXACTNESS {
+                Exactness::Exact => size.planes,
+                _ => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
+            };
+            Grid::numbers(self.shape(), last, words).map(|_| Route::Sweep(size))
+        };
+        match asked {
+            Some(Method::Closed) if straight => Ok(Route::Closed),
+            Some(Method::Closed) => Err(Error::NotStraight),
+            Some(Method::Tree) => Ok(Route::Tree),
+            Some(Method::Sweep) => sweep(),
+            None if straight => Ok(Route::Closed),
+            None if rows.one().is_some() => Ok(Route::Tree),
+            None => Ok(sweep().unwrap_or(Route::Tree)),
+        }
+    }
+
+    /// That no piece of a row of layer `k` has a tree that is too large.
+    pub(super) fn check_trees(&self, k: i128) -> Result<(), Error> {
+        // The lines of the middle lead highest: if its tree is not too large, none is.
+        let region = self.shape().layer(k)?;
+        let j = region.y().start().midpoint(*region.y().end());
+        let row = region.row(j);
+        let middle = row.start.midpoint(row.end - 1);
+        let piece = middle - CHUNK / 2..middle + CHUNK / 2;
+        let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
+        Lines::<BigRational>::new(self).check_tree(k, &sites)
+    }
+
+    /// How wide the exact numerators of a sweep down to layer `last` are.
+    pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
+        let lines = Lines::<BigRational>::new(self);
+        let changes = self
+            .shape()
+            .stretch_to(last + 1)
+            .or(self.shape().stretch_to(last));
+        let changes = changes.map_or(0, |run| run.index);
+        let scale = BigRational::from_integer(lines.scale(0));
+        let extras = self.loading().extras().map(|(_, extra)| extra.abs());
+        let extras = extras.fold(BigRational::zero(), |sum, extra| sum + extra) * scale;
+        // An integer: the scale is a multiple of all denominators.
+        let extras: BigInt = extras.to_integer();
+        let spheres = self.shape().spheres_in(0..last + 1);
+        Size::new(
+            last + 1,
+            &spheres,
+            changes,
+            &lines.increment_after(0),
+            &extras,
+        )
+    }
+}
