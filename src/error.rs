@@ -10,6 +10,7 @@ use num_rational::BigRational;
 
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
+use crate::plan::Method;
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -122,6 +123,11 @@ pub enum Error {
     },
     /// A pile whose forces do not follow the paper's closed form.
     NotStraight,
+    /// A method that does not apply: closed forms are of straight stackings, sweeps of spheres and not of discs.
+    NoSuchMethod {
+        /// The method asked for.
+        method: Method,
+    },
     /// A row that has no spheres with others below them.
     NoSuchRow {
         /// The layer asked for.

@@ -103,6 +103,7 @@ mod lines;
 mod load;
 mod meter;
 mod packing;
+mod parallel;
 mod pile;
 mod plan;
 mod query;
@@ -117,13 +118,14 @@ pub mod transfer;
 
 pub use error::Error;
 pub use fill::Strengths;
+pub use meter::{Counters, Meter};
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
-pub use meter::{Counters, Meter};
 pub use plan::{Method, Plan, Quantity, Question};
 pub use query::{ContactForce, FloorForce, Statics};
 pub use reactions::BaseExtremes;
 pub use standing::{Standing, Verdict};
+pub use sweep::{ExactSweep, Sweep};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

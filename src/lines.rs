@@ -130,10 +130,10 @@ impl<'p, T: Algebra> Lines<'p, T> {
         self.scaled(weight, changes)
     }
 
-    /// What an ordinary sphere adds to each of its lines after so many changes, in a pile whose directions are alike.
-    pub(crate) fn increment_after(&self, changes: usize) -> T::Numerator {
-        let [w, ..] = self.ordinary.per_line();
-        self.scaled(w.clone(), changes)
+    /// What an ordinary sphere adds to its lines after so many changes.
+    pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
+        let per_line = self.ordinary.per_line().each_ref();
+        per_line.map(|w| self.scaled(w.clone(), changes))
     }
 
     /// What a sphere adds to its lines in the run below it, beside an ordinary weight.

@@ -120,7 +120,7 @@ impl Pile {
     /// # Errors
     /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::NotOnFloor`] if forces on the floor are asked of a
     /// sphere that is not there; [`Error::TooLarge`] if a layer neither fits in memory nor has few enough spheres at the
-    /// changes of sign above it; [`Error::NotStraight`] if a closed form is asked for where there is none.
+    /// changes of sign above it; [`Error::NoSuchMethod`] if one is asked for that does not apply.
     ///
     /// # Examples
     /// ```
@@ -141,6 +141,9 @@ impl Pile {
             quantity,
             method,
         } = question.into();
+        if let Some(method) = method {
+            self.check_method(method)?;
+        }
         let mut rows = self.rows(part)?;
         let mut answers = rows.sites();
         if quantity.is_of_contacts() {

@@ -106,8 +106,8 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// The same by this method, whether it is the cheapest or not: for comparison. Exact answers do not depend on it.
     ///
     /// # Errors
-    /// [`Error::NotStraight`] for the closed form of a pile that has none. What does not fit in memory is an error of
-    /// the answers.
+    /// [`Error::NoSuchMethod`] for a closed form of a stacking that is not straight, or a sweep of discs. What does not
+    /// fit in memory is an error of the answers.
     ///
     /// # Examples
     /// ```
@@ -124,9 +124,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn by(self, method: Method) -> Result<Self, Error> {
-        if method == Method::Closed && !self.pile.shape().stacking().is_straight() {
-            return Err(Error::NotStraight);
-        }
+        self.pile.check_method(method)?;
         Ok(Self {
             method: Some(method),
             ..self

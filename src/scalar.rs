@@ -95,7 +95,7 @@ impl Exactness {
 /// A commutative ring with the integers in it: all that most formulas need.
 ///
 /// Operators take the right operand by reference, so that no big number is copied for nothing; in
-/// a generic body `Self` stays on the left.
+/// a generic body `Self` stays on the left. Rows of a layer may be worked on in several threads (feature `rayon`).
 ///
 /// # Laws
 /// For exact scalars, and for rounded ones as far as their precision goes ([`laws`] checks this):
@@ -112,6 +112,8 @@ pub trait Ring:
     + for<'a> Add<&'a Self, Output = Self>
     + for<'a> Sub<&'a Self, Output = Self>
     + for<'a> Mul<&'a Self, Output = Self>
+    + Send
+    + Sync
 {
     /// The image of the integer `n`: exact, or rounded once.
     fn from_i128(n: i128) -> Self;

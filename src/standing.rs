@@ -339,7 +339,9 @@ impl Descent<'_, BigRational, Planes> {
         self.settle();
         let least = self.least()?;
         let [i, j] = least.place;
-        let force: BigInt = least.numerator + self.lines().increment_after(changes);
+        // A change of sign is only where all directions are alike.
+        let [own, ..] = self.lines().increments_after(changes);
+        let force: BigInt = least.numerator + own;
         Some(ContactForce {
             site: Site { i, j, k: self.k() },
             direction: least.direction,

@@ -15,23 +15,26 @@
 //! The passes are linear, and the same for every number: a [`Cells`] of the numerators of a scalar is the generic
 //! sweep; several of `i64`, one for each limb, are the exact engine ([`Planes`](planes::Planes)).
 
+mod cells;
+mod forces;
 mod planes;
 
-pub(crate) use planes::{Least, Planes, Size};
+pub(crate) use cells::Cells;
+pub use forces::{ExactSweep, Sweep};
+pub(crate) use planes::{Least, Planes, Size, bound};
 
 use alloc::vec::Vec;
-use core::ops::{Add, Range};
+use core::ops::Range;
 
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::Error;
-use crate::lattice::{Region, Shape, Site, Stretch, Trapezoid};
+use crate::lattice::{Region, Row, Shape, Site, Stretch};
 use crate::lines::Lines;
 use crate::meter::Meter;
-use crate::scalar::{Algebra, Ring};
-use crate::transfer::turn_numerators;
+use crate::scalar::Algebra;
 
 /// The most numbers that a sweep keeps, 1 GiB of `i64`.
 pub(crate) const MAX_NUMBERS: u64 = 1 << 27;
@@ -171,8 +174,8 @@ impl<'p> Grid<'p> {
 
 /// The numbers of a layer, in one of the ways they are kept.
 pub(crate) trait Layer<T: Algebra> {
-    /// Adds the increments of a pass, and turns what it ends at if the sign changes there.
-    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increment: &T::Numerator);
+    /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there.
+    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]);
 
     /// Adds to the three lines of a sphere.
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]);
@@ -227,8 +230,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             };
             self.settle();
             self.add_extras(pass.from + 1..pass.k);
-            let increment = self.lines.increment_after(pass.run.index);
-            self.layer.pass(&self.grid, &pass, &increment);
+            let increments = self.lines.increments_after(pass.run.index);
+            self.layer.pass(&self.grid, &pass, &increments);
             meter.pass();
             if pass.turns {
                 meter.turn(pass.region.sites().to_usize().unwrap_or(usize::MAX));
@@ -261,6 +264,12 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         (self.layer.at(cells), changes)
     }
 
+    /// The changes of sign across which what the lines carry is turned.
+    pub(crate) fn turned_already(&self) -> usize {
+        self.pass
+            .map_or(0, |pass| pass.run.index + usize::from(pass.turns))
+    }
+
     /// What a sphere of this layer passes on, and the changes of sign down to there.
     pub(crate) fn passed_on(&self, site: Site, meter: impl Meter) -> ([T::Numerator; 3], usize) {
         let (carried, changes) = self.received(site);
@@ -271,64 +280,11 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     }
 }
 
-/// A number for each line of a layer, by direction.
-#[derive(Clone, Debug)]
-pub(crate) struct Cells<V>([Vec<V>; 3]);
-
-impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
-    pub(crate) fn new(grid: &Grid<'_>, zero: &V) -> Self {
-        Self(core::array::from_fn(
-            |_| alloc::vec![zero.clone(); grid.cells],
-        ))
-    }
-
-    /// Adds the increments of a pass, `ramp[n]` for n spheres, and turns what it ends at if the sign changes there.
-    fn add_and_turn(
-        &mut self,
-        grid: &Grid<'_>,
-        pass: &Pass,
-        ramp: &[V],
-        turn: impl Fn(&[V; 3]) -> [V; 3],
-    ) {
-        let Self([alpha, beta, gamma]) = self;
-        let steps = pass.k - pass.from;
-        for row in pass.region.rows(pass.k) {
-            let [a, b, c] = grid.row(row.j, &row.i, pass.shift);
-            let (a, b, c) = (&mut alpha[a], &mut beta[b], &mut gamma[c]);
-            let [on_a, on_b, on_c] = pass.region.row_counts(row.j, pass.run.sign, steps);
-            add(a, on_a, row.i.start, ramp);
-            add(b, on_b, row.i.start, ramp);
-            add(c, on_c, row.i.start, ramp);
-            if !pass.turns {
-                continue;
-            }
-            for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                let turned = turn(&[a.clone(), b.clone(), c.clone()]);
-                [*a, *b, *c] = turned;
-            }
-        }
-    }
-
-    /// Adds to the three lines of a sphere.
-    fn add_to(&mut self, cells: [usize; 3], values: &[V; 3]) {
-        for ((line, cell), value) in self.0.iter_mut().zip(cells).zip(values) {
-            if let Some(sum) = line.get_mut(cell) {
-                *sum = sum.clone() + value;
-            }
-        }
-    }
-
-    /// What the three lines of a sphere carry.
-    fn carried(&self, [a, b, c]: [usize; 3]) -> [&V; 3] {
-        let Self([alpha, beta, gamma]) = self;
-        [&alpha[a], &beta[b], &gamma[c]]
-    }
-
-    /// What the lines of a row of spheres carry.
-    pub(crate) fn row<'c>(&'c self, grid: &Grid<'_>, pass: &Pass, j: i128) -> [&'c [V]; 3] {
-        let Self([alpha, beta, gamma]) = self;
-        let [a, b, c] = grid.row(j, &pass.region.row(j), pass.shift);
-        [&alpha[a], &beta[b], &gamma[c]]
+impl<T: Algebra> Descent<'_, T, Cells<T::Numerator>> {
+    /// What the lines of a row of this layer carry.
+    pub(crate) fn carried_by_row(&self, row: &Row) -> [&[T::Numerator]; 3] {
+        let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
+        self.layer.slices(cells)
     }
 }
 
@@ -336,64 +292,6 @@ impl Descent<'_, BigRational, Planes> {
     /// The least number on the lines of this layer.
     pub(crate) fn least(&mut self) -> Option<Least> {
         self.layer.least(&self.grid, self.pass.as_ref()?)
-    }
-}
-
-impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
-    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increment: &T::Numerator) {
-        let ramp = (0..=pass.greatest_count()).map(|n| T::Numerator::from_i128(n) * increment);
-        self.add_and_turn(grid, pass, &ramp.collect::<Vec<_>>(), turn_numerators::<T>);
-    }
-
-    fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) {
-        self.add_to(cells, values);
-    }
-
-    fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
-        self.carried(cells).map(Clone::clone)
-    }
-}
-
-/// Adds `ramp[count]` along a row that begins at `start`: rising, level, falling.
-fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    row: &mut [V],
-    count: Trapezoid,
-    start: i128,
-    ramp: &[V],
-) {
-    // No count is greater than the last of the ramp.
-    let count = Trapezoid {
-        cap: i128::try_from(ramp.len()).map_or(count.cap, |n| count.cap.min(n - 1)),
-        ..count
-    };
-    let Some(level) = usize::try_from(count.cap)
-        .ok()
-        .and_then(|cap| ramp.get(cap))
-    else {
-        return;
-    };
-    let n = row.len();
-    let inside = |i: i128| usize::try_from((i - start).max(0)).map_or(n, |i| i.min(n));
-    // Where the rise reaches the cap, and where the fall leaves it.
-    let rise = count.rises.map_or(0, |from| inside(from + count.cap));
-    let fall = count.falls.map_or(n, |until| inside(until - count.cap + 1));
-    let (rising, rest) = row.split_at_mut(rise);
-    let (level_part, falling) = rest.split_at_mut(fall.saturating_sub(rise));
-    for (sum, i) in rising.iter_mut().zip(start..) {
-        slope(sum, count.at(i), ramp);
-    }
-    for sum in level_part {
-        *sum = sum.clone() + level;
-    }
-    let after = start + i128::try_from(fall.max(rise)).unwrap_or(0);
-    for (sum, i) in falling.iter_mut().zip(after..) {
-        slope(sum, count.at(i), ramp);
-    }
-}
-
-fn slope<V: Clone + for<'a> Add<&'a V, Output = V>>(sum: &mut V, count: i128, ramp: &[V]) {
-    if let Some(value) = usize::try_from(count).ok().and_then(|n| ramp.get(n)) {
-        *sum = sum.clone() + value;
     }
 }
 

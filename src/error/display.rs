@@ -109,6 +109,11 @@ impl Error {
             Self::NotStraight => f.write_str(
                 "only a straight pile of spheres under one sphere, all of weight mg, has its forces in a table: use Statics",
             ),
+            Self::NoSuchMethod { method } => write!(
+                f,
+                "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
+                 spheres and not of discs; use another, or none to have the cheapest"
+            ),
             Self::NoSuchRow { k, j } => write!(
                 f,
                 "no row j={j} of layer k={k} lies above the floor: j must be at most k, and k less than the bottom layer"

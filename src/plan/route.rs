@@ -7,10 +7,10 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::Method;
-use crate::lattice::Rows;
+use crate::lattice::{Dimension, Rows};
 use crate::lines::Lines;
 use crate::scalar::{Algebra, Exactness};
-use crate::sweep::{Grid, Size};
+use crate::sweep::{Grid, Size, bound};
 use crate::{Error, Pile};
 
 /// How many spheres of a row share one tree.
@@ -37,8 +37,8 @@ impl Pile {
     /// The cheapest way to the forces on the spheres of `rows` in the scalar `T`, or the one asked for.
     ///
     /// # Errors
-    /// [`Error::NotStraight`] if a closed form is asked for where there is none; [`Error::TooLarge`] if a sweep is asked
-    /// for that does not fit in memory.
+    /// [`Error::NoSuchMethod`] if the method asked for does not apply; [`Error::TooLarge`] if a sweep is asked for that
+    /// does not fit in memory.
     pub(crate) fn route<T: Algebra>(
         &self,
         rows: &Rows<'_>,
@@ -54,14 +54,31 @@ impl Pile {
             };
             Grid::numbers(self.shape(), last, words).map(|_| Route::Sweep(size))
         };
+        if let Some(method) = asked {
+            self.check_method(method)?;
+        }
         match asked {
-            Some(Method::Closed) if straight => Ok(Route::Closed),
-            Some(Method::Closed) => Err(Error::NotStraight),
+            Some(Method::Closed) => Ok(Route::Closed),
             Some(Method::Tree) => Ok(Route::Tree),
             Some(Method::Sweep) => sweep(),
             None if straight => Ok(Route::Closed),
             None if rows.one().is_some() => Ok(Route::Tree),
             None => Ok(sweep().unwrap_or(Route::Tree)),
+        }
+    }
+
+    /// That a method applies, as far as that does not depend on the question.
+    pub(crate) fn check_method(&self, method: Method) -> Result<(), Error> {
+        let applies = match method {
+            Method::Closed => self.shape().stacking().is_straight(),
+            Method::Tree => true,
+            // The third line of a disc, which carries nothing, has no place in a layer.
+            Method::Sweep => self.dimension() == Dimension::Three,
+        };
+        if applies {
+            Ok(())
+        } else {
+            Err(Error::NoSuchMethod { method })
         }
     }
 
@@ -79,24 +96,25 @@ impl Pile {
 
     /// How wide the exact numerators of a sweep down to layer `last` are.
     pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
-        let lines = Lines::<BigRational>::new(self);
         let changes = self
             .shape()
             .stretch_to(last + 1)
             .or(self.shape().stretch_to(last));
         let changes = changes.map_or(0, |run| run.index);
+        Size::new(&self.bound_of_sweep(last), changes)
+    }
+
+    /// No less than 2√3·B·D: B no less than any force in f₀ down to layer `last`, D the common denominator of weights
+    /// and loads.
+    pub(crate) fn bound_of_sweep(&self, last: i128) -> BigInt {
+        let lines = Lines::<BigRational>::new(self);
         let scale = BigRational::from_integer(lines.scale(0));
         let extras = self.loading().extras().map(|(_, extra)| extra.abs());
         let extras = extras.fold(BigRational::zero(), |sum, extra| sum + extra) * scale;
         // An integer: the scale is a multiple of all denominators.
         let extras: BigInt = extras.to_integer();
         let spheres = self.shape().spheres_in(0..last + 1);
-        Size::new(
-            last + 1,
-            &spheres,
-            changes,
-            &lines.increment_after(0),
-            &extras,
-        )
+        let own = lines.increments_after(0).into_iter().max();
+        bound(last + 1, &spheres, &own.unwrap_or_default(), &extras)
     }
 }

@@ -34,6 +34,8 @@ pub trait FixedInteger:
     + TryFrom<i128>
     + TryFrom<BigInt>
     + Into<BigInt>
+    + Send
+    + Sync
 {
     /// The name of the rational over this integer.
     const RATIONAL_NAME: &'static str;

@@ -28,8 +28,10 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
+use super::cells::Ramps;
 use super::{Cells, Grid, Layer, Pass};
 use crate::lattice::Direction;
+use crate::parallel;
 use crate::transfer::tripled_half_turn;
 
 /// The bits of a limb below the top one.
@@ -48,19 +50,8 @@ pub(crate) struct Size {
 }
 
 impl Size {
-    /// For a sweep over `layers` layers of `spheres` spheres in all, `changes` changes of sign, numerators of
-    /// `ordinary` for an ordinary sphere, and extras that sum to `extras` without their signs.
-    pub(crate) fn new(
-        layers: i128,
-        spheres: &BigUint,
-        changes: usize,
-        ordinary: &BigInt,
-        extras: &BigInt,
-    ) -> Self {
-        // 2√3·B ≤ √(36·K·N)·u + 6·Σ|e|; B itself where nothing turns.
-        let area = BigUint::from(layers.unsigned_abs()) * spheres * 36_u32;
-        let root = BigInt::from(area.sqrt() + 1_u32);
-        let bound = root * ordinary.abs() + extras.abs() * 6_u32;
+    /// For a sweep with so many changes of sign, from a bound no less than 2√3·B·D ([`bound`]).
+    pub(crate) fn new(bound: &BigInt, changes: usize) -> Self {
         let turned = bound * num_traits::pow(BigInt::from(3), changes.saturating_sub(1));
         let bits = turned.bits();
         let planes = match bits.checked_sub(62) {
@@ -74,6 +65,14 @@ impl Size {
     pub(crate) fn reserved(self) -> u64 {
         62 + u64::from(LIMB) * (self.planes as u64 - 1)
     }
+}
+
+/// No less than 2√3·B·D, by 2√3·B ≤ √(36·K·N)·u + 6·Σ|e|, over K = `layers` layers of N = `spheres` spheres in all, with
+/// numerators of `ordinary` for an ordinary sphere and extras that sum to `extras` without their signs.
+pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: &BigInt) -> BigInt {
+    let area = BigUint::from(layers.unsigned_abs()) * spheres * 36_u32;
+    let root = BigInt::from(area.sqrt() + 1_u32);
+    root * ordinary.abs() + extras.abs() * 6_u32
 }
 
 /// The numbers of a layer, plane by plane.
@@ -100,11 +99,12 @@ impl Planes {
             let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
                 return;
             };
-            for (lower, upper) in lower.0.iter_mut().zip(&mut upper.0) {
+            let directions = lower.0.iter_mut().zip(&mut upper.0);
+            parallel::for_each(directions.collect(), |(lower, upper)| {
                 for (x, next) in lower.iter_mut().zip(upper) {
                     carry(x, next);
                 }
-            }
+            });
         }
     }
 
@@ -163,13 +163,21 @@ pub(crate) struct Least {
 }
 
 impl Layer<BigRational> for Planes {
-    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increment: &BigInt) {
-        let multiples = (0..=pass.greatest_count()).map(|n| increment * n);
-        let multiples: Vec<Vec<i64>> = multiples.map(|n| limbs(&n, self.planes.len())).collect();
-        for (p, plane) in self.planes.iter_mut().enumerate() {
-            let ramp: Vec<i64> = multiples.iter().map(|limbs| limbs[p]).collect();
-            plane.add_and_turn(grid, pass, &ramp, tripled_half_turn);
-        }
+    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[BigInt; 3]) {
+        let planes = self.planes.len();
+        let ramps = Ramps::new(pass, increments, |w, n| limbs(&(w * n), planes));
+        let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
+        let bands = self
+            .planes
+            .iter_mut()
+            .zip(&ramps)
+            .flat_map(|(plane, ramps)| {
+                let bands = plane.bands(grid, pass);
+                bands.into_iter().map(move |band| (band, ramps))
+            });
+        parallel::for_each(bands.collect(), |(mut band, ramps)| {
+            band.add_and_turn(grid, pass, ramps, tripled_half_turn);
+        });
         self.turns += 1;
         if self.turns == TURNS {
             self.carry();

@@ -17,6 +17,7 @@ mod flawed_scalars;
 mod geometry;
 mod interval;
 mod laws;
+mod methods;
 mod nearest;
 mod new_scalar_laws;
 mod one_body;

@@ -11,7 +11,7 @@ use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
 
 /// The operations of a scalar: all right, unless a fault overrides one.
-pub(crate) trait Fault: Clone + Debug + PartialEq {
+pub(crate) trait Fault: Clone + Debug + PartialEq + Send + Sync {
     const CLAIMS: Exactness = Exactness::Exact;
 
     fn zero() -> Q {

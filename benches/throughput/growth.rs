@@ -1,0 +1,99 @@
+//! How time grows with the pile.
+
+use std::hint::black_box;
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Direction, Region, Selection, Site};
+use num_rational::BigRational;
+
+use crate::time::{median, seconds};
+use crate::{Extent, Results};
+
+pub(crate) fn measure(extent: Extent, results: &mut Results) {
+    for (name, layers) in [
+        ("10", 10),
+        ("1e6", 1_000_000),
+        ("1e15", 1_000_000_000_000_000),
+    ] {
+        let nanoseconds = one_contact(extent, layers);
+        results.push((format!("one_contact_ns_{name}"), nanoseconds));
+    }
+    let layers = [extent.size(100, 8), extent.size(400, 16)];
+    let base = exponent(extent, layers, |pile| {
+        let statics = pile.statics::<f64>();
+        let forces = statics.base(pile.rows(Selection::Base).expect("a base"));
+        let normal = (pile.layers() as f64 + 2.0) / 3.0;
+        forces.for_each(|force| assert!((force.expect("a force").normal - normal).abs() < 1e-9));
+    });
+    results.push(("base_time_exponent".into(), base));
+    let layers = [extent.size(50, 8), extent.size(200, 16)];
+    let whole = exponent(extent, layers, |pile| {
+        let statics = pile.statics::<f64>();
+        let contacts = statics.contacts(pile.rows(Selection::All).expect("rows"));
+        let sum: f64 = contacts.map(|contact| contact.expect("a force").force).sum();
+        // Contacts that carry n: 3(L−n)(L−n+1)/2.
+        let layers = pile.layers();
+        let exact: i128 = (1..layers).map(|n| 3 * n * (layers - n) * (layers - n + 1) / 2).sum();
+        assert!((sum - exact as f64).abs() <= 1e-6 * sum);
+    });
+    results.push(("pile_time_exponent".into(), whole));
+    results.push(("runs_time_exponent".into(), runs(extent)));
+}
+
+fn one_contact(extent: Extent, layers: i128) -> f64 {
+    let pile = Pile::triangular(layers).expect("a pile");
+    let statics = pile.statics::<f64>();
+    let repeats = if extent.smoke { 1 } else { 1_000_000 };
+    let site = Site {
+        i: layers / 5,
+        j: layers / 3,
+        k: layers - 2,
+    };
+    let times = (0..extent.pairs).map(|_| {
+        seconds(|| {
+            for _ in 0..repeats {
+                let force = statics.contact(black_box(site), Direction::Beta);
+                assert_eq!(force, Ok(site.i as f64 + 1.0));
+            }
+        })
+    });
+    median(times) / f64::from(repeats) * 1e9
+}
+
+/// The power of L that the time of a question grows with, between two sizes.
+fn exponent(extent: Extent, layers: [i128; 2], ask: impl Fn(&Pile)) -> f64 {
+    let [small, large] = layers.map(|layers| Pile::triangular(layers).expect("a pile"));
+    let ratios = (0..extent.pairs).map(|_| seconds(|| ask(&large)) / seconds(|| ask(&small)));
+    let [small, large] = layers.map(|layers| layers as f64);
+    median(ratios).ln() / (large / small).ln()
+}
+
+/// One exact contact below six changes of sign, far below them and nearer.
+fn runs(extent: Extent) -> f64 {
+    let layers = [1_000_000_i128, 1_000_000_000_000_000];
+    let piles = layers.map(|layers| {
+        let run = layers / 7;
+        let runs = vec![run.to_string(); 7].join(",");
+        let stacking = format!("({runs})").parse().expect("a stacking");
+        Pile::under(Region::SITE, stacking).expect("a pile")
+    });
+    let [small, large] = &piles;
+    let ask = |pile: &Pile| {
+        let statics = pile.statics::<BigRational>();
+        // In the middle, below all changes.
+        let region = pile.shape().layer(pile.layers() - 2).expect("a layer");
+        let [x, y] = [region.x(), region.y()].map(|range| range.start().midpoint(*range.end()));
+        let site = Site {
+            i: x,
+            j: y,
+            k: pile.layers() - 2,
+        };
+        let forces = Direction::ALL.map(|d| statics.contact(site, d).expect("a force"));
+        // Every sphere is in balance, which no line alone shows.
+        let left = statics.unbalanced(site).expect("forces");
+        assert_eq!(left.into_array(), [(); 3].map(|()| BigRational::default()));
+        black_box(forces);
+    };
+    let ratios = (0..extent.pairs).map(|_| seconds(|| ask(large)) / seconds(|| ask(small)));
+    median(ratios).ln() / 1e9_f64.ln()
+}

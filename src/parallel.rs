@@ -1,0 +1,20 @@
+//! Work on all cores, with the feature `rayon`; one after the other without it.
+
+/// How many threads there are to work on.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "rayon")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "rayon"))]
+    1
+}
+
+/// Does something with each item, in any order, at once where there are threads.
+pub(crate) fn for_each<I: Send>(items: alloc::vec::Vec<I>, work: impl Fn(I) + Send + Sync) {
+    #[cfg(feature = "rayon")]
+    if items.len() > 1 && threads() > 1 {
+        use rayon::iter::{IntoParallelIterator, ParallelIterator};
+        items.into_par_iter().for_each(work);
+        return;
+    }
+    items.into_iter().for_each(work);
+}
