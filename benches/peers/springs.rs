@@ -43,8 +43,11 @@ const TIME_STEP: f64 = 0.6;
 /// Steps between two looks at what is out of balance.
 const PATIENCE: usize = 16;
 
+/// What a force may be out of balance at rest, in mg.
+const ENOUGH: f64 = 1e-10;
+
 /// Relaxes a pile of `layers` layers that starts at its exact positions, without overlap, its base held fast, until no
-/// sphere is more than 10⁻¹⁰ mg out of balance, or what the rounding of positions allows.
+/// sphere is out of balance, or only by the rounding of positions, and no less so for a while.
 pub(crate) fn relax(network: &Network, layers: f64, stiffness: f64) -> Relaxed {
     let mut positions = network.positions.clone();
     let moving = network.below.len();
@@ -57,8 +60,14 @@ pub(crate) fn relax(network: &Network, layers: f64, stiffness: f64) -> Relaxed {
     let damping = SLOWEST * 2.0 * stiffness.sqrt() / layers;
     let kept = (1.0 - damping * step / 2.0) / (1.0 + damping * step / 2.0);
     let gained = step / (1.0 + damping * step / 2.0);
-    let height = positions.last().map_or(0.0, |position| position[2]);
-    let at_rest = 1e-10 + 4.0 * f64::EPSILON * height * stiffness;
+    let extent = positions
+        .as_flattened()
+        .iter()
+        .copied()
+        .map(f64::abs)
+        .fold(0.0, f64::max);
+    // Six contacts, each between two rounded positions, and a little.
+    let roundings = 16.0 * f64::EPSILON * extent * stiffness;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -66,10 +75,16 @@ pub(crate) fn relax(network: &Network, layers: f64, stiffness: f64) -> Relaxed {
     )]
     let most = (400.0 * layers) as usize;
 
+    let (mut least, mut fallen) = (f64::INFINITY, 0);
     for steps in 0..most {
         push(network, &positions, stiffness, &mut forces, &mut loads);
         if steps % PATIENCE == 0 {
-            if greatest(&loads[..moving]) < at_rest {
+            let out_of_balance = greatest(&loads[..moving]);
+            if out_of_balance < 0.9 * least {
+                (least, fallen) = (out_of_balance, steps);
+            }
+            let falls_no_more = (steps - fallen) as f64 > 10.0 * layers;
+            if out_of_balance < ENOUGH || out_of_balance < roundings && falls_no_more {
                 return Relaxed::Rest { forces, steps };
             }
             if apart(&positions, &network.positions) > 0.5 {

@@ -2,16 +2,18 @@
 //!
 //! `cargo bench --bench work_precision` computes all contact forces of some piles in every way there is, prints a table, and
 //! writes it as CSV and as a log–log chart, to `work_precision.csv` and `work_precision.svg` in the directory of targets or to
-//! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes nothing.
+//! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes to `smoke.csv` and `smoke.svg` there.
 //!
 //! The error is the greatest difference of a contact force from the exact one, in rational arithmetic, over the
 //! greatest exact force; the exact forces are proved to be in equilibrium. 0 means that every force is exact. It is
 //! asserted that exact methods have no error, that intervals hold the exact forces, and that no float is further off
 //! than its bound. The time is the median of three runs from the pile to all its forces.
 
+mod axis;
 mod cases;
 mod chart;
 mod library;
+mod marks;
 mod others;
 #[path = "../peers/mod.rs"]
 mod peers;
@@ -38,11 +40,9 @@ fn main() {
         runs.extend(others::runs(&bench));
         table::print(&runs[first..]);
     }
-    if !options.smoke {
-        table::write(&options.csv, &runs).expect("a place for the table");
-        chart::draw(&options.svg, &runs).expect("a place for the chart");
-        println!("{}\n{}", options.csv.display(), options.svg.display());
-    }
+    table::write(&options.csv, &runs).expect("a place for the table");
+    chart::draw(&options.svg, &runs).expect("a place for the chart");
+    println!("\n{}\n{}", options.csv.display(), options.svg.display());
 }
 
 struct Options {
@@ -53,24 +53,25 @@ struct Options {
 
 impl Options {
     fn read(mut arguments: impl Iterator<Item = String>) -> Self {
-        let directory = Path::new(env!("CARGO_TARGET_TMPDIR"));
-        let mut options = Self {
-            smoke: false,
-            csv: directory.join("work_precision.csv"),
-            svg: directory.join("work_precision.svg"),
-        };
+        let (mut smoke, mut csv, mut svg) = (false, None, None);
         while let Some(argument) = arguments.next() {
             let mut file = || PathBuf::from(arguments.next().expect("a file after its option"));
             match argument.as_str() {
-                "--smoke" => options.smoke = true,
-                "--csv" => options.csv = file(),
-                "--svg" => options.svg = file(),
+                "--smoke" => smoke = true,
+                "--csv" => csv = Some(file()),
+                "--svg" => svg = Some(file()),
                 // Cargo's own.
                 "--bench" => {}
                 other => panic!("{other}: the options are --smoke, --csv FILE and --svg FILE"),
             }
         }
-        options
+        let name = if smoke { "smoke" } else { "work_precision" };
+        let default = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        Self {
+            smoke,
+            csv: csv.unwrap_or_else(|| default.with_extension("csv")),
+            svg: svg.unwrap_or_else(|| default.with_extension("svg")),
+        }
     }
 }
 
