@@ -1,0 +1,107 @@
+//! The equations of equilibrium of a pile: a sparse linear system.
+
+use num_traits::Float;
+
+use super::network::Network;
+
+/// A f = b: as many equations as unknowns, so that the forces are unique.
+///
+/// The unknowns are the magnitudes of the contact forces of all spheres above the floor, three for each; equations 3n, 3n+1,
+/// 3n+2 say that sphere n feels no force along x, y, z: what its six neighbours push, and its weight. In mg.
+pub(crate) struct Equations<F> {
+    pub(crate) matrix: Columns<F>,
+    pub(crate) loads: Vec<F>,
+}
+
+/// A square sparse matrix, column by column: the rows of each in ascending order.
+pub(crate) struct Columns<F> {
+    /// Where each column begins, and where the last one ends.
+    pub(crate) starts: Vec<usize>,
+    pub(crate) rows: Vec<usize>,
+    pub(crate) values: Vec<F>,
+}
+
+impl<F: Float> Equations<F> {
+    /// The equations of all spheres above the floor.
+    pub(crate) fn new(network: &Network) -> Self {
+        let spheres = network.below.len();
+        let float = |x: f64| F::from(x).expect("every float rounds to another");
+        let mut matrix = Columns {
+            starts: vec![0],
+            rows: Vec::with_capacity(6 * 3 * spheres),
+            values: Vec::with_capacity(6 * 3 * spheres),
+        };
+        let contacts = network.below.iter().zip(&network.directions).enumerate();
+        for (upper, (below, directions)) in contacts {
+            for (&lower, direction) in below.iter().zip(directions) {
+                // The upper sphere is pushed back, the lower one along.
+                matrix.entries(upper, direction.map(|x| float(-x)));
+                if lower < spheres {
+                    matrix.entries(lower, direction.map(float));
+                }
+                matrix.starts.push(matrix.rows.len());
+            }
+        }
+        let weights = &network.weights[..spheres];
+        // z points down: a weight pulls along it.
+        let loads = weights.iter().flat_map(|&w| [0.0, 0.0, -w].map(float));
+        Self {
+            loads: loads.collect(),
+            matrix,
+        }
+    }
+
+    /// b − A f, freshly computed.
+    pub(crate) fn residual(&self, forces: &[F]) -> Vec<F> {
+        let product = self.matrix.times(forces);
+        self.loads
+            .iter()
+            .zip(product)
+            .map(|(&b, y)| b - y)
+            .collect()
+    }
+}
+
+impl<F: Float> Columns<F> {
+    /// The force along x, y and z on a sphere, in the last column.
+    fn entries(&mut self, sphere: usize, force: [F; 3]) {
+        for (axis, value) in force.into_iter().enumerate() {
+            if !value.is_zero() {
+                self.rows.push(3 * sphere + axis);
+                self.values.push(value);
+            }
+        }
+    }
+
+    /// Rows and columns.
+    pub(crate) fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    fn columns(&self) -> impl Iterator<Item = impl Iterator<Item = (usize, F)>> {
+        self.starts.windows(2).map(|ends| {
+            let column = ends[0]..ends[1];
+            let rows = self.rows[column.clone()].iter().copied();
+            rows.zip(self.values[column].iter().copied())
+        })
+    }
+
+    /// A x.
+    pub(crate) fn times(&self, x: &[F]) -> Vec<F> {
+        let mut product = vec![F::zero(); self.size()];
+        for (column, &x) in self.columns().zip(x) {
+            for (row, value) in column {
+                product[row] = product[row] + value * x;
+            }
+        }
+        product
+    }
+
+    /// Aᵀ y.
+    pub(crate) fn transposed_times(&self, y: &[F]) -> Vec<F> {
+        let dot = |sum, (row, value): (usize, F)| sum + value * y[row];
+        self.columns()
+            .map(|column| column.fold(F::zero(), dot))
+            .collect()
+    }
+}

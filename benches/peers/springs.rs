@@ -1,0 +1,155 @@
+//! Stiff springs that only push, damped until nothing moves: what a discrete-element method does.
+//!
+//! R = m = g = 1. Springs give way: the pile sinks, its angles with it, and forces are off by some 0.48·L/k. Positions are
+//! rounded: forces are off by some 10⁻¹⁵·k. So neither soft springs are good nor stiff ones. Below k ≈ 0.06·L³ the pile
+//! collapses.
+
+use std::fmt;
+
+use super::network::Network;
+
+/// How a relaxation ended.
+pub(crate) enum Relaxed {
+    /// At rest, with these contact forces in mg.
+    Rest { forces: Vec<f64>, steps: usize },
+    /// A sphere went further than half a radius.
+    Collapse { steps: usize },
+    /// Some force is still out of balance.
+    Unrest { steps: usize, out_of_balance: f64 },
+}
+
+impl fmt::Display for Relaxed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rest { steps, .. } => write!(f, "{steps} steps"),
+            Self::Collapse { steps } => write!(
+                f,
+                "the pile collapses: a sphere is R/2 off after {steps} steps"
+            ),
+            Self::Unrest {
+                steps,
+                out_of_balance,
+            } => write!(
+                f,
+                "not at rest after {steps} steps: {out_of_balance:.0e} mg out of balance"
+            ),
+        }
+    }
+}
+
+/// Of √(m/k): the fastest mode of a sphere between six others has ω² < 6.3·k/m, and ω·Δt must stay below 2.
+const TIME_STEP: f64 = 0.6;
+
+/// Steps between two looks at what is out of balance.
+const PATIENCE: usize = 16;
+
+/// What a force may be out of balance at rest, in mg.
+const ENOUGH: f64 = 1e-10;
+
+/// Relaxes a pile of `layers` layers that starts at its exact positions, without overlap, its base held fast, until no
+/// sphere is out of balance, or only by the rounding of positions, and no less so for a while.
+pub(crate) fn relax(network: &Network, layers: f64, stiffness: f64) -> Relaxed {
+    let mut positions = network.positions.clone();
+    let moving = network.below.len();
+    let mut velocities = vec![[0.0; 3]; moving];
+    let mut loads = vec![[0.0; 3]; positions.len()];
+    let mut forces = vec![0.0; network.contacts()];
+
+    let step = TIME_STEP / stiffness.sqrt();
+    // About critical for the slowest mode, whose ω is some √(k/m)/L: a little less than that, as sinking softens it.
+    let damping = SLOWEST * 2.0 * stiffness.sqrt() / layers;
+    let kept = (1.0 - damping * step / 2.0) / (1.0 + damping * step / 2.0);
+    let gained = step / (1.0 + damping * step / 2.0);
+    let extent = positions
+        .as_flattened()
+        .iter()
+        .copied()
+        .map(f64::abs)
+        .fold(0.0, f64::max);
+    // Six contacts, each between two rounded positions, and a little.
+    let roundings = 16.0 * f64::EPSILON * extent * stiffness;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "some thousands"
+    )]
+    let most = (400.0 * layers) as usize;
+
+    let (mut least, mut fallen) = (f64::INFINITY, 0);
+    for steps in 0..most {
+        push(network, &positions, stiffness, &mut forces, &mut loads);
+        if steps % PATIENCE == 0 {
+            let out_of_balance = greatest(&loads[..moving]);
+            if out_of_balance < 0.9 * least {
+                (least, fallen) = (out_of_balance, steps);
+            }
+            let falls_no_more = (steps - fallen) as f64 > 10.0 * layers;
+            if out_of_balance < ENOUGH || out_of_balance < roundings && falls_no_more {
+                return Relaxed::Rest { forces, steps };
+            }
+            if apart(&positions, &network.positions) > 0.5 {
+                return Relaxed::Collapse { steps };
+            }
+        }
+        for ((position, velocity), load) in positions.iter_mut().zip(&mut velocities).zip(&loads) {
+            for axis in 0..3 {
+                velocity[axis] = kept * velocity[axis] + gained * load[axis];
+                position[axis] += step * velocity[axis];
+            }
+        }
+    }
+    Relaxed::Unrest {
+        steps: most,
+        out_of_balance: greatest(&loads[..moving]),
+    }
+}
+
+/// Of √(k/m)/L: measured, for piles of 10 to 40 layers.
+const SLOWEST: f64 = 1.0;
+
+/// The force of every contact, and what is out of balance on every sphere.
+fn push(
+    network: &Network,
+    positions: &[[f64; 3]],
+    stiffness: f64,
+    forces: &mut [f64],
+    loads: &mut [[f64; 3]],
+) {
+    for (load, &weight) in loads.iter_mut().zip(&network.weights) {
+        *load = [0.0, 0.0, weight];
+    }
+    for (upper, (below, forces)) in network
+        .below
+        .iter()
+        .zip(forces.as_chunks_mut::<3>().0)
+        .enumerate()
+    {
+        let from = positions[upper];
+        for (&lower, force) in below.iter().zip(forces) {
+            let to = positions[lower];
+            let apart: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
+            let distance = length(apart);
+            *force = stiffness * (2.0 - distance).max(0.0);
+            for axis in 0..3 {
+                let pushed = *force * apart[axis] / distance;
+                loads[upper][axis] -= pushed;
+                loads[lower][axis] += pushed;
+            }
+        }
+    }
+}
+
+fn length([x, y, z]: [f64; 3]) -> f64 {
+    (x * x + y * y + z * z).sqrt()
+}
+
+fn greatest(vectors: &[[f64; 3]]) -> f64 {
+    vectors.iter().copied().map(length).fold(0.0, f64::max)
+}
+
+/// The greatest distance between where spheres are and where they were.
+fn apart(now: &[[f64; 3]], then: &[[f64; 3]]) -> f64 {
+    let moved = now.iter().zip(then);
+    let moved = moved.map(|(now, then)| length(std::array::from_fn(|axis| now[axis] - then[axis])));
+    moved.fold(0.0, f64::max)
+}

@@ -1,0 +1,60 @@
+//! The piles that are measured.
+
+use cannonpile::Pile;
+use cannonpile::lattice::Region;
+use cannonpile::stacking::Stacking;
+
+/// A pile and what it is called.
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) pile: Pile,
+    pub(crate) layers: u16,
+}
+
+impl Case {
+    /// The paper's pile.
+    fn straight(layers: u16) -> Self {
+        Self {
+            name: format!("straight, {layers} layers"),
+            pile: Pile::triangular(layers.into()).expect("a pile"),
+            layers,
+        }
+    }
+
+    /// Hexagonal close packing, which changes sign at every layer, on a hexagon of `side` spheres a side.
+    fn alternating(side: u16, layers: u16) -> Self {
+        let top = Region::hexagon(side.into(), side.into()).expect("a hexagon");
+        let stacking = Stacking::hcp(layers.into()).expect("a stacking");
+        Self {
+            name: format!("HCP, {layers} layers, {side} a side on top"),
+            pile: Pile::under(top, stacking).expect("a pile"),
+            layers,
+        }
+    }
+
+    /// Contacts between spheres.
+    pub(crate) fn contacts(&self) -> f64 {
+        let contacts: u32 = self.pile.contacts().try_into().expect("some thousands");
+        contacts.into()
+    }
+}
+
+/// Straight piles; a wide low one with changes of sign, which stands; and one with many changes, which only glue would
+/// hold: some contacts pull.
+pub(crate) fn cases(smoke: bool) -> Vec<Case> {
+    if smoke {
+        return vec![
+            Case::straight(4),
+            Case::alternating(2, 4),
+            Case::alternating(3, 7),
+        ];
+    }
+    vec![
+        Case::straight(10),
+        Case::straight(20),
+        Case::straight(40),
+        Case::straight(80),
+        Case::alternating(12, 4),
+        Case::alternating(8, 40),
+    ]
+}

@@ -1,0 +1,130 @@
+//! The methods of those who do not know the closed form, in floats.
+//!
+//! Their time includes the equations of equilibrium, and not the geometry of the pile, which they are given.
+
+use cannonpile::scalar::{Algebra, RealEmbeddable};
+use faer::traits::ComplexField;
+use num_traits::Float;
+
+use crate::Bench;
+use crate::peers::equations::Equations;
+use crate::peers::iterative::squared;
+use crate::peers::springs::{Relaxed, relax};
+use crate::peers::{inclination, iterative, lu};
+use crate::reference::{Unit, by_sphere};
+use crate::run::{Measured, Method, Run, timed};
+
+/// LU and conjugate gradients in two floats, springs of several stiffnesses.
+pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
+    let mut runs = vec![factorised::<f32>(bench), factorised::<f64>(bench)];
+    runs.extend([1e-3, 1e-5].map(|tolerance: f32| iterated(bench, tolerance)));
+    runs.extend([1e-3, 1e-6, 1e-9, 1e-12].map(|tolerance: f64| iterated(bench, tolerance)));
+    runs.extend(springs(bench));
+    runs
+}
+
+fn factorised<F: Algebra + RealEmbeddable + ComplexField + Float>(bench: &Bench) -> Run {
+    let (seconds, forces) = timed(bench.repetitions, || {
+        lu::forces(&Equations::<F>::new(&bench.network))
+    });
+    let error = held(bench, forces);
+    bench.run(Method::Lu, F::NAME, Measured { seconds, error })
+}
+
+fn iterated<F: Algebra + RealEmbeddable + Float>(bench: &Bench, tolerance: F) -> Run {
+    // In exact arithmetic it would end after as many iterations as there are unknowns.
+    let most = 40 * usize::from(bench.case.layers);
+    let (seconds, answer) = timed(bench.repetitions, || {
+        iterative::forces(&Equations::new(&bench.network), tolerance, most)
+    });
+    let error = held(bench, answer.forces);
+    let run = bench.run(Method::Gradients, F::NAME, Measured { seconds, error });
+    let iterations = answer.iterations;
+    Run {
+        setting: format!("residual {tolerance:?}"),
+        remark: if answer.converged {
+            format!("{iterations} iterations")
+        } else {
+            format!("did not come down to that in {iterations} iterations")
+        },
+        ..run
+    }
+}
+
+/// The error, which the residual r bounds: √K·‖r‖/σ in every layer, with σ the least singular value of the unit vectors of
+/// three contacts. For a layer adds at most ‖r_k‖/σ to what comes from above, and passes that on unamplified.
+fn held<F: Algebra + RealEmbeddable + Float>(bench: &Bench, forces: Vec<F>) -> f64 {
+    let Bench {
+        case,
+        network,
+        reference,
+        ..
+    } = bench;
+    let floats: Vec<f64> = forces
+        .iter()
+        .map(|f| f.to_f64().expect("a float"))
+        .collect();
+    let residual = squared(&Equations::new(network).residual(&floats)).sqrt();
+    let greatest = floats.iter().copied().map(f64::abs).fold(1.0, f64::max);
+    // The residual and the directions are rounded themselves: six products and a weight.
+    let rounded = 16.0 * f64::EPSILON * greatest * case.contacts().sqrt();
+
+    let [sin2, cos2] = [inclination().sin2(), &inclination().cos2()].map(f64::from_rational);
+    let sigma = (1.5 * sin2).min(3.0 * cos2).sqrt();
+    let layers = f64::from(case.layers - 1);
+    let in_pile_units = 3.0 * cos2.sqrt();
+    let most = layers.sqrt() * (residual + rounded) / sigma * in_pile_units;
+    let bound = most / f64::from_rational(&reference.greatest);
+
+    let error = reference.error(&by_sphere(forces), Unit::Weights);
+    assert!(
+        error <= bound,
+        "{}: error {error:e} exceeds {bound:e}, which the residual allows",
+        case.name
+    );
+    error
+}
+
+/// More layers would take minutes for every stiffness.
+const MOST_LAYERS_OF_SPRINGS: u16 = 40;
+
+fn springs(bench: &Bench) -> Vec<Run> {
+    let pulls = bench
+        .reference
+        .forces
+        .iter()
+        .flatten()
+        .any(|f| f.sign() == cannonpile::scalar::Sign::Negative);
+    if pulls {
+        let none = "no equilibrium: some contacts pull, and springs between spheres only push";
+        return vec![bench.without(Method::Springs, "f64", none)];
+    }
+    if bench.case.layers > MOST_LAYERS_OF_SPRINGS {
+        let none = "not run: takes some 16 times as long as 40 layers, minutes for every stiffness";
+        return vec![bench.without(Method::Springs, "f64", none)];
+    }
+    [1e4, 1e5, 1e6, 1e7, 1e8, 1e10]
+        .map(|stiffness| relaxed(bench, stiffness))
+        .into()
+}
+
+/// Springs of a stiffness in mg/R.
+fn relaxed(bench: &Bench, stiffness: f64) -> Run {
+    let layers = f64::from(bench.case.layers);
+    let (seconds, answer) = timed(bench.repetitions, || {
+        relax(&bench.network, layers, stiffness)
+    });
+    let remark = answer.to_string();
+    let setting = format!("k = {stiffness:.0e} mg/R");
+    let Relaxed::Rest { forces, .. } = answer else {
+        let run = bench.without(Method::Springs, "f64", &remark);
+        return Run { setting, ..run };
+    };
+    let error = bench.reference.error(&by_sphere(forces), Unit::Weights);
+    let run = bench.run(Method::Springs, "f64", Measured { seconds, error });
+    Run {
+        setting,
+        remark,
+        ..run
+    }
+}

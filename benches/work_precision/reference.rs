@@ -1,0 +1,133 @@
+//! The exact forces of a pile, certified, and how far other answers are from them.
+
+use cannonpile::Pile;
+use cannonpile::geometry::Vector;
+use cannonpile::lattice::{Direction, Selection};
+use cannonpile::scalar::{Algebra, Enclosure, RealEmbeddable, Ring};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use crate::peers;
+use crate::peers::network::Network;
+
+/// The unit in which a method gives its forces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Unit {
+    /// f₀ = mg/(3 cosθ).
+    PileUnits,
+    /// mg, at the spacing of the peers.
+    Weights,
+}
+
+/// The exact contact forces, in f₀, three for each sphere above the floor.
+pub(crate) struct Reference {
+    pub(crate) forces: Vec<[BigRational; 3]>,
+    /// The greatest of them.
+    pub(crate) greatest: BigRational,
+    /// mg/f₀ = 3 cosθ to 60 digits.
+    weight: BigRational,
+}
+
+impl Reference {
+    /// The library's exact answer, and the proof that it is right: every sphere is in equilibrium, exactly, and as many
+    /// equations as forces have one solution.
+    pub(crate) fn new(pile: &Pile, network: &Network) -> Self {
+        let rows = pile.rows(Selection::All).expect("rows");
+        let statics = pile.statics::<BigRational>();
+        let contacts = statics.contacts(rows);
+        let forces: Vec<BigRational> = contacts.map(|c| c.expect("a force").force).collect();
+        let forces = by_sphere(forces);
+        certify(pile, network, &forces);
+
+        let magnitudes = forces.iter().flatten().map(Signed::abs);
+        let greatest = magnitudes.max().expect("a contact");
+        // 3 cosθ = √(9 cos²θ), down to the 60th digit.
+        let digits = BigInt::from(10).pow(60);
+        let square = peers::inclination().cos2() * BigInt::from(9) * &digits * &digits;
+        Self {
+            forces,
+            greatest,
+            weight: BigRational::new(square.to_integer().sqrt(), digits),
+        }
+    }
+
+    /// The greatest error of all forces, over the greatest exact force: 0 if and only if all are exact.
+    ///
+    /// The error of an enclosure is that of the worst value in it.
+    pub(crate) fn error<T: RealEmbeddable>(&self, forces: &[[T; 3]], unit: Unit) -> f64 {
+        let scaled = |bound: BigRational| match unit {
+            Unit::PileUnits => bound,
+            Unit::Weights => bound * &self.weight,
+        };
+        let errors = self.compared(forces).flat_map(|(force, exact)| {
+            let Enclosure { lower, upper } = force.enclosure().expect("a finite force");
+            [lower, upper].map(|bound| (scaled(bound) - exact).abs())
+        });
+        self.relative(errors.max().expect("a contact"))
+    }
+
+    /// That every force holds the exact one.
+    pub(crate) fn is_enclosed_by<T: RealEmbeddable>(&self, forces: &[[T; 3]]) -> bool {
+        let mut compared = self.compared(forces);
+        compared.all(|(force, exact)| {
+            let enclosure = force.enclosure();
+            enclosure.is_some_and(|enclosure| enclosure.contains(exact))
+        })
+    }
+
+    /// A force in f₀ over the greatest exact one.
+    pub(crate) fn relative(&self, force: BigRational) -> f64 {
+        let exact = force.is_zero();
+        let relative = f64::from_rational(&(force / &self.greatest));
+        assert!(exact || relative > 0.0, "no error is lost to underflow");
+        relative
+    }
+
+    fn compared<'a, T>(
+        &'a self,
+        forces: &'a [[T; 3]],
+    ) -> impl Iterator<Item = (&'a T, &'a BigRational)> {
+        assert_eq!(forces.len(), self.forces.len(), "all forces");
+        forces.iter().flatten().zip(self.forces.iter().flatten())
+    }
+}
+
+/// Contact forces, three to a sphere.
+pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
+    let mut forces = forces.into_iter();
+    let mut spheres = Vec::with_capacity(forces.len() / 3);
+    while let (Some(a), Some(b), Some(c)) = (forces.next(), forces.next(), forces.next()) {
+        spheres.push([a, b, c]);
+    }
+    spheres
+}
+
+/// That what a sphere is pushed up by, what it is pushed down by and its weight, 3 f₀ cosθ, add up to nothing.
+fn certify(pile: &Pile, network: &Network, forces: &[[BigRational; 3]]) {
+    let statics = pile.statics::<BigRational>();
+    let mut left = vec![Vector::zero(); network.sites.len()];
+    for (sum, &site) in left.iter_mut().zip(&network.sites) {
+        sum.z = pile.sphere_weight(site).expect("a sphere") * BigRational::from_i128(3);
+    }
+    let mut directions = Vec::new();
+    for (upper, (below, forces)) in network.below.iter().zip(forces).enumerate() {
+        let site = network.sites[upper];
+        if upper == 0 || network.sites[upper - 1].k < site.k {
+            directions = Vec::from(Direction::ALL.map(|direction| {
+                statics
+                    .contact_direction(site, direction)
+                    .expect("a contact")
+            }));
+        }
+        for ((&lower, force), direction) in below.iter().zip(forces).zip(&directions) {
+            let push = direction.clone().scaled(force);
+            left[upper] = left[upper].clone() + &push;
+            left[lower] = left[lower].clone() + &push.map(|x| -x);
+        }
+    }
+    let balanced = left[..network.below.len()]
+        .iter()
+        .all(|left| *left == Vector::zero());
+    assert!(balanced, "every sphere is in equilibrium");
+}
