@@ -16,7 +16,12 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     let packing = Packing::new(&pile, &spacing).expect("room");
     let strengths = Strengths::<f64>::nearest(&packing).expect("floats");
-    let nearest = |site, direction| packing.contact(site, direction).expect("a contact").nearest();
+    let nearest = |site, direction| {
+        packing
+            .contact(site, direction)
+            .expect("a contact")
+            .nearest()
+    };
     let fill = over_memset(&pile, &strengths, 1.5, extent.pairs, nearest);
     results.push(("fill_f64_over_memset".into(), fill));
 
@@ -76,7 +81,9 @@ pub(crate) fn check<V: PartialEq + Debug + Copy>(
     slices: &[Vec<V>; 3],
     exact: impl Fn(Site, cannonpile::lattice::Direction) -> Option<V>,
 ) {
-    let rows = pile.rows(cannonpile::lattice::Selection::All).expect("rows");
+    let rows = pile
+        .rows(cannonpile::lattice::Selection::All)
+        .expect("rows");
     let sites = rows.off_the_floor().flatten();
     let step = slices[0].len() / 1000 + 1;
     for (place, site) in sites.enumerate().step_by(step) {

@@ -30,10 +30,14 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let whole = exponent(extent, layers, |pile| {
         let statics = pile.statics::<f64>();
         let contacts = statics.contacts(pile.rows(Selection::All).expect("rows"));
-        let sum: f64 = contacts.map(|contact| contact.expect("a force").force).sum();
+        let sum: f64 = contacts
+            .map(|contact| contact.expect("a force").force)
+            .sum();
         // Contacts that carry n: 3(L−n)(L−n+1)/2.
         let layers = pile.layers();
-        let exact: i128 = (1..layers).map(|n| 3 * n * (layers - n) * (layers - n + 1) / 2).sum();
+        let exact: i128 = (1..layers)
+            .map(|n| 3 * n * (layers - n) * (layers - n + 1) / 2)
+            .sum();
         assert!((sum - exact as f64).abs() <= 1e-6 * sum);
     });
     results.push(("pile_time_exponent".into(), whole));

@@ -31,6 +31,10 @@ impl Algebra for Plain {
         Self(self.0 / BigRational::from_integer(n.get().into()))
     }
 
+    fn is_defined(&self) -> bool {
+        true
+    }
+
     fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
         (values.clone().map(Self), Self::one())
     }

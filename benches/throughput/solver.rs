@@ -20,7 +20,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     let packing = Packing::new(&pile, &spacing).expect("room");
     let equations = Equations::<f64>::new(&Network::new(&pile));
-    let spheres = equations.size() / 3;
+    let spheres = equations.loads.len() / 3;
     let mut slices = [(); 3].map(|()| vec![1.5; spheres]);
     let mut solved = Vec::new();
     let ratio = ratio(
@@ -43,7 +43,10 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
                 slices[direction.index()][place],
                 solved[3 * place + direction.index()],
             );
-            assert!((closed - solved).abs() < 1e-9 * closed, "{closed} is not {solved}");
+            assert!(
+                (closed - solved).abs() < 1e-9 * closed,
+                "{closed} is not {solved}"
+            );
         }
     }
     results.push(("sparse_lu_over_closed_form".into(), ratio));

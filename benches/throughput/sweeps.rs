@@ -80,14 +80,23 @@ fn over_memset(pile: &Pile, pairs: usize) -> f64 {
     let layer = pile.layers() - 2;
     let last = pile.rows(Selection::Layer(layer)).expect("a layer");
     let first = spheres - last.sites().to_usize().expect("few");
-    let contacts = exact.contacts(last).map(|contact| contact.expect("a force"));
+    let contacts = exact
+        .contacts(last)
+        .map(|contact| contact.expect("a force"));
     let mut sweep = pile.sweep::<f64>().expect("room");
     sweep.advance(layer).expect("a layer");
-    let bound = sweep.error_bound().expect("floats").to_f64().expect("small");
+    let bound = sweep
+        .error_bound()
+        .expect("floats")
+        .to_f64()
+        .expect("small");
     for (place, contact) in contacts.enumerate() {
         let found = slices[contact.direction.index()][first + place / 3];
         let exact = contact.force.to_f64().expect("a float");
-        assert!((found - exact).abs() <= 200.0 * bound, "{found} is not {exact}");
+        assert!(
+            (found - exact).abs() <= 200.0 * bound,
+            "{found} is not {exact}"
+        );
     }
     ratio
 }
@@ -127,12 +136,20 @@ fn check_engine(pile: &Pile) {
     let mut engine = pile.exact_sweep().expect("room");
     engine.advance(layer).expect("a layer");
     let statics = pile.statics::<BigRational>();
-    let sites: Vec<Site> = pile.rows(Selection::Layer(layer)).expect("a layer").flatten().collect();
+    let sites: Vec<Site> = pile
+        .rows(Selection::Layer(layer))
+        .expect("a layer")
+        .flatten()
+        .collect();
     let step = sites.len() / 3 + 1;
     for site in sites.into_iter().step_by(step) {
         let forces = engine.passed_on(site).expect("forces");
         for (direction, force) in Direction::ALL.into_iter().zip(forces) {
-            assert_eq!(statics.contact(site, direction), Ok(force), "{site} {direction}");
+            assert_eq!(
+                statics.contact(site, direction),
+                Ok(force),
+                "{site} {direction}"
+            );
         }
     }
 }
