@@ -10,7 +10,7 @@ use num_rational::BigRational;
 
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
-use crate::plan::Method;
+use crate::plan::{Method, Quantity};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -127,6 +127,11 @@ pub enum Error {
     NoSuchMethod {
         /// The method asked for.
         method: Method,
+    },
+    /// A quantity in SI of a pile that has no size and no weight.
+    NeedsUnits {
+        /// The quantity asked for.
+        quantity: Quantity,
     },
     /// A row that has no spheres with others below them.
     NoSuchRow {

@@ -22,6 +22,7 @@
 //! ```
 
 mod cell;
+mod explain;
 mod file;
 mod json;
 mod summary;
@@ -30,6 +31,7 @@ pub mod tables;
 mod text;
 
 pub use cell::{Cell, NumberFormat};
+pub use explain::Explanation;
 pub use file::write_aside;
 pub use summary::Summary;
 pub use table::{Column, Table};

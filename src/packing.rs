@@ -208,6 +208,12 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(Self { gravity, ..self })
     }
 
+    /// The method asked for, if it is not the cheapest.
+    #[must_use]
+    pub fn method(&self) -> Option<Method> {
+        self.statics.method()
+    }
+
     /// The pile that is packed.
     #[must_use]
     pub fn pile(&self) -> &'p Pile {

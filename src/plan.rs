@@ -200,16 +200,15 @@ impl Pile {
     fn by_trees(&self, mut plan: Plan, rows: &Rows<'_>) -> Result<Plan, Error> {
         plan.method = Method::Tree;
         let last = last_of(rows);
-        let (pieces, sites) = match rows.one() {
-            Some(_) => (BigUint::from(1_u32), rows.sites()),
-            None => {
-                let height = self.shape().layer(last)?.widths()[1];
-                let layers = rows.layers();
-                let lines = BigUint::from((layers.end - layers.start).max(0).unsigned_abs())
-                    * (height.unsigned_abs() + 1);
-                (lines + rows.sites() / CHUNK.unsigned_abs(), rows.sites())
-            }
-        };
+        let sites = rows.sites();
+        let mut pieces = BigUint::from(1_u32);
+        if rows.one().is_none() {
+            let (layers, height) = (rows.layers(), self.shape().layer(last)?.widths()[1]);
+            let layers = (layers.end - layers.start).max(0).unsigned_abs();
+            // Each row may end with a shorter piece.
+            pieces = BigUint::from(layers) * (height.unsigned_abs() + 1);
+            pieces += &sites / CHUNK.unsigned_abs();
+        }
         // At a change of sign, three for each below, and no more than there are.
         let most = BigUint::from(MAX_NODES);
         let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());

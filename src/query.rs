@@ -131,6 +131,12 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
         })
     }
 
+    /// The method asked for, if it is not the cheapest.
+    #[must_use]
+    pub fn method(&self) -> Option<Method> {
+        self.method
+    }
+
     pub(crate) fn meter(&self) -> M {
         self.meter
     }

@@ -39,13 +39,28 @@ fn main() {
         pairs: if smoke { 1 } else { 9 },
     };
     let mut results = Vec::new();
-    fill::measure(extent, &mut results);
-    sweeps::measure(extent, &mut results);
-    solver::measure(extent, &mut results);
-    growth::measure(extent, &mut results);
+    on_one_thread(|| {
+        fill::measure(extent, &mut results);
+        sweeps::measure(extent, &mut results);
+        solver::measure(extent, &mut results);
+        growth::measure(extent, &mut results);
+    });
+    #[cfg(feature = "rayon")]
+    sweeps::measure_threads(extent, &mut results);
     for (name, value) in results {
         println!("ratio {name} {value:.2}");
     }
+}
+
+/// Times are compared thread by thread.
+fn on_one_thread(measure: impl FnOnce() + Send) {
+    #[cfg(feature = "rayon")]
+    {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.expect("a thread").install(measure);
+    }
+    #[cfg(not(feature = "rayon"))]
+    measure();
 }
 
 /// What is printed at the end.

@@ -34,22 +34,23 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let few = pairs.min(3);
     let over_integer = ratio(few, || time_in::<Plain>(&pile), || time_exact(&pile));
     results.push(("bigrational_over_integer".into(), over_integer));
+}
 
-    #[cfg(feature = "rayon")]
-    {
-        let pile = alternating(extent.size(400, 30));
-        let pool = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            pool.build().expect("threads")
-        };
-        let (one, two) = (pool(1), pool(2));
-        let speedup = ratio(
-            pairs,
-            || one.install(|| time_exact(&pile)),
-            || two.install(|| time_exact(&pile)),
-        );
-        results.push(("two_threads_speedup".into(), speedup));
-    }
+/// The exact sweep on one thread, against two.
+#[cfg(feature = "rayon")]
+pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
+    let pile = alternating(extent.size(400, 30));
+    let pool = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().expect("threads")
+    };
+    let (one, two) = (pool(1), pool(2));
+    let speedup = ratio(
+        extent.pairs,
+        || one.install(|| time_exact(&pile)),
+        || two.install(|| time_exact(&pile)),
+    );
+    results.push(("two_threads_speedup".into(), speedup));
 }
 
 fn alternating(layers: i128) -> Pile {

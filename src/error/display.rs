@@ -114,6 +114,10 @@ impl Error {
                 "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
                  spheres and not of discs; use another, or none to have the cheapest"
             ),
+            Self::NeedsUnits { quantity } => write!(
+                f,
+                "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
+            ),
             Self::NoSuchRow { k, j } => write!(
                 f,
                 "no row j={j} of layer k={k} lies above the floor: j must be at most k, and k less than the bottom layer"

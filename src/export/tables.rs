@@ -186,7 +186,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     let rows = pile.rows(selection)?;
     refuse_beyond(&rows.sites(), "ask for one sphere with --at")?;
     // What cannot be done is refused before a row is written.
-    pile.plan(selection)?;
+    pile.plan(units.question(selection, true))?;
     let mut columns = indices(pile, &[]);
     columns.push(Column::summed("normal", units.normal()));
     columns.push(Column::summed("shear_x", units.shear_x()));
@@ -243,7 +243,7 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         &(rows.sites() * directions.len()),
         "ask for --layer or --at",
     )?;
-    pile.plan(selection)?;
+    pile.plan(units.question(selection, false))?;
     let mut columns = indices(pile, &["k"]);
     columns.push(Column::plain("direction"));
     columns.push(Column::summed("force", units.force()));

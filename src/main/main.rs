@@ -6,14 +6,16 @@ use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
 use cannonpile::census::{self, Entry};
-use cannonpile::export::{NumberFormat, Summary, Table, Units, WriteError, tables, write_aside};
+use cannonpile::export::{
+    Explanation, NumberFormat, Summary, Table, Units, WriteError, tables, write_aside,
+};
 use cannonpile::scene::Scene;
 use cannonpile::theorem::{self, Listing};
 use cannonpile::{Error, Pile, Verdict};
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use options::{Arguments, Command, Format, Number, Numbers, Output, Refused, UnitSystem};
+use options::{Arguments, Command, Format, Number, Output, Refused, UnitSystem};
 
 /// The answer is no.
 const NO: u8 = 1;
@@ -91,7 +93,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             output,
         } => {
             let (scene, pile) = scene.read()?;
-            let units = units(&scene, &pile, numbers)?;
+            let units = units(&scene, &pile, numbers.units)?;
             // At the default spacing, where none is given: if that fits.
             let touching = pile.clearance().check(&scene.spacing()?).ok();
             let summary = Summary::new(&units, touching)?;
@@ -102,11 +104,13 @@ fn run(command: &Command) -> Result<bool, Failure> {
             scene,
             at,
             numbers,
+            method,
             output,
         } => {
             let (scene, pile) = scene.read()?;
             let selection = at.on_base(&pile)?;
-            let table = tables::base(&units(&scene, &pile, numbers)?, selection)?;
+            let units = method.of(units(&scene, &pile, numbers.units)?)?;
+            let table = tables::base(&units, selection)?;
             write_table(table, numbers.number, output)?;
             warn_if_it_falls(&pile);
         }
@@ -114,11 +118,13 @@ fn run(command: &Command) -> Result<bool, Failure> {
             scene,
             part,
             numbers,
+            method,
             output,
         } => {
             let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
-            let table = tables::contacts(&units(&scene, &pile, numbers)?, selection)?;
+            let units = method.of(units(&scene, &pile, numbers.units)?)?;
+            let table = tables::contacts(&units, selection)?;
             write_table(table, numbers.number, output)?;
             warn_if_it_falls(&pile);
         }
@@ -154,9 +160,42 @@ fn run(command: &Command) -> Result<bool, Failure> {
             };
             write_table(table, *number, output)?;
         }
+        Command::Explain {
+            scene,
+            of,
+            part,
+            units: system,
+            method,
+            no_run,
+            output,
+        } => {
+            let (scene, pile) = scene.read()?;
+            let part = of.part(part.selection(&pile)?, &pile);
+            let (quantity, system) = of.quantity(*system);
+            let units = method.of(units(&scene, &pile, system)?)?;
+            explain(&Explanation::new(&units, quantity, part)?, *no_run, output)?;
+        }
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)
+}
+
+/// The plan, before anything is run, and then what was counted.
+fn explain(explanation: &Explanation<'_>, no_run: bool, output: &Output) -> Result<(), WriteError> {
+    let format = output.format;
+    write(output, |out| {
+        if format != Format::Table || no_run {
+            let counters = (!no_run).then(|| explanation.run()).transpose()?;
+            let table = explanation.table(counters.as_ref());
+            return table.write(format.into(), NumberFormat::Exact, out);
+        }
+        let mut write = |table: Table<'_>| {
+            table.write(format.into(), NumberFormat::Exact, out)?;
+            Ok::<_, WriteError>(out.flush()?)
+        };
+        write(explanation.table(None))?;
+        write(Explanation::counted(&explanation.run()?))
+    })
 }
 
 /// One line on stderr for forces that no pile can bear.
@@ -178,8 +217,8 @@ fn warn_if_it_falls(pile: &Pile) {
     }
 }
 
-fn units<'p>(scene: &Scene, pile: &'p Pile, numbers: &Numbers) -> Result<Units<'p>, Error> {
-    Ok(match numbers.units {
+fn units<'p>(scene: &Scene, pile: &'p Pile, system: UnitSystem) -> Result<Units<'p>, Error> {
+    Ok(match system {
         UnitSystem::Pile => Units::of_pile(pile),
         UnitSystem::Si => Units::of_packing(scene.packing(pile)?),
     })
@@ -244,6 +283,7 @@ fn option_of(error: &Error) -> String {
         | Error::RegionTooLarge { .. }
         | Error::TooLarge { .. }
         | Error::LayersOfStacking { .. } => "--layers: ".into(),
+        Error::NoSuchMethod { .. } => "--method: ".into(),
         Error::TooManyRuns { .. } => "--stacking: ".into(),
         Error::NegativeLoad { .. } => "--load: ".into(),
         Error::Excluded { given, .. } => format!("--{given}: "),

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use cannonpile::export::{FileFormat, NumberFormat};
+use cannonpile::export::{FileFormat, NumberFormat, Units};
 use cannonpile::lattice::{Dimension, Region, Selection};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::stacking::Pattern;
-use cannonpile::{Error, Pile, theorem};
+use cannonpile::{Error, Method, Pile, Quantity, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use num_rational::BigRational;
@@ -39,6 +39,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         numbers: Numbers,
         #[command(flatten)]
+        method: ByMethod,
+        #[command(flatten)]
         output: Output,
     },
     /// The force of each contact between two spheres
@@ -49,6 +51,8 @@ pub(crate) enum Command {
         part: Part,
         #[command(flatten)]
         numbers: Numbers,
+        #[command(flatten)]
+        method: ByMethod,
         #[command(flatten)]
         output: Output,
     },
@@ -81,6 +85,26 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// How a question would be answered, what that takes at most, and what it took
+    Explain {
+        #[command(flatten)]
+        scene: SceneOptions,
+        /// What is asked of the spheres
+        #[arg(long, value_enum, default_value = "contacts", help_heading = "Output")]
+        of: Asked,
+        #[command(flatten)]
+        part: Part,
+        /// Multiples of mg and friends, or newtons and metres
+        #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
+        units: UnitSystem,
+        #[command(flatten)]
+        method: ByMethod,
+        /// The plan only: nothing is run
+        #[arg(long, help_heading = "Output")]
+        no_run: bool,
+        #[command(flatten)]
+        output: Output,
+    },
     /// What is proved for every pile, with the proofs; exit status 1 if one fails
     Prove {
         /// One theorem only, with its whole derivation
@@ -99,6 +123,7 @@ impl Command {
             | Self::Contacts { output, .. }
             | Self::Spheres { output, .. }
             | Self::Census { output, .. }
+            | Self::Explain { output, .. }
             | Self::Prove { output, .. } => output,
         }
     }
@@ -259,6 +284,88 @@ pub(crate) struct Numbers {
     /// Multiples of mg and friends, or newtons and metres
     #[arg(long, value_enum, default_value = "pile")]
     pub(crate) units: UnitSystem,
+}
+
+/// How forces are found.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct ByMethod {
+    /// How forces are found [default: the cheapest way]
+    #[arg(long, value_enum)]
+    method: Option<MethodName>,
+}
+
+impl ByMethod {
+    /// The units, with answers found so.
+    pub(crate) fn of<'p>(&self, units: Units<'p>) -> Result<Units<'p>, Refused> {
+        match self.method {
+            None => Ok(units),
+            Some(method) => units
+                .by(method.into())
+                .map_err(|error| Refused::of("method", error)),
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum MethodName {
+    /// By counting spheres on lines; for straight stackings
+    Closed,
+    /// From the lines above each sphere
+    Tree,
+    /// Layer after layer
+    Sweep,
+}
+
+impl From<MethodName> for Method {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Closed => Self::Closed,
+            MethodName::Tree => Self::Tree,
+            MethodName::Sweep => Self::Sweep,
+        }
+    }
+}
+
+/// What is asked of spheres.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub(crate) enum Asked {
+    /// What `contacts` prints
+    Contacts,
+    /// The magnitudes alone; in SI
+    Magnitudes,
+    /// What `base` prints
+    Base,
+    /// What `spheres` prints: places, in SI
+    Spheres,
+}
+
+impl Asked {
+    /// The quantity, and the units that it is in: magnitudes and places are in SI.
+    pub(crate) fn quantity(self, units: UnitSystem) -> (Quantity, UnitSystem) {
+        let quantity = match (self, units) {
+            (Self::Contacts, UnitSystem::Pile) => Quantity::ContactMultiples,
+            (Self::Contacts, UnitSystem::Si) => Quantity::ContactVectors,
+            (Self::Magnitudes, _) => Quantity::ContactMagnitudes,
+            (Self::Base, UnitSystem::Pile) => Quantity::FloorMultiples,
+            (Self::Base, UnitSystem::Si) => Quantity::FloorForces,
+            (Self::Spheres, _) => Quantity::Positions,
+        };
+        let units = match self {
+            Self::Magnitudes | Self::Spheres => UnitSystem::Si,
+            Self::Contacts | Self::Base => units,
+        };
+        (quantity, units)
+    }
+
+    /// The part that is asked about: on the floor there is but the base.
+    pub(crate) fn part(self, part: Selection, pile: &Pile) -> Selection {
+        match part {
+            Selection::All if self == Self::Base => Selection::Base,
+            Selection::Layer(k) if self == Self::Base && k == pile.layers() - 1 => Selection::Base,
+            part => part,
+        }
+    }
 }
 
 /// Where a table goes, and in which format.

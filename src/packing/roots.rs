@@ -111,7 +111,7 @@ impl<M: Meter> Packing<'_, M> {
         let (meter, roots) = (self.meter(), &self.roots);
         let sin = roots.sin.get(meter);
         let [across, _] = &roots.across;
-        let across = across.get_or_init(|| product(sin, roots.twice_cos_phi.get(meter)));
+        let across = across.get_or_init(|| Box::new(sin.clone() * roots.twice_cos_phi.get(meter)));
         [sin, across, roots.cos.get(meter)]
     }
 
@@ -120,11 +120,7 @@ impl<M: Meter> Packing<'_, M> {
         let (meter, roots) = (self.meter(), &self.roots);
         let tan = roots.tan.get(meter);
         let [_, across] = &roots.across;
-        let across = across.get_or_init(|| product(tan, roots.twice_cos_phi.get(meter)));
+        let across = across.get_or_init(|| Box::new(tan.clone() * roots.twice_cos_phi.get(meter)));
         [tan, across, &roots.one]
     }
-}
-
-fn product(a: &Surd, b: &Surd) -> Box<Surd> {
-    Box::new(a.clone() * b)
 }

@@ -99,6 +99,21 @@ impl<'p, M: Meter> Packing<'p, M> {
         })
     }
 
+    /// The places of the spheres in `rows`, lazily.
+    ///
+    /// As [`position`](Self::position).
+    pub fn positions(
+        &self,
+        rows: Rows<'p>,
+    ) -> impl Iterator<Item = Result<[Surd; 3], Error>> + use<'p, M> {
+        let _ = self.lengths();
+        let packing = self.clone();
+        rows.flatten().map(move |site| {
+            packing.statics.meter().answer(1);
+            packing.position(site)
+        })
+    }
+
     /// The forces of the bottom spheres in `rows` on the floor, lazily.
     ///
     /// As [`Statics::base`](crate::Statics::base).

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
 use super::{Grid, Layer, Pass};
-use crate::lattice::{Direction, Trapezoid};
+use crate::lattice::Trapezoid;
 use crate::parallel;
 use crate::scalar::{Algebra, Ring};
 use crate::transfer::turn_numerators;
@@ -47,12 +47,12 @@ impl<V: Clone + PartialEq> Ramps<V> {
     }
 }
 
-/// Rows of a layer with the cells of their lines, apart from all other rows.
+/// Rows of a layer with the cells of their lines in every plane, apart from all other rows.
 pub(super) struct Band<'c, V> {
     rows: Range<i128>,
     /// Where the slices begin among all cells.
     starts: [usize; 3],
-    cells: [&'c mut [V]; 3],
+    planes: Vec<[&'c mut [V]; 3]>,
 }
 
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
@@ -60,45 +60,6 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
         Self(core::array::from_fn(
             |_| alloc::vec![zero.clone(); grid.cells],
         ))
-    }
-
-    /// The rows of the layer that a pass leads to, in as many bands as there are threads for.
-    pub(super) fn bands(&mut self, grid: &Grid<'_>, pass: &Pass) -> Vec<Band<'_, V>> {
-        let rows = pass.region.y();
-        let (first, end) = (*rows.start(), rows.end() + 1);
-        let worth = i128::try_from(self.0[0].len() / WORTH_A_THREAD).unwrap_or(1);
-        let threads = i128::try_from(parallel::threads()).unwrap_or(1);
-        // More than threads: rows are not of one length, and threads not of one speed.
-        let bands = worth.min(4 * threads).clamp(1, end - first);
-        let mut rest = self.0.each_mut().map(Vec::as_mut_slice);
-        let mut starts = [0; 3];
-        let mut split = Vec::new();
-        for band in 0..bands {
-            let part = |n: i128| first + (end - first) * n / bands;
-            let rows = part(band)..part(band + 1);
-            let mut cells: [&mut [V]; 3] = Default::default();
-            let ends = if rows.end == end {
-                starts.map(|_| usize::MAX)
-            } else {
-                let next = pass.region.row(rows.end);
-                grid.row(rows.end, &next, pass.shift)
-                    .map(|cells| cells.start)
-            };
-            let begun = starts;
-            for (((cells, rest), start), end) in
-                cells.iter_mut().zip(&mut rest).zip(&mut starts).zip(ends)
-            {
-                let n = end.saturating_sub(*start).min(rest.len());
-                *cells = rest.split_off_mut(..n).unwrap_or_default();
-                *start += n;
-            }
-            split.push(Band {
-                rows,
-                starts: begun,
-                cells,
-            });
-        }
-        split
     }
 
     /// Adds to the three lines of a sphere.
@@ -128,38 +89,139 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
     }
 }
 
+/// The rows of the layer that a pass leads to, in as many bands as there are threads for.
+pub(super) fn bands<'c, V>(
+    planes: &'c mut [Cells<V>],
+    grid: &Grid<'_>,
+    pass: &Pass,
+) -> Vec<Band<'c, V>> {
+    let rows = pass.region.y();
+    let (first, end) = (*rows.start(), rows.end() + 1);
+    let worth = grid.cells * planes.len() / WORTH_A_THREAD;
+    // More than threads: rows are not of one length, and threads not of one speed.
+    let bands = worth.min(4 * parallel::threads());
+    let bands = i128::try_from(bands).unwrap_or(1).clamp(1, end - first);
+    let slices = |Cells(cells): &'c mut Cells<V>| cells.each_mut().map(Vec::as_mut_slice);
+    let mut rest: Vec<[&mut [V]; 3]> = planes.iter_mut().map(slices).collect();
+    let mut starts = [0; 3];
+    let part = |band: i128| first + (end - first) * band / bands;
+    let split = (0..bands).map(|band| {
+        let (rows, begun) = (part(band)..part(band + 1), starts);
+        if rows.end < end {
+            let next = pass.region.row(rows.end);
+            let next = grid.row(rows.end, &next, pass.shift);
+            starts = next.map(|cells| cells.start);
+        } else {
+            starts = [grid.cells; 3];
+        }
+        let split_off = |rest: &mut [&'c mut [V]; 3]| {
+            let mut lengths = starts.iter().zip(begun).map(|(start, begun)| start - begun);
+            rest.each_mut().map(|rest| {
+                let n = lengths.next().unwrap_or(0);
+                rest.split_off_mut(..n).unwrap_or_default()
+            })
+        };
+        Band {
+            rows,
+            starts: begun,
+            planes: rest.iter_mut().map(split_off).collect(),
+        }
+    });
+    split.collect()
+}
+
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
-    /// Adds the increments of a pass, and turns what it ends at if the sign changes there.
+    /// Adds the increments of a pass, by plane, and turns what it ends at if the sign changes there.
     pub(super) fn add_and_turn(
         &mut self,
         grid: &Grid<'_>,
         pass: &Pass,
-        ramps: &Ramps<V>,
+        ramps: &[Ramps<V>],
         turn: impl Fn(&[V; 3]) -> [V; 3],
     ) {
         let steps = pass.k - pass.from;
-        let [alpha, beta, gamma] = &mut self.cells;
         for j in self.rows.clone() {
             let i = pass.region.row(j);
-            let [a, b, c] = grid.row(j, &i, pass.shift);
-            let [from_a, from_b, from_c] = self.starts;
-            let inside = |cells: Range<usize>, from: usize| cells.start - from..cells.end - from;
-            let (a, b, c) = (
-                &mut alpha[inside(a, from_a)],
-                &mut beta[inside(b, from_b)],
-                &mut gamma[inside(c, from_c)],
-            );
+            let places = grid.row(j, &i, pass.shift);
+            let (n, mut places) = (places[0].len(), places.into_iter().zip(self.starts));
+            let places: [Range<usize>; 3] = core::array::from_fn(|_| {
+                let (cells, start) = places.next().unwrap_or_default();
+                cells.start - start..cells.end - start
+            });
             let counts = pass.region.row_counts(j, pass.run.sign, steps);
-            let lines = [&mut *a, &mut *b, &mut *c];
-            for ((line, count), direction) in lines.into_iter().zip(counts).zip(Direction::ALL) {
-                add(line, count, i.start, &ramps.0[direction.index()]);
+            let [on_a, on_b, on_c] = counts.map(|count| Slopes::new(count, i.start, n));
+            for ([alpha, beta, gamma], Ramps([ramp_a, ramp_b, ramp_c])) in
+                self.planes.iter_mut().zip(ramps)
+            {
+                let [a, b, c] = places.clone();
+                let (a, b, c) = (&mut alpha[a], &mut beta[b], &mut gamma[c]);
+                on_a.add(a, ramp_a);
+                on_b.add(b, ramp_b);
+                on_c.add(c, ramp_c);
+                if !pass.turns {
+                    continue;
+                }
+                for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
+                    let turned = turn(&[a.clone(), b.clone(), c.clone()]);
+                    [*a, *b, *c] = turned;
+                }
             }
-            if !pass.turns {
-                continue;
+        }
+    }
+}
+
+/// How the count of spheres above runs along a row: rising, level, falling.
+struct Slopes {
+    cap: i64,
+    /// Places along the row where the count would be zero.
+    rises: i64,
+    falls: i64,
+    /// Where it has risen to the cap, and where it leaves it.
+    level: Range<usize>,
+}
+
+impl Slopes {
+    /// Of a row of `n` spheres that begins at `start`; it fits in memory, and so do all counts.
+    fn new(count: Trapezoid, start: i128, n: usize) -> Self {
+        const FAR: i64 = i64::MAX / 4;
+        let near = |i: i128| i64::try_from(i).unwrap_or(FAR).clamp(-FAR, FAR);
+        let cap = near(count.cap);
+        let rises = count.rises.map_or(-FAR, |from| near(from - start));
+        let falls = count.falls.map_or(FAR, |until| near(until - start));
+        let inside = |place: i64| usize::try_from(place.max(0)).map_or(n, |place| place.min(n));
+        let rise = inside(rises + cap);
+        let fall = inside(falls - cap + 1).max(rise);
+        Self {
+            cap,
+            rises,
+            falls,
+            level: rise..fall,
+        }
+    }
+
+    /// Adds `ramp[count]` along the row.
+    fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(&self, row: &mut [V], ramp: &[V]) {
+        let Range { start, end } = self.level;
+        let (rising, rest) = row.split_at_mut(start);
+        let (level, falling) = rest.split_at_mut(end - start);
+        self.add_slope(rising, 0, ramp);
+        if let Some(value) = usize::try_from(self.cap).ok().and_then(|cap| ramp.get(cap)) {
+            for sum in level {
+                *sum = sum.clone() + value;
             }
-            for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                let turned = turn(&[a.clone(), b.clone(), c.clone()]);
-                [*a, *b, *c] = turned;
+        }
+        self.add_slope(falling, end, ramp);
+    }
+
+    fn add_slope<V>(&self, row: &mut [V], from: usize, ramp: &[V])
+    where
+        V: Clone + for<'a> Add<&'a V, Output = V>,
+    {
+        let from = i64::try_from(from).unwrap_or(0);
+        for (sum, place) in row.iter_mut().zip(from..) {
+            let count = self.cap.min(place - self.rises).min(self.falls - place);
+            if let Some(value) = usize::try_from(count).ok().and_then(|n| ramp.get(n)) {
+                *sum = sum.clone() + value;
             }
         }
     }
@@ -168,8 +230,10 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
 impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
     fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]) {
         let ramps = Ramps::new(pass, increments, |w, n| T::Numerator::from_i128(n) * w);
-        parallel::for_each(self.bands(grid, pass), |mut band| {
-            band.add_and_turn(grid, pass, &ramps, turn_numerators::<T>);
+        let bands = bands(core::slice::from_mut(self), grid, pass);
+        parallel::for_each(bands, |mut band| {
+            let ramps = core::slice::from_ref(&ramps);
+            band.add_and_turn(grid, pass, ramps, turn_numerators::<T>);
         });
     }
 
@@ -179,48 +243,5 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
         self.carried(cells).map(Clone::clone)
-    }
-}
-
-/// Adds `ramp[count]` along a row that begins at `start`: rising, level, falling.
-fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    row: &mut [V],
-    count: Trapezoid,
-    start: i128,
-    ramp: &[V],
-) {
-    // No count is greater than the last of the ramp.
-    let count = Trapezoid {
-        cap: i128::try_from(ramp.len()).map_or(count.cap, |n| count.cap.min(n - 1)),
-        ..count
-    };
-    let Some(level) = usize::try_from(count.cap)
-        .ok()
-        .and_then(|cap| ramp.get(cap))
-    else {
-        return;
-    };
-    let n = row.len();
-    let inside = |i: i128| usize::try_from((i - start).max(0)).map_or(n, |i| i.min(n));
-    // Where the rise reaches the cap, and where the fall leaves it.
-    let rise = count.rises.map_or(0, |from| inside(from + count.cap));
-    let fall = count.falls.map_or(n, |until| inside(until - count.cap + 1));
-    let (rising, rest) = row.split_at_mut(rise);
-    let (level_part, falling) = rest.split_at_mut(fall.saturating_sub(rise));
-    for (sum, i) in rising.iter_mut().zip(start..) {
-        slope(sum, count.at(i), ramp);
-    }
-    for sum in level_part {
-        *sum = sum.clone() + level;
-    }
-    let after = start + i128::try_from(fall.max(rise)).unwrap_or(0);
-    for (sum, i) in falling.iter_mut().zip(after..) {
-        slope(sum, count.at(i), ramp);
-    }
-}
-
-fn slope<V: Clone + for<'a> Add<&'a V, Output = V>>(sum: &mut V, count: i128, ramp: &[V]) {
-    if let Some(value) = usize::try_from(count).ok().and_then(|n| ramp.get(n)) {
-        *sum = sum.clone() + value;
     }
 }

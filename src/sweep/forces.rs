@@ -143,7 +143,7 @@ impl<T: Algebra> Sweep<'_, T> {
     /// [`Error::TooLarge`] if no memory could hold as many.
     pub fn spheres(&self) -> Result<usize, Error> {
         let sites = self.pile.shape().layer(self.layer())?.sites();
-        sites.to_usize().ok_or_else(|| Error::TooLarge {
+        sites.to_usize().ok_or(Error::TooLarge {
             quantity: "a layer",
             needed: sites,
             limit: usize::MAX as u64,

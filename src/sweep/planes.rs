@@ -28,7 +28,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::cells::Ramps;
+use super::cells::{Ramps, bands};
 use super::{Cells, Grid, Layer, Pass};
 use crate::lattice::Direction;
 use crate::parallel;
@@ -167,16 +167,8 @@ impl Layer<BigRational> for Planes {
         let planes = self.planes.len();
         let ramps = Ramps::new(pass, increments, |w, n| limbs(&(w * n), planes));
         let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
-        let bands = self
-            .planes
-            .iter_mut()
-            .zip(&ramps)
-            .flat_map(|(plane, ramps)| {
-                let bands = plane.bands(grid, pass);
-                bands.into_iter().map(move |band| (band, ramps))
-            });
-        parallel::for_each(bands.collect(), |(mut band, ramps)| {
-            band.add_and_turn(grid, pass, ramps, tripled_half_turn);
+        parallel::for_each(bands(&mut self.planes, grid, pass), |mut band| {
+            band.add_and_turn(grid, pass, &ramps, tripled_half_turn);
         });
         self.turns += 1;
         if self.turns == TURNS {

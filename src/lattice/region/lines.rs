@@ -92,7 +92,8 @@ impl Trapezoid {
         }
     }
 
-    pub(crate) fn at(&self, i: i128) -> i128 {
+    #[cfg(test)]
+    fn at(&self, i: i128) -> i128 {
         let rise = self.rises.map_or(self.cap, |from| i - from);
         let fall = self.falls.map_or(self.cap, |until| until - i);
         self.cap.min(rise).min(fall)

@@ -1,0 +1,199 @@
+//! What a question takes: planned, and counted.
+
+use num_bigint::{BigInt, BigUint};
+
+use super::table::Layout;
+use super::{Cell, Column, Table, Units};
+use crate::lattice::Selection;
+use crate::{Counters, Error, Method, Plan, Quantity, Question};
+
+/// A question about a pile in some units, as a table of it would put it.
+///
+/// # Examples
+/// ```
+/// use cannonpile::export::{Explanation, FileFormat, NumberFormat, Units};
+/// use cannonpile::lattice::Selection;
+/// use cannonpile::{Pile, Quantity};
+///
+/// let pile = Pile::triangular(10)?;
+/// let explanation = Explanation::new(&Units::of_pile(&pile), Quantity::FloorMultiples, Selection::Base)?;
+/// let counted = explanation.run()?;
+/// let mut csv = Vec::new();
+/// explanation.table(Some(&counted)).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// let csv = String::from_utf8(csv)?;
+/// assert!(csv.starts_with("quantity,method,runs,visited,"));
+/// assert!(csv.lines().nth(1).unwrap().starts_with("floor multiples,closed,1,55,"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Explanation<'p> {
+    units: Units<'p>,
+    question: Question,
+    plan: Plan,
+}
+
+impl<'p> Explanation<'p> {
+    /// The plan for a quantity of a part of the pile.
+    ///
+    /// # Errors
+    /// As for [`Pile::plan`](crate::Pile::plan); [`Error::NeedsUnits`] if the quantity is in SI, and the units are those of the
+    /// pile.
+    pub fn new(units: &Units<'p>, quantity: Quantity, part: Selection) -> Result<Self, Error> {
+        if let (Units::Pile(_), true) = (units, quantity.roots() > 0) {
+            return Err(Error::NeedsUnits { quantity });
+        }
+        let question = Question {
+            part,
+            quantity,
+            method: units.method(),
+        };
+        Ok(Self {
+            units: units.clone(),
+            plan: units.pile().plan(question)?,
+            question,
+        })
+    }
+
+    /// The plan.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Answers the question, all of it, and counts what that takes.
+    ///
+    /// # Errors
+    /// [`Error::TooManyRows`], as tables refuse them; those of the answers are handed on.
+    pub fn run(&self) -> Result<Counters, Error> {
+        super::tables::refuse_beyond(&self.plan.rows, "ask for one layer, or one sphere")?;
+        let counters = Counters::default();
+        let rows = self.units.pile().rows(self.question.part)?;
+        let quantity = self.question.quantity;
+        match &self.units {
+            Units::Pile(statics) => {
+                let statics = statics.as_ref().clone().metered(&counters);
+                if quantity.is_of_contacts() {
+                    all(statics.contacts(rows))?;
+                } else {
+                    all(statics.base(rows))?;
+                }
+            }
+            Units::Si(packing) => {
+                let packing = packing.as_ref().clone().metered(&counters);
+                match quantity {
+                    Quantity::ContactMagnitudes => all(packing.magnitudes(rows))?,
+                    Quantity::FloorForces => all(packing.base(rows))?,
+                    Quantity::Positions => all(packing.positions(rows))?,
+                    _ => all(packing.contacts(rows))?,
+                }
+            }
+        }
+        Ok(counters)
+    }
+
+    /// One row: `quantity, method, runs, visited, turned, passes, numbers, bits, planes, roots, rows, bytes`, all at most,
+    /// and what was counted, if it was: `counted_visited, counted_turned, counted_passes, counted_roots, counted_rows`.
+    #[must_use]
+    pub fn table(&self, counters: Option<&Counters>) -> Table<'static> {
+        let plan = &self.plan;
+        let mut entries: Vec<(&'static str, Cell)> = vec![
+            (
+                "quantity",
+                Cell::Word(self.question.quantity.to_string().into()),
+            ),
+            ("method", Cell::Word(plan.method.to_string().into())),
+            ("runs", count(plan.runs)),
+            ("visited", big(&plan.visited)),
+            ("turned", big(&plan.turned)),
+            ("passes", big(&plan.passes)),
+            ("numbers", big(&plan.numbers)),
+            ("bits", count(plan.bits)),
+            ("planes", count(plan.planes)),
+            ("roots", count(plan.roots)),
+            ("rows", big(&plan.rows)),
+            ("bytes", big(&plan.bytes)),
+        ];
+        entries.extend(counters.map(counted).into_iter().flatten());
+        record(entries)
+    }
+
+    /// What was counted, alone.
+    #[must_use]
+    pub fn counted(counters: &Counters) -> Table<'static> {
+        record(counted(counters).into())
+    }
+}
+
+fn counted(counters: &Counters) -> [(&'static str, Cell); 5] {
+    [
+        ("counted_visited", count(counters.visited())),
+        ("counted_turned", count(counters.turned())),
+        ("counted_passes", count(counters.passes())),
+        ("counted_roots", count(counters.roots())),
+        ("counted_rows", count(counters.rows())),
+    ]
+}
+
+fn record(entries: Vec<(&'static str, Cell)>) -> Table<'static> {
+    let (columns, row): (Vec<_>, Vec<_>) = entries
+        .into_iter()
+        .map(|(name, cell)| (Column::plain(name), cell))
+        .unzip();
+    Table {
+        columns,
+        layout: Layout::Record,
+        extremes: Vec::new(),
+        bounds: Vec::new(),
+        rows: Box::new(core::iter::once(Ok(row))),
+    }
+}
+
+fn count(n: impl Into<BigInt>) -> Cell {
+    Cell::Integer(n.into())
+}
+
+fn big(n: &BigUint) -> Cell {
+    Cell::Integer(n.clone().into())
+}
+
+fn all<A>(answers: impl Iterator<Item = Result<A, Error>>) -> Result<(), Error> {
+    for answer in answers {
+        answer?;
+    }
+    Ok(())
+}
+
+impl Units<'_> {
+    /// The same, found by this method.
+    ///
+    /// # Errors
+    /// As for [`Statics::by`](crate::Statics::by).
+    pub fn by(self, method: Method) -> Result<Self, Error> {
+        Ok(match self {
+            Self::Pile(statics) => Self::Pile(Box::new(statics.by(method)?)),
+            Self::Si(packing) => Self::Si(Box::new(packing.by(method)?)),
+        })
+    }
+
+    pub(super) fn method(&self) -> Option<Method> {
+        match self {
+            Self::Pile(statics) => statics.method(),
+            Self::Si(packing) => packing.method(),
+        }
+    }
+
+    /// The question that a table of contacts or of the base puts.
+    pub(super) fn question(&self, part: Selection, of_floor: bool) -> Question {
+        let quantity = match (self, of_floor) {
+            (Self::Pile(_), true) => Quantity::FloorMultiples,
+            (Self::Pile(_), false) => Quantity::ContactMultiples,
+            (Self::Si(_), true) => Quantity::FloorForces,
+            (Self::Si(_), false) => Quantity::ContactVectors,
+        };
+        Question {
+            part,
+            quantity,
+            method: self.method(),
+        }
+    }
+}
