@@ -36,12 +36,13 @@ mod nearest;
 mod pair;
 mod polynomial;
 mod rational;
+mod screen;
 mod surd;
 
 pub use double_double::DoubleDouble;
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
-pub use nearest::NearestFloat;
+pub use nearest::{Decision, NearestFloat};
 pub use pair::{Pair, Parting};
 pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;

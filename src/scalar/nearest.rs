@@ -3,7 +3,7 @@
 //! A rational n/d, and a root √(n/d), are scaled by a power of two until their integer part has a
 //! few bits more than the float. What lies below that integer part is summed up in one *sticky* bit:
 //! is it zero or not? Together they decide every rounding, ties to even, through the subnormals
-//! down to zero (THEORY §4).
+//! down to zero (THEORY §4). In front of that is a [screen](super::screen), which tells most floats at a glance.
 
 use num_bigint::BigUint;
 use num_integer::Integer;
@@ -15,10 +15,24 @@ mod sealed {
         /// The float ±`significand` · 2^`exponent`, for a significand of at most one bit more than the float
         /// has, and an exponent not below the least: `None` when it is too large.
         fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
+
+        /// The float that all numbers between these, times 2^`exponent`, are nearest to, if there is one.
+        fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self>;
     }
 }
 
+use super::error_free::power_of_two;
+use super::screen::enclose;
 use sealed::Assemble;
+
+/// What decided a rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Decision {
+    /// Both ends of an enclosure in double-doubles round to the same float.
+    Screen,
+    /// Integers, with a sticky bit: near a tie, or outside the normal floats.
+    Integers,
+}
 
 /// A binary floating-point format to round to: `f32` or `f64`. Sealed.
 ///
@@ -43,11 +57,21 @@ pub trait NearestFloat: Assemble + Copy {
     /// ```
     #[must_use]
     fn nearest_to_rational(r: &BigRational) -> Option<Self> {
+        let negative = r.is_negative();
         let (n, d) = (r.numer().magnitude(), r.denom().magnitude());
-        let scale = guard_bits::<Self>() - (bits(n) - bits(d));
-        let (quotient, remainder) = shifted_quotient(n, d, scale);
-        round(r.is_negative(), &quotient, !remainder.is_zero(), -scale)
+        screened(negative, n, d, None).or_else(|| nearest_ratio(negative, n, d))
     }
+}
+
+/// The float nearest to ±n/d; `None` when it would be infinite. d is not zero.
+pub(super) fn nearest_ratio<F: NearestFloat>(
+    negative: bool,
+    n: &BigUint,
+    d: &BigUint,
+) -> Option<F> {
+    let scale = guard_bits::<F>() - (bits(n) - bits(d));
+    let (quotient, remainder) = shifted_quotient(n, d, scale);
+    round(negative, &quotient, !remainder.is_zero(), -scale)
 }
 
 /// The float nearest to ±√(n/d), which must be irrational, so that there are no ties; `None` when it would be
@@ -60,8 +84,19 @@ pub(super) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &Big
     round(negative, &quotient.sqrt(), sticky, -scale)
 }
 
+/// The float nearest to ±(n/d)·√r, where the screen tells it; d is not zero.
+pub(super) fn screened<F: NearestFloat>(
+    negative: bool,
+    n: &BigUint,
+    d: &BigUint,
+    r: Option<&BigUint>,
+) -> Option<F> {
+    let (ends, exponent) = enclose(n, d, r)?;
+    F::between(negative, ends, exponent)
+}
+
 macro_rules! nearest_float {
-    ($float:ident, $bits:ident) => {
+    ($float:ident, $bits:ident, $ends:expr) => {
         impl NearestFloat for $float {
             const PRECISION: u32 = $float::MANTISSA_DIGITS;
             const LEAST_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
@@ -93,12 +128,32 @@ macro_rules! nearest_float {
                 let float = $float::from_bits(magnitude);
                 Some(if negative { -float } else { float })
             }
+
+            #[expect(clippy::float_cmp, reason = "one and the same float is meant")]
+            fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self> {
+                let [down, up] = $ends(ends, exponent);
+                (down == up && up.is_finite()).then(|| if negative { -down } else { down })
+            }
         }
     };
 }
 
-nearest_float!(f32, u32);
-nearest_float!(f64, u64);
+nearest_float!(f32, u32, ends_in_f32);
+nearest_float!(f64, u64, ends_in_f64);
+
+/// Both are rounded to f64 already, and the power of two is exact.
+fn ends_in_f64(ends: [f64; 2], exponent: i32) -> [f64; 2] {
+    ends.map(|end| end * power_of_two(exponent))
+}
+
+/// Never rounded twice: the ends in f64 are taken one float further out.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounded, and compared with the other end"
+)]
+fn ends_in_f32([down, up]: [f64; 2], exponent: i32) -> [f32; 2] {
+    [down.next_down(), up.next_up()].map(|end| (end * power_of_two(exponent)) as f32)
+}
 
 /// How many bits of a value are computed: enough for the significand, the half and some more.
 fn guard_bits<F: NearestFloat>() -> i64 {

@@ -9,8 +9,8 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::nearest::nearest_root;
-use super::{NearestFloat, Sign};
+use super::nearest::{nearest_ratio, nearest_root, screened};
+use super::{Decision, NearestFloat, Sign};
 use crate::Error;
 
 /// An exact number c·√n, with c rational and n a positive integer.
@@ -196,8 +196,8 @@ impl Surd {
         })
     }
 
-    /// The float nearest to the value, ties to even, subnormals included; `None` when it would be
-    /// infinite. Decided by one integer square root and a sticky bit, so it is never off.
+    /// The float nearest to the value, ties to even, subnormals included; `None` when it would be infinite. Decided, never
+    /// guessed: see [`nearest_and_how`](Self::nearest_and_how).
     ///
     /// # Examples
     /// ```
@@ -211,12 +211,39 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn nearest<F: NearestFloat>(&self) -> Option<F> {
-        if self.radicand.is_one() {
-            return F::nearest_to_rational(&self.coefficient);
+        self.nearest_and_how().0
+    }
+
+    /// The same, and what decided it: an enclosure in double-doubles, or, where that holds more than one float, one
+    /// integer square root and a sticky bit.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Decision, Surd};
+    /// use num_rational::BigRational;
+    ///
+    /// // Just above 2⁵³ + 1, which lies between two floats.
+    /// let n = BigRational::from_integer((1_i64 << 53).into()) + BigRational::from_integer(1.into());
+    /// let root = Surd::sqrt(&n * &n + BigRational::new(1.into(), (1_i64 << 60).into()))?;
+    /// let (float, decision) = root.nearest_and_how::<f64>();
+    /// assert_eq!((float, decision), (Some(9007199254740994.0), Decision::Integers));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn nearest_and_how<F: NearestFloat>(&self) -> (Option<F>, Decision) {
+        let negative = self.coefficient.is_negative();
+        let (n, d) = (self.coefficient.numer(), self.coefficient.denom());
+        let (n, d) = (n.magnitude(), d.magnitude());
+        let root = Some(&self.radicand).filter(|radicand| !radicand.is_one());
+        if let Some(float) = screened(negative, n, d, root) {
+            return (Some(float), Decision::Screen);
         }
-        let square = self.square();
-        let (n, d) = (square.numer().magnitude(), square.denom().magnitude());
-        nearest_root(self.coefficient.is_negative(), n, d)
+        let float = match root {
+            None => nearest_ratio(negative, n, d),
+            // Not reduced: a common factor costs more to find than to carry.
+            Some(radicand) => nearest_root(negative, &(n * n * radicand), &(d * d)),
+        };
+        (float, Decision::Integers)
     }
 
     /// The square with the sign of the number, which orders surds as the numbers are ordered.
