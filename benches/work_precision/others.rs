@@ -91,7 +91,7 @@ fn springs(bench: &Bench) -> Vec<Run> {
         .forces
         .iter()
         .flatten()
-        .any(|f| f.is_negative());
+        .any(Signed::is_negative);
     if pulls {
         let none = "no equilibrium: some contacts pull, and springs between spheres only push";
         return vec![bench.without(Method::Springs, "f64", none)];
@@ -105,7 +105,7 @@ fn springs(bench: &Bench) -> Vec<Run> {
 fn relaxed(bench: &Bench, stiffness: f64) -> Run {
     let layers = f64::from(bench.case.layers);
     let (seconds, answer) = timed(bench.repetitions, || {
-        relax(&bench.network, layers, stiffness)
+        relax(&bench.network, bench.case.layers, stiffness)
     });
     let remark = answer.to_string();
     let setting = format!("k = {stiffness:.0e} mg/R");
