@@ -215,8 +215,7 @@ fn draw_legend(area: &Area<'_>, keys: &[Key]) -> Result<(), Box<dyn Error>> {
     let notes = [
         "CGLS: the smaller the residual",
         "asked for, the further left.",
-        "springs: k = 10⁴ to 10¹⁰ mg/R;",
-        "stiffer ones relax faster.",
+        "springs: k = 10⁴ to 10¹⁰ mg/R.",
         "What has no mark here is",
         "accounted for in the table.",
     ];
