@@ -213,10 +213,10 @@ fn draw_legend(area: &Area<'_>, keys: &[Key]) -> Result<(), Box<dyn Error>> {
         y += 26.0;
     }
     let notes = [
-        "CGLS: from right to left",
-        "smaller residuals; springs:",
-        "four or more stiffnesses.",
-        "What has no mark is",
+        "CGLS: the smaller the residual",
+        "asked for, the further left.",
+        "springs: k = 10⁴ to 10¹⁰ mg/R.",
+        "What has no mark here is",
         "accounted for in the table.",
     ];
     for note in notes {

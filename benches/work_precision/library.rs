@@ -1,4 +1,4 @@
-//! The library's own methods, in every scalar, each held to what its scalar promises.
+//! The methods of the library, in every scalar, each held to what its scalar promises.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Selection;

@@ -68,6 +68,9 @@ pub(crate) struct Measured {
     pub(crate) error: f64,
 }
 
+/// A run that takes longer, in seconds, is not repeated: noise is no part of its time.
+const LONG: f64 = 10.0;
+
 /// The median time of some runs, and the last answer.
 pub(crate) fn timed<A>(repetitions: usize, mut run: impl FnMut() -> A) -> (f64, A) {
     let mut once = || {
@@ -77,6 +80,7 @@ pub(crate) fn timed<A>(repetitions: usize, mut run: impl FnMut() -> A) -> (f64, 
     };
     let (first, mut answer) = once();
     let mut times = vec![first];
+    let repetitions = if first > LONG { 1 } else { repetitions };
     for _ in 1..repetitions {
         let (time, again) = once();
         times.push(time);
