@@ -6,12 +6,13 @@
 //! every row can be filled by itself.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use num_rational::BigRational;
 
 use crate::lattice::{Dimension, Direction};
 use crate::scalar::{NearestFloat, Ring, Surd};
-use crate::{Error, Packing, Pile};
+use crate::{Error, Packing, Pile, parallel};
 
 /// The distinct contact forces of a straight pile under one sphere, by direction: what 1, 2, 3, … increments come to.
 ///
@@ -134,7 +135,7 @@ impl<V> Strengths<V> {
     }
 }
 
-impl<V: Copy> Strengths<V> {
+impl<V: Copy + Send + Sync> Strengths<V> {
     /// How many spheres have spheres below them: the length of each slice for the whole pile.
     ///
     /// # Errors
@@ -201,10 +202,7 @@ impl<V: Copy> Strengths<V> {
         for slice in &slices {
             check_length(slice.len(), spheres)?;
         }
-        let mut rest = slices;
-        for k in 0..self.tables[0].len() {
-            self.layer(k, first(&mut rest, (k + 1) * (k + 2) / 2));
-        }
+        self.layers(0..self.tables[0].len(), slices);
         Ok(())
     }
 
@@ -214,9 +212,34 @@ impl<V: Copy> Strengths<V> {
     /// As for [`fill`](Self::fill).
     pub fn fill_interleaved(&self, forces: &mut [[V; 3]]) -> Result<(), Error> {
         check_length(forces.len(), self.spheres()?)?;
+        self.layers_interleaved(0..self.tables[0].len(), forces);
+        Ok(())
+    }
+
+    /// Some layers, in two halves at once where there are threads.
+    fn layers(&self, layers: Range<usize>, mut slices: [&mut [V]; 3]) {
+        let Some((upper, lower)) = halves(&layers) else {
+            for k in layers {
+                self.layer(k, first(&mut slices, spheres_in(&(k..k + 1))));
+            }
+            return;
+        };
+        let above = first(&mut slices, spheres_in(&upper));
+        parallel::join(|| self.layers(upper, above), || self.layers(lower, slices));
+    }
+
+    fn layers_interleaved(&self, layers: Range<usize>, forces: &mut [[V; 3]]) {
+        if let Some((upper, lower)) = halves(&layers) {
+            let (above, below) = forces.split_at_mut(spheres_in(&upper));
+            parallel::join(
+                || self.layers_interleaved(upper, above),
+                || self.layers_interleaved(lower, below),
+            );
+            return;
+        }
         let [alpha, beta, gamma] = &self.tables;
         let mut rest = forces;
-        for k in 0..alpha.len() {
+        for k in layers {
             for (j, c) in gamma[..=k].iter().enumerate() {
                 let n = k - j + 1;
                 let row = rest.split_off_mut(..n).unwrap_or_default();
@@ -226,7 +249,6 @@ impl<V: Copy> Strengths<V> {
                 }
             }
         }
-        Ok(())
     }
 
     fn layer(&self, k: usize, slices: [&mut [V]; 3]) {
@@ -248,6 +270,26 @@ impl<V: Copy> Strengths<V> {
             *force = gamma[j];
         }
     }
+}
+
+/// How many spheres these layers have.
+fn spheres_in(layers: &Range<usize>) -> usize {
+    let down_to = |n: usize| n * (n + 1) * (n + 2) / 6;
+    down_to(layers.end) - down_to(layers.start)
+}
+
+/// Two parts of some layers with about as many spheres, where that is worth a thread.
+fn halves(layers: &Range<usize>) -> Option<(Range<usize>, Range<usize>)> {
+    const WORTH_A_THREAD: usize = 1 << 15;
+    let spheres = spheres_in(layers);
+    if !parallel::HAS_THREADS || spheres < 2 * WORTH_A_THREAD {
+        return None;
+    }
+    let inside = layers.start + 1..layers.end;
+    let middle = inside
+        .clone()
+        .find(|k| 2 * spheres_in(&(layers.start..*k)) >= spheres)?;
+    Some((layers.start..middle, middle..layers.end))
 }
 
 /// The first `n` of what is left of each slice, which is left without them; lengths have been checked.

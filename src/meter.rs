@@ -19,6 +19,9 @@ use core::fmt;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub trait Meter: Copy {
+    /// Whether it counts at all: what it is told may take a while to find out.
+    const COUNTS: bool = true;
+
     /// The forces at so many spheres were worked out or looked up.
     fn visit(self, _spheres: usize) {}
 
@@ -35,7 +38,9 @@ pub trait Meter: Copy {
     fn answer(self, _rows: usize) {}
 }
 
-impl Meter for () {}
+impl Meter for () {
+    const COUNTS: bool = false;
+}
 
 /// Counts what a [`Meter`] is told.
 ///

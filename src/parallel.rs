@@ -1,11 +1,25 @@
 //! Work on all cores, with the feature `rayon`; one after the other without it.
 
+/// Whether there may be several.
+pub(crate) const HAS_THREADS: bool = cfg!(feature = "rayon");
+
 /// How many threads there are to work on.
 pub(crate) fn threads() -> usize {
     #[cfg(feature = "rayon")]
     return rayon::current_num_threads();
     #[cfg(not(feature = "rayon"))]
     1
+}
+
+/// Does two things, at once where there are threads.
+pub(crate) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    #[cfg(feature = "rayon")]
+    rayon::join(one, other);
+    #[cfg(not(feature = "rayon"))]
+    {
+        one();
+        other();
+    }
 }
 
 /// Does something with each item, in any order, at once where there are threads.

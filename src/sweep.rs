@@ -223,7 +223,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     }
 
     /// Goes down to layer `k`, if it is further down.
-    pub(crate) fn advance(&mut self, k: i128, meter: impl Meter) {
+    pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) {
         loop {
             let Some(pass) = self.grid.passes(self.k, k).next() else {
                 return;
@@ -233,7 +233,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             let increments = self.lines.increments_after(pass.run.index);
             self.layer.pass(&self.grid, &pass, &increments);
             meter.pass();
-            if pass.turns {
+            if M::COUNTS && pass.turns {
                 meter.turn(pass.region.sites().to_usize().unwrap_or(usize::MAX));
             }
             (self.k, self.pass, self.settled) = (pass.k, Some(pass), false);

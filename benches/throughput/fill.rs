@@ -36,7 +36,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 }
 
 /// One slice for each direction, buffers touched before, and a value that is not zero.
-fn over_memset<V: Copy + PartialEq + Debug>(
+fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
     pile: &Pile,
     strengths: &Strengths<V>,
     value: V,

@@ -3,13 +3,12 @@
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Selection;
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
-use cannonpile::{Packing, Pile, Strengths};
+use cannonpile::{Packing, Pile, Statics, Strengths};
 use num_rational::BigRational;
 
 use crate::Bench;
 use crate::reference::{Unit, by_sphere};
 use crate::run::{Measured, Method, Run, timed};
-use crate::transfer;
 
 /// All methods in all scalars.
 pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
@@ -37,12 +36,7 @@ pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
         recursion::<Interval>(bench),
         recursion::<BigRational>(bench),
     ]);
-    runs.push(if straight {
-        let none = "not run: the library answers straight piles by the closed form";
-        bench.without(Method::Engine, "integers", none)
-    } else {
-        engine(bench)
-    });
+    runs.push(engine(bench));
     runs
 }
 
@@ -91,27 +85,45 @@ fn filled<V: Copy + Default>(strengths: &Strengths<V>) -> Vec<[V; 3]> {
 }
 
 fn closed<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
-    measured::<T>(bench, Method::Closed, || asked(&bench.case.pile))
-}
-
-fn recursion<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
-    measured::<T>(bench, Method::Transfer, || {
-        transfer::forces(&bench.case.pile, &bench.network)
+    measured::<T>(bench, Method::Closed, || {
+        contacts(&bench.case.pile.statics::<T>())
     })
 }
 
+fn recursion<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
+    measured::<T>(bench, Method::Transfer, || swept(&bench.case.pile))
+}
+
 fn engine(bench: &Bench) -> Run {
-    let run = measured::<BigRational>(bench, Method::Engine, || asked(&bench.case.pile));
+    let run = measured::<BigRational>(bench, Method::Engine, || {
+        let statics = bench.case.pile.statics::<BigRational>();
+        contacts(&statics.by(cannonpile::Method::Sweep).expect("spheres"))
+    });
     Run {
         scalar: "integers",
         ..run
     }
 }
 
-/// All contact forces, by the method that the library chooses.
-fn asked<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
-    let rows = pile.rows(Selection::All).expect("rows");
-    let statics = pile.statics();
+/// All contact forces, layer after layer.
+fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
+    let mut sweep = pile.sweep::<T>().expect("room");
+    let mut forces = Vec::new();
+    for k in 0..pile.layers() - 1 {
+        sweep.advance(k).expect("a layer");
+        let spheres = sweep.spheres().expect("few");
+        let mut layer = [(); 3].map(|()| vec![T::zero(); spheres]);
+        let [a, b, c] = layer.each_mut().map(Vec::as_mut_slice);
+        sweep.fill([a, b, c]).expect("forces");
+        let [a, b, c] = layer;
+        forces.extend(a.into_iter().zip(b).zip(c).map(|((a, b), c)| [a, b, c]));
+    }
+    forces
+}
+
+/// All contact forces, as they are asked for one after the other.
+fn contacts<T: Algebra>(statics: &Statics<'_, T>) -> Vec<[T; 3]> {
+    let rows = statics.pile().rows(Selection::All).expect("rows");
     let forces = statics.contacts(rows).map(|c| c.expect("a force").force);
     by_sphere(forces.collect())
 }

@@ -21,7 +21,6 @@ mod peers;
 mod reference;
 mod run;
 mod table;
-mod transfer;
 
 use std::env;
 use std::path::{Path, PathBuf};

@@ -98,8 +98,12 @@ pub(super) fn bands<'c, V>(
     let rows = pass.region.y();
     let (first, end) = (*rows.start(), rows.end() + 1);
     let worth = grid.cells * planes.len() / WORTH_A_THREAD;
-    // More than threads: rows are not of one length, and threads not of one speed.
-    let bands = worth.min(4 * parallel::threads());
+    // More than threads: rows are not of one length, and threads not of one speed. Not asked for where they are not worth it.
+    let bands = if worth > 1 {
+        worth.min(4 * parallel::threads())
+    } else {
+        1
+    };
     let bands = i128::try_from(bands).unwrap_or(1).clamp(1, end - first);
     let slices = |Cells(cells): &'c mut Cells<V>| cells.each_mut().map(Vec::as_mut_slice);
     let mut rest: Vec<[&mut [V]; 3]> = planes.iter_mut().map(slices).collect();
