@@ -1,10 +1,12 @@
 //! One entry of a table, and how it is shown.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
+use super::Column;
 use crate::Error;
 use crate::scalar::{NearestFloat, Surd};
 
@@ -48,15 +50,23 @@ impl From<&'static str> for Cell {
 }
 
 impl Cell {
-    /// The text of the cell; `column` is named if the number does not fit.
-    pub(super) fn text(&self, format: NumberFormat, column: &'static str) -> Result<String, Error> {
-        Ok(match self {
+    /// The text of the cell, or both ends if it is an interval; the column is named if the number does not fit.
+    pub(super) fn texts(
+        &self,
+        format: NumberFormat,
+        column: &Column,
+    ) -> Result<Vec<String>, Error> {
+        let text = match self {
+            Self::Number(x) if format == NumberFormat::Interval => {
+                return Ok(ends(x, column.name)?.into());
+            }
             Self::Integer(n) => n.to_string(),
-            Self::Number(x) => format.show(x, column)?,
+            Self::Number(x) => format.show(x, column.name)?,
             Self::Word(word) => word.to_string(),
             Self::Flag(flag) => u8::from(*flag).to_string(),
             Self::Missing => String::new(),
-        })
+        };
+        Ok(vec![text; column.heads(format).len()])
     }
 }
 
@@ -69,6 +79,8 @@ pub enum NumberFormat {
     F64,
     /// The nearest `f32`, with the fewest digits that read back the same (at most 9).
     F32,
+    /// The greatest `f64` that is not greater and the least that is not less: two columns, `…_lo` and `…_hi`.
+    Interval,
 }
 
 impl NumberFormat {
@@ -94,7 +106,30 @@ impl NumberFormat {
             Self::Exact => Ok(number.to_string()),
             Self::F64 => shortest::<f64>(number, quantity, "f64"),
             Self::F32 => shortest::<f32>(number, quantity, "f32"),
+            Self::Interval => {
+                let [lower, upper] = ends(number, quantity)?;
+                Ok(format!("[{lower}, {upper}]"))
+            }
         }
+    }
+}
+
+/// The `f64` on both sides of a number, or it twice where it is one, as the shortest texts that read back the same.
+fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
+    let overflow = Error::Overflow {
+        quantity,
+        scalar: "f64",
+    };
+    let float = number.nearest::<f64>().ok_or_else(|| overflow.clone())?;
+    let [lower, upper] = match number.partial_cmp(&float) {
+        Some(Ordering::Less) => [float.next_down(), float],
+        Some(Ordering::Greater) => [float, float.next_up()],
+        _ => [float, float],
+    };
+    if lower.is_finite() && upper.is_finite() {
+        Ok([lower, upper].map(|end| format!("{end:?}")))
+    } else {
+        Err(overflow)
     }
 }
 

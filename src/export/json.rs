@@ -17,8 +17,10 @@ pub(super) fn write(
     for row in table.rows {
         let mut object = Map::new();
         for (column, cell) in table.columns.iter().zip(row?) {
-            let value = value(&cell, numbers, cell.text(numbers, column.name)?);
-            object.insert(column.name.into(), value);
+            let texts = cell.texts(numbers, column)?;
+            for (head, text) in column.heads(numbers).into_iter().zip(texts) {
+                object.insert(head, value(&cell, numbers, text));
+            }
         }
         out.write_all(separator.as_bytes())?;
         serde_json::to_writer(&mut *out, &object)?;

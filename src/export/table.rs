@@ -14,6 +14,8 @@ pub struct Column {
     pub unit: &'static str,
     /// Whether the text table shows its sum.
     pub summed: bool,
+    /// Whether it holds quantities, shown in the number format asked for.
+    pub quantity: bool,
 }
 
 impl Column {
@@ -23,6 +25,7 @@ impl Column {
             name,
             unit: "",
             summed: false,
+            quantity: false,
         }
     }
 
@@ -32,6 +35,7 @@ impl Column {
             name,
             unit,
             summed: false,
+            quantity: true,
         }
     }
 
@@ -41,6 +45,17 @@ impl Column {
             name,
             unit,
             summed: true,
+            quantity: true,
+        }
+    }
+
+    /// Its headers: two for the ends of intervals.
+    pub(super) fn heads(&self, numbers: NumberFormat) -> Vec<String> {
+        let name = self.name;
+        if self.quantity && numbers == NumberFormat::Interval {
+            vec![format!("{name}_lo"), format!("{name}_hi")]
+        } else {
+            vec![name.to_owned()]
         }
     }
 }
@@ -129,7 +144,7 @@ impl Table<'_> {
 
     fn write_csv(self, numbers: NumberFormat, out: &mut dyn Write) -> Result<(), WriteError> {
         let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(self.columns.iter().map(|column| column.name))?;
+        csv.write_record(self.columns.iter().flat_map(|column| column.heads(numbers)))?;
         let columns = self.columns;
         for row in self.rows {
             csv.write_record(texts(&columns, &row?, numbers)?)?;
@@ -148,9 +163,9 @@ pub(super) fn texts(
     row: &[Cell],
     numbers: NumberFormat,
 ) -> Result<Vec<String>, Error> {
-    columns
+    let texts = columns
         .iter()
         .zip(row)
-        .map(|(column, cell)| cell.text(numbers, column.name))
-        .collect()
+        .map(|(column, cell)| cell.texts(numbers, column));
+    Ok(texts.collect::<Result<Vec<_>, _>>()?.concat())
 }

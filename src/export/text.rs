@@ -29,21 +29,17 @@ fn write_record(
     numbers: NumberFormat,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let width = table
-        .columns
-        .iter()
-        .map(|column| column.name.len())
-        .max()
-        .unwrap_or(0);
+    let heads = heads(&table.columns, numbers);
+    let width = heads.iter().map(|(head, _)| head.len()).max().unwrap_or(0);
     for row in table.rows {
         let texts = texts(&table.columns, &row?, numbers)?;
-        for (column, text) in table.columns.iter().zip(texts) {
+        for ((head, unit), text) in heads.iter().zip(texts) {
             let (text, unit) = if text.is_empty() {
                 ("-", "")
             } else {
-                (&*text, column.unit)
+                (&*text, *unit)
             };
-            let line = format!("{:width$}  {text} {unit}", column.name);
+            let line = format!("{head:width$}  {text} {unit}");
             writeln!(out, "{}", line.trim_end())?;
         }
     }
@@ -59,14 +55,10 @@ fn write_rows(
 ) -> Result<(), WriteError> {
     let columns = table.columns;
     let mut sums: Vec<Sum> = columns.iter().map(|_| Sum::default()).collect();
-    let units: Vec<String> = columns
-        .iter()
-        .map(|column| bracketed(column.unit))
-        .collect();
-    let heads: Vec<String> = columns
-        .iter()
-        .map(|column| column.name.to_owned())
-        .collect();
+    let (heads, units) = heads(&columns, numbers)
+        .into_iter()
+        .map(|(head, unit)| (head, bracketed(unit)))
+        .unzip();
     let mut page = vec![heads, units];
     let mut widths = first_widths(&columns, &table.extremes, numbers)?;
     let mut count = BigUint::zero();
@@ -112,13 +104,25 @@ fn write_rows(
     }
 }
 
+/// Headers and units.
+fn heads(columns: &[Column], numbers: NumberFormat) -> Vec<(String, &'static str)> {
+    let heads = |column: &Column| {
+        let unit = column.unit;
+        column
+            .heads(numbers)
+            .into_iter()
+            .map(move |head| (head, unit))
+    };
+    columns.iter().flat_map(heads).collect()
+}
+
 /// Widths that the extremes of the table and the word `total` fit in, so that pages rarely differ.
 fn first_widths(
     columns: &[Column],
     extremes: &[Row],
     numbers: NumberFormat,
 ) -> Result<Vec<usize>, WriteError> {
-    let mut widths = vec![0; columns.len()];
+    let mut widths = vec![0; heads(columns, numbers).len()];
     if let (Some(first), true) = (widths.first_mut(), columns.iter().any(|c| c.summed)) {
         *first = "total".len();
     }
@@ -138,13 +142,14 @@ fn total_row(columns: &[Column], sums: &[Sum], numbers: NumberFormat) -> Option<
     }
     let mut texts = Vec::with_capacity(columns.len());
     for (n, (column, sum)) in columns.iter().zip(sums).enumerate() {
-        texts.push(match &sum.0 {
+        let places = column.heads(numbers).len();
+        texts.extend(match &sum.0 {
             // A sum beyond the floats is shown exactly: its rows are out already, and right.
-            Some(value) if column.summed => numbers
-                .show(value, column.name)
-                .unwrap_or_else(|_| value.to_string()),
-            _ if n == 0 => "total".to_owned(),
-            _ => String::new(),
+            Some(value) if column.summed => Cell::Number(value.clone())
+                .texts(numbers, column)
+                .unwrap_or_else(|_| vec![value.to_string(); places]),
+            _ if n == 0 => vec!["total".to_owned(); places],
+            _ => vec![String::new(); places],
         });
     }
     Some(texts)

@@ -398,6 +398,8 @@ pub(crate) enum Number {
     F64,
     /// The nearest single-precision float
     F32,
+    /// The double-precision floats on both sides, in columns ..._lo and ..._hi
+    Interval,
 }
 
 impl From<Number> for NumberFormat {
@@ -406,6 +408,7 @@ impl From<Number> for NumberFormat {
             Number::Exact => Self::Exact,
             Number::F64 => Self::F64,
             Number::F32 => Self::F32,
+            Number::Interval => Self::Interval,
         }
     }
 }
