@@ -60,12 +60,21 @@ impl<'p> Explanation<'p> {
         &self.plan
     }
 
+    /// That there are not too many answers to [`run`](Self::run).
+    ///
+    /// # Errors
+    /// [`Error::TooManyRows`], as tables refuse them.
+    pub fn check(&self) -> Result<(), Error> {
+        let remedy = "ask for one layer, one sphere, or the plan only";
+        super::tables::refuse_beyond(&self.plan.rows, remedy)
+    }
+
     /// Answers the question, all of it, and counts what that takes.
     ///
     /// # Errors
-    /// [`Error::TooManyRows`], as tables refuse them; those of the answers are handed on.
+    /// As for [`check`](Self::check); those of the answers are handed on.
     pub fn run(&self) -> Result<Counters, Error> {
-        super::tables::refuse_beyond(&self.plan.rows, "ask for one layer, or one sphere")?;
+        self.check()?;
         let counters = Counters::default();
         let rows = self.units.pile().rows(self.question.part)?;
         let quantity = self.question.quantity;

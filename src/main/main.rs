@@ -183,6 +183,9 @@ fn run(command: &Command) -> Result<bool, Failure> {
 /// The plan, before anything is run, and then what was counted.
 fn explain(explanation: &Explanation<'_>, no_run: bool, output: &Output) -> Result<(), WriteError> {
     let format = output.format;
+    if !no_run {
+        explanation.check()?;
+    }
     write(output, |out| {
         if format != Format::Table || no_run {
             let counters = (!no_run).then(|| explanation.run()).transpose()?;
