@@ -214,9 +214,11 @@ impl Surd {
         if self.radicand.is_one() {
             return F::nearest_to_rational(&self.coefficient);
         }
-        let square = self.square();
-        let (n, d) = (square.numer().magnitude(), square.denom().magnitude());
-        nearest_root(self.coefficient.is_negative(), n, d)
+        // Not reduced: a common factor costs more to find than to carry.
+        let (n, d) = (self.coefficient.numer(), self.coefficient.denom());
+        let (n, d) = (n.magnitude(), d.magnitude());
+        let negative = self.coefficient.is_negative();
+        nearest_root(negative, &(n * n * &self.radicand), &(d * d))
     }
 
     /// The square with the sign of the number, which orders surds as the numbers are ordered.
