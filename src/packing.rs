@@ -60,6 +60,10 @@ pub struct Packing<'p> {
     radius: BigRational,
     mass: BigRational,
     gravity: BigRational,
+    /// mg/W, kept because every force has it as a factor.
+    weight_per_sum: BigRational,
+    /// f₀.
+    unit_force: Surd,
 }
 
 impl<'p> Packing<'p> {
@@ -87,8 +91,11 @@ impl<'p> Packing<'p> {
         let twice_cos_phi = Surd::sqrt(BigRational::from_i128(4) * (BigRational::one() - s * s))?;
         let (sin, tan) = (inclination.sin(), inclination.tan());
         let statics = pile.statics::<BigRational>();
-        Ok(Self {
-            increment_sum: statics.increment_sum()?,
+        let increment_sum = statics.increment_sum()?;
+        let packing = Self {
+            weight_per_sum: BigRational::one(),
+            unit_force: Surd::zero(),
+            increment_sum,
             statics,
             touching,
             lengths: [sin.clone(), sin * &twice_cos_phi, inclination.cos()],
@@ -98,7 +105,8 @@ impl<'p> Packing<'p> {
             radius: BigRational::one(),
             mass: BigRational::one(),
             gravity: BigRational::one(),
-        })
+        };
+        Ok(packing.weighed())
     }
 
     /// The same packing with spheres of this radius.
@@ -145,7 +153,7 @@ impl<'p> Packing<'p> {
     /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
         let mass = positive("mass", mass)?;
-        Ok(Self { mass, ..self })
+        Ok(Self { mass, ..self }.weighed())
     }
 
     /// The same packing in this gravity.
@@ -168,7 +176,7 @@ impl<'p> Packing<'p> {
     /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
         let gravity = positive("gravity", gravity)?;
-        Ok(Self { gravity, ..self })
+        Ok(Self { gravity, ..self }.weighed())
     }
 
     /// The pile that is packed.
@@ -321,7 +329,7 @@ impl<'p> Packing<'p> {
     /// ```
     #[must_use]
     pub fn unit_force(&self) -> Surd {
-        self.secant.scaled(&self.weight_per_sum())
+        self.unit_force.clone()
     }
 
     /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
@@ -342,7 +350,7 @@ impl<'p> Packing<'p> {
     /// ```
     #[must_use]
     pub fn central_constant(&self) -> Surd {
-        self.unit_force().scaled(&self.diameter().recip())
+        self.unit_force.scaled(&self.diameter().recip())
     }
 
     /// The magnitude of the contact force between `site` and the sphere below it.
@@ -486,7 +494,7 @@ impl<'p> Packing<'p> {
 
     /// A contact force, from its multiple of f₀.
     fn magnitude(&self, multiple: &BigRational) -> Surd {
-        self.secant.scaled(&(multiple * self.weight_per_sum()))
+        self.unit_force.scaled(multiple)
     }
 
     /// A contact force as a vector on the upper sphere, from its multiple of f₀.
@@ -497,7 +505,7 @@ impl<'p> Packing<'p> {
         multiple: &BigRational,
     ) -> Result<[Surd; 3], Error> {
         let along = upwards(self.statics.contact_direction(site, direction)?);
-        let unit = multiple * self.weight_per_sum();
+        let unit = multiple * &self.weight_per_sum;
         Ok(on_basis(&self.forces, along, &unit))
     }
 
@@ -512,9 +520,11 @@ impl<'p> Packing<'p> {
         &self.radius + &self.radius
     }
 
-    /// mg/W.
-    fn weight_per_sum(&self) -> BigRational {
-        self.sphere_weight() / &self.increment_sum
+    /// With the units of force that mass and gravity make.
+    fn weighed(mut self) -> Self {
+        self.weight_per_sum = self.sphere_weight() / &self.increment_sum;
+        self.unit_force = self.secant.scaled(&self.weight_per_sum);
+        self
     }
 }
 

@@ -14,8 +14,7 @@ pub(crate) fn random_roots(random: &mut Random, cases: u64) -> Tally {
     while tally.cases < cases {
         let root = surd(&BigRational::one(), random.ratio(64));
         for _ in 0..8 {
-            let scale = power(random.within(-1100..1050));
-            let c = random.ratio(160) * scale * sign(random);
+            let c = random.ratio(160) * random.scale() * sign(random);
             tally.meet(&root.scaled(&c));
         }
     }
@@ -54,7 +53,7 @@ fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     tally.meet(&root);
     for _ in 0..4 {
         tally.meet(&root.scaled(&power(random.within(-40..40))));
-        tally.meet(&root.scaled(&power(random.within(-1130..1024))));
+        tally.meet(&root.scaled(&random.scale()));
     }
 }
 
@@ -74,8 +73,7 @@ fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally
 pub(crate) fn rationals(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
-        let scale = power(random.within(-1100..1050));
-        tally.meet_rational(&(random.ratio(160) * scale * sign(random)));
+        tally.meet_rational(&(random.ratio(160) * random.scale() * sign(random)));
         for place in [random.critical::<f64>(), random.critical::<f32>()] {
             tally.meet_rational(&(&place * sign(random)));
             let off = random.hair() * sign(random);
@@ -85,15 +83,15 @@ pub(crate) fn rationals(random: &mut Random, cases: u64) -> Tally {
     tally
 }
 
-/// A positive factor f that takes |`x`| ≠ 0 to `place`, to it or to one side of it by less than a part in 2^200: it is
-/// met exactly only where x is rational.
+/// A positive factor that takes |`x`| ≠ 0 to `place` or to one side of it, by a part in 2^220 or in the square or
+/// fourth root of that. It is met exactly only where x is rational.
 pub(crate) fn towards(x: &Surd, place: &BigRational, random: &mut Random) -> BigRational {
-    const BITS: u64 = 220;
+    let bits = random.of(&[60, 60, 60, 110, 110, 220]);
     let square = x.square();
     let (n, d) = (square.numer(), square.denom());
-    // An even shift that leaves 2·BITS bits.
+    // An even shift that leaves 2·`bits` bits.
     let excess = n.bits().cast_signed() - d.bits().cast_signed();
-    let half = BITS.cast_signed() - excess.div_euclid(2);
+    let half = bits - excess.div_euclid(2);
     let scaled = if half > 0 {
         (n << (2 * half)) / d
     } else {

@@ -73,12 +73,35 @@ impl Random {
         let (least, greatest) = (F::LEAST_EXPONENT, 3 - F::LEAST_EXPONENT - 2 * precision);
         let any = (1 << (precision - 1)) | (self.bits() >> (65 - precision));
         let short = self.bits() >> self.within(64 - precision..63);
-        let m = self.of(&[any, any, any, short, 1 << (precision - 1), (1 << precision) - 1]);
+        let m = self.of(&[
+            any,
+            any,
+            any,
+            short,
+            1 << (precision - 1),
+            (1 << precision) - 1,
+        ]);
         let moderate = self.within(-60..60) - precision;
-        let any = self.within(least..greatest + 1);
-        let e = self.of(&[moderate, moderate, any, least, greatest, greatest - 1]);
+        let e = if self.is_extreme::<F>() {
+            let any = self.within(least..greatest + 1);
+            self.of(&[any, least, greatest, greatest - 1])
+        } else {
+            moderate
+        };
         let half = u128::from(!self.once_in(4));
         BigRational::from_integer((2 * u128::from(m) + half).into()) * power(e - 1)
+    }
+
+    /// Whether to go to an end of the format: rarely to those of `f64`, where numbers of a thousand bits take their time.
+    fn is_extreme<F: NearestFloat>(&mut self) -> bool {
+        self.once_in(if F::PRECISION > 24 { 16 } else { 2 })
+    }
+
+    /// A power of two, moderate or, rarely, from far below the least subnormal of `f64` to above its greatest.
+    pub(crate) fn scale(&mut self) -> BigRational {
+        let moderate = self.within(-160..160);
+        let any = self.within(-1130..1050);
+        power(if self.once_in(12) { any } else { moderate })
     }
 
     /// 2 to the power at which a number passes for a tie until one looks closer, or 0: in `f64`, in double-double, in

@@ -3,9 +3,10 @@
 use cannonpile::scalar::{NearestFloat, Surd};
 use num_rational::BigRational;
 
-use crate::judge::{Value, Verdict, is_nearest};
+use crate::judge::{Float, Value, Verdict, is_nearest};
 
-/// The verdicts about one quantity. A case is an exact value, rounded to both formats.
+/// The verdicts about one quantity. A case is an exact value, rounded to `f64` and to `f32`; of what is filled into
+/// slices, each float is one.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     /// How many values were rounded.
@@ -36,12 +37,9 @@ impl Tally {
         self.meet(&exact.clone().into());
     }
 
-    /// Judges floats that were rounded before; `None` stands for infinity.
-    pub(crate) fn meet_floats(&mut self, floats: (Option<f64>, Option<f32>), exact: &Surd) {
-        let value = Value::of(exact);
-        self.count(
-            is_nearest(floats.0, &value).and_then(|()| is_nearest(floats.1, &value)),
-        );
+    /// Judges a float that was rounded before; `None` stands for an infinite one.
+    pub(crate) fn meet_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
+        self.count(is_nearest(got, &Value::of(exact)));
     }
 
     fn count(&mut self, verdict: Verdict) {

@@ -26,6 +26,9 @@ mod oracle;
 mod pair;
 mod planted_faults;
 mod polynomial;
+mod rounded;
+#[path = "../rounding/mod.rs"]
+mod rounding;
 mod strengths;
 mod sums;
 mod surd;
