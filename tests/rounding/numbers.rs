@@ -13,8 +13,8 @@ pub(crate) fn random_roots(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
         let root = surd(&BigRational::one(), random.ratio(64));
-        for _ in 0..8 {
-            let c = random.ratio(160) * random.scale() * sign(random);
+        for _ in 0..16 {
+            let c = random.ratio(96) * random.scale() * sign(random);
             tally.meet(&root.scaled(&c));
         }
     }
@@ -73,7 +73,7 @@ fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally
 pub(crate) fn rationals(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
-        tally.meet_rational(&(random.ratio(160) * random.scale() * sign(random)));
+        tally.meet_rational(&(random.ratio(96) * random.scale() * sign(random)));
         for place in [random.critical::<f64>(), random.critical::<f32>()] {
             tally.meet_rational(&(&place * sign(random)));
             let off = random.hair() * sign(random);

@@ -126,14 +126,14 @@ pub(crate) fn spacing(pile: &Pile, random: &mut Random) -> Spacing {
     let high = bound(clearance.most()).unwrap_or_else(|| flat.clone());
     let part = ratio((random.within(1..64), 64));
     let between = &low + (&high - &low) * part;
-    let q = match random.within(0..6) {
+    let q = match random.within(0..10) {
         0 => low,
         1 => high,
         2 => {
             let near = f64::nearest_to_rational(&low).map_or(1.0, f64::next_up);
             exact(near)
         }
-        3 | 4 => {
+        3 => {
             let cos2 = BigRational::one() - &between / &flat;
             let cos = surd(cos2).nearest::<f64>().unwrap_or(0.5);
             let middle = midpoint(&exact(cos), &exact(cos.next_up()));
@@ -195,7 +195,7 @@ fn size(random: &mut Random) -> BigRational {
         0 => decimal(300 * random.of(&[-1, 1])),
         1 => power(-1074),
         2 => random.critical::<f64>() + power(-1100),
-        3..=6 => random.ratio(128),
+        3..=6 => random.ratio(64),
         _ => ratio((random.within(1..10_000), random.of(&[1, 100, 1000]))),
     }
 }

@@ -86,7 +86,7 @@ impl Quantity {
         let spacing = piles::spacing(&pile, random);
         let mut packing = Packing::new(&pile, &spacing)?;
         let floor = pile.layers() - 1;
-        let places = [(); 4].map(|()| {
+        let places = [(); 8].map(|()| {
             let k = match self {
                 Self::OnFloor => floor,
                 // On the floor z is 0, and there are no contacts.

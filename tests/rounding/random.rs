@@ -107,7 +107,7 @@ impl Random {
     /// 2 to the power at which a number passes for a tie until one looks closer, or 0: in `f64`, in double-double, in
     /// all that is shorter than the exact value.
     pub(crate) fn hair(&mut self) -> BigRational {
-        let bits = self.of(&[52..70, 100..130, 190..210, 300..301].map(|r| (r.start, r.end)));
+        let bits = self.of(&[(52, 70), (52, 70), (100, 130), (100, 130), (190, 210)]);
         power(-self.within(bits.0..bits.1))
     }
 }
