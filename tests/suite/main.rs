@@ -30,6 +30,9 @@ mod rounded;
 #[path = "../rounding/mod.rs"]
 mod rounding;
 mod strengths;
+#[path = "../stress/mod.rs"]
+mod stress;
+mod stress_table;
 mod sums;
 mod surd;
 mod symmetry;
