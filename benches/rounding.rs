@@ -5,11 +5,16 @@
 //! many values were judged, how many roundings were wrong, and nanoseconds a value, of which making it and judging it are
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
+//!
+//! With `-- --stress` it measures the table of `tests/stress` instead, and below it the pile that takes too long for a
+//! test: a change of sign at every one of 1,000 layers, under a hexagon of 40 spheres a side.
 
 #[path = "../tests/judge/mod.rs"]
 mod judge;
 #[path = "../tests/rounding/mod.rs"]
 mod rounding;
+#[path = "../tests/stress/mod.rs"]
+mod stress;
 
 use std::env;
 use std::time::Instant;
@@ -18,11 +23,15 @@ use rounding::numbers;
 use rounding::quantities::Quantity;
 use rounding::random::Random;
 use rounding::tally::Tally;
+use stress::{cases, table};
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let smoke = arguments.iter().any(|argument| argument == "--smoke");
     let cases = if smoke { 500 } else { 10_000_000 };
+    if arguments.iter().any(|argument| argument == "--stress") {
+        return stress_table();
+    }
     let named: Vec<&String> = arguments.iter().filter(|a| !a.starts_with('-')).collect();
     let wanted = |name: &str| named.is_empty() || named.iter().any(|part| name.contains(*part));
 
@@ -40,6 +49,17 @@ fn main() {
         if wanted(quantity.name()) {
             report(quantity.name(), |random| quantity.tally(random, cases));
         }
+    }
+}
+
+fn stress_table() {
+    print!("{}", table::HEAD);
+    for case in cases::all()
+        .into_iter()
+        .chain([cases::alternating(40, 1000)])
+    {
+        let rows = table::rows(&case);
+        print!("{}", rows.unwrap_or_else(|fault| panic!("{fault}")));
     }
 }
 

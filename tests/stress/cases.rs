@@ -37,9 +37,9 @@ impl Case {
 
     fn of_size(name: &str, mass: BigRational, gravity: BigRational, radius: BigRational) -> Self {
         Self {
+            radius,
             mass,
             gravity,
-            radius,
             ..Self::new(name, Pile::triangular(10), Some(ratio(6, 5)))
         }
     }

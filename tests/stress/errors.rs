@@ -53,13 +53,9 @@ pub(crate) struct Worst(Option<BigRational>);
 impl Worst {
     /// Takes one more into account; `None` stands for one without bounds.
     pub(crate) fn meet(&mut self, error: Option<BigRational>) {
-        if let (Some(worst), Some(error)) = (&mut self.0, &error) {
-            if *error > *worst {
-                worst.clone_from(error);
-            }
-        } else {
-            self.0 = None;
-        }
+        // Once without bounds, always.
+        let worst = self.0.take().zip(error);
+        self.0 = worst.map(|(worst, error)| worst.max(error));
     }
 
     /// None met yet.

@@ -94,8 +94,8 @@ pub(crate) fn rows(case: &Case) -> Result<String, String> {
     let packing = case.packing().map_err(fault)?;
     for quantity in Quantity::ALL {
         let wanted = quantity.wanted(case, &exact);
-        let values = wanted.iter().map(|wanted| wanted.value.clone());
-        let nearest = quantity.roundings(&exact, values.collect(), packing.as_ref())?;
+        let values: Vec<_> = wanted.iter().map(|wanted| wanted.value.clone()).collect();
+        let nearest = quantity.roundings(&exact, &values, packing.as_ref())?;
         let row = Row {
             pile: case.name.clone(),
             quantity: quantity.name(),
@@ -180,14 +180,14 @@ impl Quantity {
     fn roundings(
         self,
         exact: &Forces<BigRational>,
-        values: Vec<BigRational>,
+        values: &[BigRational],
         packing: Option<&Packing<'_>>,
     ) -> Result<Worst, String> {
         let mut worst = Worst::none();
         let mut surds: Vec<Surd> = values.iter().cloned().map(Surd::from).collect();
         if let Some(packing) = packing {
             surds.extend(
-                self.in_si(exact, &values, packing)
+                self.in_si(exact, values, packing)
                     .map_err(|e| e.to_string())?,
             );
         }
