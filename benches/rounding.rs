@@ -23,7 +23,8 @@ use rounding::numbers;
 use rounding::quantities::Quantity;
 use rounding::random::Random;
 use rounding::tally::Tally;
-use stress::{cases, table};
+use stress::cases;
+use stress::table::{self, Answers};
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -58,7 +59,7 @@ fn stress_table() {
         .into_iter()
         .chain([cases::alternating(40, 1000)])
     {
-        let rows = table::rows(&case);
+        let rows = table::rows(&case, &Answers::of(&case.pile));
         print!("{}", rows.unwrap_or_else(|fault| panic!("{fault}")));
     }
 }

@@ -106,7 +106,7 @@ impl Quantity {
             }
         }
         let nonzero: Vec<&Surd> = targets.iter().filter(|x| x.sign() != Sign::Zero).collect();
-        for _ in 0..32 {
+        for _ in 0..64 {
             let target = (!nonzero.is_empty()).then(|| random.of(&nonzero));
             packing = piles::resized(packing, self.measure(), target, random)?;
             match self {

@@ -75,7 +75,7 @@ pub(crate) fn all() -> Vec<Case> {
     cases
 }
 
-fn tall() -> Vec<Case> {
+pub(crate) fn tall() -> Vec<Case> {
     let float = 1_i128 << 53;
     [
         ("L = 2^53 - 1", float - 1),

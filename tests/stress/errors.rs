@@ -16,6 +16,9 @@ pub(crate) fn unit<F: Float>(about: &BigRational) -> BigRational {
     let (n, d) = (about.numer().magnitude(), about.denom().magnitude());
     let precision = i64::from(F::PRECISION);
     let (_, least) = significand(F::min_positive_value());
+    if about.is_zero() {
+        return power(least);
+    }
     // 2^e ≤ |about| < 2^(e+1), or one more.
     let e = n.bits().cast_signed() - d.bits().cast_signed();
     let e = if about.abs() < power(e) { e - 1 } else { e };

@@ -22,6 +22,26 @@ pub(crate) struct Forces<T> {
     pub(crate) positions: Vec<OfSphere<T>>,
 }
 
+impl<T: Clone> Forces<T> {
+    /// The same of every number.
+    pub(crate) fn map<U>(self, image: impl Fn(T) -> U) -> Forces<U> {
+        let of = |spheres: Vec<OfSphere<T>>| {
+            let mapped = spheres
+                .into_iter()
+                .map(|OfSphere { site, values }| OfSphere {
+                    site,
+                    values: values.map(&image),
+                });
+            mapped.collect()
+        };
+        Forces {
+            contacts: of(self.contacts),
+            floor: of(self.floor),
+            positions: of(self.positions),
+        }
+    }
+}
+
 /// How many spheres of a swept layer are looked at.
 const SAMPLE: usize = 120;
 

@@ -4,7 +4,7 @@ use core::fmt::{self, Write as _};
 
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{Algebra, DoubleDouble, Interval, RealEmbeddable, Surd};
-use cannonpile::{Error, Packing};
+use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};
 
@@ -78,8 +78,28 @@ struct Wanted {
     about: BigRational,
 }
 
+/// What every scalar says of a pile.
+#[derive(Clone, Debug)]
+pub(crate) struct Answers {
+    pub(crate) f64: Result<Forces<f64>, Error>,
+    pub(crate) f32: Result<Forces<f32>, Error>,
+    pub(crate) double: Result<Forces<DoubleDouble>, Error>,
+    pub(crate) interval: Result<Forces<Interval>, Error>,
+}
+
+impl Answers {
+    pub(crate) fn of(pile: &Pile) -> Self {
+        Self {
+            f64: Forces::of(pile),
+            f32: Forces::of(pile),
+            double: Forces::of(pile),
+            interval: Forces::of(pile),
+        }
+    }
+}
+
 /// The rows of a pile, checked: roundings are right, intervals hold the exact values, errors keep their bounds.
-pub(crate) fn rows(case: &Case) -> Result<String, String> {
+pub(crate) fn rows(case: &Case, answers: &Answers) -> Result<String, String> {
     let mut text = String::new();
     if case.is_refused() {
         writeln!(text, "| {} | refused | | | | | |", case.name).map_err(|e| e.to_string())?;
@@ -87,10 +107,6 @@ pub(crate) fn rows(case: &Case) -> Result<String, String> {
     }
     let fault = |error: Error| format!("{}: {error}", case.name);
     let exact = Forces::<BigRational>::of(&case.pile).map_err(fault)?;
-    let f64 = Forces::<f64>::of(&case.pile);
-    let f32 = Forces::<f32>::of(&case.pile);
-    let double = Forces::<DoubleDouble>::of(&case.pile);
-    let interval = Forces::<Interval>::of(&case.pile);
     let packing = case.packing().map_err(fault)?;
     for quantity in Quantity::ALL {
         let wanted = quantity.wanted(case, &exact);
@@ -100,10 +116,10 @@ pub(crate) fn rows(case: &Case) -> Result<String, String> {
             pile: case.name.clone(),
             quantity: quantity.name(),
             nearest,
-            f64: compare::<f64, f64>(&f64, quantity, &wanted),
-            f32: compare::<f32, f32>(&f32, quantity, &wanted),
-            double: compare::<DoubleDouble, f64>(&double, quantity, &wanted),
-            interval: widths(&interval, quantity, &wanted)?,
+            f64: compare::<f64, f64>(&answers.f64, quantity, &wanted),
+            f32: compare::<f32, f32>(&answers.f32, quantity, &wanted),
+            double: compare::<DoubleDouble, f64>(&answers.double, quantity, &wanted),
+            interval: widths(&answers.interval, quantity, &wanted)?,
         };
         row.keeps_bounds(case)?;
         write!(text, "{row}").map_err(|e| e.to_string())?;

@@ -2,6 +2,9 @@
 //!
 //! The bench `rounding` judges ten million in the same way.
 
+use cannonpile::scalar::Surd;
+
+use crate::answers::ratio;
 use crate::rounding::numbers;
 use crate::rounding::quantities::Quantity;
 use crate::rounding::random::Random;
@@ -53,4 +56,21 @@ quantities! {
     unit_forces: UnitForce;
     masses_weights_and_sizes: Weight;
     filled_in_contact_forces: Filled;
+}
+
+#[test]
+fn a_wrong_float_is_counted() {
+    let root = Surd::sqrt(ratio(2, 1)).expect("not negative");
+    let mut tally = Tally::default();
+    for float in [2_f64.sqrt(), 2_f64.sqrt().next_up()] {
+        tally.meet_float(Some(float), &root);
+    }
+    tally.meet_float(None::<f32>, &root);
+    tally.meet(&root);
+    assert_eq!((tally.cases, tally.wrong), (4, 2));
+    assert!(
+        tally
+            .witness
+            .is_some_and(|witness| witness.contains("1.4142135623730954)"))
+    );
 }
