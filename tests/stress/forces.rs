@@ -1,6 +1,6 @@
 //! What is asked of each pile, in any scalar: contact forces and forces on the floor, in pile units.
 
-use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::lattice::{Direction, Region, Rows, Selection, Site};
 use cannonpile::scalar::Algebra;
 use cannonpile::{Error, Pile, Statics};
 
@@ -42,12 +42,12 @@ impl<T: Clone> Forces<T> {
     }
 }
 
-/// How many spheres of a swept layer are looked at.
+/// How many spheres of a swept layer are looked at, at most.
 const SAMPLE: usize = 120;
 
 impl<T: Algebra> Forces<T> {
     /// Of a straight pile in closed form, in corners, middles and fixed places of the top, the middle and the bottom;
-    /// of any other by a sweep, all over the last two layers.
+    /// of any other by a sweep, all along the middle row of the last two layers and perhaps some way into the next.
     pub(crate) fn of(pile: &Pile) -> Result<Self, Error> {
         if pile.shape().stacking().is_straight() {
             Self::one_by_one(pile)
@@ -86,12 +86,13 @@ impl<T: Algebra> Forces<T> {
 
     fn swept(pile: &Pile) -> Result<Self, Error> {
         let statics = pile.statics::<T>();
-        let rows = pile.rows(Selection::Layer(pile.layers() - 2))?;
-        let stride = stride(&rows.sites());
+        let (rows, stride) = middle_row(pile, Selection::Layer(pile.layers() - 2))?;
         let mut contacts = Vec::new();
         let mut below = statics.contacts(rows);
-        let mut n = 0_usize;
-        while let (Some(a), Some(b), Some(c)) = (below.next(), below.next(), below.next()) {
+        for n in 0..SAMPLE * stride {
+            let (Some(a), Some(b), Some(c)) = (below.next(), below.next(), below.next()) else {
+                break;
+            };
             let (a, b, c) = (a?, b?, c?);
             if n.is_multiple_of(stride) {
                 contacts.push(OfSphere {
@@ -99,11 +100,10 @@ impl<T: Algebra> Forces<T> {
                     values: [a.force, b.force, c.force],
                 });
             }
-            n += 1;
         }
-        let rows = pile.rows(Selection::Base)?;
-        let stride = self::stride(&rows.sites());
-        let on_floor = statics.base(rows).step_by(stride).map(|force| {
+        let (rows, stride) = middle_row(pile, Selection::Base)?;
+        let on_floor = statics.base(rows).step_by(stride).take(SAMPLE);
+        let on_floor = on_floor.map(|force| {
             let force = force?;
             Ok(OfSphere {
                 site: force.site,
@@ -133,9 +133,19 @@ impl<T: Algebra> Forces<T> {
     }
 }
 
-/// Every how many spheres one is looked at.
-fn stride(sites: &num_bigint::BigUint) -> usize {
-    usize::try_from(sites).unwrap_or(usize::MAX) / SAMPLE + 1
+/// The rows of a layer from the middle one on, and every how many spheres of that one is looked at. To be written as a
+/// fraction costs each exact number more than the sweep.
+fn middle_row(pile: &Pile, layer: Selection) -> Result<(Rows<'_>, usize), Error> {
+    let lengths: Vec<i128> = pile
+        .rows(layer)?
+        .map(|row| row.i.end - row.i.start)
+        .collect();
+    let middle = lengths.len() / 2;
+    let length = lengths.get(middle).copied().unwrap_or(0);
+    let mut rows = pile.rows(layer)?;
+    rows.by_ref().take(middle).for_each(drop);
+    let stride = usize::try_from(length).unwrap_or(0) / SAMPLE + 1;
+    Ok((rows, stride))
 }
 
 /// Corners, the middles between them, and some places between.
