@@ -16,7 +16,7 @@ use crate::meter::Meter;
 use crate::scalar::{Ring, Surd};
 use crate::{Error, FloorForce, Method, Pile, Statics};
 
-use roots::Roots;
+use roots::{Once, Roots};
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
 ///
@@ -59,6 +59,10 @@ pub struct Packing<'p, M = ()> {
     radius: BigRational,
     mass: BigRational,
     gravity: BigRational,
+    /// mg/W, kept because every force has it as a factor.
+    weight_per_sum: BigRational,
+    /// f₀, once it is asked for.
+    unit_force: Once,
 }
 
 impl<'p> Packing<'p> {
@@ -83,8 +87,11 @@ impl<'p> Packing<'p> {
         let touching = pile.clearance().check(spacing)?;
         let inclination = Inclination::new(spacing, pile.dimension())?;
         let statics = pile.statics::<BigRational>();
+        let increment_sum = statics.increment_sum()?;
         Ok(Self {
-            increment_sum: statics.increment_sum()?,
+            weight_per_sum: increment_sum.recip(),
+            unit_force: Once::default(),
+            increment_sum,
             statics,
             touching,
             roots: Roots::new(&inclination, pile.sin_phi()),
@@ -126,6 +133,8 @@ impl<'p, M: Meter> Packing<'p, M> {
             radius: self.radius,
             mass: self.mass,
             gravity: self.gravity,
+            weight_per_sum: self.weight_per_sum,
+            unit_force: self.unit_force,
         }
     }
 
@@ -182,7 +191,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
         let mass = positive("mass", mass)?;
-        Ok(Self { mass, ..self })
+        Ok(Self { mass, ..self }.weighed())
     }
 
     /// The same packing in this gravity.
@@ -205,7 +214,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
         let gravity = positive("gravity", gravity)?;
-        Ok(Self { gravity, ..self })
+        Ok(Self { gravity, ..self }.weighed())
     }
 
     /// The method asked for, if it is not the cheapest.
@@ -364,7 +373,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     #[must_use]
     pub fn unit_force(&self) -> Surd {
-        self.secant().scaled(&self.weight_per_sum())
+        self.unit().clone()
     }
 
     /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
@@ -385,7 +394,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     #[must_use]
     pub fn central_constant(&self) -> Surd {
-        self.unit_force().scaled(&self.diameter().recip())
+        self.unit().scaled(&self.diameter().recip())
     }
 
     /// The magnitude of the contact force between `site` and the sphere below it.
@@ -529,7 +538,7 @@ impl<'p, M: Meter> Packing<'p, M> {
 
     /// A contact force, from its multiple of f₀.
     fn magnitude(&self, multiple: &BigRational) -> Surd {
-        self.secant().scaled(&(multiple * self.weight_per_sum()))
+        self.unit().scaled(multiple)
     }
 
     /// A contact force as a vector on the upper sphere, from its multiple of f₀.
@@ -540,7 +549,7 @@ impl<'p, M: Meter> Packing<'p, M> {
         multiple: &BigRational,
     ) -> Result<[Surd; 3], Error> {
         let along = upwards(self.statics.contact_direction(site, direction)?);
-        let unit = multiple * self.weight_per_sum();
+        let unit = multiple * &self.weight_per_sum;
         Ok(on_basis(self.forces(), along, &unit))
     }
 
@@ -555,9 +564,17 @@ impl<'p, M: Meter> Packing<'p, M> {
         &self.radius + &self.radius
     }
 
-    /// mg/W.
-    fn weight_per_sum(&self) -> BigRational {
-        self.sphere_weight() / &self.increment_sum
+    /// f₀.
+    fn unit(&self) -> &Surd {
+        self.unit_force
+            .get(|| self.secant().scaled(&self.weight_per_sum))
+    }
+
+    /// With the units of force that mass and gravity make.
+    fn weighed(mut self) -> Self {
+        self.weight_per_sum = self.sphere_weight() / &self.increment_sum;
+        self.unit_force = Once::default();
+        self
     }
 }
 

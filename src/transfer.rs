@@ -3,7 +3,7 @@
 use core::num::NonZeroI64;
 use core::ops::{Add, Sub};
 
-use crate::scalar::Algebra;
+use crate::scalar::{Algebra, Exactness};
 
 /// Where a stacking changes its Hägg sign, a sphere passes on G g of the forces g that it receives, with
 /// G = (2/3)J − I and J all ones: f_m = −g_m + (2/3)(g_α + g_β + g_γ), to which its weight adds (1, 1, 1).
@@ -20,6 +20,9 @@ use crate::scalar::Algebra;
 /// ```
 #[must_use]
 pub fn half_turn<T: Algebra>(g: &[T; 3]) -> [T; 3] {
+    if T::EXACTNESS == Exactness::Enclosure {
+        return each_once(g).map(|tripled| tripled.div_int(THREE));
+    }
     let twice_mean = twice_sum(g).div_int(THREE);
     g.each_ref().map(|x| twice_mean.clone() - x)
 }
@@ -46,10 +49,29 @@ where
 
 /// The half-turn on numerators: over the same denominator if their ring has thirds, else [tripled](tripled_half_turn).
 pub(crate) fn turn_numerators<T: Algebra>(g: &[T::Numerator; 3]) -> [T::Numerator; 3] {
+    if T::EXACTNESS == Exactness::Enclosure {
+        let third = |tripled: T::Numerator| T::divide_numerator(tripled, THREE);
+        if let [Some(a), Some(b), Some(c)] = each_once(g).map(third) {
+            return [a, b, c];
+        }
+    }
     match T::divide_numerator(twice_sum(g), THREE) {
         Some(twice_mean) => g.each_ref().map(|x| twice_mean.clone() - x),
         None => tripled_half_turn(g),
     }
+}
+
+/// The same 3 G g, (2(b+c) − a, …): every force is named once, so that bounds widen by 5/3 over a turn. In 2(a+b+c) − 3a
+/// they would by 3, since an interval does not know that both a's are one number.
+fn each_once<T>([a, b, c]: &[T; 3]) -> [T; 3]
+where
+    T: Clone + for<'a> Add<&'a T, Output = T> + for<'a> Sub<&'a T, Output = T>,
+{
+    let tripled = |others: [&T; 2], own: &T| {
+        let sum = others[0].clone() + others[1];
+        sum.clone() + &sum - own
+    };
+    [tripled([b, c], a), tripled([a, c], b), tripled([a, b], c)]
 }
 
 fn twice_sum<T: Clone + for<'a> Add<&'a T, Output = T>>([a, b, c]: &[T; 3]) -> T {

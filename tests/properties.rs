@@ -5,6 +5,7 @@
 
 mod claims;
 mod generators;
+mod judge;
 
 use core::cell::RefCell;
 use std::collections::BTreeMap;

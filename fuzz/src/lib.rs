@@ -10,6 +10,8 @@
 mod claims;
 #[path = "../../tests/generators/mod.rs"]
 mod generators;
+#[path = "../../tests/judge/mod.rs"]
+mod judge;
 
 mod enclosing;
 mod polynomial;

@@ -11,51 +11,53 @@ use crate::geometry::Inclination;
 use crate::meter::Meter;
 use crate::scalar::{Ring, Surd};
 
+/// A number that is found when it is first needed.
+#[derive(Debug, Default)]
+pub(super) struct Once(OnceBox<Surd>);
+
+impl Once {
+    pub(super) fn get(&self, find: impl FnOnce() -> Surd) -> &Surd {
+        self.0.get_or_init(|| Box::new(find()))
+    }
+}
+
+impl Clone for Once {
+    fn clone(&self) -> Self {
+        let copy = OnceBox::new();
+        if let Some(value) = self.0.get() {
+            // Nobody else has the copy yet.
+            let _ = copy.set(Box::new(value.clone()));
+        }
+        Self(copy)
+    }
+}
+
 /// A square root that is taken once.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Root {
     square: BigRational,
-    taken: OnceBox<Surd>,
+    taken: Once,
 }
 
 impl Root {
     fn of(square: BigRational) -> Self {
         Self {
             square,
-            taken: OnceBox::new(),
+            taken: Once::default(),
         }
     }
 
     fn get(&self, meter: impl Meter) -> &Surd {
-        self.taken.get_or_init(|| {
+        self.taken.get(|| {
             meter.take_root();
             // Squares of sines and cosines are not negative.
-            let root = Surd::sqrt(self.square.clone());
-            Box::new(root.unwrap_or_else(|_| Surd::zero()))
+            Surd::sqrt(self.square.clone()).unwrap_or_else(|_| Surd::zero())
         })
     }
 }
 
-impl Clone for Root {
-    fn clone(&self) -> Self {
-        Self {
-            square: self.square.clone(),
-            taken: clone(&self.taken),
-        }
-    }
-}
-
-fn clone(once: &OnceBox<Surd>) -> OnceBox<Surd> {
-    let copy = OnceBox::new();
-    if let Some(value) = once.get() {
-        // Nobody else has the copy yet.
-        let _ = copy.set(Box::new(value.clone()));
-    }
-    copy
-}
-
 /// What geometry brings into answers, beside rational factors.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Roots {
     sin: Root,
     cos: Root,
@@ -63,7 +65,7 @@ pub(super) struct Roots {
     secant: Root,
     twice_cos_phi: Root,
     /// 2cosφ·sinθ and 2cosφ·tanθ.
-    across: [OnceBox<Surd>; 2],
+    across: [Once; 2],
     one: Surd,
 }
 
@@ -76,22 +78,8 @@ impl Roots {
             tan: Root::of(inclination.tan2()),
             secant: Root::of(inclination.cos2().recip()),
             twice_cos_phi: Root::of(BigRational::from_i128(4) * cos2_phi),
-            across: [OnceBox::new(), OnceBox::new()],
+            across: [Once::default(), Once::default()],
             one: BigRational::one().into(),
-        }
-    }
-}
-
-impl Clone for Roots {
-    fn clone(&self) -> Self {
-        Self {
-            sin: self.sin.clone(),
-            cos: self.cos.clone(),
-            tan: self.tan.clone(),
-            secant: self.secant.clone(),
-            twice_cos_phi: self.twice_cos_phi.clone(),
-            across: self.across.each_ref().map(clone),
-            one: self.one.clone(),
         }
     }
 }
@@ -111,7 +99,7 @@ impl<M: Meter> Packing<'_, M> {
         let (meter, roots) = (self.meter(), &self.roots);
         let sin = roots.sin.get(meter);
         let [across, _] = &roots.across;
-        let across = across.get_or_init(|| Box::new(sin.clone() * roots.twice_cos_phi.get(meter)));
+        let across = across.get(|| sin.clone() * roots.twice_cos_phi.get(meter));
         [sin, across, roots.cos.get(meter)]
     }
 
@@ -120,7 +108,7 @@ impl<M: Meter> Packing<'_, M> {
         let (meter, roots) = (self.meter(), &self.roots);
         let tan = roots.tan.get(meter);
         let [_, across] = &roots.across;
-        let across = across.get_or_init(|| Box::new(tan.clone() * roots.twice_cos_phi.get(meter)));
+        let across = across.get(|| tan.clone() * roots.twice_cos_phi.get(meter));
         [tan, across, &roots.one]
     }
 }

@@ -144,7 +144,7 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn scaled(&self, factor: &BigRational) -> Self {
-        Self::normal(&self.coefficient * factor, self.radicand.clone())
+        Self::normal(product(&self.coefficient, factor), self.radicand.clone())
     }
 
     /// The sum, if the two are multiples of one root, or one of them is zero; `None` otherwise, since it
@@ -254,6 +254,19 @@ impl Surd {
             self.square()
         }
     }
+}
+
+/// a·b. In lowest terms once the factors across are out: `Ratio` looks for others all the same, which takes longer than
+/// all the rest.
+fn product(a: &BigRational, b: &BigRational) -> BigRational {
+    let (left, right) = (a.numer().gcd(b.denom()), b.numer().gcd(a.denom()));
+    if left.is_zero() || right.is_zero() {
+        // 0/0 alone has such a factor, and is refused as `Ratio` refuses it.
+        return a * b;
+    }
+    let numer = (a.numer() / &left) * (b.numer() / &right);
+    let denom = (a.denom() / right) * (b.denom() / left);
+    BigRational::new_raw(numer, denom)
 }
 
 /// `n` = root²·rest, with the squares of small primes and a rest that is a square taken out.

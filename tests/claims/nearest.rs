@@ -1,64 +1,12 @@
-//! A root is rounded to the nearest float, ties to even.
-//!
-//! Judged without a root: x is nearest to √v if v lies between the squares of the two points halfway to
-//! the neighbours of x. A point halfway is a rational, so this is exact.
-
-use core::fmt::Debug;
+//! A root is rounded to the nearest float, ties to even. The judge stands in `tests/judge`.
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{NearestFloat, Sign, Surd};
-use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
-use super::{Checked, demand, same};
+use super::{Checked, Failure, same};
 use crate::generators::number::{self, ratio};
-
-/// A float format, with its neighbours.
-pub(crate) trait Float: NearestFloat + Debug + PartialEq {
-    /// The largest finite one.
-    const LARGEST: Self;
-
-    /// The exact value; `None` for infinities and not-a-number.
-    fn exactly(self) -> Option<BigRational>;
-    /// |x|.
-    fn magnitude(self) -> Self;
-    /// The next float on the real line.
-    fn up(self) -> Self;
-    /// The one before.
-    fn down(self) -> Self;
-    /// Whether the last bit of the significand is 0.
-    fn is_even(self) -> bool;
-}
-
-macro_rules! float {
-    ($($float:ident)*) => {$(
-        impl Float for $float {
-            const LARGEST: Self = Self::MAX;
-
-            fn exactly(self) -> Option<BigRational> {
-                BigRational::from_float(self)
-            }
-
-            fn magnitude(self) -> Self {
-                self.abs()
-            }
-
-            fn up(self) -> Self {
-                self.next_up()
-            }
-
-            fn down(self) -> Self {
-                self.next_down()
-            }
-
-            fn is_even(self) -> bool {
-                self.to_bits() % 2 == 0
-            }
-        }
-    )*};
-}
-
-float!(f32 f64);
+use crate::judge::{self, Float, Value};
 
 /// c·√r is rounded to the nearest float of either format.
 pub(crate) fn of_a_root(u: &mut Unstructured<'_>) -> Checked {
@@ -80,8 +28,9 @@ pub(crate) fn of_a_rational(u: &mut Unstructured<'_>) -> Checked {
 
 /// `surd` is the value, and is rounded to the nearest float of either format.
 pub(crate) fn nearest(surd: &Surd, value: &Value) -> Checked {
-    same("the square", &surd.square(), &value.square)?;
-    let sign = match (value.square.is_zero(), value.negative) {
+    let square = value.square();
+    same("the square", &surd.square(), &square)?;
+    let sign = match (square.is_zero(), value.is_negative()) {
         (true, _) => Sign::Zero,
         (false, true) => Sign::Negative,
         (false, false) => Sign::Positive,
@@ -91,58 +40,9 @@ pub(crate) fn nearest(surd: &Surd, value: &Value) -> Checked {
     is_nearest(surd.nearest::<f32>(), value)
 }
 
-/// A real number by its sign and its square.
-#[derive(Clone, Debug)]
-pub(crate) struct Value {
-    negative: bool,
-    square: BigRational,
-}
-
-impl Value {
-    /// `coefficient`·√`radicand`.
-    pub(crate) fn root(coefficient: &BigRational, radicand: &BigRational) -> Self {
-        Self {
-            negative: coefficient.is_negative(),
-            square: coefficient * coefficient * radicand,
-        }
-    }
-}
-
 /// Whether `got` is the float nearest to the value, `None` standing for an infinite one.
-pub(crate) fn is_nearest<F: Float>(got: Option<F>, value: &Value) -> Checked {
-    let holds = match got {
-        // The largest float is odd: the point halfway beyond it already rounds to infinity.
-        None => square(&edge::<F>()) <= value.square,
-        Some(x) => x.exactly().is_some_and(|exact| {
-            let sign_agrees = exact.is_zero() || exact.is_negative() == value.negative;
-            sign_agrees && is_between_halves(x.magnitude(), &value.square)
-        }),
-    };
-    demand(holds, || format!("{got:?} is not nearest to {value:?}"))
-}
-
-/// Whether √v is rounded to x ≥ 0.
-fn is_between_halves<F: Float>(x: F, v: &BigRational) -> bool {
-    let Some(exact) = x.exactly() else {
-        return false;
-    };
-    let to = |neighbour: F| Some(square(&((&exact + neighbour.exactly()?) / ratio(2, 1))));
-    let upper = to(x.up()).unwrap_or_else(|| square(&edge::<F>()));
-    let below_upper = *v < upper || (*v == upper && x.is_even());
-    // Nothing lies below zero.
-    let above_lower = exact.is_zero()
-        || to(x.down()).is_some_and(|lower| lower < *v || (lower == *v && x.is_even()));
-    below_upper && above_lower
-}
-
-/// The point from which on values round to infinity: half a step beyond the largest float.
-fn edge<F: Float>() -> BigRational {
-    let [last, before] = [F::LARGEST, F::LARGEST.down()].map(|x| x.exactly().unwrap_or_default());
-    &last + (&last - before) / ratio(2, 1)
-}
-
-fn square(x: &BigRational) -> BigRational {
-    x * x
+fn is_nearest<F: Float>(got: Option<F>, value: &Value) -> Checked {
+    judge::is_nearest(got, value).map_err(Failure::Refuted)
 }
 
 #[cfg(test)]

@@ -12,10 +12,11 @@ use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use super::nearest::{Value, nearest};
+use super::nearest::nearest;
 use super::{Checked, same};
 use crate::generators::number::ratio;
 use crate::generators::pile;
+use crate::judge::Value;
 
 /// One sphere of any packing: where it is and what it pushes.
 pub(crate) fn one_sphere(u: &mut Unstructured<'_>) -> Checked {

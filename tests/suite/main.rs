@@ -1,5 +1,5 @@
 //! The exhaustive and the fixed tests, one module a subject; shared are the answers of the library collected by pile,
-//! the oracle, the judges of theorems, and scalars that are flawed on purpose.
+//! the oracle, the judges of theorems and of roundings, and scalars that are flawed on purpose.
 
 mod against_oracle;
 mod answers;
@@ -16,6 +16,8 @@ mod flawed;
 mod flawed_scalars;
 mod geometry;
 mod interval;
+#[path = "../judge/mod.rs"]
+mod judge;
 mod laws;
 mod methods;
 mod nearest;
@@ -25,7 +27,13 @@ mod oracle;
 mod pair;
 mod planted_faults;
 mod polynomial;
+mod rounded;
+#[path = "../rounding/mod.rs"]
+mod rounding;
 mod strengths;
+#[path = "../stress/mod.rs"]
+mod stress;
+mod stress_table;
 mod sums;
 mod surd;
 mod symmetry;

@@ -1,11 +1,11 @@
 //! The float nearest to a root, checked without taking one: by the squares of the midpoints between floats.
 
 use crate::answers::ratio;
-use crate::theorems::rounding::{Binary, beyond_greatest, exact, is_nearest, midpoint};
+use crate::judge::{Float, Value, beyond_greatest, exact, is_nearest, midpoint};
 use cannonpile::scalar::{NearestFloat, Surd};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Pow, Signed};
+use num_traits::{One, Pow};
 
 /// 2^exponent.
 fn power(exponent: i32) -> BigRational {
@@ -13,10 +13,10 @@ fn power(exponent: i32) -> BigRational {
 }
 
 /// The library's nearest float passes the check, and no neighbour of it does.
-fn rounds_correctly<F: NearestFloat + Binary>(c: &BigRational, r: &BigRational) -> Option<F> {
+fn rounds_correctly<F: Float>(c: &BigRational, r: &BigRational) -> Option<F> {
     let float = Surd::new(c.clone(), r.clone()).unwrap().nearest::<F>();
-    let square = c * c * r;
-    let check = |float| is_nearest(float, c.is_negative(), &square);
+    let value = Value::root(c, r);
+    let check = |float| is_nearest(float, &value);
     assert_eq!(check(float), Ok(()), "{c} {r}");
     if let Some(x) = float {
         for neighbour in [x.up(), x.down()].into_iter().filter(|x| x.is_finite()) {
@@ -38,10 +38,7 @@ fn random(state: &mut u64) -> u64 {
 }
 
 /// Thousands of coefficients and radicands, from below the least subnormal to above the greatest float.
-fn random_numbers<F: NearestFloat + Binary>(
-    exponents: core::ops::Range<i32>,
-    step: usize,
-) -> usize {
+fn random_numbers<F: Float>(exponents: core::ops::Range<i32>, step: usize) -> usize {
     let mut state = 1998;
     let mut finite = 0;
     for exponent in exponents.step_by(step) {
@@ -76,7 +73,7 @@ fn root_of_square(m: &BigRational) -> Surd {
 
 /// Halfway between two floats the even one is right: up, down, and across powers of two; the least
 /// subnormals, and the step to infinity.
-fn ties<F: NearestFloat + Binary>(places: &[F]) {
+fn ties<F: Float>(places: &[F]) {
     for x in places {
         let above = if *x == F::max_value() {
             beyond_greatest::<F>()
@@ -95,7 +92,10 @@ fn ties<F: NearestFloat + Binary>(places: &[F]) {
             assert_eq!(F::nearest_to_rational(&middle), even);
             assert_eq!(root_of_square(&middle).nearest::<F>(), even);
             let square = &middle * &middle;
-            assert_eq!(is_nearest(even, negative, &square), Ok(()));
+            assert_eq!(
+                is_nearest(even, &Value::root(&middle, &BigRational::one())),
+                Ok(())
+            );
             // Just beside the tie, the nearer one.
             let hair = BigRational::one() + power(-300);
             for (beside, nearer) in [(&square / &hair, Some(*x)), (&square * &hair, Some(x.up()))] {
@@ -141,7 +141,7 @@ fn ties_go_to_the_even_float() {
 }
 
 /// √((2^p + 1)² ± 1) lies beside the middle of two floats by less than a part in 2^(2p), at any scale.
-fn near_ties<F: NearestFloat + Binary>(exponents: core::ops::Range<i32>) {
+fn near_ties<F: Float>(exponents: core::ops::Range<i32>) {
     let p = i32::try_from(F::PRECISION).unwrap();
     let middle = power(p) + BigRational::one();
     for exponent in exponents {
@@ -179,11 +179,12 @@ fn rounding_to_f32_takes_no_way_round() {
         let root = Surd::sqrt(square.clone() + power(-800)).unwrap();
         assert_eq!(root.nearest::<f32>(), Some(nearest));
         assert_eq!(f32::nearest_to_rational(&value), Some(nearest));
-        assert_eq!(is_nearest(Some(nearest), false, &square), Ok(()));
+        let exactly = Value::with_square(false, &square);
+        assert_eq!(is_nearest(Some(nearest), &exactly), Ok(()));
         #[expect(clippy::cast_possible_truncation, reason = "this is the trap")]
         let twice_rounded = root.nearest::<f64>().unwrap() as f32;
         assert_ne!(twice_rounded.to_bits(), nearest.to_bits());
-        assert!(is_nearest(Some(twice_rounded), false, &square).is_err());
+        assert!(is_nearest(Some(twice_rounded), &exactly).is_err());
     }
 }
 

@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 
 use crate::answers::ratio;
-use crate::theorems::rounding::exact;
+use crate::judge::exact;
 use cannonpile::scalar::{Sign, Surd};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};

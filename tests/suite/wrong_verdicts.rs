@@ -1,8 +1,8 @@
 //! The checks of overlap and of rounding refuse wrong verdicts.
 
 use crate::answers::{Shape, ratio};
+use crate::judge::{Value, beyond_greatest, exact, is_nearest, midpoint};
 use crate::oracle::overlap;
-use crate::theorems::rounding::{beyond_greatest, exact, is_nearest, midpoint};
 use cannonpile::Error;
 use cannonpile::geometry::{Clearance, Spacing};
 use num_rational::BigRational;
@@ -51,22 +51,26 @@ fn of_overlap() {
 
 #[test]
 fn of_rounding() {
-    let two = ratio(2, 1);
+    let squared = |square: &BigRational| Value::with_square(false, square);
+    let two = squared(&ratio(2, 1));
     let root = 2_f64.sqrt();
-    assert_eq!(is_nearest(Some(root), false, &two), Ok(()));
+    assert_eq!(is_nearest(Some(root), &two), Ok(()));
     for wrong in [root.next_up(), root.next_down(), -root, 0.0] {
-        assert!(is_nearest(Some(wrong), false, &two).is_err(), "{wrong}");
+        assert!(is_nearest(Some(wrong), &two).is_err(), "{wrong}");
     }
-    assert!(is_nearest(Some(root), true, &two).is_err());
-    assert!(is_nearest::<f64>(None, false, &two).is_err());
+    assert!(is_nearest(Some(root), &Value::with_square(true, &ratio(2, 1))).is_err());
+    assert!(is_nearest::<f64>(None, &two).is_err());
     // Half way, the odd float; and the greatest one instead of an infinity.
     let tie = midpoint(&exact(1_f64), &exact(1_f64.next_up()));
-    assert_eq!(is_nearest(Some(1_f64), false, &(&tie * &tie)), Ok(()));
-    assert!(is_nearest(Some(1_f64.next_up()), false, &(&tie * &tie)).is_err());
+    assert_eq!(is_nearest(Some(1_f64), &squared(&(&tie * &tie))), Ok(()));
+    assert!(is_nearest(Some(1_f64.next_up()), &squared(&(&tie * &tie))).is_err());
     let limit = midpoint(&exact(f32::MAX), &beyond_greatest::<f32>());
-    assert_eq!(is_nearest::<f32>(None, false, &(&limit * &limit)), Ok(()));
-    assert!(is_nearest(Some(f32::MAX), false, &(&limit * &limit)).is_err());
+    assert_eq!(
+        is_nearest::<f32>(None, &squared(&(&limit * &limit))),
+        Ok(())
+    );
+    assert!(is_nearest(Some(f32::MAX), &squared(&(&limit * &limit))).is_err());
     // Nothing, where the least subnormal is nearer.
     let least = exact(f32::from_bits(1));
-    assert!(is_nearest(Some(0_f32), false, &(&least * &least)).is_err());
+    assert!(is_nearest(Some(0_f32), &squared(&(&least * &least))).is_err());
 }

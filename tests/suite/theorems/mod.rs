@@ -5,7 +5,6 @@
 
 pub(crate) mod balance;
 pub(crate) mod base;
-pub(crate) mod rounding;
 pub(crate) mod symmetry;
 
 use core::fmt::Debug;

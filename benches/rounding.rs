@@ -1,0 +1,81 @@
+//! Is every float the nearest one? Ten million random and adversarial values of each quantity.
+//!
+//! `cargo bench --bench rounding` rounds roots, rationals and every physical quantity of piles of all kinds to `f64` and
+//! `f32`, and has each float judged in integers, by the squares of the points halfway to its neighbours. It prints how
+//! many values were judged, how many roundings were wrong, and nanoseconds a value, of which making it and judging it are
+//! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
+//! quantity, or a part of it, only that one.
+//!
+//! With `-- --stress` it measures the table of `tests/stress` instead, and below it the pile that takes too long for a
+//! test: a change of sign at every one of 1,000 layers, under a hexagon of 40 spheres a side.
+
+#[path = "../tests/judge/mod.rs"]
+mod judge;
+#[path = "../tests/rounding/mod.rs"]
+mod rounding;
+#[path = "../tests/stress/mod.rs"]
+mod stress;
+
+use std::env;
+use std::time::Instant;
+
+use rounding::numbers;
+use rounding::quantities::Quantity;
+use rounding::random::Random;
+use rounding::tally::Tally;
+use stress::cases;
+use stress::table::{self, Answers};
+
+fn main() {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let smoke = arguments.iter().any(|argument| argument == "--smoke");
+    let cases = if smoke { 500 } else { 10_000_000 };
+    if arguments.iter().any(|argument| argument == "--stress") {
+        return stress_table();
+    }
+    let named: Vec<&String> = arguments.iter().filter(|a| !a.starts_with('-')).collect();
+    let wanted = |name: &str| named.is_empty() || named.iter().any(|part| name.contains(*part));
+
+    println!("quantity                        cases  wrong  ns a case");
+    for (name, tally) in [
+        ("random roots", numbers::random_roots as Source),
+        ("critical roots", numbers::critical_roots),
+        ("rationals", numbers::rationals),
+    ] {
+        if wanted(name) {
+            report(name, |random| tally(random, cases));
+        }
+    }
+    for quantity in Quantity::ALL {
+        if wanted(quantity.name()) {
+            report(quantity.name(), |random| quantity.tally(random, cases));
+        }
+    }
+}
+
+fn stress_table() {
+    print!("{}", table::HEAD);
+    for case in cases::all()
+        .into_iter()
+        .chain([cases::alternating(40, 1000)])
+    {
+        let rows = table::rows(&case, &Answers::of(&case.pile));
+        print!("{}", rows.unwrap_or_else(|fault| panic!("{fault}")));
+    }
+}
+
+type Source = fn(&mut Random, u64) -> Tally;
+
+fn report(name: &str, tally: impl FnOnce(&mut Random) -> Tally) {
+    let start = Instant::now();
+    // Another sequence than that of the tests.
+    let Tally {
+        cases,
+        wrong,
+        witness,
+    } = tally(&mut Random::new(1611));
+    #[expect(clippy::cast_precision_loss, reason = "a few digits are printed")]
+    let each = start.elapsed().as_secs_f64() * 1e9 / cases as f64;
+    println!("{name:26} {cases:10} {wrong:6} {each:10.0}");
+    assert_eq!(wrong, 0, "{witness:?}");
+}

@@ -1,0 +1,58 @@
+//! How many roundings were judged, and how many were wrong.
+
+use cannonpile::scalar::{NearestFloat, Surd};
+use num_rational::BigRational;
+
+use crate::judge::{Float, Value, Verdict, is_nearest};
+
+/// The verdicts about one quantity. A case is an exact value, rounded to `f64` and to `f32`; of what is filled into
+/// slices, each float is one.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    /// How many values were rounded.
+    pub(crate) cases: u64,
+    /// How many of them to a float that is not the nearest, in one format or both.
+    pub(crate) wrong: u64,
+    /// The first of those.
+    pub(crate) witness: Option<String>,
+}
+
+impl Tally {
+    /// Rounds a value and judges it.
+    pub(crate) fn meet(&mut self, exact: &Surd) {
+        let value = Value::of(exact);
+        self.count(
+            is_nearest(rounded::<f64>(exact), &value)
+                .and_then(|()| is_nearest(rounded::<f32>(exact), &value)),
+        );
+    }
+
+    /// The same for a rational, which is rounded by itself and as a surd.
+    pub(crate) fn meet_rational(&mut self, exact: &BigRational) {
+        let value = Value::of(&exact.clone().into());
+        self.count(
+            is_nearest(f64::nearest_to_rational(exact), &value)
+                .and_then(|()| is_nearest(f32::nearest_to_rational(exact), &value)),
+        );
+        self.meet(&exact.clone().into());
+    }
+
+    /// Judges a float that was rounded before; `None` stands for an infinite one.
+    pub(crate) fn meet_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
+        self.count(is_nearest(got, &Value::of(exact)));
+    }
+
+    fn count(&mut self, verdict: Verdict) {
+        self.cases += 1;
+        if let Err(witness) = verdict {
+            self.wrong += 1;
+            self.witness.get_or_insert(witness);
+        }
+    }
+}
+
+/// The float that the library calls nearest: every surd of tests and bench is rounded here, so here can be counted how
+/// it was decided.
+fn rounded<F: NearestFloat>(exact: &Surd) -> Option<F> {
+    exact.nearest()
+}

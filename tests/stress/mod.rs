@@ -1,0 +1,16 @@
+//! Piles at the limits of floats, and how far off each way to compute is there.
+//!
+//! | file | what it has |
+//! |---|---|
+//! | `cases` | the piles |
+//! | `forces` | what is asked of each, in any scalar |
+//! | `errors` | errors in units in the last place, exactly |
+//! | `table` | the table and what every row must keep |
+//! | `table.md` | the table as it was measured last |
+
+#![allow(dead_code, reason = "tests and bench use a part each")]
+
+pub(crate) mod cases;
+pub(crate) mod errors;
+pub(crate) mod forces;
+pub(crate) mod table;
