@@ -280,11 +280,13 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     }
 }
 
-impl<T: Algebra> Descent<'_, T, Cells<T::Numerator>> {
-    /// What the lines of a row of this layer carry.
-    pub(crate) fn carried_by_row(&self, row: &Row) -> [&[T::Numerator]; 3] {
-        let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
-        self.layer.slices(cells)
+impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
+    /// What the lines of any row of this layer carry.
+    pub(crate) fn carried_by_rows<'s>(
+        &'s self,
+    ) -> impl Fn(&Row) -> [&'s [T::Numerator]; 3] + use<'s, 'p, T> {
+        let shift = self.grid.shift(self.k);
+        move |row| self.layer.slices(self.grid.row(row.j, &row.i, shift))
     }
 }
 

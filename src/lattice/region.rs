@@ -9,11 +9,10 @@ use core::fmt;
 use core::ops::RangeInclusive;
 
 use num_bigint::{BigInt, BigUint};
-use num_rational::BigRational;
+use num_integer::Integer;
 
-use super::{Row, count};
+use super::Row;
 use crate::Error;
-use crate::scalar::Ring;
 use crate::stacking::Sign;
 
 /// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of one layer: a triangle, trapezium, parallelogram,
@@ -300,12 +299,15 @@ impl Region {
     #[must_use]
     pub fn sites(&self) -> BigUint {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
-        let big = BigRational::from_i128;
-        let corner = |side: i128| count::spheres_in_layer(&big(side - 1), 3);
-        let all = big(x1 - x0 + 1) * big(y1 - y0 + 1);
-        let sites = all - corner(s0 - (x0 + y0)) - corner(x1 + y1 - s1);
-        // A count: an integer, and not negative.
-        sites.to_integer().into_parts().1
+        let (sides, corners) = ([x1 - x0 + 1, y1 - y0 + 1], [s0 - (x0 + y0), x1 + y1 - s1]);
+        // Below 2^62 no product of two leaves i128.
+        if sides.iter().chain(&corners).all(|side| *side < 1 << 62) {
+            return sites(sides, corners).unsigned_abs().into();
+        }
+        // A count: not negative.
+        sites(sides.map(BigInt::from), corners.map(BigInt::from))
+            .into_parts()
+            .1
     }
 
     /// How many sites come before (i, j) in row order; (i, j) must be one.
@@ -415,6 +417,14 @@ impl Region {
         let mut bounds = self.lower.iter().chain(&self.upper);
         bounds.all(|bound| (-LIMIT..=LIMIT).contains(bound))
     }
+}
+
+/// A parallelogram of these sides without its two corners, triangles that are so many sites wide.
+fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
+    let two = I::one() + I::one();
+    let triangle = |side: I| side.clone() * (side + I::one()) / two.clone();
+    let [first, second] = corners.map(triangle);
+    width * height - first - second
 }
 
 impl fmt::Display for Region {

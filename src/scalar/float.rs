@@ -35,6 +35,7 @@ macro_rules! float_scalar {
                 clippy::cast_precision_loss,
                 reason = "a divisor that loses digits is taken another way"
             )]
+            #[inline]
             fn div_int(self, n: NonZeroI64) -> Self {
                 let divisor = n.get() as $float;
                 let odd_part = n.get().unsigned_abs() >> n.trailing_zeros();
@@ -48,6 +49,7 @@ macro_rules! float_scalar {
                 }
             }
 
+            #[inline]
             fn is_defined(&self) -> bool {
                 self.is_finite()
             }
@@ -56,11 +58,17 @@ macro_rules! float_scalar {
                 (values.each_ref().map(Self::from_rational), 1.0)
             }
 
+            #[inline]
             fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
                 Some(n.div_int(by))
             }
 
+            #[expect(clippy::float_cmp, reason = "exactly 1, which nothing is divided by")]
+            #[inline]
             fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+                if *d == 1.0 {
+                    return Some(n);
+                }
                 n.checked_div(d)
             }
         }

@@ -40,6 +40,8 @@ pub struct Sweep<'p, T: Algebra> {
     descent: Descent<'p, T, Cells<T::Numerator>>,
     /// How often it was told to go on.
     stops: usize,
+    /// Whether a bound on all numbers of the sweep shows that floats do not overflow.
+    bounded: bool,
 }
 
 /// The same in exact integers over 3^d·D, of a width that is proved to be enough: the exact engine.
@@ -80,6 +82,11 @@ impl Pile {
             pile: self,
             descent: Descent::new(Lines::new(self), grid, cells),
             stops: 0,
+            bounded: matches!(T::EXACTNESS, Exactness::Rounded { .. }) && {
+                // Twice as much, for roundings.
+                let bound = BigRational::from_integer(self.bound_of_sweep(last) * 2);
+                T::from_rational(&bound).is_defined()
+            },
         })
     }
 
@@ -175,8 +182,9 @@ impl<T: Algebra> Sweep<'_, T> {
         let [mut alpha, mut beta, mut gamma] = slices;
         let mut rest = [&mut *alpha, &mut *beta, &mut *gamma];
         let mut defined = true;
+        let carried = self.descent.carried_by_rows();
         for row in region.rows(k) {
-            let row = self.descent.carried_by_row(&row);
+            let row = carried(&row);
             let n = row[0].len();
             let out = rest
                 .each_mut()
@@ -216,6 +224,7 @@ impl<T: Algebra> Sweep<'_, T> {
             own: lines.increments_after(changes),
             scale: lines.scale(changes),
             turns: self.descent.turned_already() < changes,
+            checked: !self.bounded,
         }
     }
 
@@ -267,34 +276,49 @@ struct Below<T: Algebra> {
     scale: T::Numerator,
     /// Whether what the lines carry is still to be turned.
     turns: bool,
+    /// Whether forces may be undefined.
+    checked: bool,
 }
 
 impl<T: Algebra> Below<T> {
     /// The forces below consecutive spheres of a row; whether all are defined.
-    fn write(&self, [a, b, c]: [&[T::Numerator]; 3], [to_a, to_b, to_c]: [&mut [T]; 3]) -> bool {
+    fn write(&self, carried: [&[T::Numerator]; 3], [a, b, c]: [&mut [T]; 3]) -> bool {
+        if self.turns {
+            return self.write_turned(carried, [a, b, c]);
+        }
         let mut defined = true;
-        let mut put =
-            |to: &mut T, force: T::Numerator, own| match T::from_ratio(force + own, &self.scale) {
-                Some(value) => {
-                    defined &= value.is_defined();
-                    *to = value;
-                }
-                None => defined = false,
-            };
-        let [own_a, own_b, own_c] = &self.own;
-        let carried = a.iter().zip(b).zip(c);
-        for (((a, b), c), ((to_a, to_b), to_c)) in carried.zip(to_a.iter_mut().zip(to_b).zip(to_c))
-        {
-            let mut forces = [a.clone(), b.clone(), c.clone()];
-            if self.turns {
-                forces = turn_numerators::<T>(&forces);
+        for ((carried, out), own) in carried.into_iter().zip([a, b, c]).zip(&self.own) {
+            for (force, out) in carried.iter().zip(out) {
+                defined &= self.put(force.clone() + own, out);
             }
-            let [a, b, c] = forces;
-            put(to_a, a, own_a);
-            put(to_b, b, own_b);
-            put(to_c, c, own_c);
         }
         defined
+    }
+
+    fn write_turned(&self, [a, b, c]: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
+        let mut defined = true;
+        let carried = a.iter().zip(b).zip(c);
+        let [to_a, to_b, to_c] = out;
+        for (((a, b), c), ((to_a, to_b), to_c)) in carried.zip(to_a.iter_mut().zip(to_b).zip(to_c))
+        {
+            let turned = turn_numerators::<T>(&[a.clone(), b.clone(), c.clone()]);
+            for ((force, out), own) in turned.into_iter().zip([to_a, to_b, to_c]).zip(&self.own) {
+                defined &= self.put(force + own, out);
+            }
+        }
+        defined
+    }
+
+    #[inline]
+    fn put(&self, force: T::Numerator, out: &mut T) -> bool {
+        match T::from_ratio(force, &self.scale) {
+            Some(value) => {
+                let defined = !self.checked || value.is_defined();
+                *out = value;
+                defined
+            }
+            None => false,
+        }
     }
 }
 
