@@ -93,19 +93,31 @@ impl Planes {
 
     /// Brings the lower limbs into [0, 2^48).
     fn carry(&mut self) {
+        /// Numbers of which two planes stay in the nearest cache.
+        const PIECE: usize = 1 << 10;
         self.turns = 0;
-        for p in 1..self.planes.len() {
-            let (lower, upper) = self.planes.split_at_mut(p);
-            let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
-                return;
-            };
-            let directions = lower.0.iter_mut().zip(&mut upper.0);
-            parallel::for_each(directions.collect(), |(lower, upper)| {
-                for (x, next) in lower.iter_mut().zip(upper) {
+        let mut pieces: Vec<Vec<&mut [i64]>> = Vec::new();
+        let cells = self.planes.first().map_or(0, |plane| plane.0[0].len());
+        pieces.resize_with(3 * cells.div_ceil(PIECE), Vec::new);
+        for Cells(directions) in &mut self.planes {
+            let numbers = directions
+                .iter_mut()
+                .flat_map(|cells| cells.chunks_mut(PIECE));
+            for (piece, numbers) in pieces.iter_mut().zip(numbers) {
+                piece.push(numbers);
+            }
+        }
+        parallel::for_each(pieces, |mut planes| {
+            for p in 1..planes.len() {
+                let (lower, upper) = planes.split_at_mut(p);
+                let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
+                    return;
+                };
+                for (x, next) in lower.iter_mut().zip(upper.iter_mut()) {
                     carry(x, next);
                 }
-            });
-        }
+            }
+        });
     }
 
     /// The same for the three lines of one sphere.
