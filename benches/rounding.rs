@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench rounding` rounds roots, rationals and every physical quantity of piles of all kinds to `f64` and
 //! `f32`, and has each float judged in integers, by the squares of the points halfway to its neighbours. It prints how
-//! many values were judged, how many roundings were wrong, and nanoseconds a value, of which making it and judging it are
+//! many values were judged, how many roundings were wrong, how many of them the screen left to integers, and nanoseconds a value, of which making it and judging it are
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
 //!
@@ -36,7 +36,7 @@ fn main() {
     let named: Vec<&String> = arguments.iter().filter(|a| !a.starts_with('-')).collect();
     let wanted = |name: &str| named.is_empty() || named.iter().any(|part| name.contains(*part));
 
-    println!("quantity                        cases  wrong  ns a case");
+    println!("quantity                        cases  wrong  by integers  ns a case");
     for (name, tally) in [
         ("random roots", numbers::random_roots as Source),
         ("critical roots", numbers::critical_roots),
@@ -73,9 +73,10 @@ fn report(name: &str, tally: impl FnOnce(&mut Random) -> Tally) {
         cases,
         wrong,
         witness,
+        by_integers,
     } = tally(&mut Random::new(1611));
     #[expect(clippy::cast_precision_loss, reason = "a few digits are printed")]
     let each = start.elapsed().as_secs_f64() * 1e9 / cases as f64;
-    println!("{name:26} {cases:10} {wrong:6} {each:10.0}");
+    println!("{name:26} {cases:10} {wrong:6} {by_integers:12} {each:10.0}");
     assert_eq!(wrong, 0, "{witness:?}");
 }

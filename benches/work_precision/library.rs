@@ -75,7 +75,7 @@ fn table<T: Algebra + RealEmbeddable>(bench: &Bench, run: impl FnMut() -> Vec<[T
     bench.run(Method::Table, T::NAME, Measured { seconds, error })
 }
 
-fn filled<V: Copy + Default>(strengths: &Strengths<V>) -> Vec<[V; 3]> {
+fn filled<V: Copy + Default + Send + Sync>(strengths: &Strengths<V>) -> Vec<[V; 3]> {
     let spheres = strengths.spheres().expect("as many as fit");
     let mut forces = vec![[V::default(); 3]; spheres];
     strengths

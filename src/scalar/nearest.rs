@@ -37,7 +37,7 @@ pub enum Decision {
 /// A binary floating-point format to round to: `f32` or `f64`. Sealed.
 ///
 /// `f32` is reached directly, never by way of `f64`: rounding twice can miss the nearest.
-pub trait NearestFloat: Assemble + Copy {
+pub trait NearestFloat: Assemble + Copy + Send + Sync {
     /// Bits of the significand, the leading one included.
     const PRECISION: u32;
 

@@ -1,6 +1,6 @@
 //! How many roundings were judged, and how many were wrong.
 
-use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scalar::{Decision, NearestFloat, Surd};
 use num_rational::BigRational;
 
 use crate::judge::{Float, Value, Verdict, is_nearest};
@@ -15,16 +15,16 @@ pub(crate) struct Tally {
     pub(crate) wrong: u64,
     /// The first of those.
     pub(crate) witness: Option<String>,
+    /// How many roundings of surds the screen could not tell, and integers decided.
+    pub(crate) by_integers: u64,
 }
 
 impl Tally {
     /// Rounds a value and judges it.
     pub(crate) fn meet(&mut self, exact: &Surd) {
         let value = Value::of(exact);
-        self.count(
-            is_nearest(rounded::<f64>(exact), &value)
-                .and_then(|()| is_nearest(rounded::<f32>(exact), &value)),
-        );
+        let (double, single) = (self.rounded::<f64>(exact), self.rounded::<f32>(exact));
+        self.count(is_nearest(double, &value).and_then(|()| is_nearest(single, &value)));
     }
 
     /// The same for a rational, which is rounded by itself and as a surd.
@@ -42,6 +42,13 @@ impl Tally {
         self.count(is_nearest(got, &Value::of(exact)));
     }
 
+    /// The float that the library calls nearest; every surd of tests and bench is rounded here.
+    fn rounded<F: NearestFloat>(&mut self, exact: &Surd) -> Option<F> {
+        let (float, decision) = exact.nearest_and_how();
+        self.by_integers += u64::from(decision == Decision::Integers);
+        float
+    }
+
     fn count(&mut self, verdict: Verdict) {
         self.cases += 1;
         if let Err(witness) = verdict {
@@ -49,10 +56,4 @@ impl Tally {
             self.witness.get_or_insert(witness);
         }
     }
-}
-
-/// The float that the library calls nearest: every surd of tests and bench is rounded here, so here can be counted how
-/// it was decided.
-fn rounded<F: NearestFloat>(exact: &Surd) -> Option<F> {
-    exact.nearest()
 }
