@@ -62,6 +62,7 @@
 //! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
 //! | [`Packing`] | the same in SI, exactly |
 //! | [`Strengths`] | all contact forces of a straight pile, written into slices |
+//! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
 //! | `export` | tables as csv, json and text (feature `export`) |
@@ -69,10 +70,14 @@
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
 //!   [`MAX_LAYERS`](lattice::MAX_LAYERS) = 10³⁶ layers.
-//! * [`scalar::Surd::nearest`] is the float nearest to the exact value, decided in integers.
+//! * [`scalar::Surd::nearest`] is the float nearest to the exact value: enclosed in double-doubles where that tells it,
+//!   else decided in integers.
 //! * What [`theorem`] states is proved for every pile, by running the formulas on polynomials.
 //! * `f32` and `f64` as scalars round each operation; an answer takes a handful. What is a difference (shear,
-//!   positions) is as exact as its greatest term, and no more where the terms cancel.
+//!   positions) is as exact as its greatest term, and no more where the terms cancel. [`Sweep::error_bound`] bounds
+//!   what a way down through changes of sign can cost.
+//! * Nothing is computed that a question does not need: [`Pile::plan`] says what it takes at most, and [`Counters`]
+//!   count what it took.
 //! * Nothing panics on any input, malformed rationals (made by `Ratio::new_raw`) aside. Errors are one enum,
 //!   [`Error`], with the value and the remedy. The generic formulas on machine integers of one's own are as safe
 //!   as those integers.

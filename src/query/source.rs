@@ -19,10 +19,10 @@ use crate::sweep::{Cells, Descent, Grid, Planes};
 
 /// The forces of the spheres of some rows.
 pub(super) enum Source<'p, T: Algebra, M> {
-    /// Sphere by sphere, of a straight stacking.
-    Closed,
-    /// A piece of a row at a time, of so many spheres at most.
-    Tree(Option<Piece<T>>, i128),
+    /// Each sphere by itself: of a straight stacking, or one alone.
+    Each,
+    /// A piece of a row at a time.
+    Tree(Option<Piece<T>>),
     /// One layer in memory, in the numbers of the scalar.
     Sweep(Box<Descent<'p, T, Cells<T::Numerator>>>),
     /// One layer in memory, in the exact engine, for a scalar that is exact itself.
@@ -48,7 +48,7 @@ impl<'p, T: Algebra, M: Meter> Source<'p, T, M> {
     pub(super) fn new(statics: &Statics<'p, T, M>, rows: &Rows<'p>) -> Self {
         // The rows of another pile are asked for site by site, and checked.
         if !core::ptr::eq(rows.shape(), statics.pile.shape()) {
-            return Self::Tree(None, 1);
+            return Self::Each;
         }
         let route = statics.pile.route::<T>(rows, statics.method);
         let source = route.and_then(|route| Self::by(route, statics, rows));
@@ -58,8 +58,9 @@ impl<'p, T: Algebra, M: Meter> Source<'p, T, M> {
     fn by(route: Route, statics: &Statics<'p, T, M>, rows: &Rows<'p>) -> Result<Self, Error> {
         let (pile, last) = (statics.pile, last_of(rows));
         Ok(match route {
-            Route::Closed => Self::Closed,
-            Route::Tree => Self::Tree(None, rows.one().map_or(CHUNK, |_| 1)),
+            Route::Closed => Self::Each,
+            Route::Tree if rows.one().is_some() => Self::Each,
+            Route::Tree => Self::Tree(None),
             Route::Sweep(size) if T::EXACTNESS == Exactness::Exact => {
                 let grid = Grid::new(pile.shape(), last, size.planes)?;
                 let layer = Planes::new(&grid, size);
@@ -82,9 +83,9 @@ impl<'p, T: Algebra, M: Meter> Source<'p, T, M> {
             return statics.on_floor(site);
         }
         match self {
-            Self::Closed => statics.on_floor(site),
-            Self::Tree(piece, most) => {
-                let (above, changes) = Piece::at(piece, statics, site, *most)?;
+            Self::Each => statics.on_floor(site),
+            Self::Tree(piece) => {
+                let (above, changes) = Piece::at(piece, statics, site)?;
                 statics.floor_force(site, &above, changes)
             }
             Self::Sweep(sweep) => {
@@ -121,10 +122,10 @@ impl<'p, T: Algebra, M: Meter> Source<'p, T, M> {
             return Err(Error::OnFloor { site });
         }
         let (forces, changes) = match self {
-            Self::Closed => statics.passed_on(site)?,
+            Self::Each => statics.passed_on(site)?,
             Self::Refused(error) => return Err(error.clone()),
-            Self::Tree(piece, most) => {
-                let (above, changes) = Piece::at(piece, statics, site, *most)?;
+            Self::Tree(piece) => {
+                let (above, changes) = Piece::at(piece, statics, site)?;
                 statics.lines.to_below(site, above, changes, statics.meter)
             }
             Self::Sweep(sweep) => {
@@ -179,14 +180,13 @@ impl<T: Algebra> Piece<T> {
         piece: &mut Option<Self>,
         statics: &Statics<'_, T, M>,
         site: Site,
-        most: i128,
     ) -> Result<([T::Numerator; 3], usize), Error> {
         if let Some(found) = piece.as_ref().and_then(|piece| piece.get(site)) {
             return Ok(found);
         }
         let Site { i, j, k } = statics.pile.shape().check(site)?;
         let end = statics.pile.shape().layer(k)?.row(j).end;
-        let sites: Vec<[i128; 2]> = (i..end.min(i + most)).map(|i| [i, j]).collect();
+        let sites: Vec<[i128; 2]> = (i..end.min(i + CHUNK)).map(|i| [i, j]).collect();
         let above = statics.above(k, &sites, Wanted::All)?;
         let new = piece.insert(Self {
             first: site,
@@ -263,8 +263,8 @@ impl<'p> Source<'p, BigRational, ()> {
         site: Site,
     ) -> Result<([BigInt; 3], usize), Error> {
         match self {
-            Self::Closed => statics.received(site, Wanted::All),
-            Self::Tree(piece, most) => Piece::at(piece, statics, site, *most),
+            Self::Each => statics.received(site, Wanted::All),
+            Self::Tree(piece) => Piece::at(piece, statics, site),
             Self::Refused(error) => Err(error.clone()),
             Self::Sweep(sweep) => {
                 sweep.advance(site.k, ());
