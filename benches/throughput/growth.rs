@@ -4,6 +4,7 @@ use std::hint::black_box;
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::scalar::Ring;
 use num_rational::BigRational;
 
 use crate::time::{median, seconds};
@@ -22,7 +23,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let base = exponent(extent, layers, |pile| {
         let statics = pile.statics::<f64>();
         let forces = statics.base(pile.rows(Selection::Base).expect("a base"));
-        let normal = (pile.layers() as f64 + 2.0) / 3.0;
+        let normal = (f64::from_i128(pile.layers()) + 2.0) / 3.0;
         forces.for_each(|force| assert!((force.expect("a force").normal - normal).abs() < 1e-9));
     });
     results.push(("base_time_exponent".into(), base));
@@ -38,7 +39,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
         let exact: i128 = (1..layers)
             .map(|n| 3 * n * (layers - n) * (layers - n + 1) / 2)
             .sum();
-        assert!((sum - exact as f64).abs() <= 1e-6 * sum);
+        assert!((sum - f64::from_i128(exact)).abs() <= 1e-6 * sum);
     });
     results.push(("pile_time_exponent".into(), whole));
     results.push(("runs_time_exponent".into(), runs(extent)));
@@ -57,7 +58,7 @@ fn one_contact(extent: Extent, layers: i128) -> f64 {
         seconds(|| {
             for _ in 0..repeats {
                 let force = statics.contact(black_box(site), Direction::Beta);
-                assert_eq!(force, Ok(site.i as f64 + 1.0));
+                assert_eq!(force, Ok(f64::from_i128(site.i) + 1.0));
             }
         })
     });
@@ -68,7 +69,7 @@ fn one_contact(extent: Extent, layers: i128) -> f64 {
 fn exponent(extent: Extent, layers: [i128; 2], ask: impl Fn(&Pile)) -> f64 {
     let [small, large] = layers.map(|layers| Pile::triangular(layers).expect("a pile"));
     let ratios = (0..extent.pairs).map(|_| seconds(|| ask(&large)) / seconds(|| ask(&small)));
-    let [small, large] = layers.map(|layers| layers as f64);
+    let [small, large] = layers.map(f64::from_i128);
     median(ratios).ln() / (large / small).ln()
 }
 

@@ -82,7 +82,7 @@ fn intervals_have_two_columns() {
         let numbers: Vec<f64> = line.split(',').map(|text| text.parse().unwrap()).collect();
         for ends in numbers[2..].chunks(2) {
             // One float, or two neighbours: 5/3 N is none, 0 is one.
-            assert!(ends[0] == ends[1] || ends[0].next_up() == ends[1], "{line}");
+            assert!([ends[0], ends[0].next_up()].contains(&ends[1]), "{line}");
         }
         let normal = [1.666_666_666_666_666_5, 1.666_666_666_666_666_7];
         assert_eq!(numbers[2..4], normal);
