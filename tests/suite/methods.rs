@@ -334,3 +334,57 @@ fn roots_are_taken_once_and_only_where_needed() {
         (0, 0, 0)
     );
 }
+
+/// Layers wide enough to be swept in several bands, each on a thread of its own where there are threads.
+#[test]
+fn wide_layers_are_swept_in_bands() {
+    let top = Region::hexagon(70, 60).unwrap();
+    let pile = under(top, "+-++-")
+        .with_load(Site { i: 3, j: -5, k: 1 }, ratio(22, 7))
+        .unwrap();
+    let lines = pile.statics::<BigRational>().by(Method::Tree).unwrap();
+    let mut floats = pile.sweep::<f64>().unwrap();
+    let mut exact = pile.exact_sweep().unwrap();
+    floats.advance(1).unwrap();
+    for k in [2, 4] {
+        floats.advance(k).unwrap();
+        exact.advance(k).unwrap();
+        let n = floats.spheres().unwrap();
+        assert!(n > 10_000);
+        let mut forces = [(); 3].map(|()| vec![0.0; n]);
+        let [a, b, c] = forces.each_mut().map(Vec::as_mut_slice);
+        floats.fill([a, b, c]).unwrap();
+        let bound = floats.error_bound().unwrap();
+        let sites = pile.rows(Selection::Layer(k)).unwrap().flatten();
+        for (place, site) in sites.enumerate().step_by(101) {
+            let passed_on = exact.passed_on(site).unwrap();
+            for (direction, force) in Direction::ALL.into_iter().zip(passed_on) {
+                assert_eq!(lines.contact(site, direction).unwrap(), force, "{site}");
+                let float = forces[direction.index()][place];
+                let error = (BigRational::from_float(float).unwrap() - force).abs();
+                assert!(error <= bound, "{site} {direction}: {error} > {bound}");
+            }
+        }
+    }
+}
+
+/// So many spheres that they are filled in several parts.
+#[test]
+fn large_piles_are_filled_in_parts() {
+    let layers = 90;
+    let pile = Pile::triangular(layers).unwrap();
+    let strengths = cannonpile::Strengths::<i32>::multiples(&pile).unwrap();
+    let n = strengths.spheres().unwrap();
+    assert!(n > 1 << 16);
+    let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0; n]);
+    strengths.fill([&mut a, &mut b, &mut c]).unwrap();
+    let mut interleaved = vec![[0; 3]; n];
+    strengths.fill_interleaved(&mut interleaved).unwrap();
+    let sites = pile.rows(Selection::All).unwrap().off_the_floor().flatten();
+    for (place, Site { i, j, k }) in sites.enumerate() {
+        // The paper's counts, and the sphere itself.
+        let counts = [k - i - j + 1, i + 1, j + 1];
+        assert_eq!([a[place], b[place], c[place]].map(i128::from), counts);
+        assert_eq!(interleaved[place].map(i128::from), counts);
+    }
+}
