@@ -128,6 +128,15 @@ pub enum Error {
         /// The method asked for.
         method: Method,
     },
+    /// A layer that a sweep is not at, or does not lead to any more.
+    SweepElsewhere {
+        /// The layer asked for.
+        layer: i128,
+        /// The layer that the sweep is at.
+        at: i128,
+        /// The last layer that it leads to.
+        last: i128,
+    },
     /// A quantity in SI of a pile that has no size and no weight.
     NeedsUnits {
         /// The quantity asked for.

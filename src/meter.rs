@@ -52,9 +52,9 @@ impl Meter for () {
 /// let counters = Counters::default();
 /// let pile = Pile::under(Region::SITE, "++-+".parse()?)?;
 /// let statics = pile.statics::<f64>().metered(&counters);
-/// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 12);
-/// // The two changes of sign, in layers of 6 and 8 spheres, and then the base.
-/// assert_eq!((counters.turned(), counters.visited(), counters.passes()), (14, 12, 3));
+/// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 18);
+/// // Two changes of sign, in layers of 6 and 12 spheres, and then the 18 of the base.
+/// assert_eq!((counters.turned(), counters.visited(), counters.passes()), (18, 18, 3));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -91,7 +91,7 @@ impl Counters {
         self.roots.get()
     }
 
-    /// Answers given.
+    /// Answers given in rows: those of iterators, not of single questions.
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.rows.get()
@@ -125,7 +125,7 @@ fn add(counter: &Cell<u64>, more: usize) {
 }
 
 impl fmt::Display for Counters {
-    /// `12 visited, 14 turned, 3 passes, 0 roots, 12 rows`
+    /// `18 visited, 18 turned, 3 passes, 0 roots, 18 rows`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

@@ -223,6 +223,12 @@ impl<'p, M: Meter> Packing<'p, M> {
         self.statics.method()
     }
 
+    /// The forces in pile units, exactly.
+    #[must_use]
+    pub fn statics(&self) -> &Statics<'p, BigRational, M> {
+        &self.statics
+    }
+
     /// The pile that is packed.
     #[must_use]
     pub fn pile(&self) -> &'p Pile {

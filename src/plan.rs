@@ -8,13 +8,13 @@ pub(crate) use route::{CHUNK, Route, trees_are_cheaper};
 
 use core::fmt;
 
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::Zero;
 
 use crate::lattice::{Direction, Rows, Site};
 use crate::lines::{Lines, MAX_NODES};
-use crate::sweep::Size;
+use crate::sweep::{Grid, Size};
 use crate::{Error, Pile};
 
 /// How forces are found.
@@ -176,10 +176,14 @@ impl Pile {
             Route::Tree => match self.by_trees(plan.clone(), &rows) {
                 // The one sphere is left to a sweep where its tree is too large.
                 Err(too_large) if rows.one().is_some() && method.is_none() => {
-                    match self.route::<BigRational>(&rows, Some(Method::Sweep)) {
-                        Ok(Route::Sweep(size)) => self.by_sweep(&mut plan, &rows, size)?,
-                        _ => return Err(too_large),
+                    // In integers that grow, each with its digits elsewhere.
+                    let size = self.size_of_sweep(last);
+                    let words = size.planes + size_of::<BigInt>().div_ceil(size_of::<i64>());
+                    if Grid::numbers(self.shape(), last, words).is_err() {
+                        return Err(too_large);
                     }
+                    self.by_sweep(&mut plan, &rows, size)?;
+                    plan.bytes = &plan.numbers * words * size_of::<i64>();
                 }
                 by_trees => plan = by_trees?,
             },

@@ -29,9 +29,9 @@ use crate::{Error, Pile};
 ///
 /// Exact scalars give exact answers. Of rounded ones, contact forces and normal forces of a straight stacking are a few
 /// units in the last place off; shear, resultants and positions are differences, and a few units of the greatest term
-/// off, max(N)·f₀, which is all there is where they cancel. A change of sign subtracts too, and amplifies nothing: after
-/// d changes a force is off by some 16·(layers + loads) roundings of the greatest force on its way. A number that the
-/// scalar cannot hold is [`Error::Overflow`], never a wrong value.
+/// off, max(N)·f₀, which is all there is where they cancel. A change of sign subtracts too, and amplifies nothing in the
+/// sum of squares over a layer: [`Sweep::error_bound`](crate::Sweep::error_bound) says how far a force is off at most. A
+/// number that the scalar cannot hold is [`Error::Overflow`], never a wrong value.
 ///
 /// Inside, formulas run on the scalar's [numerators](Algebra::Numerator): for rationals on integers over a
 /// denominator known beforehand, reduced once at the end.

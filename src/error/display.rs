@@ -114,6 +114,11 @@ impl Error {
                 "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
                  spheres and not of discs; use another, or none to have the cheapest"
             ),
+            Self::SweepElsewhere { layer, at, last } => write!(
+                f,
+                "a sweep at layer {at} answers for that layer and goes down to layer {last} at most, not to layer {layer}: \
+                 begin a new one for a layer above"
+            ),
             Self::NeedsUnits { quantity } => write!(
                 f,
                 "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"

@@ -78,24 +78,24 @@ impl<'p> Explanation<'p> {
         let counters = Counters::default();
         let rows = self.units.pile().rows(self.question.part)?;
         let quantity = self.question.quantity;
-        match &self.units {
-            Units::Pile(statics) => {
-                let statics = statics.as_ref().clone().metered(&counters);
-                if quantity.is_of_contacts() {
-                    all(statics.contacts(rows))?;
-                } else {
-                    all(statics.base(rows))?;
-                }
-            }
+        let statics = match &self.units {
+            Units::Pile(statics) => statics.as_ref().clone().metered(&counters),
             Units::Si(packing) => {
                 let packing = packing.as_ref().clone().metered(&counters);
                 match quantity {
-                    Quantity::ContactMagnitudes => all(packing.magnitudes(rows))?,
-                    Quantity::FloorForces => all(packing.base(rows))?,
-                    Quantity::Positions => all(packing.positions(rows))?,
-                    _ => all(packing.contacts(rows))?,
+                    Quantity::ContactMagnitudes => all(packing.magnitudes(rows.clone()))?,
+                    Quantity::ContactVectors => all(packing.contacts(rows.clone()))?,
+                    Quantity::FloorForces => all(packing.base(rows.clone()))?,
+                    Quantity::Positions => all(packing.positions(rows.clone()))?,
+                    Quantity::ContactMultiples | Quantity::FloorMultiples => {}
                 }
+                packing.statics().clone()
             }
+        };
+        match quantity {
+            Quantity::ContactMultiples => all(statics.contacts(rows))?,
+            Quantity::FloorMultiples => all(statics.base(rows))?,
+            _ => {}
         }
         Ok(counters)
     }

@@ -82,16 +82,21 @@ impl Pile {
         }
     }
 
-    /// That no piece of a row of layer `k` has a tree that is too large.
+    /// That the pieces of rows of layer `k` have trees that are not too large, as far as those in the middle show it: the
+    /// middle of the rows, and of the corners.
     pub(super) fn check_trees(&self, k: i128) -> Result<(), Error> {
-        // The lines of the middle lead highest: if its tree is not too large, none is.
         let region = self.shape().layer(k)?;
-        let j = region.y().start().midpoint(*region.y().end());
-        let row = region.row(j);
-        let middle = row.start.midpoint(row.end - 1);
-        let piece = middle - CHUNK / 2..middle + CHUNK / 2;
-        let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
-        Lines::<BigRational>::new(self).check_tree(k, &sites)
+        let corners = region.corners();
+        let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;
+        for j in [region.y().start().midpoint(*region.y().end()), mean(1)] {
+            let row = region.row(j);
+            for middle in [row.start.midpoint(row.end - 1), mean(0)] {
+                let piece = middle - CHUNK / 2..middle + CHUNK / 2;
+                let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
+                Lines::<BigRational>::new(self).check_tree(k, &sites)?;
+            }
+        }
+        Ok(())
     }
 
     /// How wide the exact numerators of a sweep down to layer `last` are.

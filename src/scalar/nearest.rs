@@ -30,7 +30,7 @@ use sealed::Assemble;
 pub enum Decision {
     /// Both ends of an enclosure in double-doubles round to the same float.
     Screen,
-    /// Integers, with a sticky bit: near a tie, or outside the normal floats.
+    /// Integers, with a sticky bit: near a tie, or outside the normal floats of `f64`.
     Integers,
 }
 

@@ -16,7 +16,7 @@ struct Scaled {
 }
 
 /// Two floats that n/d·√r lies between, once they are multiplied by 2^e, and e; n, d and r are not zero. `None` where a
-/// float or its neighbours would not be normal, and for a root without `std`.
+/// f64 or its neighbours would not be normal, and for a root without `std`.
 pub(super) fn enclose(n: &BigUint, d: &BigUint, r: Option<&BigUint>) -> Option<([f64; 2], i32)> {
     /// The errors of all steps together are below 2^−98.
     const SLACK: i32 = -90;

@@ -32,7 +32,9 @@ use crate::{Error, Method, Pile};
 /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
 /// sweep.fill([&mut alpha, &mut beta, &mut gamma])?;
 /// // Below each of the three spheres that the apex rests on: 1 − 1/3 once, and 1 + 2/3 twice.
-/// assert_eq!([alpha[0], beta[0], gamma[0]], [2.0 / 3.0, 5.0 / 3.0, 5.0 / 3.0]);
+/// for (force, exact) in [(alpha[0], 2.0 / 3.0), (beta[0], 5.0 / 3.0), (gamma[0], 5.0 / 3.0)] {
+///     assert!((force - exact).abs() < 1e-15_f64);
+/// }
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub struct Sweep<'p, T: Algebra> {
@@ -40,8 +42,6 @@ pub struct Sweep<'p, T: Algebra> {
     descent: Descent<'p, T, Cells<T::Numerator>>,
     /// How often it was told to go on.
     stops: usize,
-    /// Whether a bound on all numbers of the sweep shows that floats do not overflow.
-    bounded: bool,
 }
 
 /// The same in exact integers over 3^d·D, of a width that is proved to be enough: the exact engine.
@@ -66,6 +66,24 @@ pub struct ExactSweep<'p> {
 impl Pile {
     /// A sweep in the scalar `T`, at the top.
     ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let mut sweep = pile.sweep::<f32>()?;
+    /// let mut forces = [(); 3].map(|()| Vec::new());
+    /// for k in 0..2 {
+    ///     sweep.advance(k)?;
+    ///     let mut layer = [(); 3].map(|()| vec![0.0; sweep.spheres().unwrap()]);
+    ///     let [alpha, beta, gamma] = layer.each_mut().map(Vec::as_mut_slice);
+    ///     sweep.fill([alpha, beta, gamma])?;
+    ///     forces.iter_mut().zip(layer).for_each(|(all, layer)| all.extend(layer));
+    /// }
+    /// assert_eq!(forces[0], [1.0, 2.0, 1.0, 1.0]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::TooLarge`] if a layer does not fit in memory; [`Error::NoSuchMethod`] for discs.
     pub fn sweep<T: Algebra>(&self) -> Result<Sweep<'_, T>, Error> {
@@ -82,11 +100,6 @@ impl Pile {
             pile: self,
             descent: Descent::new(Lines::new(self), grid, cells),
             stops: 0,
-            bounded: matches!(T::EXACTNESS, Exactness::Rounded { .. }) && {
-                // Twice as much, for roundings.
-                let bound = BigRational::from_integer(self.bound_of_sweep(last) * 2);
-                T::from_rational(&bound).is_defined()
-            },
         })
     }
 
@@ -118,14 +131,20 @@ fn advance<T: Algebra, S: Layer<T>>(
     descent: &mut Descent<'_, T, S>,
     k: i128,
 ) -> Result<(), Error> {
+    pile.shape().layer(k)?;
     if k < descent.k() || k > last_with_contacts(pile) {
-        return Err(Error::LayerOutside {
-            layer: k,
-            layers: pile.layers() - 1,
-        });
+        return Err(elsewhere(pile, descent.k(), k));
     }
     descent.advance(k, ());
     Ok(())
+}
+
+fn elsewhere(pile: &Pile, at: i128, layer: i128) -> Error {
+    Error::SweepElsewhere {
+        layer,
+        at,
+        last: last_with_contacts(pile),
+    }
 }
 
 impl<T: Algebra> Sweep<'_, T> {
@@ -138,7 +157,20 @@ impl<T: Algebra> Sweep<'_, T> {
     /// Goes down to layer `k`, or stays there; not to the floor, below which there are no contacts.
     ///
     /// # Errors
-    /// [`Error::LayerOutside`] for a layer above this one, or the floor, or one that the pile does not have.
+    /// [`Error::LayerOutside`] for a layer that the pile does not have; [`Error::SweepElsewhere`] for one above this one, or
+    /// the floor.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Error, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut sweep = pile.sweep::<f64>()?;
+    /// sweep.advance(8)?;
+    /// assert_eq!((sweep.layer(), sweep.spheres()?), (8, 45));
+    /// assert!(matches!(sweep.advance(7), Err(Error::SweepElsewhere { at: 8, .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn advance(&mut self, k: i128) -> Result<(), Error> {
         self.stops += 1;
         advance(self.pile, &mut self.descent, k)
@@ -224,7 +256,6 @@ impl<T: Algebra> Sweep<'_, T> {
             own: lines.increments_after(changes),
             scale: lines.scale(changes),
             turns: self.descent.turned_already() < changes,
-            checked: !self.bounded,
         }
     }
 
@@ -276,8 +307,6 @@ struct Below<T: Algebra> {
     scale: T::Numerator,
     /// Whether what the lines carry is still to be turned.
     turns: bool,
-    /// Whether forces may be undefined.
-    checked: bool,
 }
 
 impl<T: Algebra> Below<T> {
@@ -313,7 +342,7 @@ impl<T: Algebra> Below<T> {
     fn put(&self, force: T::Numerator, out: &mut T) -> bool {
         match T::from_ratio(force, &self.scale) {
             Some(value) => {
-                let defined = !self.checked || value.is_defined();
+                let defined = value.is_defined();
                 *out = value;
                 defined
             }
@@ -340,17 +369,27 @@ impl ExactSweep<'_> {
     /// The forces to the spheres below one of this layer, in f₀.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::LayerOutside`] for a sphere of another layer; [`Error::OnFloor`].
+    /// [`Error::SiteOutside`]; [`Error::SweepElsewhere`] for a sphere of another layer; [`Error::OnFloor`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Region, Site};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let mut sweep = pile.exact_sweep()?;
+    /// sweep.advance(2)?;
+    /// let forces = sweep.passed_on(Site { i: 0, j: -1, k: 2 })?;
+    /// assert_eq!(forces.map(|force| force.to_string()), ["19/9", "19/9", "4/9"]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn passed_on(&self, site: Site) -> Result<[BigRational; 3], Error> {
         let site = self.pile.shape().check(site)?;
         if site.k == self.pile.layers() - 1 {
             return Err(Error::OnFloor { site });
         }
         if site.k != self.layer() {
-            return Err(Error::LayerOutside {
-                layer: site.k,
-                layers: self.layer() + 1,
-            });
+            return Err(elsewhere(self.pile, self.layer(), site.k));
         }
         let (forces, changes) = self.descent.passed_on(site, ());
         let scale = self.descent.lines().scale(changes);

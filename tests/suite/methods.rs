@@ -2,7 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Direction, Region, Selection, Site};
-use cannonpile::scalar::{Algebra, Interval, RealEmbeddable};
+use cannonpile::scalar::{Algebra, FixedRational, Interval, Pair, RealEmbeddable};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Counters, Error, Method, Packing, Pile, Plan, Quantity, Question};
 use num_bigint::BigUint;
@@ -275,9 +275,11 @@ fn floats_stay_within_their_bound() {
 fn a_sweep_says_what_it_does_not_do() {
     let pile = under(Region::SITE, "+-+");
     let mut sweep = pile.sweep::<f64>().unwrap();
-    assert!(matches!(sweep.advance(3), Err(Error::LayerOutside { .. })));
+    assert!(matches!(sweep.advance(4), Err(Error::LayerOutside { .. })));
+    let elsewhere = |layer, at| Err(Error::SweepElsewhere { layer, at, last: 2 });
+    assert_eq!(sweep.advance(3), elsewhere(3, 0));
     sweep.advance(2).unwrap();
-    assert!(matches!(sweep.advance(1), Err(Error::LayerOutside { .. })));
+    assert_eq!(sweep.advance(1), elsewhere(1, 2));
     let refused = sweep.fill([&mut [], &mut [], &mut []]);
     let needed = sweep.spheres().unwrap();
     assert_eq!(refused, Err(Error::Length { needed, given: 0 }));
@@ -387,4 +389,40 @@ fn large_piles_are_filled_in_parts() {
         assert_eq!([a[place], b[place], c[place]].map(i128::from), counts);
         assert_eq!(interleaved[place].map(i128::from), counts);
     }
+}
+
+/// A scalar that rounds and overflows too: numbers it does not hold are an error, never left in the slices unsaid.
+#[test]
+fn what_overflows_in_a_sweep_is_an_error() {
+    let pile = Pile::under(Region::SITE, Stacking::hcp(50).unwrap()).unwrap();
+    let mut sweep = pile.sweep::<Pair<f64, FixedRational<i64>>>().unwrap();
+    sweep.advance(48).unwrap();
+    let n = sweep.spheres().unwrap();
+    let mut forces = [(); 3].map(|()| vec![Pair::from_rational(&ratio(0, 1)); n]);
+    let [a, b, c] = forces.each_mut().map(Vec::as_mut_slice);
+    assert!(matches!(sweep.fill([a, b, c]), Err(Error::Overflow { .. })));
+}
+
+/// One sphere below more changes of sign than a tree may have nodes: the plan says a sweep, and so it is, asked for in
+/// rows or alone.
+#[test]
+fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
+    let layers = 420;
+    let pile = Pile::under(Region::SITE, Stacking::hcp(layers).unwrap()).unwrap();
+    let site = Site {
+        i: 0,
+        j: 0,
+        k: layers - 2,
+    };
+    let plan = pile.plan(Selection::One(site)).unwrap();
+    assert_eq!(plan.method, Method::Sweep);
+    let counters = Counters::default();
+    let statics = pile.statics::<f64>().metered(&counters);
+    let rows = pile.rows(Selection::One(site)).unwrap();
+    let forces = all(statics.contacts(rows)).unwrap();
+    assert_eq!(forces.len(), 3);
+    for (name, most, counted) in promises(&plan, &counters) {
+        assert!(BigUint::from(counted) <= most, "{counted} {name}");
+    }
+    assert!(counters.passes() > 400);
 }
