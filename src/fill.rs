@@ -156,6 +156,17 @@ impl<V: Copy + Send + Sync> Strengths<V> {
     ///
     /// # Errors
     /// [`Error::NoSuchRow`] if the pile has no such row above the floor; [`Error::Length`] for a slice of another length.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Pile, Strengths};
+    ///
+    /// let strengths = Strengths::<i32>::multiples(&Pile::triangular(10)?)?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0; 4]; 3];
+    /// strengths.fill_row(8, 5, [&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!((alpha, beta, gamma), ([4, 3, 2, 1], [1, 2, 3, 4], [6; 4]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn fill_row(&self, k: usize, j: usize, slices: [&mut [V]; 3]) -> Result<(), Error> {
         if k >= self.tables[0].len() || j > k {
             return Err(Error::NoSuchRow { k, j });
@@ -193,10 +204,21 @@ impl<V: Copy + Send + Sync> Strengths<V> {
         Ok(())
     }
 
-    /// All forces, one slice for each direction, layer after layer from the top.
+    /// All forces, one slice for each direction, layer after layer from the top; on all cores with the feature `rayon`.
     ///
     /// # Errors
     /// [`Error::Length`] for a slice that is not as long as [`spheres`](Self::spheres) says.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Pile, Strengths};
+    ///
+    /// let strengths = Strengths::<i32>::multiples(&Pile::triangular(3)?)?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0; 4]; 3];
+    /// strengths.fill([&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!((alpha, beta, gamma), ([1, 2, 1, 1], [1, 1, 2, 1], [1, 1, 1, 2]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn fill(&self, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let spheres = self.spheres()?;
         for slice in &slices {

@@ -142,6 +142,22 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// # Errors
     /// As for [`Statics::by`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Method, Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let swept = packing.clone().by(Method::Sweep)?;
+    /// let (site, along) = (Site { i: 1, j: 2, k: 5 }, Direction::Alpha);
+    /// assert_eq!(swept.contact(site, along)?, packing.contact(site, along)?);
+    /// assert_eq!((packing.method(), swept.method()), (None, Some(Method::Sweep)));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn by(self, method: Method) -> Result<Self, Error> {
         let statics = self.statics.by(method)?;
         Ok(Self { statics, ..self })
@@ -217,13 +233,28 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(Self { gravity, ..self }.weighed())
     }
 
-    /// The method asked for, if it is not the cheapest.
+    /// The method asked for, or `None` for the cheapest.
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.statics.method()
     }
 
     /// The forces in pile units, exactly.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let (site, along) = (Site { i: 1, j: 2, k: 5 }, Direction::Alpha);
+    /// let multiple = packing.statics().contact(site, along)?;
+    /// assert_eq!(packing.unit_force().scaled(&multiple), packing.contact(site, along)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn statics(&self) -> &Statics<'p, BigRational, M> {
         &self.statics

@@ -89,6 +89,18 @@ impl<'p, T: Algebra> Statics<'p, T> {
 
 impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// The same, telling a meter what every answer takes.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Counters, Pile};
+    ///
+    /// let (pile, counters) = (Pile::triangular(4)?, Counters::default());
+    /// let statics = pile.statics::<f64>().metered(&counters);
+    /// assert_eq!(statics.contacts(pile.rows(Selection::All)?).count(), 30);
+    /// assert_eq!(counters.to_string(), "10 visited, 0 turned, 0 passes, 0 roots, 30 rows");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn metered<N: Meter>(self, meter: N) -> Statics<'p, T, N> {
         Statics {
@@ -131,7 +143,18 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
         })
     }
 
-    /// The method asked for, if it is not the cheapest.
+    /// The method asked for, or `None` for the cheapest.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let statics = pile.statics::<f64>();
+    /// assert_eq!(statics.method(), None);
+    /// assert_eq!(statics.by(Method::Tree)?.method(), Some(Method::Tree));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.method

@@ -55,6 +55,21 @@ impl<'p> Explanation<'p> {
     }
 
     /// The plan.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Pile, Quantity};
+    ///
+    /// let pile = Pile::triangular(10_i128.pow(30))?;
+    /// let units = Units::of_pile(&pile);
+    /// let explanation = Explanation::new(&units, Quantity::FloorMultiples, Selection::Base)?;
+    /// assert_eq!(explanation.plan().roots, 0);
+    /// // More bottom spheres than anybody will wait for.
+    /// assert!(explanation.check().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -177,6 +192,16 @@ impl Units<'_> {
     ///
     /// # Errors
     /// As for [`Statics::by`](crate::Statics::by).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::Units;
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::discs(5)?;
+    /// assert!(Units::of_pile(&pile).by(Method::Sweep).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn by(self, method: Method) -> Result<Self, Error> {
         Ok(match self {
             Self::Pile(statics) => Self::Pile(Box::new(statics.by(method)?)),

@@ -102,6 +102,22 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// The places of the spheres in `rows`, lazily.
     ///
     /// As [`position`](Self::position).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // The bottom layer is at height 0.
+    /// for position in packing.positions(pile.rows(Selection::Base)?) {
+    ///     assert!(position?[2] == 0.0);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn positions(
         &self,
         rows: Rows<'p>,
