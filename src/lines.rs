@@ -27,7 +27,7 @@ use crate::lattice::{Direction, Shape, Site, Stretch};
 use crate::meter::Meter;
 use crate::scalar::{Algebra, Ring};
 use crate::stacking::Sign;
-use crate::transfer::turn_numerators;
+use crate::transfer::{THREE, turn_numerators};
 
 /// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
 ///
@@ -222,6 +222,3 @@ fn start_of([i, j]: [i128; 2], direction: Direction, sign: Sign, steps: i128) ->
     let [di, dj] = sign.descent(direction);
     [i - di * steps, j - dj * steps]
 }
-
-// Unwrapped by the compiler: zero would not build.
-const THREE: core::num::NonZeroI64 = core::num::NonZeroI64::new(3).unwrap();

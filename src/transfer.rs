@@ -79,5 +79,5 @@ fn twice_sum<T: Clone + for<'a> Add<&'a T, Output = T>>([a, b, c]: &[T; 3]) -> T
     sum.clone() + &sum
 }
 
-// Unwrapped by the compiler: zero would not build.
-const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
+/// What a change of sign divides by. Unwrapped by the compiler: zero would not build.
+pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();

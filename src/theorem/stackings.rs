@@ -10,6 +10,7 @@ use super::{Formulas, Method, Step, Theorem};
 use crate::geometry::Vector;
 use crate::lattice::Direction;
 use crate::scalar::Algebra;
+use crate::transfer::THREE;
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -261,6 +262,3 @@ fn point_load(f: &Formulas) -> Vec<Step> {
     }
     steps
 }
-
-// Unwrapped by the compiler: zero would not build.
-const THREE: core::num::NonZeroI64 = core::num::NonZeroI64::new(3).unwrap();

@@ -1,5 +1,11 @@
 //! Plans, counters, methods and intervals on the command line.
 
+use cannonpile::export::{Explanation, Units};
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Region, Selection};
+use cannonpile::{Packing, Pile, Quantity};
+use num_rational::BigRational;
+
 use super::{refusal, stdout};
 
 /// The value after a name, in a table of names and values.
@@ -93,4 +99,26 @@ fn intervals_have_two_columns() {
     assert_eq!(value(&table, "min_contact_lo"), "0.4622501635210242 N");
     let table = stdout("base --layers 3 --number interval");
     assert_eq!(table.lines().last(), Some("6 bottom spheres"));
+}
+
+/// Of a packing too, the multiples are counted as what they are: without a root.
+#[test]
+fn multiples_are_counted_without_roots_in_si_too() {
+    let pile = Pile::under(Region::SITE, "+-++-".parse().unwrap()).unwrap();
+    let ratio = BigRational::new(6.into(), 5.into());
+    let packing = Packing::new(&pile, &Spacing::new(ratio).unwrap()).unwrap();
+    let units = Units::of_packing(packing);
+    for (quantity, part) in [
+        (Quantity::ContactMultiples, Selection::All),
+        (Quantity::FloorMultiples, Selection::Base),
+    ] {
+        let explanation = Explanation::new(&units, quantity, part).unwrap();
+        let counters = explanation.run().unwrap();
+        assert_eq!(counters.roots(), 0, "{quantity}");
+        assert_eq!(
+            explanation.plan().rows,
+            counters.rows().into(),
+            "{quantity}"
+        );
+    }
 }
