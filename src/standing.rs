@@ -293,7 +293,7 @@ impl Pile {
             return layers.iter().map(|k| least_at_ends(&lines, *k)).collect();
         }
         let grid = grid?;
-        let layer = Planes::new(&grid, size);
+        let layer = Planes::new(&grid, self.bound_of_sweep(last + 1));
         let mut sweep = Descent::new(lines, grid, layer);
         let least = layers.iter().filter_map(|k| {
             sweep.advance(*k, ());

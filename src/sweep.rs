@@ -177,6 +177,9 @@ pub(crate) trait Layer<T: Algebra> {
     /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there.
     fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]);
 
+    /// Makes the passes that were only noted: before anything else is asked of the layer.
+    fn catch_up(&mut self, _grid: &Grid<'_>) {}
+
     /// Adds to the three lines of a sphere.
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]);
 
@@ -226,6 +229,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) {
         loop {
             let Some(pass) = self.grid.passes(self.k, k).next() else {
+                self.layer.catch_up(&self.grid);
                 return;
             };
             self.settle();
@@ -250,6 +254,9 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
 
     fn add_extras(&mut self, layers: Range<i128>) {
         let sites: Vec<Site> = self.lines.extras_in(layers).collect();
+        if !sites.is_empty() {
+            self.layer.catch_up(&self.grid);
+        }
         for site in sites {
             let cells = self.grid.site(site.i, site.j, site.k);
             self.layer.add_at(cells, &self.lines.extra(site));

@@ -63,7 +63,7 @@ impl<'p, T: Algebra, M: Meter> Source<'p, T, M> {
             Route::Tree => Self::Tree(None),
             Route::Sweep(size) if T::EXACTNESS == Exactness::Exact => {
                 let grid = Grid::new(pile.shape(), last, size.planes)?;
-                let layer = Planes::new(&grid, size);
+                let layer = Planes::new(&grid, pile.bound_of_sweep(last));
                 Self::Integers(Box::new(Integers {
                     statics: pile.statics().metered(statics.meter),
                     sweep: Descent::new(Lines::new(pile), grid, layer),

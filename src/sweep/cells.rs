@@ -71,6 +71,16 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
         }
     }
 
+    /// All rows of the layer that a pass leads to.
+    pub(super) fn whole(&mut self, pass: &Pass) -> Band<'_, V> {
+        let rows = pass.region.y();
+        Band {
+            rows: *rows.start()..rows.end() + 1,
+            starts: [0; 3],
+            planes: alloc::vec![self.0.each_mut().map(Vec::as_mut_slice)],
+        }
+    }
+
     /// What the three lines of a sphere carry.
     pub(super) fn carried(&self, [a, b, c]: [usize; 3]) -> [&V; 3] {
         let Self([alpha, beta, gamma]) = self;
@@ -154,20 +164,45 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             });
             let counts = pass.region.row_counts(j, pass.run.sign, steps);
             let [on_a, on_b, on_c] = counts.map(|count| Slopes::new(count, i.start, n));
+            let start = on_a.level.start.max(on_b.level.start).max(on_c.level.start);
+            let end = on_a.level.end.min(on_b.level.end).min(on_c.level.end);
+            let level = start..end.max(start);
             for ([alpha, beta, gamma], Ramps([ramp_a, ramp_b, ramp_c])) in
                 self.planes.iter_mut().zip(ramps)
             {
                 let [a, b, c] = places.clone();
                 let (a, b, c) = (&mut alpha[a], &mut beta[b], &mut gamma[c]);
-                on_a.add(a, ramp_a);
-                on_b.add(b, ramp_b);
-                on_c.add(c, ramp_c);
                 if !pass.turns {
+                    on_a.add(a, 0, ramp_a);
+                    on_b.add(b, 0, ramp_b);
+                    on_c.add(c, 0, ramp_c);
                     continue;
                 }
+                for piece in [0..level.start, level.end..n] {
+                    let start = piece.start;
+                    let (a, b, c) = (&mut a[piece.clone()], &mut b[piece.clone()], &mut c[piece]);
+                    on_a.add(a, start, ramp_a);
+                    on_b.add(b, start, ramp_b);
+                    on_c.add(c, start, ramp_c);
+                    for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
+                        let turned = turn(&[a.clone(), b.clone(), c.clone()]);
+                        [*a, *b, *c] = turned;
+                    }
+                }
+                // Where no count changes, most of a row, all in one go.
+                let capped = (
+                    on_a.capped(ramp_a),
+                    on_b.capped(ramp_b),
+                    on_c.capped(ramp_c),
+                );
+                let (Some(more_a), Some(more_b), Some(more_c)) = capped else {
+                    continue;
+                };
+                let level = level.clone();
+                let (a, b, c) = (&mut a[level.clone()], &mut b[level.clone()], &mut c[level]);
                 for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                    let turned = turn(&[a.clone(), b.clone(), c.clone()]);
-                    [*a, *b, *c] = turned;
+                    let sums = [a.clone() + more_a, b.clone() + more_b, c.clone() + more_c];
+                    [*a, *b, *c] = turn(&sums);
                 }
             }
         }
@@ -203,18 +238,29 @@ impl Slopes {
         }
     }
 
-    /// Adds `ramp[count]` along the row.
-    fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(&self, row: &mut [V], ramp: &[V]) {
-        let Range { start, end } = self.level;
-        let (rising, rest) = row.split_at_mut(start);
+    /// Adds `ramp[count]` along a piece of the row.
+    fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(
+        &self,
+        piece: &mut [V],
+        from: usize,
+        ramp: &[V],
+    ) {
+        let inside = |place: usize| place.saturating_sub(from).min(piece.len());
+        let (start, end) = (inside(self.level.start), inside(self.level.end));
+        let (rising, rest) = piece.split_at_mut(start);
         let (level, falling) = rest.split_at_mut(end - start);
-        self.add_slope(rising, 0, ramp);
-        if let Some(value) = usize::try_from(self.cap).ok().and_then(|cap| ramp.get(cap)) {
+        self.add_slope(rising, from, ramp);
+        if let Some(value) = self.capped(ramp) {
             for sum in level {
                 *sum = sum.clone() + value;
             }
         }
-        self.add_slope(falling, end, ramp);
+        self.add_slope(falling, from + end, ramp);
+    }
+
+    /// What is added where the count is level.
+    fn capped<'r, V>(&self, ramp: &'r [V]) -> Option<&'r V> {
+        usize::try_from(self.cap).ok().and_then(|cap| ramp.get(cap))
     }
 
     fn add_slope<V>(&self, row: &mut [V], from: usize, ramp: &[V])

@@ -112,7 +112,7 @@ impl Pile {
         let last = last_with_contacts(self);
         let size = self.size_of_sweep(last);
         let grid = Grid::new(self.shape(), last, size.planes)?;
-        let planes = Planes::new(&grid, size);
+        let planes = Planes::new(&grid, self.bound_of_sweep(last));
         Ok(ExactSweep {
             pile: self,
             descent: Descent::new(Lines::new(self), grid, planes),

@@ -19,7 +19,12 @@
 //! 7030: five turns stay below 2^63, the sixth would not (6·7031 > 2^15), so carries are due after every fifth. The top
 //! limb is the number over 2^(48(P−1)) less what the lower ones still owe, which is below 2^13, and below 2^16 in the
 //! sums of a turn: P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(48(P−1)), and 2^62 + 2^16 < 2^63. With one plane
-//! nothing is ever carried.
+//! nothing is ever carried. d is the number of changes so far, so there are few planes at the top of a pile and more
+//! further down.
+//!
+//! # Passes that wait
+//! Between carries each plane is for itself. Passes wait until carries are due or a number is asked for; then each plane
+//! takes all of them in turn, while it is in the cache, and planes are shared out to threads.
 
 use alloc::vec::Vec;
 
@@ -40,6 +45,10 @@ const LIMB: u32 = 48;
 /// How many turns the lower limbs bear between carries.
 const TURNS: u32 = 5;
 
+/// From so many planes for each thread on, a thread takes all passes that wait on one plane, which stays in its cache,
+/// before it takes the next plane. Fewer are shared out by rows.
+const PLANES_A_THREAD: usize = 3;
+
 /// How wide the numbers of a sweep are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Size {
@@ -50,7 +59,7 @@ pub(crate) struct Size {
 }
 
 impl Size {
-    /// For a sweep with so many changes of sign, from a bound no less than 2√3·B·D ([`bound`]).
+    /// After so many changes of sign, from a bound no less than 2√3·B·D ([`bound`]).
     pub(crate) fn new(bound: &BigInt, changes: usize) -> Self {
         let turned = bound * num_traits::pow(BigInt::from(3), changes.saturating_sub(1));
         let bits = turned.bits();
@@ -78,16 +87,38 @@ pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: 
 /// The numbers of a layer, plane by plane.
 #[derive(Clone, Debug)]
 pub(crate) struct Planes {
-    planes: Vec<Cells<i64>>,
-    /// Turns since the last carry.
-    turns: u32,
+    /// The planes that the numbers fill by now, the lowest first; further down they are more.
+    cells: Vec<Cells<i64>>,
+    /// No less than 2√3·B·D.
+    bound: BigInt,
+    /// Passes that were asked for and not made yet.
+    waiting: Vec<(Pass, [BigInt; 3])>,
+    /// Passes since the last carry, those that wait among them.
+    passes: u32,
+    /// Changes of sign so far.
+    changes: usize,
 }
 
 impl Planes {
-    pub(crate) fn new(grid: &Grid<'_>, size: Size) -> Self {
+    /// For a sweep whose numbers are within a bound no less than 2√3·B·D ([`bound`]).
+    pub(crate) fn new(grid: &Grid<'_>, bound: BigInt) -> Self {
+        let size = Size::new(&bound, 0);
         Self {
-            planes: alloc::vec![Cells::new(grid, &0); size.planes],
-            turns: 0,
+            cells: alloc::vec![Cells::new(grid, &0); size.planes],
+            bound,
+            waiting: Vec::new(),
+            passes: 0,
+            changes: 0,
+        }
+    }
+
+    /// Makes room for what the passes that wait lead to. What was the top limb is a lower one then, and carries.
+    fn grow(&mut self, grid: &Grid<'_>) {
+        let planes = Size::new(&self.bound, self.changes).planes;
+        if planes > self.cells.len() {
+            self.cells.resize(planes, Cells::new(grid, &0));
+            self.carry();
+            self.passes = u32::try_from(self.waiting.len()).unwrap_or(TURNS);
         }
     }
 
@@ -95,11 +126,11 @@ impl Planes {
     fn carry(&mut self) {
         /// Numbers of which two planes stay in the nearest cache.
         const PIECE: usize = 1 << 10;
-        self.turns = 0;
+        self.passes = 0;
         let mut pieces: Vec<Vec<&mut [i64]>> = Vec::new();
-        let cells = self.planes.first().map_or(0, |plane| plane.0[0].len());
-        pieces.resize_with(3 * cells.div_ceil(PIECE), Vec::new);
-        for Cells(directions) in &mut self.planes {
+        let each = self.cells.first().map_or(0, |plane| plane.0[0].len());
+        pieces.resize_with(3 * each.div_ceil(PIECE), Vec::new);
+        for Cells(directions) in &mut self.cells {
             let numbers = directions
                 .iter_mut()
                 .flat_map(|cells| cells.chunks_mut(PIECE));
@@ -122,8 +153,8 @@ impl Planes {
 
     /// The same for the three lines of one sphere.
     fn carry_at(&mut self, cells: [usize; 3]) {
-        for p in 1..self.planes.len() {
-            let (lower, upper) = self.planes.split_at_mut(p);
+        for p in 1..self.cells.len() {
+            let (lower, upper) = self.cells.split_at_mut(p);
             let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
                 return;
             };
@@ -141,7 +172,7 @@ impl Planes {
         self.carry();
         let mut least: Option<(Vec<i64>, [i128; 2], Direction)> = None;
         for row in pass.region.rows(pass.k) {
-            let top_down = self.planes.iter().rev();
+            let top_down = self.cells.iter().rev();
             let rows: Vec<[&[i64]; 3]> =
                 top_down.map(|plane| plane.row(grid, pass, row.j)).collect();
             for (n, i) in row.i.enumerate() {
@@ -176,31 +207,62 @@ pub(crate) struct Least {
 
 impl Layer<BigRational> for Planes {
     fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[BigInt; 3]) {
-        let planes = self.planes.len();
-        let ramps = Ramps::new(pass, increments, |w, n| limbs(&(w * n), planes));
-        let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
-        parallel::for_each(bands(&mut self.planes, grid, pass), |mut band| {
-            band.add_and_turn(grid, pass, &ramps, tripled_half_turn);
-        });
-        self.turns += 1;
-        if self.turns == TURNS {
+        self.changes = pass.run.index + usize::from(pass.turns);
+        self.waiting.push((*pass, increments.clone()));
+        self.passes += 1;
+        if self.passes == TURNS {
+            self.catch_up(grid);
             self.carry();
         }
+    }
+
+    fn catch_up(&mut self, grid: &Grid<'_>) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        self.grow(grid);
+        let planes = self.cells.len();
+        let waiting = core::mem::take(&mut self.waiting);
+        let waiting = waiting.iter().map(|(pass, increments)| {
+            let ramps = Ramps::new(pass, increments, |w, n| limbs(&(w * n), planes));
+            let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
+            (pass, ramps)
+        });
+        if planes < PLANES_A_THREAD * parallel::threads() {
+            for (pass, ramps) in waiting {
+                parallel::for_each(bands(&mut self.cells, grid, pass), |mut band| {
+                    band.add_and_turn(grid, pass, &ramps, tripled_half_turn);
+                });
+            }
+            return;
+        }
+        let waiting: Vec<_> = waiting.collect();
+        let planes = self.cells.iter_mut().enumerate().collect();
+        parallel::for_each(planes, |(p, plane): (usize, &mut Cells<i64>)| {
+            for (pass, ramps) in &waiting {
+                let mut whole = plane.whole(pass);
+                whole.add_and_turn(grid, pass, &ramps[p..=p], tripled_half_turn);
+            }
+        });
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) {
         let values = values
             .each_ref()
-            .map(|value| limbs(value, self.planes.len()));
-        for (p, plane) in self.planes.iter_mut().enumerate() {
+            .map(|value| limbs(value, self.cells.len()));
+        for (p, plane) in self.cells.iter_mut().enumerate() {
             plane.add_to(cells, &values.each_ref().map(|limbs| limbs[p]));
         }
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
         // Loads on one line may follow each other without a pass between them.
         self.carry_at(cells);
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {
-        let top_down = self.planes.iter().rev();
+        let top_down = self.cells.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
         [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
     }
@@ -208,7 +270,10 @@ impl Layer<BigRational> for Planes {
 
 /// Hands on to the next limb what is beyond [0, 2^48).
 fn carry(x: &mut i64, next: &mut i64) {
-    *next += *x >> LIMB;
+    // x >> 48 rounded down, by way of x + 2^63: vectors of old processors shift no signed numbers.
+    const OFFSET: u64 = 1 << 63;
+    let above = (x.cast_unsigned() ^ OFFSET) >> LIMB;
+    *next += above.cast_signed() - (OFFSET >> LIMB).cast_signed();
     *x &= (1 << LIMB) - 1;
 }
 
@@ -239,13 +304,9 @@ mod tests {
     use crate::lattice::{Dimension, Shape};
 
     fn two_planes(grid: &Grid<'_>) -> Planes {
-        Planes::new(
-            grid,
-            Size {
-                bits: 100,
-                planes: 2,
-            },
-        )
+        let planes = Planes::new(grid, BigInt::from(1) << 100);
+        assert_eq!(planes.cells.len(), 2);
+        planes
     }
 
     /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^48.

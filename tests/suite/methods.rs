@@ -5,7 +5,7 @@ use cannonpile::lattice::{Dimension, Direction, Region, Selection, Site};
 use cannonpile::scalar::{Algebra, FixedRational, Interval, Pair, RealEmbeddable};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Counters, Error, Method, Packing, Pile, Plan, Quantity, Question};
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::Signed;
 
@@ -425,4 +425,64 @@ fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
         assert!(BigUint::from(counted) <= most, "{counted} {name}");
     }
     assert!(counters.passes() > 400);
+}
+
+/// Loads with long denominators, so that numbers have as many limbs as threads share out.
+#[test]
+fn wide_numbers_are_swept_limb_by_limb() {
+    let long = |power: u32, at: Site, pile: Pile| {
+        let load = BigRational::new(1.into(), BigInt::from(10).pow(power));
+        pile.with_load(at, load).unwrap()
+    };
+    let pile = under(Region::hexagon(3, 2).unwrap(), "+-++-+--+-+-+-+");
+    let pile = long(200, Site { i: 0, j: 1, k: 0 }, pile);
+    let pile = long(117, Site { i: 1, j: 0, k: 7 }, pile);
+    let by_sweep = Question {
+        method: Some(Method::Sweep),
+        ..Selection::All.into()
+    };
+    assert!(pile.plan(by_sweep).unwrap().planes > 12);
+    let mut plain = pile.sweep::<BigRational>().unwrap();
+    for k in 0..pile.layers() - 1 {
+        plain.advance(k).unwrap();
+        let mut forces = [(); 3].map(|()| vec![BigRational::default(); plain.spheres().unwrap()]);
+        plain
+            .fill(forces.each_mut().map(Vec::as_mut_slice))
+            .unwrap();
+        // In one go, so that passes wait for each other.
+        let mut engine = pile.exact_sweep().unwrap();
+        engine.advance(k).unwrap();
+        for (place, site) in pile
+            .rows(Selection::Layer(k))
+            .unwrap()
+            .flatten()
+            .enumerate()
+        {
+            let expected = forces.each_ref().map(|forces| forces[place].clone());
+            assert_eq!(engine.passed_on(site).unwrap(), expected, "{site}");
+        }
+    }
+}
+
+/// Numbers outgrow one limb after another; what is asked on the way changes nothing.
+#[test]
+fn numbers_grow_limb_by_limb() {
+    let pile = Pile::under(Region::SITE, Stacking::hcp(160).unwrap()).unwrap();
+    let last = pile.layers() - 2;
+    let mut straight_down = pile.exact_sweep().unwrap();
+    straight_down.advance(last).unwrap();
+    let mut in_steps = pile.exact_sweep().unwrap();
+    for k in [1, 2, 9, 11, 40, 41, 43, 90, 131, last] {
+        in_steps.advance(k).unwrap();
+    }
+    let mut sum = BigRational::default();
+    for site in pile.rows(Selection::Layer(last)).unwrap().flatten() {
+        let forces = straight_down.passed_on(site).unwrap();
+        assert_eq!(in_steps.passed_on(site).unwrap(), forces, "{site}");
+        sum += forces.into_iter().sum::<BigRational>();
+    }
+    // f cosθ of each contact together carry all layers above: f is in mg/(3 cosθ).
+    let floor = pile.shape().base().sites();
+    let above = BigInt::from(pile.spheres() - floor);
+    assert_eq!(sum, BigRational::from_integer(above * 3));
 }
