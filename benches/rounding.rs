@@ -6,8 +6,8 @@
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
 //!
-//! With `-- --stress` it measures the table of `tests/stress` instead, and below it the pile that takes too long for a
-//! test: a change of sign at every one of 1,000 layers, under a hexagon of 40 spheres a side.
+//! With `-- --stress` it measures the tables of `tests/stress` instead, that of a thousand changes of sign in every scalar,
+//! which takes some minutes.
 
 #[path = "../tests/judge/mod.rs"]
 mod judge;
@@ -19,17 +19,12 @@ mod stress;
 use std::env;
 use std::time::Instant;
 
-use cannonpile::Pile;
-use cannonpile::lattice::Selection;
-use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
-use num_rational::BigRational;
-use num_traits::Signed;
 use rounding::numbers;
 use rounding::quantities::Quantity;
 use rounding::random::Random;
 use rounding::tally::Tally;
-use stress::cases::{self, Case};
-use stress::errors::{Worst, distance, unit};
+use stress::cases;
+use stress::deep::Deep;
 use stress::table::{self, Answers};
 
 fn main() {
@@ -66,71 +61,8 @@ fn stress_table(with_deep: bool) {
         print!("{}", rows.unwrap_or_else(|fault| panic!("{fault}")));
     }
     if with_deep {
-        deep(&cases::alternating(40, 1000));
+        print!("\n{}", Deep::measured());
     }
-}
-
-/// The contact forces of some spheres just above the floor, by a sweep in every scalar, against the exact engine: too much
-/// for the rows of the table.
-fn deep(case: &Case) {
-    let (pile, k) = (&case.pile, case.pile.layers() - 2);
-    let mut engine = pile.exact_sweep().expect("room");
-    engine.advance(k).expect("a layer");
-    let sites = pile.rows(Selection::Layer(k)).expect("a layer").flatten();
-    let exact: Sample = sites
-        .enumerate()
-        .step_by(997)
-        .map(|(place, site)| (place, engine.passed_on(site).expect("forces")))
-        .collect();
-    drop(engine);
-    let forces = exact.iter().flat_map(|(_, forces)| forces);
-    let greatest = forces.map(Signed::abs).max().expect("a force");
-    println!(
-        "\n{}: {} contacts above the floor",
-        case.name,
-        3 * exact.len()
-    );
-    let (double, single) = (unit::<f64>(&greatest), unit::<f32>(&greatest));
-    println!(
-        "f64, ulps            {}",
-        swept::<f64>(pile, &exact, &double)
-    );
-    println!(
-        "f32, ulps            {}",
-        swept::<f32>(pile, &exact, &single)
-    );
-    let twice = swept::<DoubleDouble>(pile, &exact, &double).as_power();
-    println!("double-double, ulps  {twice}");
-    let widths = swept::<Interval>(pile, &exact, &double).as_power();
-    println!("interval, ulps       {widths}");
-}
-
-/// Places in a layer, and the exact forces to the spheres below.
-type Sample = Vec<(usize, [BigRational; 3])>;
-
-/// The worst error of a sweep; of intervals, which must hold the exact forces, how far their ends are off.
-fn swept<T: Algebra + RealEmbeddable>(pile: &Pile, exact: &Sample, ulp: &BigRational) -> Worst {
-    let mut sweep = pile.sweep::<T>().expect("room");
-    sweep.advance(pile.layers() - 2).expect("a layer");
-    let spheres = sweep.spheres().expect("few");
-    let mut forces = [(); 3].map(|()| vec![T::from_rational(ulp); spheres]);
-    let [a, b, c] = forces.each_mut().map(Vec::as_mut_slice);
-    sweep.fill([a, b, c]).expect("forces");
-    let mut worst = Worst::none();
-    for (place, exact) in exact {
-        for (forces, exact) in forces.iter().zip(exact) {
-            let force = &forces[*place];
-            if T::EXACTNESS == Exactness::Enclosure {
-                let bounds = force.enclosure();
-                assert!(
-                    bounds.is_none_or(|bounds| bounds.contains(exact)),
-                    "{exact}"
-                );
-            }
-            worst.meet(distance(force, exact).map(|error| error / ulp));
-        }
-    }
-    worst
 }
 
 type Source = fn(&mut Random, u64) -> Tally;

@@ -5,12 +5,14 @@
 //! | `cases` | the piles |
 //! | `forces` | what is asked of each, in any scalar |
 //! | `errors` | errors in units in the last place, exactly |
+//! | `deep`, `deep.md` | a thousand changes of sign, apart because they take long; as they were measured last |
 //! | `table` | the table and what every row must keep |
 //! | `table.md` | the table as it was measured last |
 
 #![allow(dead_code, reason = "tests and bench use a part each")]
 
 pub(crate) mod cases;
+pub(crate) mod deep;
 pub(crate) mod errors;
 pub(crate) mod forces;
 pub(crate) mod table;

@@ -33,6 +33,19 @@ fn errors_at_the_limits_are_those_of_the_table() {
     assert_eq!(measured.lines().count(), table.lines().count());
 }
 
+/// The other scalars take minutes: the bench `rounding` measures them, with `-- --stress`. Without optimization even the
+/// exact forces do.
+#[cfg(not(debug_assertions))]
+#[test]
+fn errors_after_a_thousand_changes_of_sign_are_those_of_the_table() {
+    let mut deep = crate::stress::deep::Deep::new();
+    deep.measure_floats();
+    let table = include_str!("../stress/deep.md");
+    for line in deep.to_string().lines() {
+        assert!(table.contains(line), "not in tests/stress/deep.md: {line}");
+    }
+}
+
 /// Single precision passed off as double, and intervals that are a float too short.
 #[test]
 fn wrong_answers_break_the_table() {
