@@ -145,9 +145,9 @@ pub enum Error {
     /// A row that has no spheres with others below them.
     NoSuchRow {
         /// The layer asked for.
-        k: usize,
+        k: i128,
         /// The row asked for.
-        j: usize,
+        j: i128,
     },
     /// A slice that does not have one place for each force.
     Length {

@@ -1,20 +1,21 @@
 //! All contact forces of a straight pile, written into slices.
 //!
-//! A straight pile under one sphere has few distinct forces: along a line they are 1, 2, 3, … increments. They are
-//! rounded once, into a table, and the rows of the pile are pieces of it: along a row of layer k, α runs down the table
-//! from k−j+1 increments to one, β runs up it, and γ stays at j+1. Nothing else is computed and nothing allocated, and
-//! every row can be filled by itself.
+//! A straight pile has few distinct forces: along a line they are 1, 2, 3, … increments. They are rounded once, into a
+//! table, and the rows of the pile are pieces of it: under one sphere, along a row of layer k, α runs down the table from
+//! k−j+1 increments to one, β runs up it, and γ stays at j+1; under any other top each direction rises, is level, and
+//! falls. Nothing else is computed and nothing allocated, and every row can be filled by itself.
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use num_rational::BigRational;
 
-use crate::lattice::{Dimension, Direction};
+use crate::lattice::{Along, Dimension, Direction, Region, Shape, Slopes};
 use crate::scalar::{NearestFloat, Ring, Surd};
+use crate::stacking::Sign;
 use crate::{Error, Packing, Pile, parallel};
 
-/// The distinct contact forces of a straight pile under one sphere, by direction: what 1, 2, 3, … increments come to.
+/// The distinct contact forces of a straight pile, by direction: what 1, 2, 3, … increments come to.
 ///
 /// `V` is `f64` or `f32`, each the float nearest to the exact force in SI ([`nearest`](Self::nearest)), or `i64` or `i32`,
 /// the exact multiples of f₀ on an equilateral base ([`multiples`](Self::multiples)).
@@ -43,13 +44,16 @@ use crate::{Error, Packing, Pile, parallel};
 pub struct Strengths<V> {
     /// By direction; the n-th is that of n+1 increments. As long as there are layers above the floor.
     tables: [Vec<V>; 3],
+    shape: Shape,
+    /// How many spheres lie above each of these layers and the floor.
+    above: Vec<u128>,
 }
 
 impl<F: NearestFloat> Strengths<F> {
     /// The magnitudes in the units of a packing, each rounded once, to the nearest.
     ///
     /// # Errors
-    /// [`Error::NotStraight`] for a pile that is not the paper's: straight, under one sphere, of spheres that weigh mg;
+    /// [`Error::NotStraight`] for a pile with changes of sign or loads, of spheres that do not weigh mg, or of discs;
     /// [`Error::TooLarge`] for more layers than memory could hold the contacts of; [`Error::Overflow`] for a force beyond
     /// the floats.
     ///
@@ -110,7 +114,7 @@ impl<V> Strengths<V> {
         pile: &Pile,
         value: impl Fn(&BigRational) -> Result<V, Error>,
     ) -> Result<Self, Error> {
-        if !pile.is_paper_pile() || pile.dimension() == Dimension::Two {
+        if !pile.is_straight_and_even() || pile.dimension() == Dimension::Two {
             return Err(Error::NotStraight);
         }
         if pile.layers() > MOST_LAYERS.into() {
@@ -129,8 +133,18 @@ impl<V> Strengths<V> {
                 .collect::<Result<Vec<V>, Error>>()
         };
         let [alpha, beta, gamma] = Direction::ALL.map(table);
+        let shape = pile.shape().clone();
+        let mut sum = 0_u128;
+        let above = (0..pile.layers()).map(|k| {
+            let above = sum;
+            let spheres = shape.layer(k).map_or(0_u32.into(), |layer| layer.sites());
+            sum = sum.saturating_add(u128::try_from(spheres).unwrap_or(u128::MAX));
+            above
+        });
         Ok(Self {
+            above: above.collect(),
             tables: [alpha?, beta?, gamma?],
+            shape,
         })
     }
 }
@@ -141,9 +155,7 @@ impl<V: Copy + Send + Sync> Strengths<V> {
     /// # Errors
     /// [`Error::TooLarge`] if no memory could hold as many.
     pub fn spheres(&self) -> Result<usize, Error> {
-        let layers = self.tables[0].len();
-        let spheres = |n: u128| n * (n + 1) * (n + 2) / 6;
-        let needed = spheres(layers as u128);
+        let needed = self.above.last().copied().unwrap_or(0);
         usize::try_from(needed).map_err(|_| Error::TooLarge {
             quantity: "all contact forces",
             needed: needed.into(),
@@ -159,22 +171,32 @@ impl<V: Copy + Send + Sync> Strengths<V> {
     ///
     /// # Examples
     /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::stacking::Stacking;
     /// use cannonpile::{Pile, Strengths};
     ///
     /// let strengths = Strengths::<i32>::multiples(&Pile::triangular(10)?)?;
     /// let [mut alpha, mut beta, mut gamma] = [[0; 4]; 3];
     /// strengths.fill_row(8, 5, [&mut alpha, &mut beta, &mut gamma])?;
     /// assert_eq!((alpha, beta, gamma), ([4, 3, 2, 1], [1, 2, 3, 4], [6; 4]));
+    ///
+    /// // Below the middle of a wide top all lines are as long.
+    /// let wide = Pile::under(Region::hexagon(4, 4)?, Stacking::fcc(5)?)?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0; 9]; 3];
+    /// Strengths::<i32>::multiples(&wide)?.fill_row(2, 0, [&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!((alpha, beta), ([3, 3, 3, 3, 3, 3, 3, 2, 1], [1, 2, 3, 3, 3, 3, 3, 3, 3]));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn fill_row(&self, k: usize, j: usize, slices: [&mut [V]; 3]) -> Result<(), Error> {
-        if k >= self.tables[0].len() || j > k {
-            return Err(Error::NoSuchRow { k, j });
-        }
+    pub fn fill_row(&self, k: i128, j: i128, slices: [&mut [V]; 3]) -> Result<(), Error> {
+        let layer = self.layer_above_the_floor(k);
+        let layer = layer.filter(|layer| layer.y().contains(&j));
+        let layer = layer.ok_or(Error::NoSuchRow { k, j })?;
+        let row = layer.row(j);
+        let spheres = usize::try_from(row.end - row.start).unwrap_or(usize::MAX);
         for slice in &slices {
-            check_length(slice.len(), k - j + 1)?;
+            check_length(slice.len(), spheres)?;
         }
-        self.row(k, j, slices);
+        self.row(k, j, &layer, slices);
         Ok(())
     }
 
@@ -193,12 +215,12 @@ impl<V: Copy + Send + Sync> Strengths<V> {
     /// assert_eq!(alpha, [3, 2, 1, 2, 1, 1]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn fill_layer(&self, k: usize, slices: [&mut [V]; 3]) -> Result<(), Error> {
-        if k >= self.tables[0].len() {
-            return Err(Error::NoSuchRow { k, j: 0 });
-        }
+    pub fn fill_layer(&self, k: i128, slices: [&mut [V]; 3]) -> Result<(), Error> {
+        let layer = self.layer_above_the_floor(k);
+        let layer = layer.ok_or(Error::NoSuchRow { k, j: 0 })?;
+        let spheres = usize::try_from(layer.sites()).unwrap_or(usize::MAX);
         for slice in &slices {
-            check_length(slice.len(), (k + 1) * (k + 2) / 2)?;
+            check_length(slice.len(), spheres)?;
         }
         self.layer(k, slices);
         Ok(())
@@ -238,21 +260,47 @@ impl<V: Copy + Send + Sync> Strengths<V> {
         Ok(())
     }
 
+    fn layer_above_the_floor(&self, k: i128) -> Option<Region> {
+        let above = k < self.shape.layers() - 1;
+        self.shape.layer(k).ok().filter(|_| above)
+    }
+
+    /// How many spheres these layers have; they fit in memory.
+    fn spheres_in(&self, layers: &Range<usize>) -> usize {
+        let above = |k: usize| self.above.get(k).copied().unwrap_or(0);
+        usize::try_from(above(layers.end) - above(layers.start)).unwrap_or(0)
+    }
+
+    /// Two parts of some layers with about as many spheres, where that is worth a thread.
+    fn halves(&self, layers: &Range<usize>) -> Option<(Range<usize>, Range<usize>)> {
+        const WORTH_A_THREAD: usize = 1 << 15;
+        let spheres = self.spheres_in(layers);
+        if !parallel::HAS_THREADS || spheres < 2 * WORTH_A_THREAD {
+            return None;
+        }
+        let inside = layers.start + 1..layers.end;
+        let middle = inside
+            .clone()
+            .find(|k| 2 * self.spheres_in(&(layers.start..*k)) >= spheres)?;
+        Some((layers.start..middle, middle..layers.end))
+    }
+
     /// Some layers, in two halves at once where there are threads.
     fn layers(&self, layers: Range<usize>, mut slices: [&mut [V]; 3]) {
-        let Some((upper, lower)) = halves(&layers) else {
+        let Some((upper, lower)) = self.halves(&layers) else {
             for k in layers {
-                self.layer(k, first(&mut slices, spheres_in(&(k..k + 1))));
+                let spheres = self.spheres_in(&(k..k + 1));
+                self.layer(k as i128, first(&mut slices, spheres));
             }
             return;
         };
-        let above = first(&mut slices, spheres_in(&upper));
+        let above = first(&mut slices, self.spheres_in(&upper));
         parallel::join(|| self.layers(upper, above), || self.layers(lower, slices));
     }
 
     fn layers_interleaved(&self, layers: Range<usize>, forces: &mut [[V; 3]]) {
-        if let Some((upper, lower)) = halves(&layers) {
-            let (above, below) = forces.split_at_mut(spheres_in(&upper));
+        if let Some((upper, lower)) = self.halves(&layers) {
+            let (above, below) = forces.split_at_mut(self.spheres_in(&upper));
             parallel::join(
                 || self.layers_interleaved(upper, above),
                 || self.layers_interleaved(lower, below),
@@ -262,6 +310,10 @@ impl<V: Copy + Send + Sync> Strengths<V> {
         let [alpha, beta, gamma] = &self.tables;
         let mut rest = forces;
         for k in layers {
+            if !self.shape.is_pyramid() {
+                rest = self.layer_interleaved(k as i128, rest);
+                continue;
+            }
             for (j, c) in gamma[..=k].iter().enumerate() {
                 let n = k - j + 1;
                 let row = rest.split_off_mut(..n).unwrap_or_default();
@@ -273,45 +325,94 @@ impl<V: Copy + Send + Sync> Strengths<V> {
         }
     }
 
-    fn layer(&self, k: usize, slices: [&mut [V]; 3]) {
+    /// A layer of any straight pile; returns what lies below it.
+    fn layer_interleaved<'f>(&self, k: i128, forces: &'f mut [[V; 3]]) -> &'f mut [[V; 3]] {
+        let mut rest = forces;
+        let Some(region) = self.layer_above_the_floor(k) else {
+            return rest;
+        };
+        for j in region.y() {
+            let counts = self.counts(k, j, &region);
+            let n = counts.iter().map(|(_, n)| *n).max().unwrap_or(0);
+            let row = rest.split_off_mut(..n).unwrap_or_default();
+            for ((direction, table), (slopes, n)) in self.tables.iter().enumerate().zip(counts) {
+                let values = in_turn(&slopes.along(0..n, table), n);
+                for (force, value) in row.iter_mut().zip(values) {
+                    force[direction] = value;
+                }
+            }
+        }
+        rest
+    }
+
+    fn layer(&self, k: i128, slices: [&mut [V]; 3]) {
+        let Some(region) = self.layer_above_the_floor(k) else {
+            return;
+        };
         let mut rest = slices;
-        for j in 0..=k {
-            self.row(k, j, first(&mut rest, k - j + 1));
+        for j in region.y() {
+            let row = region.row(j);
+            let spheres = usize::try_from(row.end - row.start).unwrap_or(0);
+            self.row(k, j, &region, first(&mut rest, spheres));
         }
     }
 
-    fn row(&self, k: usize, j: usize, [a, b, c]: [&mut [V]; 3]) {
+    fn row(&self, k: i128, j: i128, region: &Region, [a, b, c]: [&mut [V]; 3]) {
+        if !self.shape.is_pyramid() {
+            let rows = [a, b, c].into_iter().zip(&self.tables);
+            for ((row, table), (slopes, n)) in rows.zip(self.counts(k, j, region)) {
+                write(&slopes.along(0..n, table), row);
+            }
+            return;
+        }
         let [alpha, beta, gamma] = &self.tables;
-        let n = k - j + 1;
+        let n = a.len();
         // In one loop: two of them, or a copy, take half as long again on rows this short.
         let values = alpha[..n].iter().rev().zip(&beta[..n]);
         for ((a, b), (down, up)) in a.iter_mut().zip(b).zip(values) {
             (*a, *b) = (*down, *up);
         }
-        for force in c {
-            *force = gamma[j];
+        let same = usize::try_from(j).ok().and_then(|j| gamma.get(j));
+        if let Some(same) = same {
+            for force in c {
+                *force = *same;
+            }
         }
     }
-}
 
-/// How many spheres these layers have.
-fn spheres_in(layers: &Range<usize>) -> usize {
-    let down_to = |n: usize| n * (n + 1) * (n + 2) / 6;
-    down_to(layers.end) - down_to(layers.start)
-}
-
-/// Two parts of some layers with about as many spheres, where that is worth a thread.
-fn halves(layers: &Range<usize>) -> Option<(Range<usize>, Range<usize>)> {
-    const WORTH_A_THREAD: usize = 1 << 15;
-    let spheres = spheres_in(layers);
-    if !parallel::HAS_THREADS || spheres < 2 * WORTH_A_THREAD {
-        return None;
+    /// How many spheres lie above those of a row, by direction, and how long the row is.
+    fn counts(&self, k: i128, j: i128, region: &Region) -> [(Slopes, usize); 3] {
+        let row = region.row(j);
+        let spheres = usize::try_from(row.end - row.start).unwrap_or(0);
+        let sign = self.shape.sign_below(k).unwrap_or(Sign::Plus);
+        let counts = region.row_counts(j, sign, k);
+        counts.map(|count| (Slopes::new(count, row.start, spheres), spheres))
     }
-    let inside = layers.start + 1..layers.end;
-    let middle = inside
-        .clone()
-        .find(|k| 2 * spheres_in(&(layers.start..*k)) >= spheres)?;
-    Some((layers.start..middle, middle..layers.end))
+}
+
+/// The values along a row of `n` places.
+fn in_turn<'v, V: Copy>(along: &Along<'v, V>, n: usize) -> impl Iterator<Item = V> + use<'v, V> {
+    let Along { up, level, down } = *along;
+    let same = n - up.len() - down.len();
+    let level = level
+        .into_iter()
+        .flat_map(move |value| core::iter::repeat_n(value, same));
+    up.iter().chain(level).chain(down.iter().rev()).copied()
+}
+
+fn write<V: Copy>(along: &Along<'_, V>, row: &mut [V]) {
+    let Along { up, level, down } = *along;
+    let (rising, rest) = row.split_at_mut(up.len());
+    let (same, falling) = rest.split_at_mut(rest.len() - down.len());
+    for (force, value) in rising.iter_mut().zip(up) {
+        *force = *value;
+    }
+    if let Some(value) = level {
+        same.fill(*value);
+    }
+    for (force, value) in falling.iter_mut().zip(down.iter().rev()) {
+        *force = *value;
+    }
 }
 
 /// The first `n` of what is left of each slice, which is left without them; lengths have been checked.

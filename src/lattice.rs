@@ -22,7 +22,7 @@ mod shape;
 mod symmetry;
 
 pub use region::Region;
-pub(crate) use region::Trapezoid;
+pub(crate) use region::{Along, Slopes, Trapezoid};
 pub use rows::{Row, Rows, Selection, Sites};
 pub use shape::Shape;
 pub(crate) use shape::Stretch;

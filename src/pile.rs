@@ -477,8 +477,13 @@ impl Pile {
 
     /// A straight pile under one sphere whose spheres all weigh mg: the one that the paper solved, of any sin φ.
     pub(crate) fn is_paper_pile(&self) -> bool {
+        self.shape.is_straight_under_one_sphere() && self.is_straight_and_even()
+    }
+
+    /// A straight pile whose spheres all weigh mg, on any region.
+    pub(crate) fn is_straight_and_even(&self) -> bool {
         let loading = &self.loading;
-        self.shape.is_straight_under_one_sphere()
+        self.shape.stacking().is_straight()
             && !loading.is_weightless()
             && loading.extras().next().is_none()
     }

@@ -107,7 +107,7 @@ impl Error {
                 "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
             ),
             Self::NotStraight => f.write_str(
-                "only a straight pile of spheres under one sphere, all of weight mg, has its forces in a table: use Statics",
+                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Statics",
             ),
             Self::NoSuchMethod { method } => write!(
                 f,
@@ -125,7 +125,7 @@ impl Error {
             ),
             Self::NoSuchRow { k, j } => write!(
                 f,
-                "no row j={j} of layer k={k} lies above the floor: j must be at most k, and k less than the bottom layer"
+                "no row j={j} of layer k={k} lies above the floor: ask for a row of the pile (Pile::rows), not of the bottom layer"
             ),
             Self::Length { needed, given } => {
                 write!(f, "a slice of {given} places for {needed} forces: make it as long")

@@ -2,7 +2,7 @@
 
 mod lines;
 
-pub(crate) use lines::Trapezoid;
+pub(crate) use lines::{Along, Slopes, Trapezoid};
 
 use alloc::boxed::Box;
 use core::fmt;

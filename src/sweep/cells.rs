@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
 use super::{Grid, Layer, Pass};
-use crate::lattice::Trapezoid;
+use crate::lattice::{Along, Slopes};
 use crate::parallel;
 use crate::scalar::{Algebra, Ring};
 use crate::transfer::turn_numerators;
@@ -164,8 +164,9 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             });
             let counts = pass.region.row_counts(j, pass.run.sign, steps);
             let [on_a, on_b, on_c] = counts.map(|count| Slopes::new(count, i.start, n));
-            let start = on_a.level.start.max(on_b.level.start).max(on_c.level.start);
-            let end = on_a.level.end.min(on_b.level.end).min(on_c.level.end);
+            let levels = [&on_a, &on_b, &on_c].map(Slopes::level);
+            let start = levels.iter().fold(0, |start, level| start.max(level.start));
+            let end = levels.iter().fold(n, |end, level| end.min(level.end));
             let level = start..end.max(start);
             for ([alpha, beta, gamma], Ramps([ramp_a, ramp_b, ramp_c])) in
                 self.planes.iter_mut().zip(ramps)
@@ -173,32 +174,32 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
                 let [a, b, c] = places.clone();
                 let (a, b, c) = (&mut alpha[a], &mut beta[b], &mut gamma[c]);
                 if !pass.turns {
-                    on_a.add(a, 0, ramp_a);
-                    on_b.add(b, 0, ramp_b);
-                    on_c.add(c, 0, ramp_c);
+                    add(a, 0, &on_a, ramp_a);
+                    add(b, 0, &on_b, ramp_b);
+                    add(c, 0, &on_c, ramp_c);
                     continue;
                 }
                 for piece in [0..level.start, level.end..n] {
                     let start = piece.start;
                     let (a, b, c) = (&mut a[piece.clone()], &mut b[piece.clone()], &mut c[piece]);
-                    on_a.add(a, start, ramp_a);
-                    on_b.add(b, start, ramp_b);
-                    on_c.add(c, start, ramp_c);
+                    add(a, start, &on_a, ramp_a);
+                    add(b, start, &on_b, ramp_b);
+                    add(c, start, &on_c, ramp_c);
                     for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
                         let turned = turn(&[a.clone(), b.clone(), c.clone()]);
                         [*a, *b, *c] = turned;
                     }
                 }
                 // Where no count changes, most of a row, all in one go.
-                let capped = (
-                    on_a.capped(ramp_a),
-                    on_b.capped(ramp_b),
-                    on_c.capped(ramp_c),
+                let level = level.clone();
+                let more = (
+                    on_a.along(level.clone(), ramp_a).level,
+                    on_b.along(level.clone(), ramp_b).level,
+                    on_c.along(level.clone(), ramp_c).level,
                 );
-                let (Some(more_a), Some(more_b), Some(more_c)) = capped else {
+                let (Some(more_a), Some(more_b), Some(more_c)) = more else {
                     continue;
                 };
-                let level = level.clone();
                 let (a, b, c) = (&mut a[level.clone()], &mut b[level.clone()], &mut c[level]);
                 for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
                     let sums = [a.clone() + more_a, b.clone() + more_b, c.clone() + more_c];
@@ -209,71 +210,26 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     }
 }
 
-/// How the count of spheres above runs along a row: rising, level, falling.
-struct Slopes {
-    cap: i64,
-    /// Places along the row where the count would be zero.
-    rises: i64,
-    falls: i64,
-    /// Where it has risen to the cap, and where it leaves it.
-    level: Range<usize>,
-}
-
-impl Slopes {
-    /// Of a row of `n` spheres that begins at `start`; it fits in memory, and so do all counts.
-    fn new(count: Trapezoid, start: i128, n: usize) -> Self {
-        const FAR: i64 = i64::MAX / 4;
-        let near = |i: i128| i64::try_from(i).unwrap_or(FAR).clamp(-FAR, FAR);
-        let cap = near(count.cap);
-        let rises = count.rises.map_or(-FAR, |from| near(from - start));
-        let falls = count.falls.map_or(FAR, |until| near(until - start));
-        let inside = |place: i64| usize::try_from(place.max(0)).map_or(n, |place| place.min(n));
-        let rise = inside(rises + cap);
-        let fall = inside(falls - cap + 1).max(rise);
-        Self {
-            cap,
-            rises,
-            falls,
-            level: rise..fall,
+/// Adds to a piece of a row, from a place on, what its counts come to.
+fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(
+    piece: &mut [V],
+    from: usize,
+    counts: &Slopes,
+    ramp: &[V],
+) {
+    let Along { up, level, down } = counts.along(from..from + piece.len(), ramp);
+    let (rising, rest) = piece.split_at_mut(up.len());
+    let (same, falling) = rest.split_at_mut(rest.len() - down.len());
+    for (sum, value) in rising.iter_mut().zip(up) {
+        *sum = sum.clone() + value;
+    }
+    if let Some(value) = level {
+        for sum in same {
+            *sum = sum.clone() + value;
         }
     }
-
-    /// Adds `ramp[count]` along a piece of the row.
-    fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(
-        &self,
-        piece: &mut [V],
-        from: usize,
-        ramp: &[V],
-    ) {
-        let inside = |place: usize| place.saturating_sub(from).min(piece.len());
-        let (start, end) = (inside(self.level.start), inside(self.level.end));
-        let (rising, rest) = piece.split_at_mut(start);
-        let (level, falling) = rest.split_at_mut(end - start);
-        self.add_slope(rising, from, ramp);
-        if let Some(value) = self.capped(ramp) {
-            for sum in level {
-                *sum = sum.clone() + value;
-            }
-        }
-        self.add_slope(falling, from + end, ramp);
-    }
-
-    /// What is added where the count is level.
-    fn capped<'r, V>(&self, ramp: &'r [V]) -> Option<&'r V> {
-        usize::try_from(self.cap).ok().and_then(|cap| ramp.get(cap))
-    }
-
-    fn add_slope<V>(&self, row: &mut [V], from: usize, ramp: &[V])
-    where
-        V: Clone + for<'a> Add<&'a V, Output = V>,
-    {
-        let from = i64::try_from(from).unwrap_or(0);
-        for (sum, place) in row.iter_mut().zip(from..) {
-            let count = self.cap.min(place - self.rises).min(self.falls - place);
-            if let Some(value) = usize::try_from(count).ok().and_then(|n| ramp.get(n)) {
-                *sum = sum.clone() + value;
-            }
-        }
+    for (sum, value) in falling.iter_mut().zip(down.iter().rev()) {
+        *sum = sum.clone() + value;
     }
 }
 

@@ -191,7 +191,7 @@ fn filled_as<F: Float>(
     for j in 0..=k {
         let mut row = [(); 3].map(|()| vec![F::zero(); k - j + 1]);
         let [alpha, beta, gamma] = row.each_mut().map(Vec::as_mut_slice);
-        strengths.fill_row(k, j, [alpha, beta, gamma])?;
+        strengths.fill_row(k as i128, j as i128, [alpha, beta, gamma])?;
         let [alpha, _, gamma] = row;
         if j == 0 {
             rounded = alpha;

@@ -2,6 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::scene::parse;
 use cannonpile::{Error, Packing, Pile, Strengths};
 use num_rational::BigRational;
 
@@ -55,15 +56,13 @@ fn multiples_row_by_row_and_layer_by_layer() {
         let n = size((k + 1) * (k + 2) / 2);
         let mut layer = [(); 3].map(|()| vec![0; n]);
         let [a, b, c] = layer.each_mut().map(Vec::as_mut_slice);
-        strengths.fill_layer(size(k), [a, b, c]).expect("lengths");
+        strengths.fill_layer(k, [a, b, c]).expect("lengths");
         let mut begun = 0;
         for (k, j) in rows(12).filter(|(layer, _)| *layer == k) {
             let length = size(k - j + 1);
             let mut row = [(); 3].map(|()| vec![0; length]);
             let [a, b, c] = row.each_mut().map(Vec::as_mut_slice);
-            strengths
-                .fill_row(size(k), size(j), [a, b, c])
-                .expect("lengths");
+            strengths.fill_row(k, j, [a, b, c]).expect("lengths");
             for (direction, row) in Direction::ALL.into_iter().zip(&row) {
                 assert_eq!(row[..], layer[direction.index()][begun..begun + length]);
                 for (i, force) in (0..).zip(row) {
@@ -86,10 +85,6 @@ fn what_has_no_table_is_refused() {
     let straight = Pile::triangular(5).expect("a pile");
     let others = [
         Pile::discs(5),
-        Pile::under(
-            Region::hexagon(2, 2).expect("a region"),
-            "+++".parse().expect("signs"),
-        ),
         Pile::under(Region::SITE, "+-".parse().expect("signs")),
         straight.clone().with_load(Site::APEX, three()),
         Ok(straight.clone().weightless()),
@@ -125,4 +120,67 @@ fn what_has_no_table_is_refused() {
     assert!(strengths.fill_interleaved(&mut [[0; 3]; 19]).is_err());
     assert!(strengths.fill([&mut a, &mut b, &mut c]).is_err());
     assert!(strengths.fill_layer(1, [&mut a, &mut b, &mut c]).is_ok());
+}
+
+/// Under any top, up from any base, whichever way the layers lean.
+#[test]
+fn straight_piles_of_any_shape() {
+    let region = |text: &str| parse::region(text).expect("a region");
+    let signs = |text: &str| text.parse().expect("signs");
+    let mut met = 0;
+    for (top, leaning) in [
+        ("hexagon:1", "----"),
+        ("hexagon:1", "+++++"),
+        ("hexagon:3,2", "+++"),
+        ("hexagon:4", "------"),
+        ("triangle:3", "+++++"),
+        ("triangle:3", "-----"),
+        ("region:-3..2,0..1,-2..3", "++++"),
+        ("region:0..9,0..0,0..9", "---"),
+    ] {
+        let pile = Pile::under(region(top), signs(leaning)).expect("a pile");
+        met += check_shape(&pile);
+    }
+    for (base, leaning) in [("hexagon:5,4", "+++"), ("triangle:6", "+++++")] {
+        let pile = Pile::on(region(base), signs(leaning)).expect("a pile");
+        met += check_shape(&pile);
+    }
+    assert!(met > 400, "{met}");
+}
+
+/// Rows, layers and the whole against single questions; how many spheres there are.
+fn check_shape(pile: &Pile) -> usize {
+    let statics = pile.statics::<BigRational>();
+    let strengths = Strengths::<i64>::multiples(pile).expect("integers");
+    let spheres = strengths.spheres().expect("few");
+    let mut whole = [(); 3].map(|()| vec![0; spheres]);
+    let slices = whole.each_mut().map(Vec::as_mut_slice);
+    strengths.fill(slices).expect("lengths");
+    let mut three = vec![[0; 3]; spheres];
+    strengths.fill_interleaved(&mut three).expect("lengths");
+    let mut place = 0;
+    for row in pile.rows(Selection::All).expect("rows").off_the_floor() {
+        let (k, j) = (row.k, row.j);
+        let mut alone = [(); 3].map(|()| vec![0; size(row.i.end - row.i.start)]);
+        let slices = alone.each_mut().map(Vec::as_mut_slice);
+        strengths.fill_row(k, j, slices).expect("lengths");
+        for (n, i) in row.i.enumerate() {
+            for direction in Direction::ALL {
+                let site = Site { i, j, k };
+                let asked = statics.contact(site, direction).expect("a contact");
+                let line = direction.index();
+                let found = [alone[line][n], whole[line][place], three[place][line]];
+                assert_eq!(
+                    found.map(|force| BigRational::from_integer(force.into())),
+                    [(); 3].map(|()| asked.clone()),
+                    "{site} {direction}"
+                );
+            }
+            place += 1;
+        }
+        let beside = strengths.fill_row(k, j + 100, [&mut [], &mut [], &mut []]);
+        assert_eq!(beside, Err(Error::NoSuchRow { k, j: j + 100 }));
+    }
+    assert_eq!(place, spheres);
+    spheres
 }

@@ -1,5 +1,7 @@
 //! How many spheres lie on the lines above a site, within a run.
 
+use core::ops::Range;
+
 use super::Region;
 use crate::lattice::count;
 use crate::stacking::Sign;
@@ -100,9 +102,91 @@ impl Trapezoid {
     }
 }
 
+/// A count along a row: it rises by one from place to place, then it is level, then it falls by one.
+pub(crate) struct Slopes {
+    cap: i64,
+    /// Places along the row where the count would be zero.
+    rises: i64,
+    falls: i64,
+    level: Range<usize>,
+}
+
+/// Values by count, along a piece of a row.
+pub(crate) struct Along<'v, V> {
+    /// Where the count rises.
+    pub(crate) up: &'v [V],
+    /// Between the slopes; none if there is nothing between them.
+    pub(crate) level: Option<&'v V>,
+    /// Where it falls: from the last of them to the first.
+    pub(crate) down: &'v [V],
+}
+
+impl Slopes {
+    /// Of a row of `n` places that begins at `start`; it fits in memory, and so do all counts.
+    pub(crate) fn new(count: Trapezoid, start: i128, n: usize) -> Self {
+        const FAR: i64 = i64::MAX / 4;
+        let near = |i: i128| i64::try_from(i).unwrap_or(FAR).clamp(-FAR, FAR);
+        let cap = near(count.cap);
+        let rises = count.rises.map_or(-FAR, |from| near(from - start));
+        let falls = count.falls.map_or(FAR, |until| near(until - start));
+        let inside = |place: i64| usize::try_from(place.max(0)).map_or(n, |place| place.min(n));
+        // It may fall again before it has risen to the cap.
+        let meet = (rises + falls).div_euclid(2) + 1;
+        let rise = inside(meet.min(rises + cap));
+        let fall = inside(falls - cap + 1).max(rise);
+        Self {
+            cap,
+            rises,
+            falls,
+            level: rise..fall,
+        }
+    }
+
+    /// Between the slopes, where the count is the cap.
+    pub(crate) fn level(&self) -> Range<usize> {
+        self.level.clone()
+    }
+
+    /// `values[count]` along a piece of the row; as many as there are places, unless `values` is too short for a count.
+    pub(crate) fn along<'v, V>(&self, piece: Range<usize>, values: &'v [V]) -> Along<'v, V> {
+        let inside = |place: usize| place.clamp(piece.start, piece.end);
+        let (rise, fall) = (inside(self.level.start), inside(self.level.end));
+        // Counts from one place of the row to another, of which the first is the least.
+        let counts = |least: i64, places: usize| {
+            let first = usize::try_from(least).unwrap_or(usize::MAX);
+            let values = values.get(first..).unwrap_or_default();
+            values.get(..places).unwrap_or(values)
+        };
+        let place = |place: usize| i64::try_from(place).unwrap_or(i64::MAX / 4);
+        let cap = usize::try_from(self.cap).ok();
+        Along {
+            up: counts(place(piece.start) - self.rises, rise - piece.start),
+            level: cap.and_then(|cap| values.get(cap)).filter(|_| rise < fall),
+            down: counts(self.falls - place(piece.end) + 1, piece.end - fall),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use alloc::vec::Vec;
+
     use super::*;
+
+    /// The counts along a row, met in two pieces.
+    fn met(slopes: &Slopes, length: usize) -> Vec<i128> {
+        let counts: Vec<i128> = (0..20).collect();
+        let middle = length / 3;
+        let pieces = [0..middle, middle..length].map(|piece| {
+            let places = piece.len();
+            let Along { up, level, down } = slopes.along(piece, &counts);
+            let same = places - up.len() - down.len();
+            let level = level.map_or_else(Vec::new, |count| alloc::vec![*count; same]);
+            let down: Vec<i128> = down.iter().rev().copied().collect();
+            [up, &level, &down].concat()
+        });
+        pieces.concat()
+    }
 
     /// A row at a time or a site at a time, it is the same count.
     #[test]
@@ -120,7 +204,10 @@ mod tests {
             {
                 for row in region.rows(0) {
                     let counts = region.row_counts(row.j, sign, steps);
-                    for i in row.i {
+                    let length = usize::try_from(row.i.end - row.i.start).unwrap();
+                    let along =
+                        counts.map(|count| met(&Slopes::new(count, row.i.start, length), length));
+                    for (place, i) in row.i.enumerate() {
                         let of_site = region.spheres_above(i, row.j, sign, steps);
                         assert_eq!(
                             counts.map(|count| count.at(i)),
@@ -128,6 +215,7 @@ mod tests {
                             "{region} {i} {}",
                             row.j
                         );
+                        assert_eq!(along.each_ref().map(|counts| counts[place]), of_site);
                         compared += 1;
                     }
                 }
