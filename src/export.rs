@@ -25,6 +25,7 @@ mod cell;
 mod explain;
 mod file;
 mod json;
+mod pile;
 mod summary;
 mod table;
 pub mod tables;
@@ -33,11 +34,13 @@ mod text;
 pub use cell::{Cell, NumberFormat};
 pub use explain::Explanation;
 pub use file::write_aside;
+pub use pile::{PileExport, PileFile, PileFormat, Written};
 pub use summary::Summary;
 pub use table::{Column, Table};
 pub use tables::Units;
 
 use std::io;
+use std::path::PathBuf;
 
 use crate::Error;
 
@@ -60,6 +63,13 @@ pub enum WriteError {
     Answer(Error),
     /// The output was.
     Io(io::Error),
+    /// One of several files was.
+    File {
+        /// Where it was to be written.
+        path: PathBuf,
+        /// Why it was not.
+        error: io::Error,
+    },
 }
 
 impl core::fmt::Display for WriteError {
@@ -67,6 +77,7 @@ impl core::fmt::Display for WriteError {
         match self {
             Self::Answer(error) => error.fmt(f),
             Self::Io(error) => error.fmt(f),
+            Self::File { path, error } => write!(f, "{}: {error}", path.display()),
         }
     }
 }
