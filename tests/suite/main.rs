@@ -26,6 +26,8 @@ mod numbering;
 mod one_body;
 mod oracle;
 mod pair;
+#[cfg(feature = "export")]
+mod pile_export;
 mod planted_faults;
 mod polynomial;
 mod rounded;
