@@ -72,13 +72,13 @@ impl<'a, 'p> Centres<'a, 'p> {
         let place = 2 * i + line.shift;
         let mut centre = line.centre;
         self.row = Some(line);
-        let along = match self.rounded.get(&place) {
-            Some(along) => *along,
-            None => {
-                let along = self.rounded(site)?[self.along.min(2)];
-                self.rounded.insert(place, along);
-                along
-            }
+        let along = if let Some(along) = self.rounded.get(&place) {
+            *along
+        } else {
+            let [x, y, _] = self.rounded(site)?;
+            let along = if self.along == 0 { x } else { y };
+            self.rounded.insert(place, along);
+            along
         };
         if let Some(coordinate) = centre.get_mut(self.along) {
             *coordinate = along;

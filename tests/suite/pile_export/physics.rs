@@ -23,7 +23,9 @@ fn judge(
     };
     let gravity = float(&scene.gravity);
     let row = |id: f64| {
-        let found = spheres["id"].iter().position(|other| *other == id);
+        let found = spheres["id"]
+            .iter()
+            .position(|other| other.to_bits() == id.to_bits());
         found.ok_or_else(|| format!("no sphere {id}"))
     };
     let centre = |row: usize| ["x", "y", "z"].map(|axis| spheres[axis][row]);
@@ -69,7 +71,7 @@ fn judge(
     let fixed = spheres["fixed"]
         .iter()
         .enumerate()
-        .filter(|(_, fixed)| **fixed == 1.0);
+        .filter(|(_, fixed)| **fixed > 0.5);
     let fixed: Vec<usize> = fixed.map(|(row, _)| row).collect();
     if fixed.len() != base["normal"].len() {
         return Err("rows of the base".into());
