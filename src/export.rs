@@ -1,8 +1,11 @@
-//! Tables of a pile's forces and spheres, as csv, json and aligned text.
+//! Tables of a pile's forces and spheres, as csv, json and aligned text; whole piles as files.
 //!
 //! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
 //! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
 //! against the extremes of the table before the first byte is written.
+//!
+//! A [`PileExport`] is a whole pile as files for other programs: csv for any, input for LAMMPS and YADE, geometry for
+//! ParaView.
 //!
 //! # Examples
 //! ```

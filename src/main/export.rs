@@ -35,7 +35,7 @@ pub(crate) struct Export {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Target {
-    /// spheres.csv, contacts.csv, base.csv
+    /// spheres.csv, contacts.csv, base.csv: in SI, spheres by number; base.csv has the last ones, in order
     Csv,
     /// For LAMMPS: pile.data, and pile.in, which relaxes it and writes forces.dump
     Lammps,

@@ -80,7 +80,7 @@ pub(super) fn write_input(export: &PileExport<'_>, out: &mut dyn Write) -> Resul
     write!(
         out,
         "# cannonpile: relaxes pile.data and writes the forces of its contacts to forces.dump.
-# Run in this folder: lmp -in pile.in
+# Run in this folder: lmp -in pile.in (LAMMPS with the package GRANULAR).
 # Frictionless spheres on springs; the exact pile is stiff, so forces differ by some 1e-6 of the greatest.
 
 units           si
@@ -138,17 +138,19 @@ variable        slow equal (c_speed[1]<v_step)&&(c_speed[2]<v_step)&&(c_speed[3]
 variable        rest equal (c_net<{rest:?})&&v_slow
 fix             stop all halt 100 v_rest > 0.5 error continue
 
-thermo_style    custom step c_net c_speed[3] ke
+thermo_style    custom step c_net c_speed[3] v_rest
 # What falls off a pile that cannot stand leaves the box.
 thermo_modify   lost ignore format float %.3e
 thermo          1000
 run             {most_steps}
 unfix           stop
 
-# Force on sphere id1; positive pushes. Types tell the floor: its spheres touch no other of theirs.
+# Force on sphere id1; a positive one pushes.
 compute         pairs all property/local patom1 patom2 cutoff radius
 compute         forces all pair/local force fx fy fz cutoff radius
 run             0
+if \"$(v_rest) > 0.5\" then \"print 'cannonpile: the pile is at rest'\" &
+                else \"print 'cannonpile: the pile is NOT at rest; run it longer, or it does not stand'\"
 write_dump      all local forces.dump c_pairs[1] c_pairs[2] c_forces[1] c_forces[2] c_forces[3] c_forces[4] &
                 modify colname 1 id1 colname 2 id2 colname 3 force colname 4 fx colname 5 fy colname 6 fz &
                 format float %.17g

@@ -1,9 +1,10 @@
 //! What is in the files: the numbers of the tables, each rounded by itself there.
 
+use cannonpile::Pile;
 use cannonpile::export::{FileFormat, NumberFormat, PileExport, PileFile, Table, Units, tables};
-use cannonpile::lattice::{Dimension, Selection};
+use cannonpile::lattice::{Dimension, Selection, Site};
 
-use super::{bytes, columns, for_each_pile, text};
+use super::{bytes, columns, for_each_pile, packing, text};
 
 fn csv_of(table: Table<'_>) -> String {
     let mut csv = Vec::new();
@@ -248,4 +249,49 @@ fn scripts_carry_loads_weight_and_plane() {
         assert!(script.contains(&format!("FIRST_ON_FLOOR = {first} ")));
     });
     assert!(loaded > 3 && weightless > 0 && flat > 1);
+}
+
+#[test]
+fn weights_of_their_own_become_masses_or_loads() {
+    let weight = |n: i64, d: i64| num_rational::BigRational::new(n.into(), d.into());
+    let at = |i, j, k| Site { i, j, k };
+    let pile = Pile::triangular(4).expect("a pile");
+    let pile = pile
+        .with_weight(at(0, 0, 0), weight(3, 1))
+        .expect("a sphere");
+    let pile = pile
+        .with_weight(at(1, 0, 1), weight(0, 1))
+        .expect("a sphere");
+    // Together as heavy as any other.
+    let pile = pile
+        .with_weight(at(0, 1, 1), weight(1, 2))
+        .expect("a sphere");
+    let pile = pile.with_load(at(0, 1, 1), weight(1, 2)).expect("a sphere");
+    let packing = packing(&pile);
+    let export = PileExport::new(&packing).expect("files");
+    let density = |id: usize| atoms(&export)[id - 1][3];
+    assert!((density(1) / density(2) - 3.0).abs() < 1e-15);
+    assert!((density(3) / density(2) - 1.0).abs() < 1e-15);
+    assert!((density(4) / density(2) - 0.5).abs() < 1e-15);
+    let input = text(&export, PileFile::LammpsInput);
+    let loads: Vec<&str> = input
+        .lines()
+        .filter(|line| line.starts_with("set "))
+        .collect();
+    // Gravity pulls at a mass that is not there: as much pushes up.
+    let [third, fourth] = [
+        "set             atom 3 d_load 1.0",
+        "set             atom 4 d_load -0.5",
+    ];
+    assert!(
+        loads.len() == 2 && loads.contains(&third) && loads.contains(&fourth),
+        "{loads:?}"
+    );
+    let script = text(&export, PileFile::YadeScript);
+    for line in ["    3: -1.0,", "    4: 0.5,", "    1: 3.0,"] {
+        assert!(script.lines().any(|other| other == line), "{line}");
+    }
+    let points = arrays(&bytes(&export, PileFile::SpheresVtp));
+    assert_eq!(array(&points, "weight")[..5], [3.0, 1.0, 0.0, 0.5, 1.0]);
+    assert_eq!(array(&points, "load")[..5], [0.0, 0.0, 0.0, 0.5, 0.0]);
 }
