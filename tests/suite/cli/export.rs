@@ -56,7 +56,7 @@ fn files_by_format() {
 #[test]
 fn the_csv_files_are_what_the_commands_print() {
     let folder = tempfile::tempdir().expect("a folder");
-    let scene = "--top triangle:2 --stacking=+-+ --spacing 1.1 --radius 1/2 --load 1,0,0=2";
+    let scene = "--top hexagon:3 --stacking=+-+ --spacing 1.1 --radius 1/2 --load 1,0,0=2";
     stdout(&format!("export {} {scene}", folder.path().display()));
     let read = |name| fs::read_to_string(folder.path().join(name)).expect("a file");
     let printed = |command: &str| stdout(&format!("{command} {scene} --number f64 --format csv"));
