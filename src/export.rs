@@ -1,8 +1,11 @@
-//! Tables of a pile's forces and spheres, as csv, json and aligned text.
+//! Tables of a pile's forces and spheres, as csv, json and aligned text; whole piles as files.
 //!
 //! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
 //! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
 //! against the extremes of the table before the first byte is written.
+//!
+//! A [`PileExport`] is a whole pile as files for other programs: csv for any, input for LAMMPS and YADE, geometry for
+//! ParaView.
 //!
 //! # Examples
 //! ```
@@ -25,6 +28,7 @@ mod cell;
 mod explain;
 mod file;
 mod json;
+mod pile;
 mod summary;
 mod table;
 pub mod tables;
@@ -33,11 +37,13 @@ mod text;
 pub use cell::{Cell, NumberFormat};
 pub use explain::Explanation;
 pub use file::write_aside;
+pub use pile::{PileExport, PileFile, PileFormat, Written};
 pub use summary::Summary;
 pub use table::{Column, Table};
 pub use tables::Units;
 
 use std::io;
+use std::path::PathBuf;
 
 use crate::Error;
 
@@ -60,6 +66,13 @@ pub enum WriteError {
     Answer(Error),
     /// The output was.
     Io(io::Error),
+    /// One of several files was.
+    File {
+        /// Where it was to be written.
+        path: PathBuf,
+        /// Why it was not.
+        error: io::Error,
+    },
 }
 
 impl core::fmt::Display for WriteError {
@@ -67,6 +80,7 @@ impl core::fmt::Display for WriteError {
         match self {
             Self::Answer(error) => error.fmt(f),
             Self::Io(error) => error.fmt(f),
+            Self::File { path, error } => write!(f, "{}: {error}", path.display()),
         }
     }
 }

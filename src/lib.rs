@@ -65,7 +65,7 @@
 //! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
-//! | `export` | tables as csv, json and text (feature `export`) |
+//! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
 //!
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to

@@ -574,12 +574,12 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 
     /// A contact force, from its multiple of f₀.
-    fn magnitude(&self, multiple: &BigRational) -> Surd {
+    pub(crate) fn magnitude(&self, multiple: &BigRational) -> Surd {
         self.unit().scaled(multiple)
     }
 
     /// A contact force as a vector on the upper sphere, from its multiple of f₀.
-    fn vector(
+    pub(crate) fn vector(
         &self,
         site: Site,
         direction: Direction,

@@ -2,7 +2,9 @@
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 use super::WriteError;
 
@@ -29,42 +31,111 @@ pub fn write_aside(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    let target = match fs::canonicalize(path) {
-        Ok(target) => target,
-        // A link to nowhere would be replaced, not followed.
-        Err(error) if path.is_symlink() => return Err(error.into()),
-        Err(_) => path.to_owned(),
+    Aside::write(path, write)?.keep()?;
+    Ok(())
+}
+
+/// What has been written for a path, and is not there yet.
+#[derive(Debug)]
+pub(super) struct Aside {
+    /// None if it had to be written directly.
+    file: Option<NamedTempFile>,
+    target: PathBuf,
+    bytes: u64,
+}
+
+impl Aside {
+    /// Writes beside the target; dropped, it leaves nothing.
+    pub(super) fn write(
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    ) -> Result<Self, WriteError> {
+        let target = match fs::canonicalize(path) {
+            Ok(target) => target,
+            // A link to nowhere would be replaced, not followed.
+            Err(error) if path.is_symlink() => return Err(error.into()),
+            Err(_) => path.to_owned(),
+        };
+        let permissions = fs::metadata(&target)
+            .ok()
+            .map(|metadata| metadata.permissions());
+        if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
+            return Err(io::Error::from(io::ErrorKind::PermissionDenied).into());
+        }
+        if target.exists() && !target.is_file() {
+            let out = fs::OpenOptions::new().write(true).open(&target)?;
+            let bytes = write_to(out, write)?;
+            let file = None;
+            return Ok(Self {
+                file,
+                target,
+                bytes,
+            });
+        }
+        let folder = match target.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let mut aside = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As any new file, not private as temporary files are; the umask still applies.
+            aside.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let mut aside = aside.prefix(".cannonpile-").tempfile_in(folder)?;
+        let bytes = write_to(aside.as_file_mut(), write)?;
+        if let Some(permissions) = permissions {
+            aside.as_file().set_permissions(permissions)?;
+        }
+        Ok(Self {
+            file: Some(aside),
+            target,
+            bytes,
+        })
+    }
+
+    /// Renames it into place, and tells how many bytes it has.
+    pub(super) fn keep(self) -> io::Result<u64> {
+        if let Some(file) = self.file {
+            file.persist(&self.target).map_err(|error| error.error)?;
+        }
+        Ok(self.bytes)
+    }
+
+    /// Where it goes, links followed.
+    pub(super) fn target(&self) -> &Path {
+        &self.target
+    }
+}
+
+fn write_to(
+    out: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<u64, WriteError> {
+    let mut out = Counted {
+        out: BufWriter::new(out),
+        bytes: 0,
     };
-    let permissions = fs::metadata(&target)
-        .ok()
-        .map(|metadata| metadata.permissions());
-    if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
-        return Err(io::Error::from(io::ErrorKind::PermissionDenied).into());
-    }
-    if target.exists() && !target.is_file() {
-        let mut out = BufWriter::new(fs::OpenOptions::new().write(true).open(&target)?);
-        write(&mut out)?;
-        return Ok(out.flush()?);
-    }
-    let folder = match target.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut aside = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file, not private as temporary files are; the umask still applies.
-        aside.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut aside = aside.prefix(".cannonpile-").tempfile_in(folder)?;
-    let mut out = BufWriter::new(aside.as_file_mut());
     write(&mut out)?;
     out.flush()?;
-    drop(out);
-    if let Some(permissions) = permissions {
-        aside.as_file().set_permissions(permissions)?;
+    Ok(out.bytes)
+}
+
+/// A writer that counts.
+struct Counted<W> {
+    out: W,
+    bytes: u64,
+}
+
+impl<W: Write> Write for Counted<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
     }
-    aside.persist(&target).map_err(|error| error.error)?;
-    Ok(())
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }

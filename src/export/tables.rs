@@ -6,7 +6,7 @@ use num_traits::One;
 
 use super::summary::steps;
 use super::table::{Layout, Row};
-use super::{Cell, Column, Table};
+use super::{Cell, Column, Table, Written};
 use crate::census::Entry;
 use crate::lattice::{Dimension, Direction, Rows, Selection, Site};
 use crate::scalar::{Ring, Surd};
@@ -452,6 +452,38 @@ pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> T
         extremes: Vec::new(),
         bounds: Vec::new(),
         rows: Box::new(entries.map(row)),
+    }
+}
+
+/// Files that were written, one a row: `file, rows, bytes`.
+///
+/// # Examples
+/// ```
+/// use cannonpile::export::{FileFormat, NumberFormat, PileFile, Written, tables};
+///
+/// let (file, path) = (PileFile::LammpsData, "pile.data".into());
+/// let table = tables::files(&[Written { file, path, rows: Some(220), bytes: 20_000 }]);
+/// let mut csv = Vec::new();
+/// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(String::from_utf8(csv)?, "file,rows,bytes\npile.data,220,20000\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn files(written: &[Written]) -> Table<'_> {
+    let row = |written: &Written| -> Row {
+        let rows = written.rows.map(|rows| Cell::Integer(rows.into()));
+        Ok(vec![
+            Cell::Word(written.path.display().to_string().into()),
+            rows.unwrap_or(Cell::Missing),
+            Cell::Integer(written.bytes.into()),
+        ])
+    };
+    Table {
+        columns: ["file", "rows", "bytes"].map(Column::plain).into(),
+        layout: Layout::Rows("files"),
+        extremes: Vec::new(),
+        bounds: Vec::new(),
+        rows: Box::new(written.iter().map(row)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The command line: parse, call, print. No mathematics.
 
+mod export;
 mod options;
 
 use std::io::{self, BufWriter, Write};
@@ -15,7 +16,7 @@ use cannonpile::{Error, Pile, Verdict};
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use options::{Arguments, Command, Format, Number, Output, Refused, UnitSystem};
+use options::{Arguments, Command, Format, Output, Refused, UnitSystem};
 
 /// The answer is no.
 const NO: u8 = 1;
@@ -38,20 +39,24 @@ fn main() -> ExitCode {
         }
         Err(Failure::Write(WriteError::Answer(error))) => refuse(&error.into()),
         Err(Failure::Refused(refused)) => refuse(&refused),
+        Err(Failure::Write(WriteError::File { path, error })) => {
+            cannot_write(&path.display().to_string(), &error.kind().to_string())
+        }
         Err(Failure::Write(error)) => {
             let reason = match &error {
                 // The text of an error may name the file written aside; its kind does not.
                 WriteError::Io(error) => error.kind().to_string(),
                 other => other.to_string(),
             };
-            let remedy = "choose a place that exists and can be written";
-            complain(&format!(
-                "error: cannot write {}: {reason}; {remedy}",
-                target()
-            ));
-            ExitCode::from(BAD_USE)
+            cannot_write(&target(), &reason)
         }
     }
+}
+
+fn cannot_write(target: &str, reason: &str) -> ExitCode {
+    let remedy = "choose a place that exists and can be written";
+    complain(&format!("error: cannot write {target}: {reason}; {remedy}"));
+    ExitCode::from(BAD_USE)
 }
 
 /// Why there is no answer.
@@ -175,6 +180,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             let units = method.of(units(&scene, &pile, system)?)?;
             explain(&Explanation::new(&units, quantity, part)?, *no_run, output)?;
         }
+        Command::Export(export) => export::run(export)?,
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)
@@ -258,7 +264,11 @@ fn prove(name: Option<&str>, output: &Output) -> Result<bool, WriteError> {
     Ok(all_hold)
 }
 
-fn write_table(table: Table<'_>, number: Number, output: &Output) -> Result<(), WriteError> {
+fn write_table(
+    table: Table<'_>,
+    number: impl Into<NumberFormat>,
+    output: &Output,
+) -> Result<(), WriteError> {
     write(output, |out| {
         table.write(output.format.into(), number.into(), out)
     })

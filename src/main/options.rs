@@ -11,6 +11,8 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use num_rational::BigRational;
 
+use crate::export::Export;
+
 /// Exact contact forces in regular piles of spheres.
 #[derive(Parser)]
 #[command(version, about, max_term_width = 100, arg_required_else_help = false)]
@@ -105,6 +107,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
+    Export(Export),
     /// What is proved for every pile, with the proofs; exit status 1 if one fails
     Prove {
         /// One theorem only, with its whole derivation
@@ -125,6 +129,7 @@ impl Command {
             | Self::Census { output, .. }
             | Self::Explain { output, .. }
             | Self::Prove { output, .. } => output,
+            Self::Export(export) => &export.output,
         }
     }
 }

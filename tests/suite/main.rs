@@ -22,9 +22,12 @@ mod laws;
 mod methods;
 mod nearest;
 mod new_scalar_laws;
+mod numbering;
 mod one_body;
 mod oracle;
 mod pair;
+#[cfg(feature = "export")]
+mod pile_export;
 mod planted_faults;
 mod polynomial;
 mod rounded;

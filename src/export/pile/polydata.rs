@@ -1,0 +1,175 @@
+//! VTK's XML files of points and what they make: a head that says where each array is, and the arrays after it, raw.
+//!
+//! <https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>: an array is its bytes, after their number as
+//! a `u64`. All sizes are known before the first number is written.
+
+use std::io::{self, Write};
+
+/// The type of the numbers of an array.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Float64,
+    Int64,
+    UInt8,
+}
+
+impl Kind {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Float64 => "Float64",
+            Self::Int64 => "Int64",
+            Self::UInt8 => "UInt8",
+        }
+    }
+
+    const fn bytes(self) -> u64 {
+        match self {
+            Self::UInt8 => 1,
+            Self::Float64 | Self::Int64 => 8,
+        }
+    }
+}
+
+/// An array: its name, what it holds, how many numbers for each of how many things.
+pub(super) struct Array {
+    pub(super) name: &'static str,
+    pub(super) kind: Kind,
+    pub(super) components: u64,
+    pub(super) things: u64,
+}
+
+impl Array {
+    pub(super) const fn new(name: &'static str, kind: Kind, components: u64, things: u64) -> Self {
+        Self {
+            name,
+            kind,
+            components,
+            things,
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        self.kind.bytes() * self.components * self.things
+    }
+}
+
+/// A part of the file with some arrays: `PointData`, `CellData`, `Points`, `Verts`, `Lines`.
+pub(super) struct Section {
+    pub(super) tag: &'static str,
+    pub(super) arrays: Vec<Array>,
+}
+
+/// A file being written.
+pub(super) struct PolyData<'w> {
+    out: &'w mut dyn Write,
+    /// The bytes of the arrays that are still to come, the last first.
+    coming: Vec<u64>,
+    /// The bytes left of the array that is being written.
+    left: u64,
+}
+
+impl<'w> PolyData<'w> {
+    /// Writes the head. The arrays have to follow in the order of the sections.
+    pub(super) fn begin(
+        out: &'w mut dyn Write,
+        points: u64,
+        [verts, lines]: [u64; 2],
+        sections: &[Section],
+    ) -> io::Result<Self> {
+        write!(
+            out,
+            "<?xml version=\"1.0\"?>
+<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">
+<PolyData>
+<Piece NumberOfPoints=\"{points}\" NumberOfVerts=\"{verts}\" NumberOfLines=\"{lines}\" NumberOfStrips=\"0\" \
+             NumberOfPolys=\"0\">
+"
+        )?;
+        let (mut offset, mut coming) = (0, Vec::new());
+        for Section { tag, arrays } in sections {
+            writeln!(out, "<{tag}>")?;
+            for array in arrays {
+                writeln!(
+                    out,
+                    "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{offset}\"/>",
+                    array.kind.name(),
+                    array.name,
+                    array.components,
+                )?;
+                offset += 8 + array.bytes();
+                coming.push(array.bytes());
+            }
+            writeln!(out, "</{tag}>")?;
+        }
+        write!(
+            out,
+            "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_"
+        )?;
+        coming.reverse();
+        Ok(Self {
+            out,
+            coming,
+            left: 0,
+        })
+    }
+
+    /// Begins the next array.
+    pub(super) fn array(&mut self) -> io::Result<()> {
+        self.check_done()?;
+        self.left = self
+            .coming
+            .pop()
+            .ok_or_else(|| io::Error::other("an array too many"))?;
+        self.out.write_all(&self.left.to_le_bytes())
+    }
+
+    pub(super) fn float(&mut self, x: f64) -> io::Result<()> {
+        self.bytes(&x.to_le_bytes())
+    }
+
+    pub(super) fn vector(&mut self, vector: [f64; 3]) -> io::Result<()> {
+        vector.into_iter().try_for_each(|x| self.float(x))
+    }
+
+    /// An integer that fits in an `i64`.
+    pub(super) fn integer(&mut self, n: u64) -> io::Result<()> {
+        self.bytes(&n.to_le_bytes())
+    }
+
+    pub(super) fn byte(&mut self, n: u8) -> io::Result<()> {
+        self.bytes(&[n])
+    }
+
+    /// `step`, 2·`step`, … : where the cells of as many points end.
+    pub(super) fn multiples(&mut self, step: u64, cells: u64) -> io::Result<()> {
+        (1..=cells).try_for_each(|cell| self.integer(step * cell))
+    }
+
+    /// 0, 1, 2, …
+    pub(super) fn count_up(&mut self, points: u64) -> io::Result<()> {
+        (0..points).try_for_each(|point| self.integer(point))
+    }
+
+    /// Writes the end.
+    pub(super) fn end(self) -> io::Result<()> {
+        self.check_done()?;
+        if !self.coming.is_empty() {
+            return Err(io::Error::other("an array too few"));
+        }
+        self.out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+    }
+
+    fn bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let left = self.left.checked_sub(bytes.len() as u64);
+        self.left = left.ok_or_else(|| io::Error::other("an array that is too long"))?;
+        self.out.write_all(bytes)
+    }
+
+    fn check_done(&self) -> io::Result<()> {
+        if self.left == 0 {
+            Ok(())
+        } else {
+            Err(io::Error::other("an array that is too short"))
+        }
+    }
+}
