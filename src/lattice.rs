@@ -16,11 +16,13 @@
 //! The unit in which a pile is walked is the [`Row`]: fixed k and j, consecutive i.
 
 pub mod count;
+mod numbering;
 mod region;
 mod rows;
 mod shape;
 mod symmetry;
 
+pub use numbering::Numbering;
 pub use region::Region;
 pub(crate) use region::Trapezoid;
 pub use rows::{Row, Rows, Selection, Sites};

@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use crate::Error;
 use crate::closed_form::Increments;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
-use crate::lattice::{Dimension, Region, Rows, Selection, Shape, Site, count};
+use crate::lattice::{Dimension, Numbering, Region, Rows, Selection, Shape, Site, count};
 use crate::load::Loading;
 use crate::query::Statics;
 use crate::scalar::{Algebra, Ring};
@@ -448,6 +448,22 @@ impl Pile {
     /// ```
     pub fn rows(&self, selection: Selection) -> Result<Rows<'_>, Error> {
         self.shape.rows(selection)
+    }
+
+    /// The numbers of all spheres, both ways: [`Shape::numbering`].
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 10¹¹ spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::discs(10)?.numbering()?.spheres(), 55);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn numbering(&self) -> Result<Numbering<'_>, Error> {
+        self.shape.numbering()
     }
 
     /// The forces, in the scalar `T`.

@@ -22,6 +22,7 @@ mod laws;
 mod methods;
 mod nearest;
 mod new_scalar_laws;
+mod numbering;
 mod one_body;
 mod oracle;
 mod pair;

@@ -8,7 +8,7 @@ use num_traits::Zero;
 
 use super::{Anchor, Shape, Stretch};
 use crate::Error;
-use crate::lattice::Site;
+use crate::lattice::{Numbering, Site};
 
 impl Shape {
     /// The number of spheres, of any size.
@@ -96,5 +96,23 @@ impl Shape {
         let region = self.layer(k)?;
         let in_layer = region.sites_before(i, j);
         Ok(self.spheres_in(0..k) + in_layer)
+    }
+
+    /// The numbers of all spheres, both ways.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 10¹¹ spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(pyramid.numbering()?.id(Site { i: 1, j: 1, k: 2 })?, 9);
+    /// assert!(Shape::pyramid(10_000, Dimension::Three)?.numbering().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn numbering(&self) -> Result<Numbering<'_>, Error> {
+        Numbering::new(self)
     }
 }
