@@ -1,6 +1,7 @@
 //! The command line: parse, call, print. No mathematics.
 
 mod options;
+mod verify;
 
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
@@ -38,6 +39,10 @@ fn main() -> ExitCode {
         }
         Err(Failure::Write(WriteError::Answer(error))) => refuse(&error.into()),
         Err(Failure::Refused(refused)) => refuse(&refused),
+        Err(Failure::Told(reason)) => {
+            complain(&format!("error: {reason}"));
+            ExitCode::from(BAD_USE)
+        }
         Err(Failure::Write(error)) => {
             let reason = match &error {
                 // The text of an error may name the file written aside; its kind does not.
@@ -58,6 +63,8 @@ fn main() -> ExitCode {
 enum Failure {
     Refused(Refused),
     Write(WriteError),
+    /// What is wrong, and with what.
+    Told(String),
 }
 
 impl From<Refused> for Failure {
@@ -175,6 +182,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             let units = method.of(units(&scene, &pile, system)?)?;
             explain(&Explanation::new(&units, quantity, part)?, *no_run, output)?;
         }
+        Command::Verify(verify) => return verify.run(),
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)

@@ -11,6 +11,8 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use num_rational::BigRational;
 
+use crate::verify::Verify;
+
 /// Exact contact forces in regular piles of spheres.
 #[derive(Parser)]
 #[command(version, about, max_term_width = 100, arg_required_else_help = false)]
@@ -113,6 +115,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// Measured contact forces against the exact ones; exit status 1 if they differ
+    Verify(Verify),
 }
 
 impl Command {
@@ -125,6 +129,7 @@ impl Command {
             | Self::Census { output, .. }
             | Self::Explain { output, .. }
             | Self::Prove { output, .. } => output,
+            Self::Verify(verify) => &verify.output,
         }
     }
 }
