@@ -106,7 +106,8 @@ impl Measured {
         let [first, second] = self.ids;
         Self {
             ids: [second, first],
-            vector: self.vector.map(|vector| vector.map(|x| -x)),
+            // 0 stays 0, not -0.
+            vector: self.vector.map(|vector| vector.map(|x| 0.0 - x)),
             ..self
         }
     }

@@ -78,7 +78,7 @@ impl Verify {
         let (name, snapshots) = (self.name(), reading.snapshots());
         let step = reading
             .timestep()
-            .map(|step| format!(" of time step {step}"))
+            .map(|step| format!(", of time step {step},"))
             .unwrap_or_default();
         format!("{name} has {snapshots} snapshots; the last{step} is judged")
     }

@@ -23,7 +23,7 @@ const KEPT: usize = 1000;
 ///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-/// let force = 0.46225016352102424;
+/// let force = 0.46225016352102427;
 /// let measured = [([1, 2], force), ([3, 1], force * 1.01)];
 /// let measured = measured.map(|(ids, force)| Measured::new(ids, force));
 /// let comparison = Comparison::new(&packing, measured)?;

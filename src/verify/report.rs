@@ -34,7 +34,7 @@ const SHOWN: usize = 5;
 /// let mut csv = Vec::new();
 /// Report::new(&comparison, 0.0).write(FileFormat::Csv, &mut csv)?;
 /// let csv = String::from_utf8(csv)?;
-/// assert!(csv.lines().nth(1).unwrap().starts_with("yes,0.0,3,3,0,0,0,0,0.0,0.0,contact of sphere 1"));
+/// assert!(csv.lines().nth(1).unwrap().starts_with("yes,0.0,3,3,0,0,0,0,0.0,0.0,\"contact of sphere 1"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,7 @@
 
 mod explain;
 mod stackings;
+mod verify;
 
 use std::fs;
 use std::io::Read;

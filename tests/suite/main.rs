@@ -40,4 +40,6 @@ mod surd;
 mod symmetry;
 mod theorem;
 mod theorems;
+#[cfg(feature = "export")]
+mod verify;
 mod wrong_verdicts;
