@@ -23,17 +23,15 @@ const KEPT: usize = 1000;
 ///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-/// let force = 0.46225016352102427;
-/// let measured = [([1, 2], force), ([3, 1], force * 1.01)];
+/// let measured = [([1, 2], 0.46225016352102427), ([3, 1], 0.5)];
 /// let measured = measured.map(|(ids, force)| Measured::new(ids, force));
 /// let comparison = Comparison::new(&packing, measured)?;
 ///
 /// assert_eq!((comparison.matched(), comparison.missing(), comparison.extra(0.0)), (2, 1, 0));
-/// assert!((comparison.largest_error() - 0.01).abs() < 1e-12);
+/// assert!((0.08..0.09).contains(&comparison.largest_error()));
 /// assert_eq!(
 ///     comparison.worst().unwrap().to_string(),
-///     "contact of sphere 1 (k=0, i=0, j=0) with sphere 3 along beta: measured 0.4668726651562345 N, \
-///      exact 0.46225016352102427 N",
+///     "contact of sphere 1 (k=0, i=0, j=0) with sphere 3 along beta: measured 0.5 N, exact 0.46225016352102427 N",
 /// );
 /// assert!(!comparison.accepted(0.1));
 /// # Ok::<(), cannonpile::verify::Refusal>(())
