@@ -51,6 +51,7 @@ mod pairs;
 mod reading;
 mod refusal;
 mod report;
+mod tally;
 
 pub use comparison::Comparison;
 pub use csv_file::read_csv;

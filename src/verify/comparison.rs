@@ -2,15 +2,12 @@
 
 use core::fmt;
 
-use super::difference::{Difference, Extra, distance};
-use super::exact::{self, Exact};
+use super::difference::{Difference, Extra};
+use super::exact;
 use super::pairs::Pairs;
+use super::tally::Tally;
 use super::{MAX_ENTRIES, Measured, Refusal};
-use crate::lattice::{Dimension, Numbering};
 use crate::{Error, Packing};
-
-/// How many missing and how many extra contacts are kept; all of them are counted.
-const KEPT: usize = 1000;
 
 /// What was measured, compared with the exact forces of a pile: see [`verify`](super) for what that means.
 ///
@@ -38,17 +35,17 @@ const KEPT: usize = 1000;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    contacts: u64,
-    matched: u64,
-    missing: u64,
-    first_missing: Vec<Difference>,
-    fixed: u64,
-    largest_force: f64,
+    pub(super) contacts: u64,
+    pub(super) matched: u64,
+    pub(super) missing: u64,
+    pub(super) first_missing: Vec<Difference>,
+    pub(super) fixed: u64,
+    pub(super) largest_force: f64,
     /// What pairs without a contact carry, over the largest force, from the greatest down.
-    strays: Vec<f64>,
-    greatest_strays: Vec<Extra>,
-    worst: Option<Difference>,
-    rms: f64,
+    pub(super) strays: Vec<f64>,
+    pub(super) greatest_strays: Vec<Extra>,
+    pub(super) worst: Option<Difference>,
+    pub(super) rms: f64,
 }
 
 impl Comparison {
@@ -106,12 +103,40 @@ impl Comparison {
     }
 
     /// The first thousand of the missing contacts, from the top.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let comparison = Comparison::new(&packing, [Measured::new([1, 3], 0.46)])?;
+    /// let ids: Vec<_> = comparison.missing_contacts().iter().map(|contact| contact.ids).collect();
+    /// assert_eq!(ids, [[1, 2], [1, 4]]);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn missing_contacts(&self) -> &[Difference] {
         &self.first_missing
     }
 
     /// How many pairs that are no contacts of the pile carry more than `tolerance` times the largest exact force.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Spheres 2 and 3 are on the floor, and not judged: nothing is extra, though three contacts are missing.
+    /// let comparison = Comparison::new(&packing, [Measured::new([2, 3], 0.46)])?;
+    /// assert_eq!((comparison.extra(1e-6), comparison.fixed(), comparison.missing()), (0, 1, 3));
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn extra(&self, tolerance: f64) -> u64 {
         let extra = self.strays.partition_point(|stray| *stray > tolerance);
@@ -163,6 +188,20 @@ impl Comparison {
     }
 
     /// Whether nothing is missing, nothing extra, and no error over `tolerance`.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 0.462));
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// assert!(comparison.accepted(1e-3) && !comparison.accepted(1e-4));
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn accepted(&self, tolerance: f64) -> bool {
         self.missing == 0 && self.extra(tolerance) == 0 && self.largest_error() <= tolerance
@@ -195,171 +234,5 @@ impl fmt::Display for Comparison {
             write!(f, "; extra: {extra}")?;
         }
         Ok(())
-    }
-}
-
-/// What is known while contacts go by.
-struct Tally {
-    dimension: Dimension,
-    matched: u64,
-    missing: u64,
-    first_missing: Vec<Difference>,
-    largest_force: f64,
-    /// The worst of those with a force, and the worst of those without: their errors have the largest force below, which
-    /// is known at the end only.
-    worst: [Option<Difference>; 2],
-    squares: [Squares; 2],
-}
-
-impl Tally {
-    fn new(dimension: Dimension) -> Self {
-        Self {
-            dimension,
-            matched: 0,
-            missing: 0,
-            first_missing: Vec::new(),
-            largest_force: 0.0,
-            worst: [None, None],
-            squares: [Squares::default(), Squares::default()],
-        }
-    }
-
-    fn add(&mut self, exact: &Exact, measured: Option<Measured>) {
-        self.largest_force = self.largest_force.max(exact.force.abs());
-        let loaded = exact.force != 0.0;
-        let Some(measured) = measured.filter(|measured| !(loaded && measured.is_zero())) else {
-            if loaded {
-                self.missing += 1;
-                if self.first_missing.len() < KEPT {
-                    let missing = Difference::new(exact, None, self.dimension);
-                    self.first_missing.push(missing);
-                }
-            }
-            return;
-        };
-        self.matched += 1;
-        let vectors = measured.vector.zip(exact.vector);
-        let apart = vectors.map_or(0.0, |(measured, exact)| distance(measured, exact));
-        let apart = apart.max((measured.force - exact.force).abs());
-        let [of_loaded, of_others] = &mut self.worst;
-        let [squares, other_squares] = &mut self.squares;
-        let (error, worst, squares) = if loaded {
-            (relative(apart, exact.force.abs()), of_loaded, squares)
-        } else {
-            (apart, of_others, other_squares)
-        };
-        squares.add(error);
-        if worst.as_ref().is_none_or(|worst| worst.error < error) {
-            *worst = Some(Difference {
-                error,
-                ..Difference::new(exact, Some(measured), self.dimension)
-            });
-        }
-    }
-
-    /// With all contacts seen, and what is left of the pairs.
-    fn close(self, contacts: u64, pairs: &Pairs, numbering: &Numbering<'_>) -> Comparison {
-        let Self {
-            largest_force,
-            dimension,
-            matched,
-            ..
-        } = self;
-        let [of_loaded, of_others] = self.worst;
-        let of_others = of_others.map(|worst| Difference {
-            error: relative(worst.error, largest_force),
-            ..worst
-        });
-        let worst = match (of_loaded, of_others) {
-            (Some(a), Some(b)) => Some(if b.error > a.error { b } else { a }),
-            (a, b) => a.or(b),
-        };
-        let [squares, others] = self.squares;
-        let rms = squares
-            .with(others.over(largest_force))
-            .root_of_mean(matched);
-        let first_fixed = numbering.first_on_floor();
-        let is_fixed = |stray: &&Measured| stray.ids.iter().all(|id| *id >= first_fixed);
-        let fixed = pairs.left().filter(is_fixed).count();
-        let free = pairs.left().filter(|stray| !is_fixed(stray));
-        let mut strays: Vec<(f64, &Measured)> = free
-            .filter(|stray| !stray.is_zero())
-            .map(|stray| (relative(stray.magnitude(), largest_force), stray))
-            .collect();
-        // The greatest first, of equals the one with the lesser numbers.
-        strays.sort_by(|(a, one), (b, other)| b.total_cmp(a).then(one.ids.cmp(&other.ids)));
-        let kept = strays.iter().take(KEPT);
-        let greatest_strays = kept.filter_map(|(error, stray)| {
-            let [one, other] = stray.ids.map(|id| numbering.site(id));
-            Some(Extra {
-                ids: stray.ids,
-                sites: [one?, other?],
-                force: stray.magnitude(),
-                error: *error,
-                dimension,
-            })
-        });
-        Comparison {
-            contacts,
-            matched,
-            missing: self.missing,
-            first_missing: self.first_missing,
-            fixed: u64::try_from(fixed).unwrap_or(u64::MAX),
-            largest_force,
-            greatest_strays: greatest_strays.collect(),
-            strays: strays.into_iter().map(|(error, _)| error).collect(),
-            worst,
-            rms,
-        }
-    }
-}
-
-/// A difference over a force. Only a difference of 0 gives 0.
-fn relative(difference: f64, force: f64) -> f64 {
-    if difference == 0.0 {
-        0.0
-    } else {
-        (difference / force).max(f64::from_bits(1))
-    }
-}
-
-/// A sum of squares, as sum·scale², so that none leaves the floats.
-#[derive(Clone, Copy, Default)]
-struct Squares {
-    scale: f64,
-    sum: f64,
-}
-
-impl Squares {
-    fn add(&mut self, x: f64) {
-        *self = self.with(Self { scale: x, sum: 1.0 });
-    }
-
-    fn with(self, other: Self) -> Self {
-        let scale = self.scale.max(other.scale);
-        if scale == 0.0 || scale.is_infinite() {
-            return Self { scale, sum: 1.0 };
-        }
-        let part = |part: Self| part.sum * (part.scale / scale) * (part.scale / scale);
-        Self {
-            scale,
-            sum: part(self) + part(other),
-        }
-    }
-
-    /// Each number over a force.
-    fn over(self, force: f64) -> Self {
-        Self {
-            scale: relative(self.scale, force),
-            ..self
-        }
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
-    fn root_of_mean(self, count: u64) -> f64 {
-        if self.scale == 0.0 || count == 0 {
-            return 0.0;
-        }
-        self.scale * (self.sum / count as f64).sqrt()
     }
 }
