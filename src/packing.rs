@@ -579,7 +579,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 
     /// A contact force as a vector on the upper sphere, from its multiple of f₀.
-    fn vector(
+    pub(crate) fn vector(
         &self,
         site: Site,
         direction: Direction,

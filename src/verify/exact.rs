@@ -1,9 +1,13 @@
 //! The exact contacts of a pile, rounded, by the numbers of their spheres.
 
+use std::collections::HashMap;
+
+use num_rational::BigRational;
+
 use super::Refusal;
 use crate::lattice::{Direction, Numbering, Selection, Site};
 use crate::scalar::{Sign, Surd};
-use crate::{ContactForce, Error, PackedContact, Packing};
+use crate::{ContactForce, Error, Packing, stacking};
 
 /// A contact of the pile.
 pub(super) struct Exact {
@@ -19,51 +23,76 @@ pub(super) struct Exact {
     pub(super) vector: Option<[f64; 3]>,
 }
 
-/// The exact force, and the vector if it was asked for.
-type Both = (ContactForce<Surd>, Option<[Surd; 3]>);
-
 /// All contacts of a pile, from the top.
-pub(super) fn contacts(
-    packing: &Packing<'_>,
-    numbering: &Numbering<'_>,
+pub(super) fn contacts<'p>(
+    packing: &Packing<'p>,
+    numbering: &Numbering<'p>,
     with_vectors: bool,
 ) -> Result<impl Iterator<Item = Result<Exact, Refusal>>, Error> {
     let rows = packing.pile().rows(Selection::All)?;
-    let (of_vectors, of_magnitudes) = if with_vectors {
-        (Some(packing.contacts(rows)), None)
-    } else {
-        (None, Some(packing.magnitudes(rows)))
-    };
-    let vectors = of_vectors.into_iter().flatten().map(|contact| {
-        let PackedContact {
-            site,
-            direction,
-            force,
-            vector,
-            ..
-        } = contact?;
-        let contact = ContactForce {
-            site,
-            direction,
-            force,
-        };
-        Ok((contact, Some(vector)))
-    });
-    let magnitudes = of_magnitudes.into_iter().flatten();
-    let magnitudes = magnitudes.map(|contact| Ok((contact?, None)));
     let mut ids = Ids::new(numbering);
-    let exact = move |contact: Result<Both, Error>| {
-        let (contact, vector) = contact?;
+    let mut rounded = Rounded::new(packing, with_vectors);
+    Ok(packing.statics().contacts(rows).map(move |contact| {
+        let contact = contact?;
         let (site, direction) = (contact.site, contact.direction);
+        let (force, vector) = rounded.of(contact)?;
         Ok(Exact {
             ids: ids.of(site, direction)?,
             site,
             direction,
-            force: rounded(&contact.force)?,
-            vector: vector.map(|vector| components(&vector)).transpose()?,
+            force,
+            vector,
         })
-    };
-    Ok(vectors.chain(magnitudes).map(exact))
+    }))
+}
+
+/// How many forces are kept: a straight pile has as many as layers, in each direction.
+const KNOWN: usize = 1 << 15;
+
+/// What a force depends on: the way it points, and its multiple of f₀.
+type Key = (Option<stacking::Sign>, Direction, BigRational);
+
+/// Forces rounded to floats, each once while it is remembered.
+struct Rounded<'r, 'p> {
+    packing: &'r Packing<'p>,
+    unit: Surd,
+    with_vectors: bool,
+    known: HashMap<Key, (f64, Option<[f64; 3]>)>,
+}
+
+impl<'r, 'p> Rounded<'r, 'p> {
+    fn new(packing: &'r Packing<'p>, with_vectors: bool) -> Self {
+        Self {
+            packing,
+            unit: packing.unit_force(),
+            with_vectors,
+            known: HashMap::new(),
+        }
+    }
+
+    /// A force, and as a vector on the upper sphere if that was asked for.
+    fn of(
+        &mut self,
+        contact: ContactForce<BigRational>,
+    ) -> Result<(f64, Option<[f64; 3]>), Refusal> {
+        let (site, direction) = (contact.site, contact.direction);
+        let sign = self.packing.pile().shape().sign_below(site.k);
+        let key = (sign, direction, contact.force);
+        if let Some(known) = self.known.get(&key) {
+            return Ok(*known);
+        }
+        let force = rounded(&self.unit.scaled(&key.2))?;
+        let vector = if self.with_vectors {
+            Some(components(&self.packing.vector(site, direction, &key.2)?)?)
+        } else {
+            None
+        };
+        if self.known.len() >= KNOWN {
+            self.known.clear();
+        }
+        self.known.insert(key, (force, vector));
+        Ok((force, vector))
+    }
 }
 
 /// A force as the nearest float, of full precision.
