@@ -66,6 +66,7 @@
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
 //! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
+//! | `verify` | measured forces against the exact ones (feature `export`) |
 //!
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
@@ -120,6 +121,9 @@ mod standing;
 mod sweep;
 pub mod theorem;
 pub mod transfer;
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub mod verify;
 
 pub use error::Error;
 pub use fill::Strengths;

@@ -69,6 +69,13 @@ properties! {
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
 }
 
+#[cfg(feature = "export")]
+properties! {
+    any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;
+    measured_forces_are_read_as_written: claims::measured::a_file, 512;
+    a_fault_among_measured_forces_is_found: claims::measured::planted, 256;
+}
+
 /// So many changes of sign that a number takes several words, with heavy and with weightless spheres.
 #[test]
 fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {

@@ -126,6 +126,19 @@ pub fn engine(bytes: &[u8]) -> Corpus {
     )
 }
 
+/// Measured forces are read as they were written or refused, exact ones accepted, and a planted fault is found.
+#[must_use]
+pub fn measured(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::measured::any_file,
+            claims::measured::a_file,
+            claims::measured::planted,
+        ],
+    )
+}
+
 /// Polynomials compute what their values compute.
 #[must_use]
 pub fn polynomial(bytes: &[u8]) -> Corpus {

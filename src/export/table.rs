@@ -20,7 +20,7 @@ pub struct Column {
 
 impl Column {
     /// A column without a unit or a sum.
-    pub(super) fn plain(name: &'static str) -> Self {
+    pub(crate) fn plain(name: &'static str) -> Self {
         Self {
             name,
             unit: "",
@@ -30,7 +30,7 @@ impl Column {
     }
 
     /// A quantity in a unit.
-    pub(super) fn measured(name: &'static str, unit: &'static str) -> Self {
+    pub(crate) fn measured(name: &'static str, unit: &'static str) -> Self {
         Self {
             name,
             unit,
@@ -81,6 +81,20 @@ pub struct Table<'a> {
     /// A row that no row exceeds, where the extremes are not known.
     pub(super) bounds: Vec<Cell>,
     pub(super) rows: Box<dyn Iterator<Item = Row> + 'a>,
+}
+
+impl Table<'static> {
+    /// A table of one row, shown a line a column.
+    pub(crate) fn record(entries: Vec<(Column, Cell)>) -> Self {
+        let (columns, row): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
+        Self {
+            columns,
+            layout: Layout::Record,
+            extremes: vec![Ok(row.clone())],
+            bounds: Vec::new(),
+            rows: Box::new(core::iter::once(Ok(row))),
+        }
+    }
 }
 
 impl Table<'_> {

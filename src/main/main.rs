@@ -2,6 +2,7 @@
 
 mod export;
 mod options;
+mod verify;
 
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
@@ -42,6 +43,10 @@ fn main() -> ExitCode {
         Err(Failure::Write(WriteError::File { path, error })) => {
             cannot_write(&path.display().to_string(), &error.kind().to_string())
         }
+        Err(Failure::Told(reason)) => {
+            complain(&format!("error: {reason}"));
+            ExitCode::from(BAD_USE)
+        }
         Err(Failure::Write(error)) => {
             let reason = match &error {
                 // The text of an error may name the file written aside; its kind does not.
@@ -63,6 +68,8 @@ fn cannot_write(target: &str, reason: &str) -> ExitCode {
 enum Failure {
     Refused(Refused),
     Write(WriteError),
+    /// What is wrong, and with what.
+    Told(String),
 }
 
 impl From<Refused> for Failure {
@@ -181,6 +188,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             explain(&Explanation::new(&units, quantity, part)?, *no_run, output)?;
         }
         Command::Export(export) => export::run(export)?,
+        Command::Verify(verify) => return verify.run(),
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)

@@ -12,6 +12,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use num_rational::BigRational;
 
 use crate::export::Export;
+use crate::verify::Verify;
 
 /// Exact contact forces in regular piles of spheres.
 #[derive(Parser)]
@@ -117,6 +118,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// Measured contact forces against the exact ones; exit status 1 if they differ
+    Verify(Verify),
 }
 
 impl Command {
@@ -130,6 +133,7 @@ impl Command {
             | Self::Explain { output, .. }
             | Self::Prove { output, .. } => output,
             Self::Export(export) => &export.output,
+            Self::Verify(verify) => &verify.output,
         }
     }
 }

@@ -23,6 +23,7 @@
 //! | `regions` | bounds are tightened completely, and small regions have their sites |
 //! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
 //! | `numbered` | the spheres of any pile are numbered without a gap |
+//! | `measured` | measured forces are read as written, and a planted fault is found (feature `export`) |
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
 //!
 //! Two oracles have files of their own: `sets`, layers as sets of sites, and `handed_on`, forces sphere by sphere.
@@ -34,6 +35,8 @@ pub(crate) mod floats;
 pub(crate) mod growth;
 pub(crate) mod handed_on;
 pub(crate) mod laws;
+#[cfg(feature = "export")]
+pub(crate) mod measured;
 pub(crate) mod nearest;
 pub(crate) mod numbered;
 pub(crate) mod order;

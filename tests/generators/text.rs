@@ -108,7 +108,7 @@ fn valid(u: &mut Unstructured<'_>) -> Result<String> {
 }
 
 /// `text` with up to three characters replaced, added or taken away.
-fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
+pub(crate) fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
     // What numbers are made of, and what looks like it: other digits, spaces, signs, no text at all.
     const INTRUDERS: [char; 16] = [
         '+', '-', '.', '/', ',', 'e', 'E', '_', '0', '9', ' ', '\t', '\0', '٣', '−', '𝟙',

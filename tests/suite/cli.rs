@@ -3,6 +3,7 @@
 mod explain;
 mod export;
 mod stackings;
+mod verify;
 
 use std::fs;
 use std::io::Read;

@@ -42,4 +42,6 @@ mod surd;
 mod symmetry;
 mod theorem;
 mod theorems;
+#[cfg(feature = "export")]
+mod verify;
 mod wrong_verdicts;

@@ -1,0 +1,142 @@
+//! Where a measured force is not the exact one, in numbers and in words.
+
+use core::fmt;
+
+use super::Measured;
+use super::exact::Exact;
+use crate::lattice::{Dimension, Direction, Site};
+
+/// A contact of the pile, what its force is, and what was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The numbers of the upper sphere and of the lower one.
+    pub ids: [u64; 2],
+    /// The upper sphere.
+    pub site: Site,
+    /// The direction in which the lower one lies.
+    pub direction: Direction,
+    /// The nearest float to the exact force; positive is push.
+    pub exact: f64,
+    /// The same of the force on the upper sphere, where vectors were measured.
+    pub exact_vector: Option<[f64; 3]>,
+    /// What was measured, told of the upper sphere; nothing for a missing contact.
+    pub measured: Option<Measured>,
+    /// The relative error; 1 for a missing contact.
+    pub error: f64,
+    /// Of discs or of spheres, which have a j.
+    pub(super) dimension: Dimension,
+}
+
+/// A pair of spheres with a force, but no contact of the pile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extra {
+    /// The numbers of the two, the lesser first.
+    pub ids: [u64; 2],
+    /// The two spheres.
+    pub sites: [Site; 2],
+    /// The force that was measured: the magnitude of the vector, if that is the greater.
+    pub force: f64,
+    /// That force over the largest exact one of the pile.
+    pub error: f64,
+    pub(super) dimension: Dimension,
+}
+
+impl Difference {
+    pub(super) fn new(exact: &Exact, measured: Option<Measured>, dimension: Dimension) -> Self {
+        Self {
+            ids: exact.ids,
+            site: exact.site,
+            direction: exact.direction,
+            exact: exact.force,
+            exact_vector: exact.vector,
+            measured,
+            error: 1.0,
+            dimension,
+        }
+    }
+
+    /// The vectors, measured and exact, if they differ by more than the magnitudes do.
+    fn vectors(&self) -> Option<([f64; 3], [f64; 3])> {
+        let measured = self.measured?;
+        let vectors = measured.vector.zip(self.exact_vector)?;
+        (distance(vectors.0, vectors.1) > (measured.force - self.exact).abs()).then_some(vectors)
+    }
+}
+
+/// |a − b|.
+pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [[x, y, z], [u, v, w]] = [a, b];
+    norm([x - u, y - v, z - w])
+}
+
+/// √(x² + y² + z²), without squares that leave the floats.
+pub(super) fn norm(vector: [f64; 3]) -> f64 {
+    let scale = vector.iter().fold(0.0, |scale: f64, x| scale.max(x.abs()));
+    if scale == 0.0 || !scale.is_finite() {
+        return scale;
+    }
+    let squares = vector.map(|x| (x / scale) * (x / scale));
+    scale * squares.iter().sum::<f64>().sqrt()
+}
+
+impl fmt::Display for Difference {
+    /// `contact of sphere 17 (k=3, i=1, j=0) with sphere 31 along alpha: measured 1.23 N, exact 1.27 N`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [upper, lower] = self.ids;
+        let (place, direction) = (Place(self.site, self.dimension), self.direction);
+        write!(
+            f,
+            "contact of sphere {upper} ({place}) with sphere {lower} along {direction}: "
+        )?;
+        let exact = self.exact;
+        match (self.measured, self.vectors()) {
+            (None, _) => write!(f, "not measured, exact {exact:?} N"),
+            (Some(_), Some((measured, exact))) => write!(
+                f,
+                "measured {} N on the upper one, exact {} N",
+                Components(measured),
+                Components(exact)
+            ),
+            (Some(measured), None) => {
+                write!(f, "measured {:?} N, exact {exact:?} N", measured.force)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Extra {
+    /// `spheres 17 (k=3, i=1, j=0) and 18 (k=3, i=2, j=0) have no contact: measured 0.5 N`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([first, second], [one, other]) = (self.ids, self.sites);
+        let [one, other] = [one, other].map(|site| Place(site, self.dimension));
+        write!(
+            f,
+            "spheres {first} ({one}) and {second} ({other}) have no contact: measured {:?} N",
+            self.force
+        )
+    }
+}
+
+/// `k=3, i=1, j=0`; no j for discs.
+struct Place(Site, Dimension);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Site { i, j, k } = self.0;
+        write!(f, "k={k}, i={i}")?;
+        match self.1 {
+            Dimension::Two => Ok(()),
+            Dimension::Three => write!(f, ", j={j}"),
+        }
+    }
+}
+
+/// `(0.1, 0.2, -0.3)`.
+struct Components([f64; 3]);
+
+impl fmt::Display for Components {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0;
+        write!(f, "({x:?}, {y:?}, {z:?})")
+    }
+}

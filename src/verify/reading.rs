@@ -1,0 +1,134 @@
+//! What was read from a file, and from which lines.
+
+use std::io::BufRead;
+
+use super::csv_file::read_rows;
+use super::dump::{ITEM, read_snapshots};
+use super::lines::Lines;
+use super::{Comparison, Fault, MAX_ENTRIES, Measured, Refusal};
+use crate::Packing;
+
+/// Measured forces read from a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    entries: Vec<Measured>,
+    /// The entries that do not stand a line below the one before, and their lines.
+    jumps: Vec<(usize, u64)>,
+    snapshots: u64,
+    timestep: Option<i64>,
+}
+
+/// Measured forces from a file of either kind: a LAMMPS dump if its first line begins with `ITEM:`, else csv.
+///
+/// # Errors
+/// Those of [`read_csv`](super::read_csv) and [`read_dump`](super::read_dump).
+///
+/// # Examples
+/// ```
+/// use cannonpile::verify;
+///
+/// let reading = verify::read(&b"id1,id2,force\n1,2,0.5\n"[..])?;
+/// assert_eq!((reading.entries().len(), reading.snapshots()), (1, 0));
+/// # Ok::<(), cannonpile::verify::Refusal>(())
+/// ```
+pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
+    let mut lines = Lines::new(input);
+    let is_dump = lines
+        .next()?
+        .is_some_and(|line| line.text.starts_with(ITEM));
+    lines.put_back();
+    if is_dump {
+        read_snapshots(lines)
+    } else {
+        read_rows(lines)
+    }
+}
+
+impl Reading {
+    /// What was measured, in the order of the file.
+    #[must_use]
+    pub fn entries(&self) -> &[Measured] {
+        &self.entries
+    }
+
+    /// How many snapshots a dump had, the last of which was kept; 0 for csv.
+    #[must_use]
+    pub fn snapshots(&self) -> u64 {
+        self.snapshots
+    }
+
+    /// The time step of the snapshot that was kept.
+    #[must_use]
+    pub fn timestep(&self) -> Option<i64> {
+        self.timestep
+    }
+
+    /// The line of an entry, counted from 1; entries are counted from 0.
+    #[must_use]
+    pub fn line(&self, entry: usize) -> u64 {
+        let after = self.jumps.partition_point(|(first, _)| *first <= entry);
+        let jump = after.checked_sub(1).and_then(|last| self.jumps.get(last));
+        let (first, line) = jump.copied().unwrap_or_default();
+        let below = u64::try_from(entry.saturating_sub(first)).unwrap_or(u64::MAX);
+        line.saturating_add(below)
+    }
+
+    /// Compares what was read with the exact forces.
+    ///
+    /// # Errors
+    /// Those of [`Comparison::new`], with the line of the file.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile, verify};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let reading = verify::read(&b"id1,id2,force\n1,2,0.46225\n\n1,5,0.46225\n"[..])?;
+    /// assert_eq!(
+    ///     reading.compare(&packing).unwrap_err().to_string(),
+    ///     "line 4: no sphere 5: the spheres of this scene are numbered 1 to 4, from the top",
+    /// );
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
+    pub fn compare(&self, packing: &Packing<'_>) -> Result<Comparison, Refusal> {
+        let line = |entry: u64| {
+            let entry = usize::try_from(entry.saturating_sub(1)).unwrap_or(usize::MAX);
+            self.line(entry)
+        };
+        Comparison::new(packing, self.entries.iter().copied()).map_err(|refusal| match refusal {
+            Refusal::Entry {
+                entry,
+                fault: Fault::Twice { ids, first },
+            } => Fault::Twice {
+                ids,
+                first: line(first),
+            }
+            .at(line(entry)),
+            Refusal::Entry { entry, fault } => fault.at(line(entry)),
+            other => other,
+        })
+    }
+
+    /// Forgets the entries of the snapshot before.
+    pub(super) fn begin_snapshot(&mut self, timestep: Option<i64>) {
+        self.entries.clear();
+        self.jumps.clear();
+        self.snapshots += 1;
+        self.timestep = timestep;
+    }
+
+    pub(super) fn push(&mut self, measured: Measured, line: u64) -> Result<(), Fault> {
+        let entry = self.entries.len();
+        if u64::try_from(entry).is_ok_and(|entries| entries >= MAX_ENTRIES) {
+            return Err(Fault::TooMany);
+        }
+        if entry == 0 || self.line(entry) != line {
+            self.jumps.push((entry, line));
+        }
+        self.entries.push(measured);
+        Ok(())
+    }
+}
