@@ -64,7 +64,7 @@
 //! | [`Strengths`] | all contact forces of a straight pile, written into slices |
 //! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
-//! | [`scene`] | a pile as a user describes it, and the parsers |
+//! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
 //! | `export` | tables as csv, json and text (feature `export`) |
 //!
 //! # Guarantees

@@ -69,6 +69,13 @@ properties! {
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
 }
 
+#[cfg(feature = "toml")]
+properties! {
+    scenes_are_written_and_read_back: claims::scene_file::written, 512;
+    scene_files_are_read_or_refused: claims::scene_file::any_file, 1024;
+    numbers_in_scene_files_are_exact: claims::scene_file::a_number, 512;
+}
+
 /// So many changes of sign that a number takes several words, with heavy and with weightless spheres.
 #[test]
 fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {
@@ -209,6 +216,24 @@ fn stackings_are_accepted_and_refused_in_every_notation() {
     });
     // Only numbers can be too tall, and no notation is no stacking.
     assert_eq!(kinds.len(), 4 * 3 + 1 + 1, "{kinds:?}");
+}
+
+#[cfg(feature = "toml")]
+#[test]
+fn scene_files_are_of_every_kind() {
+    let kinds = census(|u| {
+        let file = generators::scene::file(u)?;
+        Ok(match cannonpile::scene::Scene::from_toml(&file) {
+            Ok(_) if file.is_empty() => "empty",
+            Ok(_) => "read",
+            Err(Error::NotToml { .. }) => "no TOML",
+            Err(Error::UnknownKey { .. }) => "unknown key",
+            Err(_) => "refused",
+        }
+        .into())
+    });
+    assert_eq!(kinds.len(), 5, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 8), "{kinds:?}");
 }
 
 #[test]

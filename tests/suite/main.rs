@@ -30,6 +30,8 @@ mod polynomial;
 mod rounded;
 #[path = "../rounding/mod.rs"]
 mod rounding;
+#[cfg(feature = "toml")]
+mod scene_file;
 mod strengths;
 #[path = "../stress/mod.rs"]
 mod stress;
