@@ -65,6 +65,7 @@
 //! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
+//! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
 //! | `export` | tables as csv, json and text (feature `export`) |
 //!
 //! # Guarantees
@@ -115,6 +116,9 @@ mod query;
 mod reactions;
 pub mod scalar;
 pub mod scene;
+#[cfg(feature = "serde")]
+#[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
+pub mod serde;
 pub mod stacking;
 mod standing;
 mod sweep;

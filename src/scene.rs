@@ -1,6 +1,8 @@
 //! A scene: the options that describe a pile and its spheres, the parsers of their values, and files of them.
 
 pub mod parse;
+#[cfg(any(feature = "serde", feature = "toml"))]
+pub(crate) mod text;
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
 mod toml;

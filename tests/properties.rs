@@ -69,6 +69,17 @@ properties! {
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
 }
 
+#[cfg(feature = "serde")]
+properties! {
+    values_come_back_from_json: claims::json::any_value, 512;
+    damaged_json_is_refused_or_valid: claims::json::damaged, 1024;
+}
+
+#[cfg(all(feature = "serde", feature = "toml"))]
+properties! {
+    scenes_come_back_from_json: claims::json::any_scene, 512;
+}
+
 #[cfg(feature = "toml")]
 properties! {
     scenes_are_written_and_read_back: claims::scene_file::written, 512;

@@ -92,7 +92,8 @@ pub(crate) fn file(u: &mut Unstructured<'_>) -> Result<String> {
         String::new()
     };
     for _ in 0..u.int_in_range(0..=4)? {
-        lines.push_str(&format!("{} = {}\n", key(u)?, value(u)?));
+        let line = format!("{} = {}\n", key(u)?, value(u)?);
+        lines.push_str(&line);
     }
     Ok(lines)
 }

@@ -32,6 +32,8 @@ mod rounded;
 mod rounding;
 #[cfg(feature = "toml")]
 mod scene_file;
+#[cfg(feature = "serde")]
+mod serialized;
 mod strengths;
 #[path = "../stress/mod.rs"]
 mod stress;

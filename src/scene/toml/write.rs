@@ -7,10 +7,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use crate::lattice::{Dimension, Region};
+use crate::lattice::Dimension;
 use crate::scene::parse::At;
+use crate::scene::text::{pattern, shape};
 use crate::scene::{Anchor, Scene};
-use crate::stacking::Pattern;
 
 impl Scene {
     /// The scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads the same scene back.
@@ -142,28 +142,6 @@ fn number(r: &BigRational) -> String {
         integer(r.numer())
     } else {
         quoted(&r.to_string())
-    }
-}
-
-fn pattern(pattern: &Pattern) -> String {
-    match pattern {
-        Pattern::Fcc => "fcc".into(),
-        Pattern::Hcp => "hcp".into(),
-        Pattern::Dhcp => "dhcp".into(),
-        Pattern::Spelled(stacking) => stacking.to_string(),
-    }
-}
-
-/// By its sides if it is a triangle or hexagon about (0, 0), else by its bounds.
-fn shape(region: &Region) -> String {
-    let (p, q) = (region.x().end() + 1, 1 - region.x().start());
-    if Region::hexagon(p, q).as_ref() != Ok(region) {
-        return format!("region:{region}");
-    }
-    match (p, q) {
-        (p, 1) if p > 1 => format!("triangle:{p}"),
-        (p, q) if p == q => format!("hexagon:{p}"),
-        (p, q) => format!("hexagon:{p},{q}"),
     }
 }
 
