@@ -1,5 +1,6 @@
 //! The command line: parse, call, print. No mathematics.
 
+mod completions;
 mod options;
 mod scene;
 
@@ -185,6 +186,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             explain(&Explanation::new(&units, quantity, part)?, *no_run, output)?;
         }
         Command::Scene(command) => command.run()?,
+        Command::Completions(command) => command.run()?,
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)

@@ -9,6 +9,7 @@ use cannonpile::{Error, Method, Pile, Quantity, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::completions::Completions;
 pub(crate) use crate::scene::SceneOptions;
 use crate::scene::WriteScene;
 
@@ -116,6 +117,8 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// A script with which a shell completes commands and options
+    Completions(Completions),
 }
 
 impl Command {
@@ -123,6 +126,7 @@ impl Command {
     pub(crate) fn target(&self) -> String {
         match self {
             Self::Scene(command) => target(command.file.as_deref()),
+            Self::Completions(_) => target(None),
             Self::Summary { output, .. }
             | Self::Base { output, .. }
             | Self::Contacts { output, .. }
@@ -142,7 +146,7 @@ impl Command {
             | Self::Spheres { scene, .. }
             | Self::Explain { scene, .. } => Some(scene),
             Self::Scene(command) => Some(&command.scene),
-            Self::Census { .. } | Self::Prove { .. } => None,
+            Self::Census { .. } | Self::Prove { .. } | Self::Completions(_) => None,
         }
     }
 }
