@@ -12,7 +12,11 @@ use crate::options::Arguments;
 #[derive(Args)]
 pub(crate) struct Completions {
     /// The shell that is to complete commands and options
-    #[arg(value_enum)]
+    #[arg(
+        value_enum,
+        value_name = "bash|zsh|fish|elvish|powershell",
+        hide_possible_values = true
+    )]
     shell: Shell,
 }
 

@@ -39,11 +39,11 @@ pub(crate) struct SceneOptions {
     /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
     sin_phi: Option<BigRational>,
-    /// A vertical load on one sphere, in mg; may be given again, and then replaces all loads of a file
+    /// A vertical load on one sphere, in mg; may be given again; those of a file are left out then
     #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
     load: Vec<String>,
-    /// The spheres weigh nothing: only the loads act; =false where a file says so
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    /// The spheres weigh nothing: only the loads act; --weightless=false wins over a file
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
     /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
