@@ -1,24 +1,18 @@
 //! The data types with `Serialize` and `Deserialize` of [serde](https://serde.rs), without a digit lost.
 //!
 //! ```
-//! use cannonpile::lattice::Selection;
+//! use cannonpile::lattice::{Region, Selection};
 //! use cannonpile::{ContactForce, Pile};
 //! use num_rational::BigRational;
 //!
-//! let pile = Pile::under("hexagon:2".parse_region()?, "+-".parse()?)?;
+//! let pile = Pile::under(Region::hexagon(2, 2)?, "+-".parse()?)?;
 //! let text = serde_json::to_string(&pile)?;
 //! assert_eq!(serde_json::from_str::<Pile>(&text)?, pile);
 //!
 //! let forces: Result<Vec<ContactForce<BigRational>>, _> =
 //!     pile.statics().contacts(pile.rows(Selection::Layer(1))?).collect();
 //! let text = serde_json::to_string(&forces?[0])?;
-//! assert_eq!(text, r#"{"site":{"i":"0","j":"-1","k":"1"},"direction":"alpha","force":"5/3"}"#);
-//! # trait ParseRegion { fn parse_region(&self) -> Result<cannonpile::lattice::Region, cannonpile::Error>; }
-//! # impl ParseRegion for str {
-//! #     fn parse_region(&self) -> Result<cannonpile::lattice::Region, cannonpile::Error> {
-//! #         cannonpile::scene::parse::region(self)
-//! #     }
-//! # }
+//! assert_eq!(text, r#"{"site":{"i":"0","j":"-1","k":"1"},"direction":"alpha","force":"2/3"}"#);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
