@@ -36,9 +36,27 @@
 //!
 //! [`number`] serves fields of your own: `#[serde(with = "cannonpile::serde::number")]`.
 
+/// The implementations that serde derives for the copy of a type of this name.
+macro_rules! records {
+    ($($type:ident as $copy:ident $(<$scalar:ident>)?;)*) => {$(
+        impl $(<$scalar: Number>)? Serialize for $type $(<$scalar>)? {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                $copy::serialize(self, serializer)
+            }
+        }
+
+        impl<'de $(, $scalar: Number)?> Deserialize<'de> for $type $(<$scalar>)? {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $copy::deserialize(deserializer)
+            }
+        }
+    )*};
+}
+
 mod floats;
 mod parts;
 mod records;
+mod scenes;
 mod words;
 
 use alloc::vec::Vec;

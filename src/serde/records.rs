@@ -1,42 +1,21 @@
 //! What is a record of its public fields: here they are again, each with the way it is written.
 
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::One;
 
 use super::{Number, number};
 use crate::census::Entry;
 use crate::geometry::{Apart, Vector};
-use crate::lattice::{Dimension, Direction, Region, Row, Selection, Site};
+use crate::lattice::{Direction, Row, Selection, Site};
 use crate::scalar::{Enclosure, Surd};
-use crate::scene::parse::At;
-use crate::scene::{Anchor, Scene};
-use crate::stacking::{Pattern, Run, Sign};
+use crate::stacking::{Run, Sign};
 use crate::{
     BaseExtremes, ContactForce, Counters, FloorForce, Method, PackedContact, Pile, Plan, Quantity,
     Question, Standing,
 };
-
-/// The implementations that serde derives for the copy of a type of this name.
-macro_rules! records {
-    ($($type:ident as $copy:ident $(<$scalar:ident>)?;)*) => {$(
-        impl $(<$scalar: Number>)? Serialize for $type $(<$scalar>)? {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                $copy::serialize(self, serializer)
-            }
-        }
-
-        impl<'de $(, $scalar: Number)?> Deserialize<'de> for $type $(<$scalar>)? {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                $copy::deserialize(deserializer)
-            }
-        }
-    )*};
-}
 
 records! {
     Site as SiteRecord;
@@ -55,9 +34,6 @@ records! {
     Question as QuestionRecord;
     Plan as PlanRecord;
     Counters as CountersRecord;
-    At as AtRecord;
-    Anchor as AnchorRecord;
-    Scene as SceneRecord;
 }
 
 #[derive(Serialize, Deserialize)]
@@ -264,95 +240,5 @@ impl From<CountersRecord> for Counters {
             record.roots,
             record.rows,
         ])
-    }
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "At", rename = "At", deny_unknown_fields)]
-struct AtRecord {
-    #[serde(with = "number", default)]
-    layer: Option<i128>,
-    #[serde(with = "number")]
-    i: i128,
-    #[serde(with = "number", default)]
-    j: i128,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Anchor", rename = "Anchor", rename_all = "lowercase")]
-enum AnchorRecord {
-    Top(Region),
-    Base(Region),
-}
-
-/// With the keys of scene files, but for the anchor and the loads.
-#[derive(Serialize, Deserialize)]
-#[serde(
-    remote = "Scene",
-    rename = "Scene",
-    rename_all = "kebab-case",
-    deny_unknown_fields
-)]
-struct SceneRecord {
-    #[serde(with = "number", default)]
-    layers: Option<i128>,
-    #[serde(default = "spheres")]
-    dimension: Dimension,
-    #[serde(with = "number", default)]
-    sin_phi: Option<BigRational>,
-    #[serde(default)]
-    stacking: Option<Pattern>,
-    #[serde(default)]
-    anchor: Option<Anchor>,
-    #[serde(with = "scene_loads", default)]
-    loads: Vec<(At, BigRational)>,
-    #[serde(default)]
-    weightless: bool,
-    #[serde(with = "number", default)]
-    spacing: Option<BigRational>,
-    #[serde(with = "number", default = "BigRational::one")]
-    radius: BigRational,
-    #[serde(with = "number", default = "BigRational::one")]
-    mass: BigRational,
-    #[serde(with = "number", default = "BigRational::one")]
-    gravity: BigRational,
-}
-
-fn spheres() -> Dimension {
-    Dimension::Three
-}
-
-/// Loads as records `{"at": …, "weight": …}`.
-mod scene_loads {
-    use super::{At, BigRational, Deserialize, Deserializer, Serialize, Serializer, Vec, number};
-
-    #[derive(Serialize, Deserialize)]
-    #[serde(rename = "Load", deny_unknown_fields)]
-    struct Load {
-        at: At,
-        #[serde(with = "number")]
-        weight: BigRational,
-    }
-
-    pub(super) fn serialize<S: Serializer>(
-        loads: &[(At, BigRational)],
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(
-            loads
-                .iter()
-                .cloned()
-                .map(|(at, weight)| Load { at, weight }),
-        )
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<Vec<(At, BigRational)>, D::Error> {
-        let loads: Vec<Load> = Deserialize::deserialize(deserializer)?;
-        Ok(loads
-            .into_iter()
-            .map(|load| (load.at, load.weight))
-            .collect())
     }
 }
