@@ -1,30 +1,4 @@
 //! Scenes as TOML files: the scene options of the command line, as keys of the same names.
-//!
-//! ```toml
-//! layers = 4
-//! stacking = "hcp"
-//! top = "hexagon:3,2"
-//! spacing = 1.2                 # read as 6/5, not as a float; "6/5" is the same
-//! load = ["0,0,0=5/2"]
-//! ```
-//! | key | value | by default |
-//! |---|---|---|
-//! | `layers` | a number, up to 10³⁶ | 10, or as for [`Scene::layers`] |
-//! | `stacking` | `"fcc"`, `"hcp"`, `"dhcp"`, or spelled out | `"fcc"` |
-//! | `top` or `base` | `"hexagon:P,Q"`, `"hexagon:N"`, `"triangle:N"` or `"region:x0..x1,y0..y1,s0..s1"` | one sphere on top |
-//! | `dimension` | 2 or 3 | 3 |
-//! | `sin-phi`, `spacing` | a number | none: ½, and 6/5 where it is needed |
-//! | `radius`, `mass`, `gravity` | a number | 1 |
-//! | `load` | an array of `"K,I,J=W"`, or of tables with `at` and `weight` | none |
-//! | `weightless` | `true` or `false` | `false` |
-//!
-//! A number is a TOML number, read exactly as it stands there, or a string: `6`, `1.2`, `1e-3`, `"6/5"`. Keys that are
-//! not in the table are refused. A load may also be written as
-//! ```toml
-//! [[load]]
-//! at = [0, 0, 0]                # or "0,0,0"; with one number less, on the base
-//! weight = "5/2"
-//! ```
 
 mod nearest;
 mod value;
@@ -68,7 +42,38 @@ const LOAD_KEYS: [&str; 2] = ["at", "weight"];
 /// The longest file read, in bytes; a stacking of a million runs has its place.
 const LONGEST: usize = 16 << 20;
 
-/// A scene that was read from a file, and where each of its options stands there.
+/// A scene that was read from a TOML file, and where each of its options stands there: the scene options of the command
+/// line, as keys of the same names.
+///
+/// ```toml
+/// layers = 4
+/// stacking = "hcp"
+/// top = "hexagon:3,2"
+/// spacing = 1.2                 # read as 6/5, not as a float; "6/5" is the same
+/// load = ["0,0,0=5/2"]
+/// ```
+/// | key | value | by default |
+/// |---|---|---|
+/// | `layers` | a number, up to 10³⁶ | 10, or as for [`Scene::layers`] |
+/// | `stacking` | `"fcc"`, `"hcp"`, `"dhcp"`, or spelled out | `"fcc"` |
+/// | `top` or `base` | `"hexagon:P,Q"`, `"hexagon:N"`, `"triangle:N"` or `"region:x0..x1,y0..y1,s0..s1"` | one sphere on top |
+/// | `dimension` | 2 or 3 | 3 |
+/// | `sin-phi`, `spacing` | a number | none: ½, and 6/5 where it is needed |
+/// | `radius`, `mass`, `gravity` | a number | 1 |
+/// | `load` | an array of `"K,I,J=W"`, or of tables with `at` and `weight` | none |
+/// | `weightless` | `true` or `false` | `false` |
+///
+/// A number is a TOML number, read exactly as it stands there, or a string: `6`, `1.2`, `1e-3`, `"6/5"`. Keys that are
+/// not in the table are refused. A load may also be written as
+/// ```toml
+/// [[load]]
+/// at = [0, 0, 0]                # or "0,0,0"; with one number less, on the base
+/// weight = "5/2"
+/// ```
+///
+/// On the command line an option takes the place of the same one in the file: a base that of a top too, the loads of the
+/// line together that of all loads of the file. Options that then exclude each other are refused, with the line of the
+/// file where one is from there. Sites of loads are read in the dimension of the file.
 ///
 /// # Examples
 /// ```
@@ -137,7 +142,7 @@ impl FromStr for SceneFile {
 }
 
 impl Scene {
-    /// The scene that a TOML file describes.
+    /// The scene that a TOML file describes; its keys are those of [`SceneFile`].
     ///
     /// Each value is checked for itself; whether they go together shows when a [`Pile`](crate::Pile) is asked for.
     ///
