@@ -23,7 +23,7 @@ fn main() -> Result<(), Error> {
             .as_ref()
             .map(|contact| contact.force.to_string());
         println!(
-            "  {hagg:10}{zhdanov:12}{} mg/(3 cos θ)",
+            "  {hagg:10}{zhdanov:12}{} mg/(3 cosθ)",
             least.unwrap_or_default()
         );
         assert!(entry.stands());
@@ -47,7 +47,7 @@ fn main() -> Result<(), Error> {
     assert_eq!(fallen.verdict(&[]), Verdict::No);
     if let Some(pull) = fallen.least {
         println!(
-            "\nSix layers of hcp fall: sphere {} would have to pull along {} with {} mg/(3 cos θ).",
+            "\nSix layers of hcp fall: sphere {} would have to pull along {} with {} mg/(3 cosθ).",
             pull.site, pull.direction, -pull.force
         );
     }
