@@ -223,6 +223,33 @@ pub enum Error {
         /// What was expected, with an example.
         expected: &'static str,
     },
+    /// A scene file that is no TOML.
+    NotToml {
+        /// The line, counted from 1.
+        line: usize,
+        /// What the parser of TOML says.
+        reason: String,
+    },
+    /// A key of a scene file that is no option of a scene.
+    UnknownKey {
+        /// Its line, counted from 1.
+        line: usize,
+        /// The key, shortened if it is long.
+        key: String,
+        /// The key that may have been meant.
+        nearest: Option<&'static str>,
+        /// All that there are.
+        known: &'static [&'static str],
+    },
+    /// A value in a scene file that is refused.
+    InFile {
+        /// The line of its key, counted from 1.
+        line: usize,
+        /// Its key.
+        key: &'static str,
+        /// Why.
+        error: Box<Error>,
+    },
     /// More rows than anybody can read.
     TooManyRows {
         /// How many there would be.
@@ -249,6 +276,14 @@ impl Error {
 
     /// A syntax error that quotes `text`, cut where it gets long.
     pub(crate) fn syntax(text: &str, expected: &'static str) -> Self {
+        Self::Syntax {
+            text: Self::quoted(text),
+            expected,
+        }
+    }
+
+    /// The text on one line, cut where it gets long.
+    pub(crate) fn quoted(text: &str) -> String {
         const LONGEST: usize = 60;
         let mut quoted: String = text
             .chars()
@@ -258,10 +293,7 @@ impl Error {
         if text.chars().nth(LONGEST).is_some() {
             quoted.push('…');
         }
-        Self::Syntax {
-            text: quoted,
-            expected,
-        }
+        quoted
     }
 }
 

@@ -64,7 +64,8 @@
 //! | [`Strengths`] | all contact forces of a straight pile, written into slices |
 //! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
-//! | [`scene`] | a pile as a user describes it, and the parsers |
+//! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
+//! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
 //! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
 //! | `verify` | measured forces against the exact ones (feature `export`) |
 //!
@@ -116,6 +117,9 @@ mod query;
 mod reactions;
 pub mod scalar;
 pub mod scene;
+#[cfg(feature = "serde")]
+#[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
+pub mod serde;
 pub mod stacking;
 mod standing;
 mod sweep;

@@ -88,6 +88,18 @@ impl Loading {
         self.weight(site) + self.load(site)
     }
 
+    /// The spheres that do not weigh mg, in their order, with their weights.
+    #[cfg(feature = "serde")]
+    pub(crate) fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
+        self.weights.iter().map(|(site, weight)| (*site, weight))
+    }
+
+    /// The spheres with something on them, in their order, with the loads.
+    #[cfg(feature = "serde")]
+    pub(crate) fn loads(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
+        self.loads.iter().map(|(site, load)| (*site, load))
+    }
+
     pub(crate) fn is_weightless(&self) -> bool {
         self.weightless
     }

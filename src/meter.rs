@@ -67,6 +67,18 @@ pub struct Counters {
 }
 
 impl Counters {
+    /// Visited, turned, passes, roots and rows.
+    #[cfg(feature = "serde")]
+    pub(crate) fn of([visited, turned, passes, roots, rows]: [u64; 5]) -> Self {
+        Self {
+            visited: Cell::new(visited),
+            turned: Cell::new(turned),
+            passes: Cell::new(passes),
+            roots: Cell::new(roots),
+            rows: Cell::new(rows),
+        }
+    }
+
     /// Spheres whose forces were worked out or looked up.
     #[must_use]
     pub fn visited(&self) -> u64 {

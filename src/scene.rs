@@ -1,6 +1,11 @@
-//! A scene: the options that describe a pile and its spheres, and the parsers of their values.
+//! A scene: the options that describe a pile and its spheres, the parsers of their values, and files of them.
 
 pub mod parse;
+#[cfg(any(feature = "serde", feature = "toml"))]
+pub(crate) mod text;
+#[cfg(feature = "toml")]
+#[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
+mod toml;
 
 use alloc::vec::Vec;
 
@@ -13,6 +18,9 @@ use crate::stacking::Pattern;
 use crate::{Error, Packing, Pile};
 
 use parse::At;
+#[cfg(feature = "toml")]
+#[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
+pub use toml::SceneFile;
 
 /// A pile and its spheres, as a user describes them; unchecked until a [`Pile`] or a [`Packing`] is asked for.
 ///
@@ -67,6 +75,16 @@ pub enum Anchor {
     Base(Region),
 }
 
+impl Anchor {
+    /// The option that says so: `top` or `base`.
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Top(_) => "top",
+            Self::Base(_) => "base",
+        }
+    }
+}
+
 impl Default for Scene {
     fn default() -> Self {
         Self {
@@ -112,8 +130,7 @@ impl Scene {
     fn unloaded(&self) -> Result<Pile, Error> {
         let layers = self.layers.unwrap_or(LAYERS);
         let stacked = match (&self.anchor, &self.stacking) {
-            (Some(Anchor::Top(_)), _) => Some("top"),
-            (Some(Anchor::Base(_)), _) => Some("base"),
+            (Some(anchor), _) => Some(anchor.name()),
             (None, Some(_)) => Some("stacking"),
             (None, None) => None,
         };

@@ -76,6 +76,24 @@ properties! {
     a_fault_among_measured_forces_is_found: claims::measured::planted, 256;
 }
 
+#[cfg(feature = "serde")]
+properties! {
+    values_come_back_from_json: claims::json::any_value, 512;
+    damaged_json_is_refused_or_valid: claims::json::damaged, 1024;
+}
+
+#[cfg(all(feature = "serde", feature = "toml"))]
+properties! {
+    scenes_come_back_from_json: claims::json::any_scene, 512;
+}
+
+#[cfg(feature = "toml")]
+properties! {
+    scenes_are_written_and_read_back: claims::scene_file::written, 512;
+    scene_files_are_read_or_refused: claims::scene_file::any_file, 1024;
+    numbers_in_scene_files_are_exact: claims::scene_file::a_number, 512;
+}
+
 /// So many changes of sign that a number takes several words, with heavy and with weightless spheres.
 #[test]
 fn forces_of_tall_mixed_piles_are_one_whoever_is_asked() {
@@ -216,6 +234,24 @@ fn stackings_are_accepted_and_refused_in_every_notation() {
     });
     // Only numbers can be too tall, and no notation is no stacking.
     assert_eq!(kinds.len(), 4 * 3 + 1 + 1, "{kinds:?}");
+}
+
+#[cfg(feature = "toml")]
+#[test]
+fn scene_files_are_of_every_kind() {
+    let kinds = census(|u| {
+        let file = generators::scene::file(u)?;
+        Ok(match cannonpile::scene::Scene::from_toml(&file) {
+            Ok(_) if file.is_empty() => "empty",
+            Ok(_) => "read",
+            Err(Error::NotToml { .. }) => "no TOML",
+            Err(Error::UnknownKey { .. }) => "unknown key",
+            Err(_) => "refused",
+        }
+        .into())
+    });
+    assert_eq!(kinds.len(), 5, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 8), "{kinds:?}");
 }
 
 #[test]

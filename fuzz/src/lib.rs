@@ -49,7 +49,7 @@ pub fn overlap(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// No parser panics, each reads what is printed, and a scene is a pile or is refused.
+/// No parser panics, each reads what is printed, and a scene is a pile or is refused; scene files and JSON too.
 #[must_use]
 pub fn parsers(bytes: &[u8]) -> Corpus {
     all_hold(
@@ -59,6 +59,18 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
             claims::parsers::a_number,
             claims::parsers::a_value,
             claims::scene::any_scene,
+            #[cfg(feature = "toml")]
+            claims::scene_file::written,
+            #[cfg(feature = "toml")]
+            claims::scene_file::any_file,
+            #[cfg(feature = "toml")]
+            claims::scene_file::a_number,
+            #[cfg(feature = "serde")]
+            claims::json::any_value,
+            #[cfg(feature = "serde")]
+            claims::json::damaged,
+            #[cfg(all(feature = "serde", feature = "toml"))]
+            claims::json::any_scene,
         ],
     )
 }

@@ -202,7 +202,30 @@ impl Error {
                 f,
                 "{quantity} would take {needed} numbers, more than {limit}: {remedy}"
             ),
-            // Every variant has its text in one of the three.
+            _ => self.fmt_file(f),
+        }
+    }
+}
+
+impl Error {
+    /// Errors of files, by line.
+    fn fmt_file(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotToml { line, reason } => write!(f, "line {line} is not TOML: {reason}"),
+            Self::UnknownKey {
+                line,
+                key,
+                nearest,
+                known,
+            } => {
+                write!(f, "line {line}: there is no key '{key}'")?;
+                match nearest {
+                    Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
+                    None => write!(f, ": the keys are {}", known.join(", ")),
+                }
+            }
+            Self::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            // Every variant has its text in one of the four.
             _ => write!(f, "{self:?}"),
         }
     }

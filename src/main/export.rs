@@ -27,7 +27,7 @@ pub(crate) struct Export {
     )]
     to: Vec<Target>,
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     // Of the list of files.
     #[command(flatten)]
     pub(crate) output: Output,

@@ -1,10 +1,13 @@
 //! The command line: parse, call, print. No mathematics.
 
+mod completions;
 mod export;
 mod options;
+mod scene;
 mod verify;
 
 use std::io::{self, BufWriter, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use cannonpile::census::{self, Entry};
@@ -30,16 +33,16 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
-    let target = || arguments.command.output().target();
-    match run(&arguments.command) {
+    let command = &arguments.command;
+    match run(command) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(NO),
         // Whoever reads has seen enough.
         Err(Failure::Write(WriteError::Io(error))) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
-        Err(Failure::Write(WriteError::Answer(error))) => refuse(&error.into()),
-        Err(Failure::Refused(refused)) => refuse(&refused),
+        Err(Failure::Write(WriteError::Answer(error))) => refuse(command, &error.into()),
+        Err(Failure::Refused(refused)) => refuse(command, &refused),
         Err(Failure::Write(WriteError::File { path, error })) => {
             cannot_write(&path.display().to_string(), &error.kind().to_string())
         }
@@ -53,7 +56,7 @@ fn main() -> ExitCode {
                 WriteError::Io(error) => error.kind().to_string(),
                 other => other.to_string(),
             };
-            cannot_write(&target(), &reason)
+            cannot_write(&command.target(), &reason)
         }
     }
 }
@@ -90,9 +93,16 @@ impl From<WriteError> for Failure {
     }
 }
 
-fn refuse(Refused { option, error }: &Refused) -> ExitCode {
-    let option = option.map_or_else(|| option_of(error), |option| format!("--{option}: "));
-    complain(&format!("error: {option}{error}"));
+fn refuse(command: &Command, Refused { option, error }: &Refused) -> ExitCode {
+    let option = option.or_else(|| option_of(error));
+    let place = |option| match command.scene().and_then(|scene| scene.line_of(option)) {
+        Some(line) => format!("{line}: "),
+        None => format!("--{option}: "),
+    };
+    let place = option.map_or_else(String::new, place);
+    let note = command.scene().and_then(|scene| scene.note(error));
+    let note = note.unwrap_or_default();
+    complain(&format!("error: {place}{error}{note}"));
     ExitCode::from(BAD_USE)
 }
 
@@ -189,6 +199,8 @@ fn run(command: &Command) -> Result<bool, Failure> {
         }
         Command::Export(export) => export::run(export)?,
         Command::Verify(verify) => return verify.run(),
+        Command::Scene(command) => command.run()?,
+        Command::Completions(command) => command.run()?,
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)
@@ -282,12 +294,19 @@ fn write_table(
     })
 }
 
-/// To the file, whole or not at all, or to stdout.
 fn write(
     output: &Output,
     content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    if let Some(path) = &output.file {
+    write_to(output.file.as_deref(), content)
+}
+
+/// To the file, whole or not at all, or to stdout.
+fn write_to(
+    file: Option<&Path>,
+    content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    if let Some(path) = file {
         return write_aside(path, content);
     }
     let mut out = BufWriter::new(io::stdout().lock());
@@ -295,32 +314,28 @@ fn write(
     Ok(out.flush()?)
 }
 
-/// The option to change, as a prefix of the message.
-fn option_of(error: &Error) -> String {
-    match error {
+/// The option to change.
+fn option_of(error: &Error) -> Option<&'static str> {
+    Some(match error {
         Error::Layers { .. }
         | Error::TooManyRows { .. }
         | Error::TooHigh { .. }
         | Error::RegionTooLarge { .. }
         | Error::TooLarge { .. }
-        | Error::LayersOfStacking { .. } => "--layers: ".into(),
-        Error::NoSuchMethod { .. } => "--method: ".into(),
-        Error::TooManyRuns { .. } => "--stacking: ".into(),
-        Error::NegativeLoad { .. } => "--load: ".into(),
-        Error::Excluded { given, .. } => format!("--{given}: "),
-        Error::SinPhi { .. } | Error::SinPhiOfDiscs | Error::NoSpacing { .. } => {
-            "--sin-phi: ".into()
-        }
-        Error::Overlap { .. } | Error::TooFlat { .. } => "--spacing: ".into(),
-        Error::NotPositive { quantity, .. } => format!("--{quantity}: "),
+        | Error::LayersOfStacking { .. } => "layers",
+        Error::NoSuchMethod { .. } => "method",
+        Error::TooManyRuns { .. } => "stacking",
+        Error::NegativeLoad { .. } => "load",
+        Error::Excluded { given, .. } => given,
+        Error::SinPhi { .. } | Error::SinPhiOfDiscs | Error::NoSpacing { .. } => "sin-phi",
+        Error::Overlap { .. } | Error::TooFlat { .. } => "spacing",
+        Error::NotPositive { quantity, .. } => quantity,
         // The other texts are read, and named, by the parser of the options.
-        Error::Syntax { .. } | Error::SiteOutside { .. } | Error::NotOnFloor { .. } => {
-            "--at: ".into()
-        }
-        Error::LayerOutside { .. } => "--layer: ".into(),
-        Error::Overflow { .. } => "--number: ".into(),
-        _ => String::new(),
-    }
+        Error::Syntax { .. } | Error::SiteOutside { .. } | Error::NotOnFloor { .. } => "at",
+        Error::LayerOutside { .. } => "layer",
+        Error::Overflow { .. } => "number",
+        _ => return None,
+    })
 }
 
 /// One line on stderr, whatever the text; if even that is closed, the exit status has to say it.

@@ -1,15 +1,17 @@
 //! The options of the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use cannonpile::export::{FileFormat, NumberFormat, Units};
-use cannonpile::lattice::{Dimension, Region, Selection};
-use cannonpile::scene::{Anchor, Scene, parse};
-use cannonpile::stacking::Pattern;
+use cannonpile::lattice::{Region, Selection};
+use cannonpile::scene::parse;
 use cannonpile::{Error, Method, Pile, Quantity, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use num_rational::BigRational;
+
+use crate::completions::Completions;
+pub(crate) use crate::scene::SceneOptions;
+use crate::scene::WriteScene;
 
 use crate::export::Export;
 use crate::verify::Verify;
@@ -110,6 +112,8 @@ pub(crate) enum Command {
     },
     /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
     Export(Export),
+    /// The scene as a TOML file, which --scene reads
+    Scene(WriteScene),
     /// What is proved for every pile, with the proofs; exit status 1 if one fails
     Prove {
         /// One theorem only, with its whole derivation
@@ -120,94 +124,41 @@ pub(crate) enum Command {
     },
     /// Measured contact forces against the exact ones; exit status 1 if they differ
     Verify(Verify),
+    /// A script with which a shell completes commands and options
+    Completions(Completions),
 }
 
 impl Command {
-    pub(crate) fn output(&self) -> &Output {
+    /// Where the output goes, for messages.
+    pub(crate) fn target(&self) -> String {
         match self {
+            Self::Scene(command) => target(command.file.as_deref()),
+            Self::Completions(_) => target(None),
             Self::Summary { output, .. }
             | Self::Base { output, .. }
             | Self::Contacts { output, .. }
             | Self::Spheres { output, .. }
             | Self::Census { output, .. }
             | Self::Explain { output, .. }
-            | Self::Prove { output, .. } => output,
-            Self::Export(export) => &export.output,
-            Self::Verify(verify) => &verify.output,
+            | Self::Prove { output, .. }
+            | Self::Export(Export { output, .. })
+            | Self::Verify(Verify { output, .. }) => target(output.file.as_deref()),
         }
     }
-}
 
-#[derive(Args)]
-#[command(next_help_heading = "Scene")]
-pub(crate) struct SceneOptions {
-    /// Number of layers, 1 to 10^36 [default: 10, those of a stacking that is spelled out, or as many as a base carries]
-    #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
-    layers: Option<i128>,
-    /// How layers follow one another: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); from the top, or from
-    /// the base up with --base [default: fcc]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::stacking)]
-    stacking: Option<Pattern>,
-    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region, conflicts_with = "base")]
-    top: Option<Region>,
-    /// Grow up from this layer
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region)]
-    base: Option<Region>,
-    /// 2 for discs, 3 for spheres
-    #[arg(long, value_name = "D", default_value = "3", allow_hyphen_values = true, value_parser = parse::dimension)]
-    dimension: Dimension,
-    /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
-    sin_phi: Option<BigRational>,
-    /// A vertical load on one sphere, in mg; may be given again
-    #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
-    load: Vec<String>,
-    /// The spheres weigh nothing: only the loads act
-    #[arg(long)]
-    weightless: bool,
-    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
-    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
-    spacing: Option<BigRational>,
-    /// Radius R of a sphere, in m
-    #[arg(long, value_name = "R", default_value = "1", allow_hyphen_values = true, value_parser = parse::rational)]
-    radius: BigRational,
-    /// Mass m of a sphere, in kg
-    #[arg(long, value_name = "M", default_value = "1", allow_hyphen_values = true, value_parser = parse::rational)]
-    mass: BigRational,
-    /// Gravity g, in m/s²
-    #[arg(long, value_name = "G", default_value = "1", allow_hyphen_values = true, value_parser = parse::rational)]
-    gravity: BigRational,
-}
-
-impl SceneOptions {
-    /// The scene described, and its pile.
-    ///
-    /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
-    pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
-        let load = |text: &String| {
-            parse::load(text, self.dimension).map_err(|error| Refused::of("load", error))
-        };
-        let scene = Scene {
-            layers: self.layers,
-            dimension: self.dimension,
-            sin_phi: self.sin_phi.clone(),
-            stacking: self.stacking.clone(),
-            anchor: self.top.map(Anchor::Top).or(self.base.map(Anchor::Base)),
-            loads: self.load.iter().map(load).collect::<Result<_, _>>()?,
-            weightless: self.weightless,
-            spacing: self.spacing.clone(),
-            radius: self.radius.clone(),
-            mass: self.mass.clone(),
-            gravity: self.gravity.clone(),
-        };
-        scene.check_sizes()?;
-        let pile = scene.pile().map_err(|error| match error {
-            // The only sites of a scene.
-            Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
-            error => error.into(),
-        })?;
-        Ok((scene, pile))
+    /// The scene options of the commands that have them.
+    pub(crate) fn scene(&self) -> Option<&SceneOptions> {
+        match self {
+            Self::Summary { scene, .. }
+            | Self::Base { scene, .. }
+            | Self::Contacts { scene, .. }
+            | Self::Spheres { scene, .. }
+            | Self::Explain { scene, .. }
+            | Self::Export(Export { scene, .. })
+            | Self::Verify(Verify { scene, .. }) => Some(scene),
+            Self::Scene(command) => Some(&command.scene),
+            Self::Census { .. } | Self::Prove { .. } | Self::Completions(_) => None,
+        }
     }
 }
 
@@ -389,13 +340,11 @@ pub(crate) struct Output {
     pub(crate) file: Option<PathBuf>,
 }
 
-impl Output {
-    /// Where the output goes, for messages.
-    pub(crate) fn target(&self) -> String {
-        match &self.file {
-            None => "to stdout".into(),
-            Some(path) => format!("--output {}", path.display()),
-        }
+/// Where output goes, for messages.
+fn target(file: Option<&Path>) -> String {
+    match file {
+        None => "to stdout".into(),
+        Some(path) => format!("--output {}", path.display()),
     }
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct Verify {
     #[arg(value_name = "FILE")]
     measured: PathBuf,
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     /// The greatest relative error accepted; 0 for forces that are the nearest floats
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,

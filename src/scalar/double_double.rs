@@ -45,6 +45,17 @@ impl DoubleDouble {
         }
     }
 
+    /// high + low, if they are the parts of a double-double: low at most half a unit in the last place of high.
+    #[cfg(feature = "serde")]
+    pub(crate) fn from_parts(high: f64, low: f64) -> Option<Self> {
+        let apart = if high.is_finite() {
+            fast_two_sum(high, low) == (high, low)
+        } else {
+            low == 0.0
+        };
+        apart.then_some(Self { high, low })
+    }
+
     /// The nearest float.
     #[must_use]
     pub const fn high(&self) -> f64 {

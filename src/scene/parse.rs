@@ -1,7 +1,9 @@
 //! Numbers, sites and shapes from text, exactly.
 
+mod roots;
 mod shapes;
 
+pub use roots::surd;
 pub use shapes::{load, region, stacking};
 
 use num_bigint::BigInt;
@@ -112,6 +114,16 @@ fn decimal(text: &str) -> Option<BigRational> {
 pub fn integer(text: &str) -> Result<i128, Error> {
     let expected = "an integer of at most 38 digits";
     text.parse().map_err(|_| Error::syntax(text, expected))
+}
+
+/// An integer of up to 5,000 digits.
+#[cfg(feature = "serde")]
+pub(crate) fn big_integer(text: &str) -> Result<BigInt, Error> {
+    let integer = Some(text).filter(|text| text.len() <= LONGEST);
+    let expected = "an integer of at most 5000 digits";
+    integer
+        .and_then(integer_digits)
+        .ok_or_else(|| Error::syntax(text, expected))
 }
 
 /// A number of layers.

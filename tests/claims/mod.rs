@@ -18,6 +18,8 @@
 //! | `overlap` | a spacing is allowed just if no two spheres come too close |
 //! | `parsers` | a parser never panics, and reads what is printed |
 //! | `scene` | a scene makes the pile that it describes, or is refused |
+//! | `scene_file` | a scene that is written down is read back; a file is read exactly or refused |
+//! | `json` | what is written as JSON is read back, and any JSON is valid or refused |
 //! | `laws` | every scalar passes the law suite |
 //! | `stackings` | a text is read as a stacking by the rules of its notation, and printed again |
 //! | `regions` | bounds are tightened completely, and small regions have their sites |
@@ -34,6 +36,8 @@ pub(crate) mod fixed;
 pub(crate) mod floats;
 pub(crate) mod growth;
 pub(crate) mod handed_on;
+#[cfg(feature = "serde")]
+pub(crate) mod json;
 pub(crate) mod laws;
 #[cfg(feature = "export")]
 pub(crate) mod measured;
@@ -45,6 +49,8 @@ pub(crate) mod packing;
 pub(crate) mod parsers;
 pub(crate) mod regions;
 pub(crate) mod scene;
+#[cfg(feature = "toml")]
+pub(crate) mod scene_file;
 pub(crate) mod sets;
 pub(crate) mod sites;
 pub(crate) mod stackings;

@@ -10,11 +10,14 @@
 //! | `number` | integers, rationals, floats, sin φ, radii and masses, roots |
 //! | `pile` | layers, piles, sites, directions, spacings, packings |
 //! | `region` | regions and their bounds, sites about them, small piles with weights and loads |
+//! | `scene` | scenes that can be written down; files of them, valid and damaged |
 //! | `stacking` | signs, runs, stackings as text |
 //! | `text` | numbers and sites as text: valid, with their values, and damaged |
 
 pub(crate) mod number;
 pub(crate) mod pile;
 pub(crate) mod region;
+#[cfg(feature = "toml")]
+pub(crate) mod scene;
 pub(crate) mod stacking;
 pub(crate) mod text;

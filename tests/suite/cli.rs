@@ -1,7 +1,9 @@
 //! The command line as a user meets it: what it prints, what it refuses, how it ends.
 
+mod completions;
 mod explain;
 mod export;
+mod scene;
 mod stackings;
 mod verify;
 

@@ -33,6 +33,10 @@ mod polynomial;
 mod rounded;
 #[path = "../rounding/mod.rs"]
 mod rounding;
+#[cfg(feature = "toml")]
+mod scene_file;
+#[cfg(feature = "serde")]
+mod serialized;
 mod strengths;
 #[path = "../stress/mod.rs"]
 mod stress;

@@ -1,0 +1,74 @@
+//! One formula in five scalars: what a sphere presses on the floor with, as a float, a fraction, a fraction of fixed
+//! width, bounds, and for every pile at once.
+//!
+//! The formula is written once, over `Ring`; the scalar decides what its answer is worth.
+//! Run it with `cargo run --example five_scalars`.
+
+use cannonpile::closed_form::Increments;
+use cannonpile::lattice::{Site, count};
+use cannonpile::scalar::{
+    Algebra, DoubleDouble, FixedRational, Interval, Polynomial, RealEmbeddable, Symbol,
+};
+use cannonpile::{Error, Pile};
+use num_rational::BigRational;
+use num_traits::Signed;
+
+/// What sphere (i, j) of layer k presses on the layer below with, its own weight included, in mg/(2(1+s)): s = sin φ
+/// says how slender the base triangles are.
+fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
+    Increments::isosceles(&s).carried(&count::above(&i, &j, &k))
+}
+
+/// The same for numbers, whatever they are in the scalar.
+fn answer<T: Algebra>(numbers: &[BigRational; 4]) -> T {
+    carried(numbers.each_ref().map(T::from_rational))
+}
+
+fn main() -> Result<(), Error> {
+    // Layer 9 of the pile, sphere (4, 1), on a base with sin φ = 1/3, which is no float.
+    let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    let numbers = [ratio(4, 1), ratio(1, 1), ratio(9, 1), ratio(1, 3)];
+
+    let exact: BigRational = answer(&numbers);
+    println!("a fraction of any size   {exact}");
+
+    let fixed: FixedRational<i64> = answer(&numbers);
+    println!("a fraction of 64 bits    {fixed}, or an overflow that is never silent");
+    assert_eq!(fixed.to_rational(), Some(exact.clone()));
+
+    let float: f64 = answer(&numbers);
+    println!("a float                  {float}");
+    assert!(exact == ratio(34, 3) && (float - 34.0 / 3.0).abs() < 1e-14);
+
+    let twice: DoubleDouble = answer(&numbers);
+    println!(
+        "two floats               {} {:+e}",
+        twice.high(),
+        twice.low()
+    );
+    let miss = twice.enclosure().map(|point| (point.lower - &exact).abs());
+    assert!(miss.is_some_and(|miss| miss < BigRational::new(1.into(), 10_i128.pow(30).into())));
+
+    let bounds: Interval = answer(&numbers);
+    println!(
+        "bounds that hold it      {:?} to {:?}",
+        bounds.lower(),
+        bounds.upper()
+    );
+    assert!(bounds.contains(&exact));
+
+    // And with symbols in place of the numbers: one answer for every sphere of every pile.
+    let symbols = ["i", "j", "k", "s"].map(Symbol);
+    let formula = carried(symbols.map(Polynomial::from));
+    println!("a polynomial             {formula}");
+    let values: Vec<_> = symbols.into_iter().zip(numbers.clone()).collect();
+    assert_eq!(formula.evaluate(&values), Some(exact.clone()));
+
+    // A validated pile is asked in the same scalars, and answers in mg.
+    let pile = Pile::isosceles(10, numbers[3].clone())?;
+    let site = Site { i: 4, j: 1, k: 9 };
+    let normal = pile.statics::<BigRational>().on_floor(site)?.normal;
+    println!("\nOn the floor of 10 layers, sphere (4, 1) presses with {normal} mg.");
+    assert_eq!(normal, exact / ratio(8, 3));
+    Ok(())
+}

@@ -1,0 +1,70 @@
+//! A theorem of one's own: how much energy do the contacts of a cannonball stack store?
+//!
+//! If every contact is a spring, its energy goes as the square of its force. The crate's formula for the forces is run on
+//! symbols, squared, and summed over the pile: what comes out holds for every number of layers. No case is tried, and
+//! nothing is fitted. Run it with `cargo run --example own_theorem`.
+
+use cannonpile::closed_form::Increments;
+use cannonpile::lattice::{Selection, count};
+use cannonpile::scalar::{Polynomial, Ring, Symbol};
+use cannonpile::{Error, Pile};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+type P = Polynomial;
+
+fn symbol(name: &'static str) -> P {
+    Symbol(name).into()
+}
+
+/// Σ f² over the contacts of L layers, in f₀² = (mg/(3 cosθ))².
+fn energy() -> P {
+    let [i, j, k, layers] = ["i", "j", "k", "L"].map(symbol);
+    let above = count::above(&i, &j, &k);
+    let forces = Increments::<P, 3>::regular().to_below(&above);
+    let squares = forces
+        .into_iter()
+        .fold(P::zero(), |sum, f| sum + &(f.clone() * &f));
+    // The sites of layer k are 0 ≤ j ≤ k, 0 ≤ i ≤ k − j; those of layer L − 1 have the floor below.
+    let zero = P::zero();
+    let row = squares.sum(Symbol("i"), &zero, &(k.clone() - &j));
+    let layer = row.sum(Symbol("j"), &zero, &k);
+    layer.sum(Symbol("k"), &zero, &(layers - &P::from_i128(2)))
+}
+
+/// (L−1) L (L+1) (L+2) (2L+1), of which the energy is a fortieth.
+fn claimed() -> P {
+    let layers = symbol("L");
+    let plus = |n| layers.clone() + &P::from_i128(n);
+    plus(-1) * &plus(0) * &plus(1) * &plus(2) * &(layers.clone() + &plus(1))
+}
+
+fn main() -> Result<(), Error> {
+    let energy = energy();
+    println!("Theorem. The squares of all contact forces of a stack of L layers sum to");
+    println!("(L-1) L (L+1) (L+2) (2L+1) / 40 in units of (mg/(3 cosθ))^2.\n");
+    println!("Proof. Summed over the pile, the formulas give\n  {energy}");
+    // Two polynomials are equal if and only if they are the same function: this is the proof.
+    assert_eq!(energy.clone() * &P::from_i128(40), claimed());
+    println!("which, times 40, is\n  {}\nas claimed.\n", claimed());
+
+    // Nearly right is not right.
+    let nearly = claimed() + &(symbol("L") - &P::one());
+    assert_ne!(energy.clone() * &P::from_i128(40), nearly);
+
+    // Nobody has to believe it: piles of numbers agree.
+    println!("   L   sum of squares");
+    for layers in 1..=12 {
+        let pile = Pile::triangular(layers)?;
+        let contacts = pile
+            .statics::<BigRational>()
+            .contacts(pile.rows(Selection::All)?);
+        let sum = contacts
+            .map(|contact| contact.map(|c| &c.force * &c.force))
+            .sum::<Result<BigRational, _>>()?;
+        println!("{layers:>4}   {sum}");
+        let value = BigRational::from_integer(layers.into());
+        assert_eq!(energy.evaluate(&[(Symbol("L"), value)]), Some(sum));
+    }
+    Ok(())
+}

@@ -1,0 +1,197 @@
+//! The scene options, on the line and in a file, and the command that writes such a file.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+
+use cannonpile::lattice::{Dimension, Region};
+use cannonpile::scene::{Anchor, Scene, SceneFile, parse};
+use cannonpile::stacking::Pattern;
+use cannonpile::{Error, Pile};
+use clap::Args;
+use num_rational::BigRational;
+
+use crate::options::Refused;
+use crate::{Failure, write_to};
+
+#[derive(Args)]
+#[command(next_help_heading = "Scene")]
+pub(crate) struct SceneOptions {
+    /// Read these options from a TOML file, - for stdin; those on the line win over it
+    #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
+    scene_file: Option<NamedFile>,
+    /// Number of layers, 1 to 10^36 [default: 10, those of a stacking that is spelled out, or as many as a base carries]
+    #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
+    layers: Option<i128>,
+    /// How layers follow one another: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); from the top, or from
+    /// the base up with --base [default: fcc]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::stacking)]
+    stacking: Option<Pattern>,
+    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region, conflicts_with = "base")]
+    top: Option<Region>,
+    /// Grow up from this layer
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region)]
+    base: Option<Region>,
+    /// 2 for discs, 3 for spheres [default: 3]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = parse::dimension)]
+    dimension: Option<Dimension>,
+    /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
+    sin_phi: Option<BigRational>,
+    /// A vertical load on one sphere, in mg; may be given again; those of a file are left out then
+    #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
+    load: Vec<String>,
+    /// The spheres weigh nothing: only the loads act; --weightless=false wins over a file
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    weightless: Option<bool>,
+    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
+    spacing: Option<BigRational>,
+    /// Radius R of a sphere, in m [default: 1]
+    #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = parse::rational)]
+    radius: Option<BigRational>,
+    /// Mass m of a sphere, in kg [default: 1]
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = parse::rational)]
+    mass: Option<BigRational>,
+    /// Gravity g, in m/s² [default: 1]
+    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse::rational)]
+    gravity: Option<BigRational>,
+}
+
+impl SceneOptions {
+    /// The scene described, and its pile.
+    ///
+    /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
+    pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
+        let scene = self.scene()?;
+        scene.check_sizes()?;
+        let pile = scene.pile().map_err(|error| match error {
+            // The only sites of a scene.
+            Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
+            error => error.into(),
+        })?;
+        Ok((scene, pile))
+    }
+
+    /// That of the file, with the options on the line in place of its own.
+    fn scene(&self) -> Result<Scene, Refused> {
+        let file = self
+            .scene_file
+            .as_ref()
+            .map(|file| file.content.scene().clone());
+        let file = file.unwrap_or_default();
+        let dimension = self.dimension.unwrap_or(file.dimension);
+        let load = |text: &String| {
+            parse::load(text, dimension).map_err(|error| Refused::of("load", error))
+        };
+        let loads: Vec<_> = self.load.iter().map(load).collect::<Result<_, _>>()?;
+        let anchor = self.top.map(Anchor::Top).or(self.base.map(Anchor::Base));
+        Ok(Scene {
+            layers: self.layers.or(file.layers),
+            dimension,
+            sin_phi: self.sin_phi.clone().or(file.sin_phi),
+            stacking: self.stacking.clone().or(file.stacking),
+            anchor: anchor.or(file.anchor),
+            loads: if loads.is_empty() { file.loads } else { loads },
+            weightless: self.weightless.unwrap_or(file.weightless),
+            spacing: self.spacing.clone().or(file.spacing),
+            radius: self.radius.clone().unwrap_or(file.radius),
+            mass: self.mass.clone().unwrap_or(file.mass),
+            gravity: self.gravity.clone().unwrap_or(file.gravity),
+        })
+    }
+
+    /// Where the file gives an option that the line does not.
+    pub(crate) fn line_of(&self, option: &str) -> Option<String> {
+        let file = self.scene_file.as_ref()?;
+        let line = file.content.line(option).filter(|_| !self.gives(option))?;
+        Some(format!("--scene {}: line {line}, {option}", file.name))
+    }
+
+    /// Where the other of two options that exclude each other is, if it is in the file.
+    pub(crate) fn note(&self, error: &Error) -> Option<String> {
+        let other = match error {
+            Error::Excluded { beside, .. } => beside.split(' ').next()?,
+            Error::LayersOfStacking { .. } => "stacking",
+            Error::SinPhiOfDiscs => "dimension",
+            Error::TooHigh { .. } => "base",
+            _ => return None,
+        };
+        let place = self.line_of(other)?;
+        Some(format!(" ({place})"))
+    }
+
+    /// Whether the option, or one in whose place it would be, is on the line.
+    fn gives(&self, option: &str) -> bool {
+        match option {
+            "layers" => self.layers.is_some(),
+            "stacking" => self.stacking.is_some(),
+            "top" | "base" => self.top.is_some() || self.base.is_some(),
+            "dimension" => self.dimension.is_some(),
+            "sin-phi" => self.sin_phi.is_some(),
+            "load" => !self.load.is_empty(),
+            "weightless" => self.weightless.is_some(),
+            "spacing" => self.spacing.is_some(),
+            "radius" => self.radius.is_some(),
+            "mass" => self.mass.is_some(),
+            "gravity" => self.gravity.is_some(),
+            _ => false,
+        }
+    }
+}
+
+/// A scene file, and what it was called on the line.
+#[derive(Clone)]
+struct NamedFile {
+    name: String,
+    content: SceneFile,
+}
+
+impl NamedFile {
+    fn read(name: &str) -> Result<Self, String> {
+        let text = text_of(name).map_err(|error| {
+            // The kind, without the number of the system.
+            let reason = error.kind();
+            format!("{reason}; name a TOML file that can be read, or - for stdin")
+        })?;
+        let content = text.parse().map_err(|error: Error| error.to_string())?;
+        Ok(Self {
+            name: name.into(),
+            content,
+        })
+    }
+}
+
+/// More than any scene that is read: its length is then refused.
+const LONGEST: u64 = 32 << 20;
+
+fn text_of(name: &str) -> io::Result<String> {
+    let mut text = String::new();
+    if name == "-" {
+        io::stdin().lock().take(LONGEST).read_to_string(&mut text)?;
+    } else {
+        File::open(name)?.take(LONGEST).read_to_string(&mut text)?;
+    }
+    Ok(text)
+}
+
+/// `scene`: what the options describe, as a file.
+#[derive(Args)]
+pub(crate) struct WriteScene {
+    #[command(flatten)]
+    pub(crate) scene: SceneOptions,
+    /// Write to a file, which is replaced only when all is written
+    #[arg(long = "output", value_name = "FILE", help_heading = "Output")]
+    pub(crate) file: Option<PathBuf>,
+}
+
+impl WriteScene {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let (scene, _) = self.scene.read()?;
+        let text = scene.to_toml();
+        Ok(write_to(self.file.as_deref(), |out| {
+            Ok(out.write_all(text.as_bytes())?)
+        })?)
+    }
+}

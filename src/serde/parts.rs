@@ -1,0 +1,122 @@
+//! A pile as what it is made of, and made of it again by the checked constructors.
+
+use alloc::vec::Vec;
+
+use ::serde::de::Error as _;
+use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
+use num_rational::BigRational;
+
+use super::number;
+use crate::lattice::{Dimension, Region, Shape, Site};
+use crate::scene::Anchor;
+use crate::stacking::Stacking;
+use crate::{Error, Pile};
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Pile", deny_unknown_fields)]
+struct Parts {
+    dimension: Dimension,
+    #[serde(with = "number")]
+    sin_phi: BigRational,
+    /// From the top, whatever the anchor.
+    stacking: Stacking,
+    anchor: Anchor,
+    weightless: bool,
+    weights: Vec<OnSite>,
+    loads: Vec<OnSite>,
+}
+
+/// What a sphere weighs, or what is put on it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OnSite {
+    site: Site,
+    #[serde(with = "number")]
+    weight: BigRational,
+}
+
+impl Parts {
+    fn of(pile: &Pile) -> Self {
+        let on_sites = |(site, weight): (Site, &BigRational)| OnSite {
+            site,
+            weight: weight.clone(),
+        };
+        let (shape, loading) = (pile.shape(), pile.loading());
+        Self {
+            dimension: pile.dimension(),
+            sin_phi: pile.sin_phi().clone(),
+            stacking: shape.stacking().clone(),
+            anchor: anchor(shape),
+            weightless: loading.is_weightless(),
+            weights: loading.weights().map(on_sites).collect(),
+            loads: loading.loads().map(on_sites).collect(),
+        }
+    }
+
+    fn pile(self) -> Result<Pile, Error> {
+        let mut pile = self.bare()?;
+        for OnSite { site, weight } in self.weights {
+            pile = pile.with_weight(site, weight)?;
+        }
+        for OnSite { site, weight } in self.loads {
+            pile = pile.with_load(site, weight)?;
+        }
+        Ok(if self.weightless {
+            pile.weightless()
+        } else {
+            pile
+        })
+    }
+
+    /// Without what was put on it.
+    fn bare(&self) -> Result<Pile, Error> {
+        let layers = self.stacking.layers();
+        let pile = match (self.dimension, self.anchor) {
+            (Dimension::Two, _) => Pile::discs(layers)?,
+            (Dimension::Three, Anchor::Top(Region::SITE))
+                if self.stacking.name() == Some("fcc") =>
+            {
+                Pile::isosceles(layers, self.sin_phi.clone())?
+            }
+            (Dimension::Three, Anchor::Top(top)) => Pile::under(top, self.stacking.clone())?,
+            (Dimension::Three, Anchor::Base(base)) => Pile::on(base, self.stacking.clone())?,
+        };
+        // Discs have but one shape, and most shapes but one sin φ.
+        let given = if pile.sin_phi() != &self.sin_phi {
+            "sin_phi"
+        } else if pile.shape().stacking() != &self.stacking {
+            "stacking"
+        } else if anchor(pile.shape()) != self.anchor {
+            "anchor"
+        } else {
+            return Ok(pile);
+        };
+        let beside = match self.dimension {
+            Dimension::Two => "dimension 2",
+            Dimension::Three => "this stacking and anchor",
+        };
+        Err(Error::Excluded { given, beside })
+    }
+}
+
+/// What the pile is grown from.
+fn anchor(shape: &Shape) -> Anchor {
+    match shape.layer(0) {
+        Ok(top) if !shape.is_grown_from_base() => Anchor::Top(top),
+        _ => Anchor::Base(shape.base()),
+    }
+}
+
+impl Serialize for Pile {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Parts::of(self).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Pile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Parts::deserialize(deserializer)?
+            .pile()
+            .map_err(D::Error::custom)
+    }
+}

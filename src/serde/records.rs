@@ -1,0 +1,244 @@
+//! What is a record of its public fields: here they are again, each with the way it is written.
+
+use core::ops::Range;
+
+use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
+use num_bigint::BigUint;
+use num_rational::BigRational;
+
+use super::{Number, number};
+use crate::census::Entry;
+use crate::geometry::{Apart, Vector};
+use crate::lattice::{Direction, Row, Selection, Site};
+use crate::scalar::{Enclosure, Surd};
+use crate::stacking::{Run, Sign};
+use crate::{
+    BaseExtremes, ContactForce, Counters, FloorForce, Method, PackedContact, Pile, Plan, Quantity,
+    Question, Standing,
+};
+
+records! {
+    Site as SiteRecord;
+    Run as RunRecord;
+    Row as RowRecord;
+    Selection as SelectionRecord;
+    Apart as ApartRecord;
+    Vector as VectorRecord<T>;
+    Enclosure as EnclosureRecord;
+    ContactForce as ContactForceRecord<T>;
+    FloorForce as FloorForceRecord<T>;
+    PackedContact as PackedContactRecord;
+    BaseExtremes as BaseExtremesRecord;
+    Standing as StandingRecord;
+    Entry as EntryRecord;
+    Question as QuestionRecord;
+    Plan as PlanRecord;
+    Counters as CountersRecord;
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Site", rename = "Site", deny_unknown_fields)]
+struct SiteRecord {
+    #[serde(with = "number")]
+    i: i128,
+    #[serde(with = "number")]
+    j: i128,
+    #[serde(with = "number")]
+    k: i128,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Run", rename = "Run", deny_unknown_fields)]
+struct RunRecord {
+    sign: Sign,
+    #[serde(with = "number")]
+    steps: i128,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Row", rename = "Row", deny_unknown_fields)]
+struct RowRecord {
+    #[serde(with = "number")]
+    k: i128,
+    #[serde(with = "number")]
+    j: i128,
+    #[serde(with = "RangeRecord")]
+    i: Range<i128>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Range<i128>", rename = "Range", deny_unknown_fields)]
+struct RangeRecord {
+    #[serde(with = "number")]
+    start: i128,
+    #[serde(with = "number")]
+    end: i128,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Selection", rename = "Selection", rename_all = "lowercase")]
+enum SelectionRecord {
+    One(Site),
+    Layer(#[serde(with = "number")] i128),
+    Base,
+    All,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Apart", rename = "Apart", deny_unknown_fields)]
+struct ApartRecord {
+    layers: u8,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(
+    remote = "Vector",
+    rename = "Vector",
+    bound = "T: Number",
+    deny_unknown_fields
+)]
+struct VectorRecord<T> {
+    #[serde(with = "number")]
+    x: T,
+    #[serde(with = "number")]
+    y: T,
+    #[serde(with = "number")]
+    z: T,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Enclosure", rename = "Enclosure", deny_unknown_fields)]
+struct EnclosureRecord {
+    #[serde(with = "number")]
+    lower: BigRational,
+    #[serde(with = "number")]
+    upper: BigRational,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(
+    remote = "ContactForce",
+    rename = "ContactForce",
+    bound = "T: Number",
+    deny_unknown_fields
+)]
+struct ContactForceRecord<T> {
+    site: Site,
+    direction: Direction,
+    #[serde(with = "number")]
+    force: T,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(
+    remote = "FloorForce",
+    rename = "FloorForce",
+    bound = "T: Number",
+    deny_unknown_fields
+)]
+struct FloorForceRecord<T> {
+    site: Site,
+    #[serde(with = "number")]
+    normal: T,
+    #[serde(with = "number")]
+    shear_x: T,
+    #[serde(with = "number")]
+    shear_y: T,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(
+    remote = "PackedContact",
+    rename = "PackedContact",
+    deny_unknown_fields
+)]
+struct PackedContactRecord {
+    site: Site,
+    direction: Direction,
+    force: Surd,
+    vector: [Surd; 3],
+    point: [Surd; 3],
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "BaseExtremes", rename = "BaseExtremes", deny_unknown_fields)]
+struct BaseExtremesRecord {
+    #[serde(with = "number")]
+    normal_min: BigRational,
+    #[serde(with = "number")]
+    normal_max: BigRational,
+    max_shear_ratio: Surd,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Standing", rename = "Standing", deny_unknown_fields)]
+struct StandingRecord {
+    least: Option<ContactForce<BigRational>>,
+    #[serde(with = "number")]
+    first_failure: Option<i128>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Entry", rename = "Entry", deny_unknown_fields)]
+struct EntryRecord {
+    pile: Pile,
+    standing: Standing,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Question", rename = "Question", deny_unknown_fields)]
+struct QuestionRecord {
+    part: Selection,
+    quantity: Quantity,
+    method: Option<Method>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Plan", rename = "Plan", deny_unknown_fields)]
+struct PlanRecord {
+    method: Method,
+    runs: usize,
+    #[serde(with = "number")]
+    visited: BigUint,
+    #[serde(with = "number")]
+    turned: BigUint,
+    #[serde(with = "number")]
+    passes: BigUint,
+    #[serde(with = "number")]
+    numbers: BigUint,
+    bits: u64,
+    reserved: u64,
+    planes: usize,
+    roots: u64,
+    #[serde(with = "number")]
+    rows: BigUint,
+    #[serde(with = "number")]
+    bytes: BigUint,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Counters", rename = "Counters", deny_unknown_fields)]
+struct CountersRecord {
+    #[serde(getter = "Counters::visited")]
+    visited: u64,
+    #[serde(getter = "Counters::turned")]
+    turned: u64,
+    #[serde(getter = "Counters::passes")]
+    passes: u64,
+    #[serde(getter = "Counters::roots")]
+    roots: u64,
+    #[serde(getter = "Counters::rows")]
+    rows: u64,
+}
+
+impl From<CountersRecord> for Counters {
+    fn from(record: CountersRecord) -> Self {
+        Self::of([
+            record.visited,
+            record.turned,
+            record.passes,
+            record.roots,
+            record.rows,
+        ])
+    }
+}

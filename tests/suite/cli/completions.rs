@@ -1,0 +1,80 @@
+//! Completions: every shell is told of every command and option.
+
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use super::{refusal, stdout};
+
+const SHELLS: [&str; 5] = ["bash", "zsh", "fish", "elvish", "powershell"];
+
+/// The commands that the help lists.
+fn commands() -> Vec<String> {
+    let help = stdout("--help");
+    let list = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let list = list.take_while(|line| !line.is_empty());
+    list.filter_map(|line| line.split_whitespace().next().map(str::to_owned))
+        .collect()
+}
+
+/// The options that the help of a command lists.
+fn options(command: &str) -> Vec<String> {
+    let help = stdout(&format!("{command} --help"));
+    let words = help.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
+    words
+        .filter_map(|word| word.strip_prefix("--"))
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn every_command_and_option_is_named() {
+    let commands = commands();
+    for expected in [
+        "summary",
+        "contacts",
+        "census",
+        "scene",
+        "prove",
+        "completions",
+    ] {
+        assert!(
+            commands.iter().any(|command| command == expected),
+            "{commands:?}"
+        );
+    }
+    let options = options("contacts");
+    assert!(
+        options.iter().any(|option| option == "sin-phi"),
+        "{options:?}"
+    );
+    for shell in SHELLS {
+        let script = stdout(&format!("completions {shell}"));
+        for name in commands.iter().chain(&options) {
+            assert!(script.contains(name), "{shell} is not told of {name}");
+        }
+        assert!(!script.contains("sin-psi"), "{shell}");
+    }
+    assert!(refusal("completions tcsh").contains("'tcsh'"));
+    assert!(refusal("completions").contains("bash"));
+}
+
+/// Where there is such a shell, it finds no fault.
+#[test]
+fn shells_parse_their_scripts() {
+    for shell in ["bash", "zsh"] {
+        let child = Command::new(shell)
+            .arg("-n")
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn();
+        let Ok(mut child) = child else { continue };
+        let script = stdout(&format!("completions {shell}"));
+        let mut pipe = child.stdin.take().expect("a pipe");
+        pipe.write_all(script.as_bytes()).expect("written");
+        drop(pipe);
+        let output = child.wait_with_output().expect("it ends");
+        assert!(output.status.success(), "{shell}: {output:?}");
+        assert!(output.stderr.is_empty(), "{shell}: {output:?}");
+    }
+}

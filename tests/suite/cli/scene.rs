@@ -1,0 +1,259 @@
+//! Scenes from files: on every command, under the options of the line, and written again.
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use super::{cannonpile, refusal, stdout};
+
+/// A file that is gone after the test.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str, text: &str) -> Self {
+        let name = format!("cannonpile-{}-{name}.toml", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        fs::write(&path, text).expect("a file");
+        Self(path)
+    }
+
+    /// What is printed on stdout, with or without a note beside it.
+    fn printed(&self, question: &str) -> String {
+        printed(&self.arguments(question))
+    }
+
+    /// The answer to a question that begins with the command.
+    fn asked(&self, question: &str) -> String {
+        stdout(&self.arguments(question))
+    }
+
+    fn refused(&self, question: &str) -> String {
+        refusal(&self.arguments(question))
+    }
+
+    fn arguments(&self, question: &str) -> String {
+        let (command, options) = question.split_once(' ').unwrap_or((question, ""));
+        format!("{command} --scene {} {options}", self.0.display())
+    }
+}
+
+fn printed(arguments: &str) -> String {
+    let output = cannonpile(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+const PILE: &str = "layers = 4\nstacking = 'hcp'\ntop = 'hexagon:2'\nload = ['0,0,0=5/2']\nspacing = 1.2\nmass = 0.1\n";
+
+const OPTIONS: &str =
+    "--layers 4 --stacking hcp --top hexagon:2 --load 0,0,0=5/2 --spacing 6/5 --mass 1/10";
+
+#[test]
+fn a_file_is_as_good_as_its_options() {
+    let file = Scratch::new("good", PILE);
+    for command in [
+        "summary --units si",
+        "base",
+        "contacts --units si",
+        "spheres",
+        "explain",
+        "scene",
+    ] {
+        let options = format!("{command} {OPTIONS}");
+        assert_eq!(file.asked(command), stdout(&options), "{command}");
+    }
+}
+
+#[test]
+fn options_on_the_line_win() {
+    let file = Scratch::new("win", PILE);
+    for (more, options) in [
+        (
+            "--layers 3",
+            "--layers 3 --stacking hcp --top hexagon:2 --load 0,0,0=5/2",
+        ),
+        (
+            "--stacking fcc",
+            "--layers 4 --top hexagon:2 --load 0,0,0=5/2",
+        ),
+        (
+            "--top triangle:2",
+            "--layers 4 --stacking hcp --top triangle:2 --load 0,0,0=5/2",
+        ),
+        // The base is in the place of the top, and the loads in that of the loads.
+        (
+            "--base hexagon:6 --load 0,0,0=1 --load 3,0,0=2",
+            "--layers 4 --stacking hcp --base hexagon:6 --load 0,0,0=1 --load 3,0,0=2",
+        ),
+        (
+            "--load 0,0,0=0",
+            "--layers 4 --stacking hcp --top hexagon:2",
+        ),
+        (
+            "--weightless",
+            "--layers 4 --stacking hcp --top hexagon:2 --load 0,0,0=5/2 --weightless",
+        ),
+    ] {
+        let question = format!("contacts {more}");
+        assert_eq!(
+            file.printed(&question),
+            printed(&format!("contacts {options}")),
+            "{more}"
+        );
+    }
+    let weightless = Scratch::new(
+        "weightless",
+        "weightless = true\nlayers = 2\nradius = 3\ngravity = 2\n",
+    );
+    assert_eq!(
+        weightless.asked("base --weightless=false"),
+        stdout("base --layers 2")
+    );
+    assert_eq!(
+        weightless.asked("base"),
+        stdout("base --layers 2 --weightless")
+    );
+    let sizes = "--radius 1 --gravity 5 --weightless=false --units si";
+    assert_eq!(
+        weightless.asked(&format!("contacts {sizes}")),
+        stdout("contacts --layers 2 --gravity 5 --units si")
+    );
+    let discs = Scratch::new("discs", "dimension = 2\nlayers = 3\nload = ['2=1']\n");
+    assert_eq!(
+        discs.asked("base"),
+        stdout("base --dimension 2 --layers 3 --load 2=1")
+    );
+}
+
+#[test]
+fn a_refusal_tells_the_file_from_the_line() {
+    let file = Scratch::new("refusal", PILE);
+    let name = file.0.display().to_string();
+    for (question, parts) in [
+        (
+            "base --sin-phi 1/3",
+            &["error: --sin-phi: ", "beside top", "line 3, top"][..],
+        ),
+        (
+            "base --dimension 2",
+            &[
+                "error: --scene",
+                "line 3, top: top has no meaning beside dimension 2",
+            ],
+        ),
+        (
+            "base --stacking=++",
+            &["error: --scene", "line 1, layers: ", "3 layers, not 4"],
+        ),
+        (
+            "base --layers 6 --stacking=++",
+            &["error: --layers: ", "3 layers, not 6"],
+        ),
+        (
+            "base --layers 9 --base hexagon:2",
+            &["error: --layers: ", "at most 3"],
+        ),
+        (
+            "base --base hexagon:2",
+            &["error: --scene", "line 1, layers: ", "at most 3"],
+        ),
+        ("base --spacing 9/10", &["error: --spacing: "]),
+        ("base --top hexagon:1 --load 0,1,0=1", &["error: --load: "]),
+        (
+            "base --top region:5..6,5..6,10..12",
+            &["error: --scene", "line 4, load: no sphere"],
+        ),
+        ("base --mass -1", &["error: --mass: "]),
+    ] {
+        let line = file.refused(question);
+        for part in parts {
+            assert!(line.contains(part), "{question}: no '{part}' in {line}");
+        }
+        assert_eq!(
+            line.contains(&name),
+            line.contains("--scene"),
+            "{question}: {line}"
+        );
+    }
+    for (text, parts) in [
+        ("spcaing = 1", ["line 1", "did you mean 'spacing'?"]),
+        ("\nmass = -1", ["line 2, mass", "positive"]),
+        ("\n\nsin-phi = 9/10", ["line 3", "TOML"]),
+        ("spacing = 0.9", ["line 1, spacing", "at least 1"]),
+        ("sin-phi = 2", ["line 1, sin-phi", "between 0 and 1"]),
+        (
+            "dimension = 2\nsin-phi = 0.5",
+            ["line 2, sin-phi: ", "line 1, dimension)"],
+        ),
+    ] {
+        let file = Scratch::new("text", text);
+        let line = file.refused("summary");
+        assert!(line.contains(&file.0.display().to_string()), "{line}");
+        for part in parts {
+            assert!(line.contains(part), "{text}: no '{part}' in {line}");
+        }
+    }
+    let nowhere = refusal("summary --scene /nowhere/pile.toml");
+    assert!(
+        nowhere.contains("/nowhere/pile.toml") && nowhere.contains("not found"),
+        "{nowhere}"
+    );
+    let file = Scratch::new("bytes", "");
+    fs::write(&file.0, b"mass = '\xff'").expect("a file");
+    assert!(file.refused("summary").contains("invalid"));
+}
+
+#[test]
+fn a_scene_is_written_and_read() {
+    for options in [
+        "",
+        OPTIONS,
+        "--layers 1000000000000000000000000000000 --sin-phi 1/3",
+        "--dimension 2 --layers 5 --load 4=1/3 --load 0,0=2 --weightless",
+        "--base region:0..5,0..5,0..7 --stacking (2,1) --gravity 9.81 --radius 1e-3",
+    ] {
+        let text = stdout(&format!("scene {options}"));
+        let file = Scratch::new("again", &text);
+        assert_eq!(file.asked("scene"), text, "{options}");
+        assert_eq!(
+            file.asked("summary --units si"),
+            stdout(&format!("summary --units si {options}")),
+            "{options}"
+        );
+        let target = file.0.with_extension("out");
+        assert!(
+            file.asked(&format!("scene --output {}", target.display()))
+                .is_empty()
+        );
+        assert_eq!(fs::read_to_string(&target).expect("the file"), text);
+        fs::remove_file(target).expect("cleaned up");
+    }
+    // What is no pile is not written.
+    assert!(refusal("scene --spacing 3").contains("--spacing"));
+    assert!(refusal("scene --output /nowhere/pile.toml").contains("--output"));
+}
+
+#[test]
+fn a_scene_comes_through_a_pipe() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(["base", "--scene", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let mut pipe = child.stdin.take().expect("a pipe");
+    pipe.write_all(PILE.as_bytes()).expect("written");
+    drop(pipe);
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(
+        String::from_utf8_lossy(&output.stdout),
+        stdout(&format!("base {OPTIONS}"))
+    );
+}
