@@ -223,6 +223,17 @@ pub enum Error {
         /// What was expected, with an example.
         expected: &'static str,
     },
+    /// More marks than anybody can tell apart in a figure.
+    TooManyMarks {
+        /// How many there would be.
+        marks: BigUint,
+        /// What they stand for.
+        what: &'static str,
+        /// How many are allowed.
+        limit: u32,
+        /// The narrower question.
+        remedy: &'static str,
+    },
     /// More rows than anybody can read.
     TooManyRows {
         /// How many there would be.

@@ -66,6 +66,7 @@
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers |
 //! | `export` | tables as csv, json and text (feature `export`) |
+//! | `figure` | the paper's figures and more, as SVG (feature `plot`) |
 //!
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
@@ -101,6 +102,9 @@ mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod export;
+#[cfg(feature = "plot")]
+#[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
+pub mod figure;
 mod fill;
 pub mod geometry;
 pub mod lattice;

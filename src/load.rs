@@ -65,6 +65,12 @@ impl Loading {
         self.weight(site) + self.load(site)
     }
 
+    /// How many spheres have something on them.
+    #[cfg(feature = "plot")]
+    pub(crate) fn loads(&self) -> usize {
+        self.loads.len()
+    }
+
     pub(crate) fn is_weightless(&self) -> bool {
         self.weightless
     }

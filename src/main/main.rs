@@ -1,8 +1,10 @@
 //! The command line: parse, call, print. No mathematics.
 
 mod options;
+mod plot;
 
 use std::io::{self, BufWriter, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use cannonpile::census::{self, Entry};
@@ -28,7 +30,7 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
-    let target = || arguments.command.output().target();
+    let target = || arguments.command.target();
     match run(&arguments.command) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(NO),
@@ -175,6 +177,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             let units = method.of(units(&scene, &pile, system)?)?;
             explain(&Explanation::new(&units, quantity, part)?, *no_run, output)?;
         }
+        Command::Plot(figure) => figure.run()?,
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)
@@ -264,12 +267,19 @@ fn write_table(table: Table<'_>, number: Number, output: &Output) -> Result<(), 
     })
 }
 
-/// To the file, whole or not at all, or to stdout.
 fn write(
     output: &Output,
     content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    if let Some(path) = &output.file {
+    write_to(output.file.as_ref(), content)
+}
+
+/// To the file, whole or not at all, or to stdout.
+fn write_to(
+    file: Option<&PathBuf>,
+    content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    if let Some(path) = file {
         return write_aside(path, content);
     }
     let mut out = BufWriter::new(io::stdout().lock());
@@ -282,6 +292,7 @@ fn option_of(error: &Error) -> String {
     match error {
         Error::Layers { .. }
         | Error::TooManyRows { .. }
+        | Error::TooManyMarks { .. }
         | Error::TooHigh { .. }
         | Error::RegionTooLarge { .. }
         | Error::TooLarge { .. }

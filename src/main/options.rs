@@ -11,6 +11,8 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use num_rational::BigRational;
 
+use super::plot::Figure;
+
 /// Exact contact forces in regular piles of spheres.
 #[derive(Parser)]
 #[command(version, about, max_term_width = 100, arg_required_else_help = false)]
@@ -113,19 +115,28 @@ pub(crate) enum Command {
         #[command(flatten)]
         output: Output,
     },
+    /// A figure, as SVG
+    #[command(subcommand)]
+    Plot(Figure),
 }
 
 impl Command {
-    pub(crate) fn output(&self) -> &Output {
-        match self {
+    /// Where the output goes, for messages.
+    pub(crate) fn target(&self) -> String {
+        let file = match self {
+            Self::Plot(figure) => figure.file(),
             Self::Summary { output, .. }
             | Self::Base { output, .. }
             | Self::Contacts { output, .. }
             | Self::Spheres { output, .. }
             | Self::Census { output, .. }
             | Self::Explain { output, .. }
-            | Self::Prove { output, .. } => output,
-        }
+            | Self::Prove { output, .. } => output.file.as_ref(),
+        };
+        file.map_or_else(
+            || "to stdout".into(),
+            |path| format!("--output {}", path.display()),
+        )
     }
 }
 
@@ -176,10 +187,24 @@ impl SceneOptions {
     ///
     /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
     pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
+        self.scene().and_then(checked)
+    }
+
+    /// The same, with this many layers where nothing says how many.
+    pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Refused> {
+        let mut scene = self.scene()?;
+        let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
+        if spelled.is_none() && !matches!(scene.anchor, Some(Anchor::Base(_))) {
+            scene.layers = scene.layers.or(Some(layers));
+        }
+        checked(scene)
+    }
+
+    fn scene(&self) -> Result<Scene, Refused> {
         let load = |text: &String| {
             parse::load(text, self.dimension).map_err(|error| Refused::of("load", error))
         };
-        let scene = Scene {
+        Ok(Scene {
             layers: self.layers,
             dimension: self.dimension,
             sin_phi: self.sin_phi.clone(),
@@ -191,15 +216,19 @@ impl SceneOptions {
             radius: self.radius.clone(),
             mass: self.mass.clone(),
             gravity: self.gravity.clone(),
-        };
-        scene.check_sizes()?;
-        let pile = scene.pile().map_err(|error| match error {
-            // The only sites of a scene.
-            Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
-            error => error.into(),
-        })?;
-        Ok((scene, pile))
+        })
     }
+}
+
+/// A scene whose sizes are right, and its pile.
+fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
+    scene.check_sizes()?;
+    let pile = scene.pile().map_err(|error| match error {
+        // The only sites of a scene.
+        Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
+        error => error.into(),
+    })?;
+    Ok((scene, pile))
 }
 
 /// A refusal, and the option to change if it is known.
@@ -378,16 +407,6 @@ pub(crate) struct Output {
     /// Write to a file, which is replaced only when all is written
     #[arg(long = "output", value_name = "FILE")]
     pub(crate) file: Option<PathBuf>,
-}
-
-impl Output {
-    /// Where the output goes, for messages.
-    pub(crate) fn target(&self) -> String {
-        match &self.file {
-            None => "to stdout".into(),
-            Some(path) => format!("--output {}", path.display()),
-        }
-    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
