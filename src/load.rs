@@ -65,10 +65,10 @@ impl Loading {
         self.weight(site) + self.load(site)
     }
 
-    /// How many spheres have something on them.
+    /// What is put on spheres.
     #[cfg(feature = "plot")]
-    pub(crate) fn loads(&self) -> usize {
-        self.loads.len()
+    pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
+        self.loads.iter().map(|(site, load)| (*site, load))
     }
 
     pub(crate) fn is_weightless(&self) -> bool {

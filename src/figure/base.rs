@@ -82,6 +82,8 @@ impl BaseMap {
             caption: &self.layer.caption,
             name: "normal force",
             unit: self.unit,
+            marked: &[],
+            mark: "",
         };
         draw(&self.layer, &self.cells, &self.scale, &words)
     }

@@ -81,6 +81,8 @@ pub(super) const BLACK: Colour = Colour::new(0x1a, 0x1a, 0x1a);
 pub(super) const WHITE: Colour = Colour::new(0xff, 0xff, 0xff);
 /// For what is there for orientation only.
 pub(super) const GREY: Colour = Colour::new(0x8a, 0x8a, 0x8a);
+/// Of words that are less than others, still read on white.
+pub(super) const DIM: Colour = Colour::new(0x55, 0x55, 0x55);
 /// Of the forces between spheres.
 pub(super) const BLUE: Colour = Colour::new(0x0b, 0x57, 0x9f);
 /// Of weights and loads.
@@ -148,8 +150,22 @@ fn mixed(palette: [Colour; 9], t: f64) -> Colour {
 pub struct Scale {
     least: f64,
     most: f64,
-    around_zero: bool,
+    palette: Palette,
 }
+
+/// Which colours there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Palette {
+    /// From dark to bright.
+    Rising,
+    /// From near-white to dark on both sides of zero.
+    Diverging,
+    /// The same without the palest: for thin lines on white, of which also the weakest tell their sign.
+    Signed,
+}
+
+/// The part of the palette on each side of zero that lines leave out.
+const PALEST: f64 = 0.3;
 
 impl Scale {
     /// The scale of these numbers: from the least to the greatest, or around zero if one of them is negative.
@@ -159,7 +175,11 @@ impl Scale {
         Self {
             least,
             most,
-            around_zero: least < 0.0,
+            palette: if least < 0.0 {
+                Palette::Diverging
+            } else {
+                Palette::Rising
+            },
         }
     }
 
@@ -178,7 +198,26 @@ impl Scale {
         Self {
             least: least.min(0.0),
             most: most.max(0.0),
-            around_zero: true,
+            palette: Palette::Diverging,
+        }
+    }
+
+    /// The same for thin lines on white: the weakest push and pull are told from nothing, and from each other.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::Scale;
+    ///
+    /// let lines = Scale::of_lines([-1.0, 2.0]);
+    /// let areas = Scale::around_zero([-1.0, 2.0]);
+    /// assert!(lines.colour(0.1).luminance() < areas.colour(0.1).luminance());
+    /// assert_eq!(lines.colour(2.0), areas.colour(2.0));
+    /// ```
+    #[must_use]
+    pub fn of_lines(values: impl IntoIterator<Item = f64>) -> Self {
+        Self {
+            palette: Palette::Signed,
+            ..Self::around_zero(values)
         }
     }
 
@@ -197,7 +236,7 @@ impl Scale {
     /// Whether it tells negative from positive numbers.
     #[must_use]
     pub fn is_around_zero(&self) -> bool {
-        self.around_zero
+        self.palette != Palette::Rising
     }
 
     /// Whether all its numbers are the same.
@@ -225,9 +264,12 @@ impl Scale {
     /// ```
     #[must_use]
     pub fn colour(&self, value: f64) -> Colour {
-        if self.around_zero {
+        if self.is_around_zero() {
             let part = value / self.greatest();
-            let part = if part.is_finite() { part } else { 0.0 };
+            let mut part = if part.is_finite() { part } else { 0.0 };
+            if self.palette == Palette::Signed && part != 0.0 {
+                part = (PALEST + (1.0 - PALEST) * part.abs()).copysign(part);
+            }
             return mixed(DIVERGING, part / 2.0 + 0.5);
         }
         if self.is_uniform() {

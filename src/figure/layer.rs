@@ -60,9 +60,19 @@ impl Layer {
         })
     }
 
+    /// Where a sphere of any layer is seen.
+    pub(super) fn above(&self, subject: &Subject<'_>, site: Site) -> Result<[f64; 2], Error> {
+        let first = self.places.first().map_or(site, |place| place.site);
+        Ok(seen(self.discs, subject.from(first, site)?))
+    }
+
     /// A horizontal vector as it is seen.
     pub(super) fn seen(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         seen(self.discs, [x, y, 0.0])
+    }
+
+    pub(super) fn is_of_discs(&self) -> bool {
+        self.discs
     }
 
     /// The distance of neighbours in a row, in R.
@@ -71,11 +81,11 @@ impl Layer {
         u.hypot(v)
     }
 
-    /// Around its spheres, and wide enough to be a figure.
-    pub(super) fn bounds(&self) -> Bounds {
+    /// Around its spheres with a margin in R, and wide enough to be a figure.
+    pub(super) fn bounds(&self, margin: f64) -> Bounds {
         let centres = self.places.iter().map(|place| place.at);
         let height = if self.discs { 4.0 } else { 8.0 };
-        Bounds::around(centres, 1.5).at_least(10.0, height)
+        Bounds::around(centres, margin).at_least(10.0, height)
     }
 
     /// The axes, with ticks in the unit of lengths; discs have none across.

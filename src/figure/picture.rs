@@ -58,7 +58,7 @@ pub(super) const AZIMUTH: f64 = 24.0;
 const ELEVATION: f64 = 20.0;
 
 /// The eye is this many times as far from the middle as the farthest sphere.
-const DISTANCE: f64 = 5.0;
+const DISTANCE: f64 = 7.0;
 
 impl Picture {
     /// From the exact positions, each rounded once.

@@ -51,6 +51,8 @@ pub struct Response {
     pub scale: Scale,
     seen: Layer,
     floor: bool,
+    /// Where the loads are, seen from above.
+    loads: Vec<[f64; 2]>,
 }
 
 impl Response {
@@ -61,7 +63,7 @@ impl Response {
     /// Those of [`Pile::with_load`].
     pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
         let pile = pile.weightless();
-        if pile.loading().loads() > 0 {
+        if pile.loading().loads().len() > 0 {
             return Ok(pile);
         }
         let middle = middle(&pile, 0)?;
@@ -96,12 +98,16 @@ impl Response {
             })
         });
         let cells: Vec<MapCell> = cells.collect::<Result<_, Error>>()?;
+        let seen = Layer::new(subject, k)?;
+        let loads = pile.loading().loads().take(LIMIT as usize);
+        let loads = loads.map(|(site, _)| seen.above(subject, site));
         Ok(Self {
+            loads: loads.collect::<Result<_, _>>()?,
             scale: Scale::around_zero(cells.iter().map(|cell| cell.value)),
             cells,
             layer: k,
             unit: subject.force_unit(),
-            seen: Layer::new(subject, k)?,
+            seen,
             floor,
         })
     }
@@ -119,6 +125,8 @@ impl Response {
             caption: &self.seen.caption,
             name: "vertical force",
             unit: self.unit,
+            marked: &self.loads,
+            mark: "below a load",
         };
         draw(&self.seen, &self.cells, &self.scale, &words)
     }

@@ -98,7 +98,8 @@ impl Shear {
     pub fn drawing(&self) -> Drawing {
         let layer = &self.layer;
         let panel = Panel::fitting(
-            layer.bounds(),
+            // Arrows reach beyond the spheres.
+            layer.bounds(layer.apart().max(1.2)),
             Margins {
                 below: 104.0,
                 ..Margins::AXES

@@ -67,13 +67,18 @@ impl<'p> Subject<'p> {
         self.pile().dimension() == Dimension::Two
     }
 
-    pub(super) fn is_si(&self) -> bool {
-        self.si
-    }
-
     /// The unit of forces.
     pub(super) fn force_unit(&self) -> &'static str {
         if self.si { "N" } else { "mg" }
+    }
+
+    /// f₀.
+    pub(super) fn unit_force(&self) -> &'static str {
+        match (self.pile().dimension(), self.pile().is_regular()) {
+            (Dimension::Two, _) => "mg/(2 cosθ)",
+            (Dimension::Three, true) => "mg/(3 cosθ)",
+            (Dimension::Three, false) => "mg/(2(1+sinφ) cosθ)",
+        }
     }
 
     /// The unit of shears.
@@ -138,7 +143,7 @@ impl<'p> Subject<'p> {
     }
 
     /// A vector in 2R and the symbolic basis, in R.
-    fn in_radii(&self, vector: Vector<BigRational>) -> Result<[f64; 3], Error> {
+    pub(super) fn in_radii(&self, vector: Vector<BigRational>) -> Result<[f64; 3], Error> {
         let two = BigRational::from_i128(2);
         let [x, y, z] = self.packing.displacement(vector, &two);
         Ok([
@@ -180,9 +185,18 @@ impl<'p> Subject<'p> {
         if pile.is_weightless() {
             parts.push("spheres without weight".into());
         }
-        let loads = pile.loading().loads();
-        if loads > 0 {
-            parts.push(counted(&loads.into(), "load"));
+        let mut loads = pile.loading().loads();
+        match (loads.len(), loads.next()) {
+            (1, Some((Site { i, j, k }, load))) => {
+                let place = if self.is_of_discs() {
+                    format!("{k},{i}")
+                } else {
+                    format!("{k},{i},{j}")
+                };
+                parts.push(brief(&format!("{load} mg on {place}")));
+            }
+            (0, _) => {}
+            (count, _) => parts.push(counted(&count.into(), "load")),
         }
         let square = self.packing.inclination().sin2() * square_per_sin2(pile.dimension());
         if let Ok(spacing) = Spacing::from_square(square) {

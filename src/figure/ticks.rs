@@ -37,27 +37,24 @@ pub(super) fn round_below(value: f64) -> Option<f64> {
 
 /// A number in four digits: `0.4622`, `12`, `1.2·10⁻⁷`.
 pub(super) fn short(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A number in a few digits; those before the point are never cut.
+pub(super) fn digits(value: f64, count: i32) -> String {
     if value == 0.0 {
         return "0".into();
     }
     if !(1e-3..1e5).contains(&value.abs()) {
-        let text = format!("{value:.2e}");
+        let text = format!("{value:.*e}", usize::from(count > 2) + 1);
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{}·10{}", trimmed(digits), raised(power)).replace('-', "−");
     }
-    // Four digits in all, of which those before the point are never cut.
-    let before = value.abs().log10().floor();
-    let places = if before >= 3.0 {
-        0
-    } else if before >= 2.0 {
-        1
-    } else if before >= 1.0 {
-        2
-    } else if before >= 0.0 {
-        3
-    } else {
-        4
-    };
+    // As many decimals as make up the count.
+    let places = (0..=8)
+        .find(|places| value.abs() * 10_f64.powi(*places) >= 10_f64.powi(count - 1))
+        .unwrap_or(8);
+    let places = usize::try_from(places).unwrap_or(0);
     trimmed(&format!("{value:.places$}")).replace('-', "−")
 }
 

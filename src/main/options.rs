@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use cannonpile::export::{FileFormat, NumberFormat, Units};
-use cannonpile::lattice::{Dimension, Region, Selection};
+use cannonpile::lattice::{Dimension, Region, Selection, Site};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::stacking::Pattern;
 use cannonpile::{Error, Method, Pile, Quantity, theorem};
@@ -267,7 +267,8 @@ pub(crate) struct BaseAt {
 
 impl BaseAt {
     pub(crate) fn on_base(&self, pile: &Pile) -> Result<Selection, Refused> {
-        Ok(one(self.at.as_deref(), pile)?.unwrap_or(Selection::Base))
+        let site = one(self.at.as_deref(), pile)?;
+        Ok(site.map_or(Selection::Base, Selection::One))
     }
 }
 
@@ -291,16 +292,18 @@ pub(crate) struct Part {
 impl Part {
     pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Refused> {
         let whole = self.layer.map_or(Selection::All, Selection::Layer);
-        Ok(one(self.at.as_deref(), pile)?.unwrap_or(whole))
+        let site = one(self.at.as_deref(), pile)?;
+        Ok(site.map_or(whole, Selection::One))
     }
 }
 
-fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Selection>, Refused> {
+/// The sphere that `--at` names.
+pub(crate) fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Site>, Refused> {
     let Some(text) = at else { return Ok(None) };
     let at = parse::at(text, pile.dimension()).map_err(|error| Refused::of("at", error))?;
     let site = pile.shape().check(at.site(pile.layers()));
     let site = site.map_err(|error| Refused::of("at", error))?;
-    Ok(Some(Selection::One(site)))
+    Ok(Some(site))
 }
 
 /// How the numbers of a pile are shown.

@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 
 use cannonpile::export::WriteError;
-use cannonpile::figure::{BaseMap, Drawing, Picture, Response, Shear, Subject};
+use cannonpile::figure::{
+    BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
+};
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::{Error, Pile};
 use clap::{Args, Subcommand};
 
-use super::options::{Refused, SceneOptions, UnitSystem};
+use super::options::{Refused, SceneOptions, UnitSystem, one};
 use super::{Failure, warn_if_it_falls, write_to};
 
 /// A kind of figure.
@@ -17,10 +19,39 @@ use super::{Failure, warn_if_it_falls, write_to};
 pub(crate) enum Figure {
     /// The pile in perspective [default: four layers]
     Pile(Of),
+    /// The indices i and j of the spheres of a layer
+    Indexing {
+        #[command(flatten)]
+        of: Of,
+        /// The layer, counted from 0 at the top [default: 3, or the bottom layer if there are fewer]
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+    /// The forces on one sphere
+    Sphere {
+        #[command(flatten)]
+        of: Measured,
+        /// The sphere, as K,I,J, or I,J on the base (discs: K,I or I) [default: in the middle]
+        #[arg(
+            long,
+            value_name = "K,I,J",
+            allow_hyphen_values = true,
+            help_heading = "Output"
+        )]
+        at: Option<String>,
+    },
     /// The shear force on the floor, as arrows
     Shear(Measured),
     /// The normal force on the floor, as a map
     Base(Measured),
+    /// The contact forces as lines, in a vertical section through the middle
+    Network {
+        #[command(flatten)]
+        of: Measured,
+        /// Instead, those of this layer on the next, seen from above; counted from 0 at the top
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
     /// The vertical force in a layer, as a map; without --load of 1 mg on the middle of a wide top of weightless spheres
     Response {
         #[command(flatten)]
@@ -64,8 +95,12 @@ pub(crate) struct ToFile {
 impl Figure {
     pub(crate) fn file(&self) -> Option<&PathBuf> {
         let output = match self {
-            Self::Pile(of) => &of.output,
-            Self::Shear(of) | Self::Base(of) | Self::Response { of, .. } => &of.output,
+            Self::Pile(of) | Self::Indexing { of, .. } => &of.output,
+            Self::Shear(of)
+            | Self::Base(of)
+            | Self::Sphere { of, .. }
+            | Self::Network { of, .. }
+            | Self::Response { of, .. } => &of.output,
         };
         output.file.as_ref()
     }
@@ -85,6 +120,29 @@ impl Figure {
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
                 Ok(Picture::new(&subject)?.drawing())
             }
+            Self::Indexing { of, layer } => {
+                let (scene, pile) = of.scene.read()?;
+                let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
+                let layer = layer.unwrap_or_else(|| INDEXED.min(pile.layers() - 1));
+                Ok(Indexing::new(&subject, layer)?.drawing())
+            }
+            Self::Sphere { of, at } => {
+                let (scene, pile) = of.scene.read()?;
+                let site = match one(at.as_deref(), &pile)? {
+                    Some(site) => site,
+                    None => SphereForces::example(&pile)?,
+                };
+                of.draw_pile(&scene, &pile, |subject| {
+                    Ok(SphereForces::new(subject, site)?.drawing())
+                })
+            }
+            Self::Network { of, layer } => of.draw(|subject| {
+                let network = match layer {
+                    Some(k) => Network::layer(subject, *k),
+                    None => Network::section(subject),
+                };
+                Ok(network?.drawing())
+            }),
             Self::Shear(of) => of.draw(|subject| Ok(Shear::new(subject)?.drawing())),
             Self::Base(of) => of.draw(|subject| Ok(BaseMap::new(subject)?.drawing())),
             Self::Response { of, layer } => {
@@ -106,6 +164,9 @@ impl Figure {
 /// The layers of the picture of a pile, as in the paper.
 const PICTURED: i128 = 4;
 
+/// The layer whose indices are shown, as in the paper.
+const INDEXED: i128 = 3;
+
 /// The side of the top under which a response is shown: the load is seen to spread from its middle.
 const WIDE: i128 = 4;
 
@@ -123,9 +184,18 @@ impl Measured {
         figure: impl FnOnce(&Subject<'_>) -> Result<Drawing, Error>,
     ) -> Result<Drawing, Refused> {
         let (scene, pile) = self.scene.read()?;
-        let subject = subject(&scene, &pile, self.units)?;
-        let drawing = figure(&subject).map_err(|error| unfit(error, &scene))?;
-        warn_if_it_falls(&pile);
+        self.draw_pile(&scene, &pile, figure)
+    }
+
+    fn draw_pile(
+        &self,
+        scene: &Scene,
+        pile: &Pile,
+        figure: impl FnOnce(&Subject<'_>) -> Result<Drawing, Error>,
+    ) -> Result<Drawing, Refused> {
+        let subject = subject(scene, pile, self.units)?;
+        let drawing = figure(&subject).map_err(|error| unfit(error, scene))?;
+        warn_if_it_falls(pile);
         Ok(drawing)
     }
 }

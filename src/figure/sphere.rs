@@ -1,0 +1,389 @@
+//! The forces on one sphere: the paper's fig. 3.
+
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::canvas::{Canvas, Drawing, Hold, Label, Point, arrow, circle, line, ring};
+use super::colour::{BLACK, BLUE, Colour, DIM, GREY, ORANGE};
+use super::panel::{Bounds, Margins, Panel};
+use super::picture::axes;
+use super::response::middle;
+use super::subject::nearest;
+use super::ticks::{exact_or_short, short};
+use super::view::{Vector, View, moved, norm};
+use super::{Subject, of};
+use crate::lattice::Site;
+use crate::scalar::Surd;
+use crate::{Error, Pile};
+
+/// The forces that act on one sphere, and the spheres it touches.
+///
+/// Paper, fig. 3: **a**, **b** and **c** from the three spheres below, **a**′, **b**′ and **c**′ from those above, and
+/// the weight **w**. A load is a force of its own; under a bottom sphere is the floor, with its force **n**.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::figure::{SphereForces, Subject};
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::lattice::Site;
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+/// let subject = Subject::of_pile(&pile, &spacing)?;
+/// let sphere = SphereForces::new(&subject, Site { i: 1, j: 2, k: 5 })?;
+/// let names: Vec<&str> = sphere.forces.iter().map(|force| force.name).collect();
+/// assert_eq!(names, ["a′", "b′", "c′", "a", "b", "c", "w"]);
+/// // In equilibrium.
+/// let vertical: f64 = sphere.forces.iter().map(|force| force.magnitude * force.along[2]).sum();
+/// assert!(vertical.abs() < 1e-12);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SphereForces {
+    /// The sphere.
+    pub site: Site,
+    /// What acts on it.
+    pub forces: Vec<SphereForce>,
+    /// The unit of the forces.
+    pub unit: &'static str,
+    /// From its centre to those of the spheres that it touches, in R.
+    neighbours: Vec<Vector>,
+    /// f₀ in that unit, and what it is.
+    unit_force: (f64, &'static str),
+    caption: String,
+    discs: bool,
+}
+
+/// A force on a sphere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SphereForce {
+    /// `a`, `b`, `c` from below, `a′`, `b′`, `c′` from above, `w` for the weight, `p` for a load, `n` for the floor.
+    pub name: &'static str,
+    /// Its magnitude, rounded once; negative is pull.
+    pub magnitude: f64,
+    /// The unit vector along it: x and y the paper's, z up.
+    pub along: [f64; 3],
+    /// Where it acts, from the centre, in R.
+    pub at: [f64; 3],
+    /// A contact force in f₀.
+    multiple: Option<BigRational>,
+}
+
+impl SphereForces {
+    /// From the exact forces, each rounded once.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::Overflow`] for forces beyond floats.
+    pub fn new(subject: &Subject<'_>, site: Site) -> Result<Self, Error> {
+        let pile = subject.pile();
+        let (packing, statics) = (subject.packing(), subject.packing().statics());
+        let site = pile.shape().check(site)?;
+        let mut neighbours = Vec::new();
+        let mut forces = Vec::new();
+        let contact = |name, multiple: BigRational, along: Vector| {
+            let force = packing.unit_force().scaled(&multiple);
+            Ok::<_, Error>(SphereForce {
+                name,
+                magnitude: nearest(&force, "a contact force")?,
+                along,
+                at: scaled(-1.0, along),
+                multiple: Some(multiple),
+            })
+        };
+        let names = ["a′", "b′", "c′"];
+        let above = statics.from_above(site)?;
+        for ((&direction, force), name) in
+            pile.dimension().directions().iter().zip(above).zip(names)
+        {
+            let Some(upper) = pile.shape().above(site, direction) else {
+                continue;
+            };
+            let down = scaled(-1.0, subject.contact(upper, direction)?);
+            neighbours.push(scaled(-2.0, down));
+            forces.push(contact(name, force, down)?);
+        }
+        if site.k == pile.layers() - 1 {
+            forces.push(floor(subject, site)?);
+        } else {
+            let directions = pile.dimension().directions().iter();
+            for (&direction, name) in directions.zip(["a", "b", "c"]) {
+                let up = subject.contact(site, direction)?;
+                neighbours.push(scaled(-2.0, up));
+                forces.push(contact(name, statics.contact(site, direction)?, up)?);
+            }
+        }
+        let loading = pile.loading();
+        let mg = packing.sphere_weight();
+        let down = |name, multiple: BigRational, at| {
+            Ok::<_, Error>(SphereForce {
+                name,
+                magnitude: nearest(&Surd::from(multiple * &mg), "a weight")?,
+                along: [0.0, 0.0, -1.0],
+                at,
+                multiple: None,
+            })
+        };
+        forces.push(down("w", loading.weight(site), [0.0; 3])?);
+        let load = loading.load(site);
+        if !load.is_zero() {
+            forces.push(down("p", load, [0.0, 0.0, 1.0])?);
+        }
+        Ok(Self {
+            site,
+            forces,
+            unit: subject.force_unit(),
+            neighbours,
+            unit_force: (
+                nearest(&packing.unit_force(), "the unit of forces")?,
+                subject.unit_force(),
+            ),
+            caption: subject.caption(),
+            discs: subject.is_of_discs(),
+        })
+    }
+
+    /// The sphere that is shown where none is chosen: one near the middle of the layer in the middle.
+    ///
+    /// # Errors
+    /// None: every pile has such a sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::SphereForces;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let site = SphereForces::example(&Pile::triangular(10)?)?;
+    /// assert_eq!(site, Site { i: 2, j: 2, k: 5 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn example(pile: &Pile) -> Result<Site, Error> {
+        middle(pile, pile.layers() / 2)
+    }
+
+    /// The figure: arrows as long as the forces, and a table of their values.
+    ///
+    /// A force that pushes ends on the surface of the sphere, where it acts; one that pulls begins there.
+    #[must_use]
+    pub fn drawing(&self) -> Drawing {
+        let view = if self.discs {
+            View::of_discs([0.0; 3])
+        } else {
+            View::new([0.0; 3], AZIMUTH, ELEVATION, f64::INFINITY)
+        };
+        let greatest = self.greatest();
+        let length = |force: &SphereForce| {
+            let part = force.magnitude / greatest;
+            if part.is_finite() {
+                part * LONGEST
+            } else {
+                0.0
+            }
+        };
+        let shafts: Vec<Shaft<'_>> = self
+            .forces
+            .iter()
+            .map(|force| Shaft::new(force, length(force)))
+            .collect();
+        let around = self.neighbours.iter().map(|centre| view.across(*centre));
+        let bounds = Bounds::around(around.chain([[0.0; 2]]), 1.1).at_least(6.4, 6.8);
+        let margins = Margins {
+            left: 20.0,
+            right: 290.0,
+            below: 24.0,
+        };
+        let panel = Panel::fitting(bounds, margins);
+        let Site { i, j, k } = self.site;
+        let title = if self.discs {
+            format!("Forces on the disc k = {k}, i = {i}")
+        } else {
+            format!("Forces on the sphere k = {k}, i = {i}, j = {j}")
+        };
+        let height = panel.page_height().max(TABLE + 24.0 * 12.0);
+        let mut canvas = Canvas::new(height, &title, &self.caption);
+        canvas.shading("sphere", Colour::new(0x9d, 0xb9, 0xd6));
+        let radius = panel.length(1.0);
+        let place = |vector: Vector| panel.at(view.across(vector));
+        // The sphere in its neighbours' midst: what is behind it first.
+        for centre in &self.neighbours {
+            let outline = ring(place(*centre), radius, GREY, 1.0).set("class", "neighbour");
+            canvas.add(outline.set("stroke-dasharray", "5 4"));
+        }
+        let (behind, before): (Vec<_>, Vec<_>) = shafts
+            .iter()
+            .partition(|shaft| view.towards(shaft.force.at) < -1e-9);
+        for shaft in behind {
+            shaft.draw(&mut canvas, place);
+        }
+        let mark = circle(place([0.0; 3]), radius)
+            .set("class", "sphere")
+            .set("fill", "url(#sphere)")
+            .set("fill-opacity", 0.62)
+            .set("stroke", BLACK.to_string());
+        canvas.add(of(self.site, mark));
+        for shaft in before {
+            shaft.draw(&mut canvas, place);
+        }
+        for shaft in &shafts {
+            shaft.name(&mut canvas, place);
+        }
+        self.table(&mut canvas);
+        let corner = [56.0, height - 62.0];
+        axes(&mut canvas, &view, corner, self.discs);
+        canvas.finish()
+    }
+
+    fn greatest(&self) -> f64 {
+        let magnitudes = self.forces.iter().map(|force| force.magnitude.abs());
+        magnitudes.fold(0.0, f64::max)
+    }
+
+    fn table(&self, canvas: &mut Canvas) {
+        let columns = [WHERE, WHERE + 30.0, WHERE + 160.0, WHERE + 230.0];
+        let cell = |canvas: &mut Canvas, n: usize, y: f64, label: Label| {
+            let hold = if n < 2 { Hold::Start } else { Hold::End };
+            let x = columns.get(n).copied().unwrap_or(WHERE);
+            canvas.add(label.hold(hold).at([x, y]));
+        };
+        let mut y = TABLE;
+        cell(canvas, 2, y, Label::new("f₀").size(13.0).colour(DIM));
+        cell(canvas, 3, y, Label::new(self.unit).size(13.0).colour(DIM));
+        y += 14.0;
+        canvas.add(line([WHERE, y], [WHERE + 230.0, y], GREY, 1.0));
+        for force in &self.forces {
+            y += 22.0;
+            let colour = colour(force);
+            cell(canvas, 0, y, name(force).colour(colour));
+            cell(canvas, 1, y, Label::new(told(force)).size(13.0));
+            if let Some(multiple) = &force.multiple {
+                let value = Surd::from(multiple.clone()).nearest().unwrap_or(0.0);
+                let text = exact_or_short(&multiple.to_string(), value);
+                cell(canvas, 2, y, Label::new(text));
+            }
+            cell(canvas, 3, y, Label::new(short(force.magnitude)));
+        }
+        y += 34.0;
+        let (value, meaning) = self.unit_force;
+        let text = format!("f₀ = {meaning} = {} {}", short(value), self.unit);
+        cell(canvas, 0, y, Label::new(text).size(13.0));
+        if self.forces.iter().any(|force| force.magnitude < 0.0) {
+            y += 22.0;
+            cell(
+                canvas,
+                0,
+                y,
+                Label::new("− is pull").size(13.0).colour(ORANGE),
+            );
+        }
+    }
+}
+
+/// Where the table is on the page.
+const TABLE: f64 = 118.0;
+const WHERE: f64 = 540.0;
+
+/// The length of the greatest force, in R.
+const LONGEST: f64 = 1.55;
+
+/// The camera, so turned that no force hides another.
+const AZIMUTH: f64 = 10.0;
+const ELEVATION: f64 = 24.0;
+
+/// A force from its beginning to its end, around the centre of the sphere, in R.
+struct Shaft<'a> {
+    force: &'a SphereForce,
+    ends: [Vector; 2],
+}
+
+impl<'a> Shaft<'a> {
+    fn new(force: &'a SphereForce, length: f64) -> Self {
+        let SphereForce { at, along, .. } = *force;
+        // The weight begins in the centre, what pushes ends on the surface, and what pulls begins there.
+        let ends = if norm(at) == 0.0 || length < 0.0 {
+            [at, moved(at, length, along)]
+        } else {
+            [moved(at, -length, along), at]
+        };
+        Self { force, ends }
+    }
+
+    fn draw(&self, canvas: &mut Canvas, place: impl Fn(Vector) -> Point) {
+        let [tail, tip] = self.ends.map(place);
+        if self.force.magnitude != 0.0 {
+            canvas.add(arrow(tail, tip, 4.0, colour(self.force)));
+        }
+    }
+
+    /// Its letter, at the end that is farther from the sphere.
+    fn name(&self, canvas: &mut Canvas, place: impl Fn(Vector) -> Point) {
+        let SphereForce { at, along, .. } = *self.force;
+        let [tail, tip] = self.ends;
+        let far = if norm(tail) > norm(tip) { tail } else { tip };
+        let outwards = if norm(at) == 0.0 { along } else { at };
+        let [from, to] = [place([0.0; 3]), place(outwards)];
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let length = dx.hypot(dy).max(1.0);
+        let [x, y] = place(far);
+        let beyond = 16.0;
+        let label = name(self.force)
+            .size(19.0)
+            .halo()
+            .colour(colour(self.force));
+        canvas.add(label.at([x + dx / length * beyond, y + dy / length * beyond]));
+    }
+}
+
+fn name(force: &SphereForce) -> Label {
+    Label::new(force.name).bold().italic()
+}
+
+fn told(force: &SphereForce) -> &'static str {
+    match force.name {
+        "w" => "weight",
+        "p" => "load",
+        "n" => "from the floor",
+        name if name.ends_with('′') => "from above",
+        _ => "from below",
+    }
+}
+
+fn colour(force: &SphereForce) -> Colour {
+    if force.multiple.is_some() || force.name == "n" {
+        BLUE
+    } else {
+        ORANGE
+    }
+}
+
+fn scaled(t: f64, vector: Vector) -> Vector {
+    vector.map(|part| t * part)
+}
+
+/// What the floor does to a bottom sphere: the opposite of what it feels.
+fn floor(subject: &Subject<'_>, site: Site) -> Result<SphereForce, Error> {
+    let force = subject.packing().on_floor(site)?;
+    let vector = [
+        -nearest(&force.shear_x, "a shear")?,
+        -nearest(&force.shear_y, "a shear")?,
+        nearest(&force.normal, "a normal force")?,
+    ];
+    // Divided first, for the greatest and the least of floats.
+    let greatest = vector
+        .iter()
+        .fold(0.0_f64, |most, part| most.max(part.abs()));
+    let part = if greatest > 0.0 {
+        vector.map(|part| part / greatest)
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let length = norm(part);
+    Ok(SphereForce {
+        name: "n",
+        magnitude: greatest * length,
+        along: part.map(|part| part / length),
+        at: [0.0, 0.0, -1.0],
+        multiple: None,
+    })
+}
