@@ -1,11 +1,18 @@
 //! The paper's figures, and more, as SVG.
 //!
-//! Each figure is computed from a [`Subject`], a pile with a spacing and units, as plain numbers: exact answers, rounded
+//! Each figure of a pile is computed from a [`Subject`], a pile with a spacing and units, as plain numbers: exact answers, rounded
 //! once. Its `drawing` is a [`Drawing`], an SVG document that needs no fonts but the viewer's.
 //!
 //! | figure | what it shows |
 //! |---|---|
+//! | [`Picture`] | the pile in perspective (paper, fig. 1) |
+//! | [`Indexing`] | the indices of a layer (paper, fig. 2) |
+//! | [`SphereForces`] | the forces on one sphere (paper, fig. 3) |
 //! | [`Shear`] | the shear on the floor as arrows (paper, fig. 4) |
+//! | [`BaseMap`] | the normal force on the floor as a map |
+//! | [`Network`] | contact forces as lines: a vertical section, or a layer |
+//! | [`Response`] | what a layer feels of a load on the top |
+//! | [`WorkPrecision`] | measured run times against errors |
 //!
 //! # Examples
 //! ```
@@ -37,6 +44,7 @@ mod sphere;
 mod subject;
 mod ticks;
 mod view;
+mod work_precision;
 
 pub use base::BaseMap;
 pub use canvas::Drawing;
@@ -49,6 +57,7 @@ pub use response::Response;
 pub use shear::{Shear, ShearArrow};
 pub use sphere::{SphereForce, SphereForces};
 pub use subject::Subject;
+pub use work_precision::{MeasuredRun, WorkPrecision};
 
 use svg::Node;
 

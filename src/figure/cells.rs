@@ -90,7 +90,7 @@ fn texts(cells: &[MapCell], across: f64, size: f64) -> Vec<String> {
         let mut labels = texts
             .iter()
             .map(|text| Label::new(text.as_str()).size(size));
-        labels.all(|label| label.width() < across * 0.94)
+        labels.all(|label| label.width() < across * 0.86)
     };
     let shown = |show: &dyn Fn(&MapCell) -> String| -> Vec<String> {
         let text = |cell: &MapCell| {

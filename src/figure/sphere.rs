@@ -200,7 +200,8 @@ impl SphereForces {
             format!("Forces on the disc k = {k}, i = {i}")
         } else {
             format!("Forces on the sphere k = {k}, i = {i}, j = {j}")
-        };
+        }
+        .replace('-', "−");
         let height = panel.page_height().max(TABLE + 24.0 * 12.0);
         let mut canvas = Canvas::new(height, &title, &self.caption);
         canvas.shading("sphere", Colour::new(0x9d, 0xb9, 0xd6));
@@ -230,7 +231,7 @@ impl SphereForces {
             shaft.name(&mut canvas, place);
         }
         self.table(&mut canvas);
-        let corner = [56.0, height - 62.0];
+        let corner = [56.0, height - 76.0];
         axes(&mut canvas, &view, corner, self.discs);
         canvas.finish()
     }
@@ -241,7 +242,7 @@ impl SphereForces {
     }
 
     fn table(&self, canvas: &mut Canvas) {
-        let columns = [WHERE, WHERE + 30.0, WHERE + 160.0, WHERE + 230.0];
+        let columns = [WHERE, WHERE + 30.0, WHERE + 172.0, WHERE + 248.0];
         let cell = |canvas: &mut Canvas, n: usize, y: f64, label: Label| {
             let hold = if n < 2 { Hold::Start } else { Hold::End };
             let x = columns.get(n).copied().unwrap_or(WHERE);
@@ -251,7 +252,7 @@ impl SphereForces {
         cell(canvas, 2, y, Label::new("f₀").size(13.0).colour(DIM));
         cell(canvas, 3, y, Label::new(self.unit).size(13.0).colour(DIM));
         y += 14.0;
-        canvas.add(line([WHERE, y], [WHERE + 230.0, y], GREY, 1.0));
+        canvas.add(line([WHERE, y], [WHERE + 248.0, y], GREY, 1.0));
         for force in &self.forces {
             y += 22.0;
             let colour = colour(force);
@@ -282,7 +283,7 @@ impl SphereForces {
 
 /// Where the table is on the page.
 const TABLE: f64 = 118.0;
-const WHERE: f64 = 540.0;
+const WHERE: f64 = 532.0;
 
 /// The length of the greatest force, in R.
 const LONGEST: f64 = 1.55;

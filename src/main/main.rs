@@ -40,6 +40,10 @@ fn main() -> ExitCode {
         }
         Err(Failure::Write(WriteError::Answer(error))) => refuse(&error.into()),
         Err(Failure::Refused(refused)) => refuse(&refused),
+        Err(Failure::File { path, told }) => {
+            complain(&format!("error: {}: {told}", path.display()));
+            ExitCode::from(BAD_USE)
+        }
         Err(Failure::Write(error)) => {
             let reason = match &error {
                 // The text of an error may name the file written aside; its kind does not.
@@ -60,6 +64,11 @@ fn main() -> ExitCode {
 enum Failure {
     Refused(Refused),
     Write(WriteError),
+    /// A file that was to be read.
+    File {
+        path: PathBuf,
+        told: String,
+    },
 }
 
 impl From<Refused> for Failure {

@@ -1,10 +1,12 @@
 //! `cannonpile plot KIND`: the figures.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use cannonpile::export::WriteError;
 use cannonpile::figure::{
     BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
+    WorkPrecision,
 };
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, parse};
@@ -60,6 +62,14 @@ pub(crate) enum Figure {
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
+    /// Run times against errors, from the table that the bench work_precision writes
+    WorkPrecision {
+        /// Comma-separated values with the columns pile, contacts, method, scalar, seconds and relative_error
+        #[arg(value_name = "FILE.csv")]
+        table: PathBuf,
+        #[command(flatten)]
+        output: ToFile,
+    },
 }
 
 /// A pile, whose figure has no forces.
@@ -101,6 +111,7 @@ impl Figure {
             | Self::Sphere { of, .. }
             | Self::Network { of, .. }
             | Self::Response { of, .. } => &of.output,
+            Self::WorkPrecision { output, .. } => output,
         };
         output.file.as_ref()
     }
@@ -113,8 +124,9 @@ impl Figure {
         })?)
     }
 
-    fn draw(&self) -> Result<Drawing, Refused> {
+    fn draw(&self) -> Result<Drawing, Failure> {
         match self {
+            Self::WorkPrecision { table, .. } => Ok(measured(table)?.drawing()),
             Self::Pile(of) => {
                 let (scene, pile) = of.scene.read_or(PICTURED)?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
@@ -161,6 +173,21 @@ impl Figure {
     }
 }
 
+/// The runs of a table.
+fn measured(path: &Path) -> Result<WorkPrecision, Failure> {
+    let refused = |told: String| Failure::File {
+        path: path.to_owned(),
+        told,
+    };
+    let table = fs::read_to_string(path).map_err(|error| {
+        let reason = error.kind();
+        refused(format!(
+            "cannot read it: {reason}; choose a text that exists and can be read"
+        ))
+    })?;
+    WorkPrecision::read(&table).map_err(|error| refused(error.to_string()))
+}
+
 /// The layers of the picture of a pile, as in the paper.
 const PICTURED: i128 = 4;
 
@@ -182,7 +209,7 @@ impl Measured {
     fn draw(
         &self,
         figure: impl FnOnce(&Subject<'_>) -> Result<Drawing, Error>,
-    ) -> Result<Drawing, Refused> {
+    ) -> Result<Drawing, Failure> {
         let (scene, pile) = self.scene.read()?;
         self.draw_pile(&scene, &pile, figure)
     }
@@ -192,7 +219,7 @@ impl Measured {
         scene: &Scene,
         pile: &Pile,
         figure: impl FnOnce(&Subject<'_>) -> Result<Drawing, Error>,
-    ) -> Result<Drawing, Refused> {
+    ) -> Result<Drawing, Failure> {
         let subject = subject(scene, pile, self.units)?;
         let drawing = figure(&subject).map_err(|error| unfit(error, scene))?;
         warn_if_it_falls(pile);
