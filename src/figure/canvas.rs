@@ -87,8 +87,11 @@ impl Canvas {
                     .set("fill", WHITE.to_string()),
             );
         let mut canvas = Self { document };
-        canvas.add(Label::new(title).size(20.0).bold().at([WIDTH / 2.0, 28.0]));
-        canvas.add(Label::new(caption).size(14.0).at([WIDTH / 2.0, 54.0]));
+        let room = WIDTH - 24.0;
+        let label = Label::new(title).size(20.0).bold().within(room);
+        canvas.add(label.at([WIDTH / 2.0, 28.0]));
+        let label = Label::new(caption).size(14.0).within(room);
+        canvas.add(label.at([WIDTH / 2.0, 54.0]));
         canvas
     }
 
@@ -251,6 +254,13 @@ pub(super) enum Hold {
     End,
 }
 
+/// In which direction a text is read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reading {
+    Across,
+    Up,
+}
+
 /// A line of text, which is centred on its point unless it is held elsewhere.
 pub(super) struct Label {
     text: String,
@@ -260,7 +270,7 @@ pub(super) struct Label {
     bold: bool,
     italic: bool,
     halo: bool,
-    upright: bool,
+    reading: Reading,
 }
 
 impl Label {
@@ -273,7 +283,7 @@ impl Label {
             bold: false,
             italic: false,
             halo: false,
-            upright: true,
+            reading: Reading::Across,
         }
     }
 
@@ -308,7 +318,7 @@ impl Label {
     /// Read from below to above.
     pub(super) fn turned(self) -> Self {
         Self {
-            upright: false,
+            reading: Reading::Up,
             ..self
         }
     }
@@ -317,7 +327,14 @@ impl Label {
     pub(super) fn width(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a line of text")]
         let letters = self.text.chars().count() as f64;
-        letters * self.size * 0.56
+        letters * self.size * if self.bold { 0.64 } else { 0.56 }
+    }
+
+    /// Smaller, if it is wider than this.
+    pub(super) fn within(self, room: f64) -> Self {
+        let part = (room / self.width().max(1.0)).min(1.0);
+        let size = self.size * part;
+        Self { size, ..self }
     }
 
     pub(super) fn at(self, [x, y]: Point) -> Group {
@@ -340,7 +357,7 @@ impl Label {
             if self.italic {
                 text = text.set("font-style", "italic");
             }
-            if !self.upright {
+            if self.reading == Reading::Up {
                 text = text.set("transform", format!("rotate(-90 {} {})", px(x), px(y)));
             }
             text

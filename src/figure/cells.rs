@@ -71,15 +71,15 @@ pub(super) fn draw(layer: &Layer, cells: &[MapCell], scale: &Scale, words: &Word
     }
     if !words.marked.is_empty() {
         let y = panel.bottom() + 38.0;
-        cross(&mut canvas, [WIDTH - 106.0, y], 6.0);
+        cross(&mut canvas, [WIDTH - 116.0, y], 6.0);
         let label = Label::new(words.mark).hold(Hold::Start);
-        canvas.add(label.at([WIDTH - 92.0, y]));
+        canvas.add(label.at([WIDTH - 103.0, y]));
     }
     panel.bar(&mut canvas, scale, words.name, words.unit);
     canvas.finish()
 }
 
-/// A number for each cell: all exact, or all with as many decimals, at most three, as there is room for; none at all in
+/// A number for each cell: all exact, or all with as many decimals as there is room for, four digits at most; none at all in
 /// small cells. Zeros are left to their colour.
 fn texts(cells: &[MapCell], across: f64, size: f64) -> Vec<String> {
     const LEAST: f64 = 26.0;
@@ -105,10 +105,10 @@ fn texts(cells: &[MapCell], across: f64, size: f64) -> Vec<String> {
     };
     let magnitudes = cells.iter().map(|cell| cell.value.abs());
     let greatest = magnitudes.fold(0.0, f64::max);
-    let decimals = (0..=3)
+    let decimals = (0..=9)
         .rev()
         // Two digits of the greatest are the least that says something.
-        .filter(|places| greatest * 10_f64.powi(*places) >= 10.0)
+        .filter(|places| (10.0..10_000.0).contains(&(greatest * 10_f64.powi(*places))))
         .filter_map(|places| usize::try_from(places).ok())
         .map(|places| shown(&|cell| format!("{:.places$}", cell.value)));
     [shown(&|cell| cell.exact.to_string())]

@@ -40,13 +40,13 @@ pub struct Indexing {
 }
 
 /// The most spheres: their indices have to be read.
-const LIMIT: u32 = 500;
+const LIMIT: u32 = 150;
 
 impl Indexing {
     /// Of layer `k`.
     ///
     /// # Errors
-    /// [`Error::LayerOutside`]; [`Error::TooManyMarks`] for more than 500 spheres.
+    /// [`Error::LayerOutside`]; [`Error::TooManyMarks`] for more than 150 spheres.
     pub fn new(subject: &Subject<'_>, k: i128) -> Result<Self, Error> {
         let pile = subject.pile();
         let spheres = pile.shape().layer(k)?.sites();
@@ -92,8 +92,17 @@ impl Indexing {
         let mut canvas = Canvas::new(panel.page_height(), &title, &layer.caption);
         self.rows(&mut canvas, &panel);
         let radius = panel.length(1.0);
-        for place in &layer.places {
-            let Site { i, j, .. } = place.site;
+        let texts: Vec<String> = layer
+            .places
+            .iter()
+            .map(|place| self.text(place.site))
+            .collect();
+        let sizes = texts
+            .iter()
+            .map(|text| 14.0 * 1.7 * radius / Label::new(text.as_str()).width());
+        // The same for all, as large as fits a sphere.
+        let size = sizes.fold(20.0, f64::min);
+        for (place, text) in layer.places.iter().zip(texts) {
             let at = panel.at(place.at);
             let mark = circle(at, radius)
                 .set("class", "sphere")
@@ -101,18 +110,19 @@ impl Indexing {
                 .set("stroke", BLACK.to_string())
                 .set("stroke-width", (radius * 0.04).min(1.2));
             canvas.add(of(place.site, mark));
-            let text = if layer.is_of_discs() {
-                i.to_string()
-            } else {
-                format!("{i},{j}")
-            };
-            let label = Label::new(text);
-            // As large as fits the sphere.
-            let size = (14.0 * 1.7 * radius / label.width()).min(20.0);
-            canvas.add(label.size(size).at(at));
+            canvas.add(Label::new(text).size(size).at(at));
         }
         self.keys(&mut canvas, &panel);
         canvas.finish()
+    }
+
+    fn text(&self, Site { i, j, .. }: Site) -> String {
+        let text = if self.seen.is_of_discs() {
+            i.to_string()
+        } else {
+            format!("{i},{j}")
+        };
+        text.replace('-', "−")
     }
 
     /// The lines along which i and j count.
@@ -154,7 +164,12 @@ impl Indexing {
         if !layer.is_of_discs() {
             draw(canvas, indices, j, "j", BLACK);
         }
-        told(canvas, 160.0, "indices i, j");
+        let counted = if layer.is_of_discs() {
+            "index i"
+        } else {
+            "indices i, j"
+        };
+        told(canvas, 160.0, counted);
         for (direction, down) in &self.descents {
             let name = match direction {
                 Direction::Alpha => "α",
@@ -164,7 +179,7 @@ impl Indexing {
             draw(canvas, [400.0, y], *down, name, BLUE);
         }
         canvas.add(circle([400.0, y], 4.0).set("fill", BLUE.to_string()));
-        told(canvas, 400.0, "to the spheres below");
+        told(canvas, 400.0, "contacts, downwards");
         let components = [620.0, y + 34.0];
         draw(canvas, components, layer.seen([1.0, 0.0]), "x", ORANGE);
         if layer.is_of_discs() {

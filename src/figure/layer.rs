@@ -112,8 +112,9 @@ impl Layer {
             ])
         };
         if self.discs {
-            let strip = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)];
-            return strip.map(|(a, b)| corner(a, b / 1.5)).to_vec();
+            let half = self.apart() / 2.0;
+            let strip = [(-half, -1.0), (half, -1.0), (half, 1.0), (-half, 1.0)];
+            return strip.map(|(a, b)| panel.at([u + a, v + b])).to_vec();
         }
         [
             (1.0, 1.0),

@@ -153,13 +153,15 @@ impl Panel {
             canvas.add(line([x, bottom], [x, bottom + 5.0], BLACK, 1.0));
             canvas.add(Label::new(short(tick)).size(13.0).at([x, bottom + 15.0]));
         }
-        for tick in ticks(value(1, v), value(1, v + height), count(self.size[1])) {
+        let [across, up] = names;
+        // What has no name has no numbers either.
+        let upwards = if up.is_empty() { v } else { v + height };
+        for tick in ticks(value(1, v), value(1, upwards), count(self.size[1])) {
             let [_, y] = self.at([u, (tick - origin[1]) / unit]);
             canvas.add(line([left - 5.0, y], [left, y], BLACK, 1.0));
             let label = Label::new(short(tick)).size(13.0).hold(Hold::End);
             canvas.add(label.at([left - 8.0, y]));
         }
-        let [across, up] = names;
         if !across.is_empty() {
             let middle = left.midpoint(right);
             canvas.add(Label::new(across).at([middle, bottom + 38.0]));
@@ -205,7 +207,7 @@ impl Panel {
         let value = |part: f64| least * (1.0 - part) + most * part;
         canvas.gradient("scale", |part| scale.colour(value(part)));
         canvas.add(bar("url(#scale)".into(), bottom - top));
-        for value in ticks(least, most, 6) {
+        for value in ticks(least, most, if height < 200.0 { 3 } else { 6 }) {
             let part = (value / 2.0 - least / 2.0) / (most / 2.0 - least / 2.0);
             tick(canvas, value, px(bottom - part * (bottom - top)));
         }

@@ -53,9 +53,9 @@ pub struct PictureSphere {
 /// The most spheres.
 const LIMIT: u32 = 20_000;
 
-/// Where the camera of this figure and of the forces on a sphere stands, in degrees.
-pub(super) const AZIMUTH: f64 = 24.0;
-const ELEVATION: f64 = 20.0;
+/// Where the camera stands, in degrees.
+const AZIMUTH: f64 = 42.0;
+const ELEVATION: f64 = 22.0;
 
 /// The eye is this many times as far from the middle as the farthest sphere.
 const DISTANCE: f64 = 7.0;

@@ -173,19 +173,12 @@ impl SphereForces {
         } else {
             View::new([0.0; 3], AZIMUTH, ELEVATION, f64::INFINITY)
         };
-        let greatest = self.greatest();
-        let length = |force: &SphereForce| {
-            let part = force.magnitude / greatest;
-            if part.is_finite() {
-                part * LONGEST
-            } else {
-                0.0
-            }
-        };
+        let lengths = self.lengths();
         let shafts: Vec<Shaft<'_>> = self
             .forces
             .iter()
-            .map(|force| Shaft::new(force, length(force)))
+            .zip(lengths)
+            .map(|(force, length)| Shaft::new(force, length))
             .collect();
         let around = self.neighbours.iter().map(|centre| view.across(*centre));
         let bounds = Bounds::around(around.chain([[0.0; 2]]), 1.1).at_least(6.4, 6.8);
@@ -236,9 +229,25 @@ impl SphereForces {
         canvas.finish()
     }
 
-    fn greatest(&self) -> f64 {
+    /// How long the arrows are, in R: all in one scale, in which the weight stays within the sphere.
+    fn lengths(&self) -> Vec<f64> {
         let magnitudes = self.forces.iter().map(|force| force.magnitude.abs());
-        magnitudes.fold(0.0, f64::max)
+        let greatest = magnitudes.fold(0.0, f64::max);
+        let part = |force: &SphereForce| {
+            let part = force.magnitude / greatest;
+            if part.is_finite() { part } else { 0.0 }
+        };
+        let weight = self.forces.iter().find(|force| force.name == "w");
+        let weight = weight.map_or(0.0, part);
+        let longest = if weight * LONGEST > WEIGHT {
+            WEIGHT / weight
+        } else {
+            LONGEST
+        };
+        self.forces
+            .iter()
+            .map(|force| part(force) * longest)
+            .collect()
     }
 
     fn table(&self, canvas: &mut Canvas) {
@@ -288,6 +297,9 @@ const WHERE: f64 = 532.0;
 /// The length of the greatest force, in R.
 const LONGEST: f64 = 1.55;
 
+/// The greatest length of the weight, in R.
+const WEIGHT: f64 = 0.85;
+
 /// The camera, so turned that no force hides another.
 const AZIMUTH: f64 = 10.0;
 const ELEVATION: f64 = 24.0;
@@ -317,22 +329,26 @@ impl<'a> Shaft<'a> {
         }
     }
 
-    /// Its letter, at the end that is farther from the sphere.
+    /// Its letter, at the end that is farther from the sphere; that of the weight beside it.
     fn name(&self, canvas: &mut Canvas, place: impl Fn(Vector) -> Point) {
-        let SphereForce { at, along, .. } = *self.force;
-        let [tail, tip] = self.ends;
-        let far = if norm(tail) > norm(tip) { tail } else { tip };
-        let outwards = if norm(at) == 0.0 { along } else { at };
-        let [from, to] = [place([0.0; 3]), place(outwards)];
-        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-        let length = dx.hypot(dy).max(1.0);
-        let [x, y] = place(far);
-        let beyond = 16.0;
+        const BEYOND: f64 = 16.0;
         let label = name(self.force)
             .size(19.0)
             .halo()
             .colour(colour(self.force));
-        canvas.add(label.at([x + dx / length * beyond, y + dy / length * beyond]));
+        let [tail, tip] = self.ends;
+        let at = self.force.at;
+        if norm(at) == 0.0 {
+            let [[x, y], [_, below]] = [place(tail), place(tip)];
+            canvas.add(label.at([x - BEYOND, y.midpoint(below)]));
+            return;
+        }
+        let far = if norm(tail) > norm(tip) { tail } else { tip };
+        let [from, to] = [place([0.0; 3]), place(at)];
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let length = dx.hypot(dy).max(1.0);
+        let [x, y] = place(far);
+        canvas.add(label.at([x + dx / length * BEYOND, y + dy / length * BEYOND]));
     }
 }
 

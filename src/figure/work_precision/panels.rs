@@ -164,10 +164,8 @@ impl Panel {
         let [left, top] = self.corner;
         let [right, bottom] = [left + FRAME[0], top + FRAME[1]];
         let middle = left.midpoint(right);
-        let title = Label::new(title).bold();
-        // As large as fits.
-        let size = (14.0 * (CELL[0] - 30.0) / title.width()).min(14.0);
-        canvas.add(title.size(size).at([middle - 12.0, top - 14.0]));
+        let title = Label::new(title).bold().within(CELL[0] - 12.0);
+        canvas.add(title.at([middle - 12.0, top - 14.0]));
         let column = rectangle(self.corner, [COLUMN, FRAME[1]]).set("class", "exact");
         canvas.add(column.set("fill", "#ececec"));
         let thin = Colour::new(0xdd, 0xdd, 0xdd);
