@@ -34,6 +34,7 @@ mod canvas;
 mod cells;
 mod colour;
 mod indexing;
+mod label;
 mod layer;
 mod network;
 mod panel;

@@ -1,7 +1,8 @@
 //! A layer as a map: one coloured cell a sphere.
 
-use super::canvas::{Canvas, Drawing, Hold, Label, WIDTH, line, polygon};
+use super::canvas::{Canvas, Drawing, WIDTH, line, polygon};
 use super::colour::{BLACK, GREY, Scale, WHITE};
+use super::label::{Hold, Label};
 use super::layer::Layer;
 use super::of;
 use super::panel::{Margins, Panel};

@@ -1,7 +1,8 @@
 //! The indices of the spheres of a layer: the paper's fig. 2.
 
-use super::canvas::{Canvas, Drawing, Label, Point, arrow, circle, line};
+use super::canvas::{Canvas, Drawing, Point, arrow, circle, line};
 use super::colour::{BLACK, BLUE, GREY, ORANGE, WHITE};
+use super::label::Label;
 use super::layer::Layer;
 use super::panel::{Margins, Panel};
 use super::subject::readable;

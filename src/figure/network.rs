@@ -1,8 +1,9 @@
 //! The contact forces as a network: the force chains of a pile.
 
+mod section;
+
 use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
 
 use super::canvas::{Canvas, Drawing, circle, line, ring};
 use super::cells::floor;
@@ -12,8 +13,7 @@ use super::panel::{Bounds, Margins, Panel};
 use super::response::middle;
 use super::subject::{nearest, readable};
 use super::{Subject, of};
-use crate::lattice::{Dimension, Direction, Selection, Site};
-use crate::scalar::Ring;
+use crate::lattice::{Direction, Selection, Site};
 use crate::{ContactForce, Error};
 
 /// Contacts, and where they are in the figure.
@@ -91,7 +91,7 @@ impl Network {
         let pile = subject.pile();
         let remedy = "use fewer layers, or --layer for one of them";
         readable(&pile.spheres(), LIMIT_OF_ALL, "spheres", remedy)?;
-        let rows = rows(subject)?;
+        let rows = section::rows(subject)?;
         let discs = subject.is_of_discs();
         let mut spheres = Vec::new();
         let mut first = None;
@@ -289,38 +289,4 @@ fn place(spheres: &[(Site, [f64; 2])], site: Site) -> Option<[f64; 2]> {
         .binary_search_by_key(&site, |(site, _)| *site)
         .ok()?;
     spheres.get(found).map(|(_, at)| *at)
-}
-
-/// (k, j) of the row of each layer that is nearest to the plane of the section, where one is at most half a row away.
-fn rows(subject: &Subject<'_>) -> Result<Vec<(i128, i128)>, Error> {
-    let pile = subject.pile();
-    let statics = subject.packing().statics();
-    if pile.dimension() == Dimension::Two {
-        return Ok((0..pile.layers()).map(|k| (k, 0)).collect());
-    }
-    let plane = statics.position(middle(pile, 0)?)?.x;
-    let [a, _, c] = pile.directions::<BigRational>();
-    let step = a.x - &c.x;
-    let half = BigRational::new(1.into(), 2.into());
-    let mut rows = Vec::new();
-    for k in 0..pile.layers() {
-        let region = pile.shape().layer(k)?;
-        let first = *region.y().start();
-        let site = Site {
-            i: region.row(first).start,
-            j: first,
-            k,
-        };
-        let apart = (&plane - statics.position(site)?.x) / &step;
-        let nearest = apart.round().to_integer().to_i128();
-        let Some(j) = nearest.and_then(|steps| first.checked_add(steps)) else {
-            continue;
-        };
-        let j = j.clamp(first, *region.y().end());
-        let off = apart - BigRational::from_i128(j - first);
-        if off.abs() <= half {
-            rows.push((k, j));
-        }
-    }
-    Ok(rows)
 }

@@ -1,7 +1,8 @@
 //! A part of the page with a scale, its axes, and the bar that tells what colours mean.
 
-use super::canvas::{Canvas, HEAD, Hold, Label, Point, WIDTH, line, px, rectangle};
+use super::canvas::{Canvas, HEAD, Point, WIDTH, line, px, rectangle};
 use super::colour::{BLACK, GREY, Scale};
+use super::label::{Hold, Label};
 use super::ticks::{short, ticks};
 
 /// A box around points, u to the right and v upwards.

@@ -1,7 +1,8 @@
 //! The pile itself, in perspective: the paper's fig. 1.
 
-use super::canvas::{Canvas, Drawing, HEAD, Label, arrow, circle, px};
+use super::canvas::{Canvas, Drawing, HEAD, arrow, circle, px};
 use super::colour::{BLACK, Colour};
+use super::label::Label;
 use super::panel::{Bounds, Margins, Panel};
 use super::subject::readable;
 use super::view::{Vector, View, moved, norm};

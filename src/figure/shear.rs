@@ -1,7 +1,8 @@
 //! The shear of a pile on the floor, as arrows: the paper's fig. 4.
 
-use super::canvas::{Canvas, Drawing, Hold, Label, arrow, ring};
+use super::canvas::{Canvas, Drawing, arrow, ring};
 use super::colour::{BLUE, GREY, WHITE};
+use super::label::{Hold, Label};
 use super::layer::Layer;
 use super::panel::{Margins, Panel};
 use super::subject::{nearest, readable};

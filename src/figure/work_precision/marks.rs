@@ -3,8 +3,8 @@
 use svg::Node;
 use svg::node::element::Group;
 
-use super::super::canvas::{Point, circle, line, polygon};
-use super::super::colour::{BLACK, Colour, WHITE};
+use crate::figure::canvas::{Point, circle, line, polygon};
+use crate::figure::colour::{BLACK, Colour, WHITE};
 
 /// Half the size of a mark, in pixels.
 const SIZE: f64 = 4.5;

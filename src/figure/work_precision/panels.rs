@@ -1,10 +1,11 @@
 //! The panels of the chart, and its legend.
 
-use super::super::canvas::{Canvas, Drawing, HEAD, Hold, Label, Point, line, polyline, rectangle};
-use super::super::colour::{Colour, GREY, WHITE};
-use super::super::ticks::raised;
 use super::marks::{colour, mark};
 use super::{MeasuredRun, WorkPrecision};
+use crate::figure::canvas::{Canvas, Drawing, HEAD, Point, line, polyline, rectangle};
+use crate::figure::colour::{Colour, GREY, WHITE};
+use crate::figure::label::{Hold, Label};
+use crate::figure::ticks::raised;
 
 /// Panels side by side.
 const ACROSS: usize = 2;
