@@ -250,6 +250,17 @@ pub enum Error {
         /// Why.
         error: Box<Error>,
     },
+    /// More marks than anybody can tell apart in a figure.
+    TooManyMarks {
+        /// How many there would be.
+        marks: BigUint,
+        /// What they stand for.
+        what: &'static str,
+        /// How many are allowed.
+        limit: u32,
+        /// The narrower question.
+        remedy: &'static str,
+    },
     /// More rows than anybody can read.
     TooManyRows {
         /// How many there would be.

@@ -68,6 +68,7 @@
 //! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
 //! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
 //! | `verify` | measured forces against the exact ones (feature `export`) |
+//! | `figure` | the paper's figures and more, as SVG (feature `plot`) |
 //!
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
@@ -103,6 +104,9 @@ mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod export;
+#[cfg(feature = "plot")]
+#[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
+pub mod figure;
 mod fill;
 pub mod geometry;
 pub mod lattice;

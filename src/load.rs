@@ -95,8 +95,8 @@ impl Loading {
     }
 
     /// The spheres with something on them, in their order, with the loads.
-    #[cfg(feature = "serde")]
-    pub(crate) fn loads(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
+    #[cfg(any(feature = "plot", feature = "serde"))]
+    pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
         self.loads.iter().map(|(site, load)| (*site, load))
     }
 

@@ -1,6 +1,6 @@
 //! Run time against error, for every method in every scalar.
 //!
-//! `cargo bench --bench work_precision` computes all contact forces of some piles in every way there is, prints a table, and
+//! `cargo bench --all-features --bench work_precision` computes all contact forces of some piles in every way there is, prints a table, and
 //! writes it as CSV and as a log–log chart, to `work_precision.csv` and `work_precision.svg` in the directory of targets or to
 //! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes to `smoke.csv` and `smoke.svg` there.
 //!
@@ -10,11 +10,8 @@
 //! than its bound. The time is the median of three runs, or of the only one if it takes over 10 s; which spheres touch,
 //! and where they are, is given.
 
-mod axis;
 mod cases;
-mod chart;
 mod library;
-mod marks;
 mod others;
 #[path = "../peers/mod.rs"]
 mod peers;
@@ -22,9 +19,11 @@ mod reference;
 mod run;
 mod table;
 
-use std::env;
+use std::error::Error;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
+use cannonpile::figure::WorkPrecision;
 use cases::Case;
 use peers::network::Network;
 use reference::Reference;
@@ -41,8 +40,15 @@ fn main() {
         table::print(&runs[first..]);
     }
     table::write(&options.csv, &runs).expect("a place for the table");
-    chart::draw(&options.svg, &runs).expect("a place for the chart");
+    draw(&options).expect("a place for the chart");
     println!("\n{}\n{}", options.csv.display(), options.svg.display());
+}
+
+/// The chart, from the table as it was written.
+fn draw(options: &Options) -> Result<(), Box<dyn Error>> {
+    let table = fs::read_to_string(&options.csv)?;
+    let chart = WorkPrecision::read(&table)?.drawing();
+    Ok(fs::write(&options.svg, chart.to_string())?)
 }
 
 struct Options {

@@ -23,16 +23,6 @@ pub(crate) enum Method {
 }
 
 impl Method {
-    pub(crate) const ALL: [Self; 7] = [
-        Self::Table,
-        Self::Closed,
-        Self::Transfer,
-        Self::Engine,
-        Self::Lu,
-        Self::Gradients,
-        Self::Springs,
-    ];
-
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Table => "closed form, table",

@@ -189,6 +189,15 @@ impl Error {
                     "{rows} rows are too many to print, at most {limit}: {remedy}"
                 )
             }
+            Self::TooManyMarks {
+                marks,
+                what,
+                limit,
+                remedy,
+            } => write!(
+                f,
+                "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
+            ),
             Self::Excluded { given, beside } => write!(
                 f,
                 "{given} has no meaning beside {beside}: leave one of the two out"

@@ -3,6 +3,7 @@
 mod completions;
 mod export;
 mod options;
+mod plot;
 mod scene;
 mod verify;
 
@@ -201,6 +202,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
         Command::Verify(verify) => return verify.run(),
         Command::Scene(command) => command.run()?,
         Command::Completions(command) => command.run()?,
+        Command::Plot(figure) => figure.run()?,
         Command::Prove { theorem, output } => return Ok(prove(theorem.as_deref(), output)?),
     }
     Ok(true)
@@ -319,6 +321,7 @@ fn option_of(error: &Error) -> Option<&'static str> {
     Some(match error {
         Error::Layers { .. }
         | Error::TooManyRows { .. }
+        | Error::TooManyMarks { .. }
         | Error::TooHigh { .. }
         | Error::RegionTooLarge { .. }
         | Error::TooLarge { .. }

@@ -3,17 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use cannonpile::export::{FileFormat, NumberFormat, Units};
-use cannonpile::lattice::{Region, Selection};
+use cannonpile::lattice::{Region, Selection, Site};
 use cannonpile::scene::parse;
 use cannonpile::{Error, Method, Pile, Quantity, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::completions::Completions;
+use crate::export::Export;
+use crate::plot::Figure;
 pub(crate) use crate::scene::SceneOptions;
 use crate::scene::WriteScene;
-
-use crate::export::Export;
 use crate::verify::Verify;
 
 /// Exact contact forces in regular piles of spheres.
@@ -124,6 +124,9 @@ pub(crate) enum Command {
     },
     /// Measured contact forces against the exact ones; exit status 1 if they differ
     Verify(Verify),
+    /// A figure, as SVG
+    #[command(subcommand)]
+    Plot(Figure),
     /// A script with which a shell completes commands and options
     Completions(Completions),
 }
@@ -133,6 +136,7 @@ impl Command {
     pub(crate) fn target(&self) -> String {
         match self {
             Self::Scene(command) => target(command.file.as_deref()),
+            Self::Plot(figure) => target(figure.file()),
             Self::Completions(_) => target(None),
             Self::Summary { output, .. }
             | Self::Base { output, .. }
@@ -157,6 +161,7 @@ impl Command {
             | Self::Export(Export { scene, .. })
             | Self::Verify(Verify { scene, .. }) => Some(scene),
             Self::Scene(command) => Some(&command.scene),
+            Self::Plot(figure) => figure.scene(),
             Self::Census { .. } | Self::Prove { .. } | Self::Completions(_) => None,
         }
     }
@@ -198,7 +203,8 @@ pub(crate) struct BaseAt {
 
 impl BaseAt {
     pub(crate) fn on_base(&self, pile: &Pile) -> Result<Selection, Refused> {
-        Ok(one(self.at.as_deref(), pile)?.unwrap_or(Selection::Base))
+        let site = one(self.at.as_deref(), pile)?;
+        Ok(site.map_or(Selection::Base, Selection::One))
     }
 }
 
@@ -222,16 +228,18 @@ pub(crate) struct Part {
 impl Part {
     pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Refused> {
         let whole = self.layer.map_or(Selection::All, Selection::Layer);
-        Ok(one(self.at.as_deref(), pile)?.unwrap_or(whole))
+        let site = one(self.at.as_deref(), pile)?;
+        Ok(site.map_or(whole, Selection::One))
     }
 }
 
-fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Selection>, Refused> {
+/// The sphere that `--at` names.
+pub(crate) fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Site>, Refused> {
     let Some(text) = at else { return Ok(None) };
     let at = parse::at(text, pile.dimension()).map_err(|error| Refused::of("at", error))?;
     let site = pile.shape().check(at.site(pile.layers()));
     let site = site.map_err(|error| Refused::of("at", error))?;
-    Ok(Some(Selection::One(site)))
+    Ok(Some(site))
 }
 
 /// How the numbers of a pile are shown.

@@ -64,14 +64,17 @@ impl SceneOptions {
     ///
     /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
     pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
-        let scene = self.scene()?;
-        scene.check_sizes()?;
-        let pile = scene.pile().map_err(|error| match error {
-            // The only sites of a scene.
-            Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
-            error => error.into(),
-        })?;
-        Ok((scene, pile))
+        self.scene().and_then(checked)
+    }
+
+    /// The same, with this many layers where nothing says how many.
+    pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Refused> {
+        let mut scene = self.scene()?;
+        let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
+        if spelled.is_none() && !matches!(scene.anchor, Some(Anchor::Base(_))) {
+            scene.layers = scene.layers.or(Some(layers));
+        }
+        checked(scene)
     }
 
     /// That of the file, with the options on the line in place of its own.
@@ -139,6 +142,17 @@ impl SceneOptions {
             _ => false,
         }
     }
+}
+
+/// A scene whose sizes are right, and its pile.
+fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
+    scene.check_sizes()?;
+    let pile = scene.pile().map_err(|error| match error {
+        // The only sites of a scene.
+        Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
+        error => error.into(),
+    })?;
+    Ok((scene, pile))
 }
 
 /// A scene file, and what it was called on the line.

@@ -11,6 +11,8 @@ mod double_double;
 mod equilibrium;
 mod errors;
 mod extremes;
+#[cfg(feature = "plot")]
+mod figure;
 mod fixed_width;
 mod flawed;
 mod flawed_scalars;
