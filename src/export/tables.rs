@@ -462,9 +462,9 @@ pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> T
 /// use cannonpile::export::{FileFormat, NumberFormat, PileFile, Written, tables};
 ///
 /// let (file, path) = (PileFile::LammpsData, "pile.data".into());
-/// let table = tables::files(&[Written { file, path, rows: Some(220), bytes: 20_000 }]);
+/// let written = [Written { file, path, rows: Some(220), bytes: 20_000 }];
 /// let mut csv = Vec::new();
-/// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// tables::files(&written).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// assert_eq!(String::from_utf8(csv)?, "file,rows,bytes\npile.data,220,20000\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

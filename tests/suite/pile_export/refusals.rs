@@ -92,6 +92,28 @@ fn all_files_or_none() {
     );
 }
 
+#[test]
+fn a_name_taken_at_the_last_moment() {
+    let pile = Pile::triangular(4).expect("a pile");
+    let export = PileExport::new(&packing(&pile)).expect("files");
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("spheres.txt"), "mine").expect("a file");
+    let taken = folder.path().join("contacts.csv");
+    let mut told = 0;
+    // While the last of the three is written, a folder takes the name of the second: the first is there by then.
+    let mut take = |_| {
+        told += 1;
+        if told == 3 {
+            fs::create_dir_all(taken.join("inside")).expect("a folder");
+        }
+    };
+    let refused = export.write(&[PileFormat::Csv], folder.path(), &mut take);
+    assert!(matches!(refused, Err(WriteError::File { path, .. }) if path == taken));
+    assert_eq!(told, 3);
+    assert!(!folder.path().join("spheres.csv").exists());
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_nothing() {
