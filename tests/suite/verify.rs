@@ -329,6 +329,19 @@ fn a_contact_without_force_is_measured_against_the_largest() {
     assert!((comparison.rms_error() - 0.025_f64.sqrt()).abs() < 1e-15);
 }
 
+/// Over the largest force it is less than any float, and not 0 all the same.
+#[test]
+fn the_faintest_force_where_none_should_be_is_an_error() {
+    let pile = Pile::triangular(3).unwrap();
+    let mass = cannonpile::scene::parse::rational("1e200").unwrap();
+    let packing = packing(&pile, ratio(6, 5)).with_mass(mass).unwrap();
+    let mut measured = perfect(&packing);
+    measured.push(Measured::new([2, 3], 1e-200));
+    let comparison = compare(&packing, &measured);
+    assert!(!comparison.accepted(0.0));
+    assert!(comparison.accepted(1e-300));
+}
+
 /// Nothing carries: any force is infinitely wrong.
 #[test]
 fn a_pile_without_any_force_accepts_none() {
