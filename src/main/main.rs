@@ -301,11 +301,12 @@ fn option_of(error: &Error) -> String {
     match error {
         Error::Layers { .. }
         | Error::TooManyRows { .. }
-        | Error::TooManyMarks { .. }
         | Error::TooHigh { .. }
         | Error::RegionTooLarge { .. }
         | Error::TooLarge { .. }
         | Error::LayersOfStacking { .. } => "--layers: ".into(),
+        Error::TooManyMarks { what, .. } if what.ends_with("a layer") => "--layer: ".into(),
+        Error::TooManyMarks { .. } => "--layers: ".into(),
         Error::NoSuchMethod { .. } => "--method: ".into(),
         Error::TooManyRuns { .. } => "--stacking: ".into(),
         Error::NegativeLoad { .. } => "--load: ".into(),

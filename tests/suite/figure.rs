@@ -11,6 +11,7 @@ use cannonpile::figure::{
 };
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::scalar::Surd;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing};
 use num_rational::BigRational;
@@ -151,7 +152,7 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
         for (cell, drawn) in map.cells.iter().zip(&cells) {
             assert_eq!(site(drawn), cell.site);
             let exact = statics.on_floor(cell.site).unwrap().normal;
-            assert_eq!(cell.exact, exact.into());
+            assert_eq!(cell.exact, Surd::from(exact));
             assert_eq!(Some(number(drawn, "data-value")), cell.exact.nearest());
             colours.push((cell.value, drawn.attribute("fill").unwrap().to_owned()));
         }
