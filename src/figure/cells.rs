@@ -63,6 +63,9 @@ pub(super) fn draw(layer: &Layer, cells: &[MapCell], scale: &Scale, words: &Word
         .iter()
         .zip(cells.iter().zip(texts(cells, across, size)))
     {
+        if text.is_empty() {
+            continue;
+        }
         let ink = scale.colour(cell.value).ink();
         let label = Label::new(text).size(size).colour(ink);
         canvas.add(label.at(panel.at(place.at)));
