@@ -57,7 +57,7 @@ pub(super) fn draw(layer: &Layer, cells: &[MapCell], scale: &Scale, words: &Word
             .set("stroke-linejoin", "round");
         canvas.add(of(cell.site, mark));
     }
-    let size = (across * 0.3).min(14.0);
+    let size = (across * 0.27).min(14.0);
     for (place, (cell, text)) in layer
         .places
         .iter()

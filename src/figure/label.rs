@@ -88,7 +88,7 @@ impl Label {
     pub(super) fn width(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a line of text")]
         let letters = self.text.chars().count() as f64;
-        letters * self.size * if self.bold { 0.64 } else { 0.56 }
+        letters * self.size * if self.bold { 0.64 } else { 0.6 }
     }
 
     /// Smaller, if it is wider than this.

@@ -299,14 +299,14 @@ fn write_to(
 /// The option to change, as a prefix of the message.
 fn option_of(error: &Error) -> String {
     match error {
+        Error::TooManyMarks { what, .. } if what.ends_with("a layer") => "--layer: ".into(),
         Error::Layers { .. }
         | Error::TooManyRows { .. }
+        | Error::TooManyMarks { .. }
         | Error::TooHigh { .. }
         | Error::RegionTooLarge { .. }
         | Error::TooLarge { .. }
         | Error::LayersOfStacking { .. } => "--layers: ".into(),
-        Error::TooManyMarks { what, .. } if what.ends_with("a layer") => "--layer: ".into(),
-        Error::TooManyMarks { .. } => "--layers: ".into(),
         Error::NoSuchMethod { .. } => "--method: ".into(),
         Error::TooManyRuns { .. } => "--stacking: ".into(),
         Error::NegativeLoad { .. } => "--load: ".into(),
