@@ -57,12 +57,15 @@ pub(super) fn draw(layer: &Layer, cells: &[MapCell], scale: &Scale, words: &Word
             .set("stroke-linejoin", "round");
         canvas.add(of(cell.site, mark));
     }
-    let size = (across * 0.3).min(14.0);
+    let size = (across * 0.27).min(14.0);
     for (place, (cell, text)) in layer
         .places
         .iter()
         .zip(cells.iter().zip(texts(cells, across, size)))
     {
+        if text.is_empty() {
+            continue;
+        }
         let ink = scale.colour(cell.value).ink();
         let label = Label::new(text).size(size).colour(ink);
         canvas.add(label.at(panel.at(place.at)));

@@ -100,7 +100,7 @@ impl Indexing {
             .collect();
         let sizes = texts
             .iter()
-            .map(|text| 14.0 * 1.7 * radius / Label::new(text.as_str()).width());
+            .map(|text| 14.0 * 1.65 * radius / Label::new(text.as_str()).width());
         // The same for all, as large as fits a sphere.
         let size = sizes.fold(20.0, f64::min);
         for (place, text) in layer.places.iter().zip(texts) {

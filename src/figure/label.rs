@@ -1,6 +1,8 @@
 //! Lines of text on the page.
 
-use svg::node::element::{Group, Text};
+use svg::Node;
+use svg::node::Text;
+use svg::node::element::{Element, Group};
 
 use super::canvas::{Point, px};
 use super::colour::{BLACK, Colour, WHITE};
@@ -86,7 +88,7 @@ impl Label {
     pub(super) fn width(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a line of text")]
         let letters = self.text.chars().count() as f64;
-        letters * self.size * if self.bold { 0.64 } else { 0.56 }
+        letters * self.size * if self.bold { 0.64 } else { 0.6 }
     }
 
     /// Smaller, if it is wider than this.
@@ -103,33 +105,35 @@ impl Label {
             Hold::End => "end",
         };
         let text = |fill: Colour| {
-            let mut text = Text::new(self.text.clone())
-                .set("x", px(x))
-                .set("y", px(y))
-                .set("dy", "0.35em")
-                .set("font-size", px(self.size))
-                .set("text-anchor", anchor)
-                .set("fill", fill.to_string());
+            // Not `element::Text`, which puts the words on a line of their own.
+            let mut text = Element::new("text");
+            text.assign("x", px(x));
+            text.assign("y", px(y));
+            text.assign("dy", "0.35em");
+            text.assign("font-size", px(self.size));
+            text.assign("text-anchor", anchor);
+            text.assign("fill", fill.to_string());
             if self.bold {
-                text = text.set("font-weight", "bold");
+                text.assign("font-weight", "bold");
             }
             if self.italic {
-                text = text.set("font-style", "italic");
+                text.assign("font-style", "italic");
             }
             if self.reading == Reading::Up {
-                text = text.set("transform", format!("rotate(-90 {} {})", px(x), px(y)));
+                text.assign("transform", format!("rotate(-90 {} {})", px(x), px(y)));
             }
+            text.append(Text::new(self.text.as_str()));
             text
         };
         let group = Group::new().set("class", "label");
         if !self.halo {
             return group.add(text(self.colour));
         }
-        let rim = text(WHITE)
-            .set("aria-hidden", "true")
-            .set("stroke", WHITE.to_string())
-            .set("stroke-width", 4)
-            .set("stroke-linejoin", "round");
+        let mut rim = text(WHITE);
+        rim.assign("aria-hidden", "true");
+        rim.assign("stroke", WHITE.to_string());
+        rim.assign("stroke-width", 4);
+        rim.assign("stroke-linejoin", "round");
         group.add(rim).add(text(self.colour))
     }
 }

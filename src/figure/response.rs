@@ -99,7 +99,9 @@ impl Response {
         });
         let cells: Vec<MapCell> = cells.collect::<Result<_, Error>>()?;
         let seen = Layer::new(subject, k)?;
-        let loads = pile.loading().loads().take(LIMIT as usize);
+        // Those below do not act on it.
+        let loads = pile.loading().loads().filter(|(site, _)| site.k <= k);
+        let loads = loads.take(LIMIT as usize);
         let loads = loads.map(|(site, _)| seen.above(subject, site));
         Ok(Self {
             loads: loads.collect::<Result<_, _>>()?,

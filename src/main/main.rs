@@ -319,6 +319,7 @@ fn write_to(
 /// The option to change.
 fn option_of(error: &Error) -> Option<&'static str> {
     Some(match error {
+        Error::TooManyMarks { what, .. } if what.ends_with("a layer") => "layer",
         Error::Layers { .. }
         | Error::TooManyRows { .. }
         | Error::TooManyMarks { .. }

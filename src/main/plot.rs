@@ -244,7 +244,8 @@ fn subject<'p>(scene: &Scene, pile: &'p Pile, units: UnitSystem) -> Result<Subje
     }
 }
 
-/// A refusal of a number beyond floats, which no option of a figure asks for: it comes of a size or of a load.
+/// A refusal with the option that it comes of: a number beyond floats, which no option of a figure asks for, of a size
+/// or of a load.
 fn unfit(error: Error, scene: &Scene) -> Refused {
     match error {
         Error::Overflow {
@@ -253,6 +254,8 @@ fn unfit(error: Error, scene: &Scene) -> Refused {
         } => Refused::of("radius", error),
         Error::Overflow { .. } if !scene.loads.is_empty() => Refused::of("load", error),
         Error::Overflow { .. } => Refused::of("mass", error),
+        // Of a layer without contacts below.
+        Error::OnFloor { .. } => Refused::of("layer", error),
         error => error.into(),
     }
 }

@@ -3,6 +3,7 @@
 mod completions;
 mod explain;
 mod export;
+mod plot;
 mod scene;
 mod stackings;
 mod verify;

@@ -11,6 +11,7 @@ use cannonpile::figure::{
 };
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::scalar::Surd;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing};
 use num_rational::BigRational;
@@ -151,7 +152,7 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
         for (cell, drawn) in map.cells.iter().zip(&cells) {
             assert_eq!(site(drawn), cell.site);
             let exact = statics.on_floor(cell.site).unwrap().normal;
-            assert_eq!(cell.exact, cannonpile::scalar::Surd::from(exact));
+            assert_eq!(cell.exact, Surd::from(exact));
             assert_eq!(Some(number(drawn, "data-value")), cell.exact.nearest());
             colours.push((cell.value, drawn.attribute("fill").unwrap().to_owned()));
         }
@@ -201,7 +202,7 @@ fn cells_tile_the_base_without_overlap() {
             .iter()
             .all(|cell| (area(cell) - one).abs() < 1e-2 * one)
     );
-    // An inner corner belongs to three cells; the 21 cells of this triangle have 15 + 2·... outer and the rest inner ones.
+    // A corner within belongs to three cells, one on the rim to one or two.
     let mut shared: BTreeMap<[i64; 2], usize> = BTreeMap::new();
     for [x, y] in cells.iter().flatten() {
         #[expect(clippy::cast_possible_truncation, reason = "pixels")]
@@ -519,8 +520,8 @@ fn tables_that_are_none() {
             "{table:?}: {refused:?}"
         );
     }
-    let many: String = (0..25).map(|n| format!("p{n},1,m,s,1,0\n")).collect();
-    let refused = WorkPrecision::read(&format!("{heads}{many}"));
+    let many: Vec<String> = (0..25).map(|n| format!("p{n},1,m,s,1,0\n")).collect();
+    let refused = WorkPrecision::read(&format!("{heads}{}", many.concat()));
     assert!(matches!(refused, Err(Error::TooManyMarks { .. })));
 }
 
