@@ -116,7 +116,7 @@ pub(crate) enum Command {
         output: Output,
     },
     /// A figure, as SVG
-    #[command(subcommand)]
+    #[command(subcommand, arg_required_else_help = false)]
     Plot(Figure),
 }
 
