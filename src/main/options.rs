@@ -125,7 +125,7 @@ pub(crate) enum Command {
     /// Measured contact forces against the exact ones; exit status 1 if they differ
     Verify(Verify),
     /// A figure, as SVG
-    #[command(subcommand)]
+    #[command(subcommand, arg_required_else_help = false)]
     Plot(Figure),
     /// A script with which a shell completes commands and options
     Completions(Completions),

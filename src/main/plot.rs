@@ -54,7 +54,7 @@ pub(crate) enum Figure {
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
-    /// The vertical force in a layer, as a map; without --load of 1 mg on the middle of a wide top of weightless spheres
+    /// The vertical force in a layer of weightless spheres, as a map: of --load, or of 1 mg on the middle of a wide top
     Response {
         #[command(flatten)]
         of: Measured,

@@ -285,3 +285,18 @@ fn too_many_rows() {
     };
     says(&error, &["4999999", "100000000000", "--layer"]);
 }
+
+/// Made by the figures alone (feature `plot`); the message is the library's.
+#[test]
+fn too_many_marks() {
+    let error = Error::TooManyMarks {
+        marks: Pile::triangular(MAX_LAYERS).unwrap().base_spheres(),
+        what: "bottom spheres",
+        limit: 20_000,
+        remedy: "use fewer layers",
+    };
+    says(
+        &error,
+        &["5000000", "bottom spheres", "20000", "use fewer layers"],
+    );
+}

@@ -104,6 +104,7 @@ fn refusals_name_the_option() {
         ("work-precision Cargo.toml", "Cargo.toml"),
         ("shear --format csv", "--format"),
         ("cake", "cake"),
+        ("", "subcommand"),
     ] {
         let line = refusal(&format!("plot {arguments}"));
         assert!(line.contains(option), "{arguments}: {line}");
