@@ -125,3 +125,27 @@ fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
     // A response is of weightless spheres: nothing is said of standing.
     assert!(stdout("plot response --stacking hcp").contains("spheres without weight"));
 }
+
+#[test]
+fn the_figures_of_readme_are_those_of_the_commands() {
+    for (command, figure) in [
+        (
+            "plot pile",
+            include_str!("../../../examples/figures/pile.svg"),
+        ),
+        (
+            "plot shear",
+            include_str!("../../../examples/figures/shear.svg"),
+        ),
+        (
+            "plot response --stacking hcp --top hexagon:5 --layers 6",
+            include_str!("../../../examples/figures/response.svg"),
+        ),
+    ] {
+        assert!(stdout(command) == figure, "draw it anew: {command}");
+        assert!(
+            include_str!("../../../README.md").contains(command),
+            "{command}"
+        );
+    }
+}
