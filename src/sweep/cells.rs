@@ -10,7 +10,7 @@ use crate::scalar::{Algebra, Ring};
 use crate::transfer::turn_numerators;
 
 /// How many numbers are worth a thread of their own.
-const WORTH_A_THREAD: usize = 1 << 13;
+pub(super) const WORTH_A_THREAD: usize = 1 << 13;
 
 /// A number for each line of a layer, by direction.
 #[derive(Clone, Debug)]

@@ -33,7 +33,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::cells::{Ramps, bands};
+use super::cells::{Ramps, WORTH_A_THREAD, bands};
 use super::{Cells, Grid, Layer, Pass};
 use crate::lattice::Direction;
 use crate::parallel;
@@ -127,6 +127,7 @@ impl Planes {
         /// Numbers of which two planes stay in the nearest cache.
         const PIECE: usize = 1 << 10;
         self.passes = 0;
+        let worth_threads = self.is_worth_threads();
         let mut pieces: Vec<Vec<&mut [i64]>> = Vec::new();
         let each = self.cells.first().map_or(0, |plane| plane.0[0].len());
         pieces.resize_with(3 * each.div_ceil(PIECE), Vec::new);
@@ -138,7 +139,7 @@ impl Planes {
                 piece.push(numbers);
             }
         }
-        parallel::for_each(pieces, |mut planes| {
+        let work = |mut planes: Vec<&mut [i64]>| {
             for p in 1..planes.len() {
                 let (lower, upper) = planes.split_at_mut(p);
                 let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
@@ -148,7 +149,18 @@ impl Planes {
                     carry(x, next);
                 }
             }
-        });
+        };
+        if worth_threads {
+            parallel::for_each(pieces, work);
+        } else {
+            pieces.into_iter().for_each(work);
+        }
+    }
+
+    /// Whether a step over all numbers takes longer than waking threads.
+    fn is_worth_threads(&self) -> bool {
+        let each = self.cells.first().map_or(0, |plane| plane.0[0].len());
+        each * self.cells.len() > 2 * WORTH_A_THREAD
     }
 
     /// The same for the three lines of one sphere.
@@ -228,7 +240,7 @@ impl Layer<BigRational> for Planes {
             let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
             (pass, ramps)
         });
-        if planes < PLANES_A_THREAD * parallel::threads() {
+        if planes < PLANES_A_THREAD * parallel::threads() || !self.is_worth_threads() {
             for (pass, ramps) in waiting {
                 parallel::for_each(bands(&mut self.cells, grid, pass), |mut band| {
                     band.add_and_turn(grid, pass, &ramps, tripled_half_turn);
