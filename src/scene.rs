@@ -67,6 +67,16 @@ pub struct Scene {
 }
 
 /// The layer that a pile is grown from.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scene::{Anchor, Scene, parse};
+///
+/// let top = Anchor::Top(parse::region("hexagon:2")?);
+/// let scene = Scene { anchor: Some(top), layers: Some(2), ..Scene::default() };
+/// assert_eq!(scene.pile()?.base_spheres(), 12_u32.into());
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// Downwards from its top.
@@ -112,6 +122,20 @@ impl Scene {
     /// # Errors
     /// Those of [`Pile`]'s constructors, loads and [`Clearance::check`](crate::geometry::Clearance::check);
     /// [`Error::SinPhiOfDiscs`] and [`Error::Excluded`] for options that exclude each other.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::{Scene, parse};
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// let scene = Scene { stacking: Some(Pattern::Hcp), ..Scene::default() };
+    /// assert_eq!(scene.pile()?.layers(), 10);
+    ///
+    /// let scene = Scene { sin_phi: Some(parse::rational("1/3")?), ..scene };
+    /// let refused = "sin-phi has no meaning beside stacking: leave one of the two out";
+    /// assert_eq!(scene.pile().unwrap_err().to_string(), refused);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn pile(&self) -> Result<Pile, Error> {
         let mut pile = self.unloaded()?;
         for (at, load) in &self.loads {
@@ -174,6 +198,16 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::NotPositive`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::{Scene, parse};
+    ///
+    /// assert!(Scene::default().check_sizes().is_ok());
+    /// let scene = Scene { mass: parse::rational("-0.5")?, ..Scene::default() };
+    /// assert_eq!(scene.check_sizes().unwrap_err().to_string(), "mass must be positive, not -1/2");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn check_sizes(&self) -> Result<(), Error> {
         for (quantity, value) in [
             ("radius", &self.radius),
@@ -194,6 +228,14 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::NotPositive`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::Scene;
+    ///
+    /// assert_eq!(Scene::default().spacing()?.to_string(), "6/5");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn spacing(&self) -> Result<Spacing, Error> {
         let default = || BigRational::new(6.into(), 5.into());
         Spacing::new(self.spacing.clone().unwrap_or_else(default))
@@ -203,6 +245,18 @@ impl Scene {
     ///
     /// # Errors
     /// Those of [`Packing::new`], and [`Error::NotPositive`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::scene::{Scene, parse};
+    ///
+    /// let scene = Scene { gravity: parse::rational("9.81")?, ..Scene::default() };
+    /// let pile = scene.pile()?;
+    /// let force = scene.packing(&pile)?.contact(Site::APEX, Direction::Alpha)?;
+    /// assert_eq!(force.to_string(), "327/260*sqrt(13)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn packing<'p>(&self, pile: &'p Pile) -> Result<Packing<'p>, Error> {
         Packing::new(pile, &self.spacing()?)?
             .with_radius(self.radius.clone())?

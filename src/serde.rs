@@ -31,6 +31,10 @@
 //! [`Scene`](crate::scene::Scene) any key may be left out. Formats that are not self-describing (postcard, bincode) do as well
 //! as JSON.
 //!
+//! What is written is read back, with two exceptions: exact numbers longer than those parsers read (5,000 digits, which a sum
+//! of loads or the forces after thousands of changes of sign can have), and in JSON an `f32` or `f64` that is not finite,
+//! for which it has no word. Both are errors, on the way in.
+//!
 //! Not data, and not here: what borrows a pile ([`Statics`](crate::Statics), [`Packing`](crate::Packing), sweeps),
 //! theorems and their polynomials, errors.
 //!

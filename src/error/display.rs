@@ -136,7 +136,7 @@ impl Error {
                 given,
             } => write!(
                 f,
-                "the {quantity} of sphere {site} must not be negative, but is {given}"
+                "the {quantity} of the sphere (i,j,k) = {site} must not be negative, but is {given}"
             ),
             _ => self.fmt_rest(f),
         }

@@ -105,6 +105,13 @@ impl SceneOptions {
         })
     }
 
+    /// Whether the file took all of stdin.
+    pub(crate) fn is_from_stdin(&self) -> bool {
+        self.scene_file
+            .as_ref()
+            .is_some_and(|file| file.name == "-")
+    }
+
     /// Where the file gives an option that the line does not.
     pub(crate) fn line_of(&self, option: &str) -> Option<String> {
         let file = self.scene_file.as_ref()?;
@@ -165,8 +172,11 @@ struct NamedFile {
 impl NamedFile {
     fn read(name: &str) -> Result<Self, String> {
         let text = text_of(name).map_err(|error| {
-            // The kind, without the number of the system.
-            let reason = error.kind();
+            let reason = match error.kind() {
+                io::ErrorKind::InvalidData => "not text in UTF-8".into(),
+                // The kind, without the number of the system.
+                kind => kind.to_string(),
+            };
             format!("{reason}; name a TOML file that can be read, or - for stdin")
         })?;
         let content = text.parse().map_err(|error: Error| error.to_string())?;
@@ -181,13 +191,17 @@ impl NamedFile {
 const LONGEST: u64 = 32 << 20;
 
 fn text_of(name: &str) -> io::Result<String> {
-    let mut text = String::new();
-    if name == "-" {
-        io::stdin().lock().take(LONGEST).read_to_string(&mut text)?;
+    let mut bytes = Vec::new();
+    let read = if name == "-" {
+        io::stdin().lock().take(LONGEST).read_to_end(&mut bytes)?
     } else {
-        File::open(name)?.take(LONGEST).read_to_string(&mut text)?;
+        File::open(name)?.take(LONGEST).read_to_end(&mut bytes)?
+    };
+    // What is cut within a character is too long, not wrong.
+    if read as u64 == LONGEST {
+        return Ok(String::from_utf8_lossy(&bytes).into_owned());
     }
-    Ok(text)
+    String::from_utf8(bytes).map_err(|_| io::ErrorKind::InvalidData.into())
 }
 
 /// `scene`: what the options describe, as a file.

@@ -28,6 +28,10 @@ pub(crate) struct Verify {
 impl Verify {
     /// Compares, and tells whether the file is accepted.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
+        if self.measured == Path::new("-") && self.scene.is_from_stdin() {
+            let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
+            return Err(Failure::Told(reason.into()));
+        }
         let (scene, pile) = self.scene.read()?;
         let packing = scene.packing(&pile)?;
         let reading = self.read().map_err(|refusal| self.refused(refusal))?;

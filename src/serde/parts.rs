@@ -1,5 +1,6 @@
 //! A pile as what it is made of, and made of it again by the checked constructors.
 
+use alloc::format;
 use alloc::vec::Vec;
 
 use ::serde::de::Error as _;
@@ -115,8 +116,16 @@ impl Serialize for Pile {
 
 impl<'de> Deserialize<'de> for Pile {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Parts::deserialize(deserializer)?
-            .pile()
-            .map_err(D::Error::custom)
+        let parts = Parts::deserialize(deserializer)?;
+        // One would silently win over the other.
+        let mut sites: Vec<Site> = parts.weights.iter().map(|weight| weight.site).collect();
+        sites.sort_unstable();
+        let mut pairs = sites.iter().zip(sites.iter().skip(1));
+        if let Some((site, _)) = pairs.find(|(one, next)| one == next) {
+            return Err(D::Error::custom(format!(
+                "two weights of the sphere (i,j,k) = {site}: leave one of them out"
+            )));
+        }
+        parts.pile().map_err(D::Error::custom)
     }
 }

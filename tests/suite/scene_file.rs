@@ -139,7 +139,16 @@ fn refusals_name_the_line_and_the_key() {
         ("spacing = '1/0'", &["line 1, spacing", "other than zero"]),
         ("spacing.x = 1", &["line 1, spacing", "'{…}'"]),
         ("mass = 1979-05-27", &["line 1, mass", "'1979-05-27'"]),
-        ("mass = 1e1001", &["line 1, mass"]),
+        (
+            "mass = 1e1001",
+            &["line 1, mass", "exponent from -1000 to 1000"],
+        ),
+        (
+            "mass = 1e-99_999_999_999",
+            &["line 1, mass", "exponent from -1000 to 1000"],
+        ),
+        ("mass = '1e'", &["line 1, mass", "1e-3"]),
+        ("mass = '1.x'", &["line 1, mass", "1e-3"]),
         (
             "dimension = 4",
             &["line 1, dimension", "2 (discs) or 3 (spheres)"],
@@ -203,6 +212,8 @@ fn what_could_exhaust_the_parser_is_refused() {
     refusal(&format!("{}mass = 1", "a.".repeat(100_000)));
     refusal(&format!("[{}mass]", "a.".repeat(100_000)));
     refusal(&format!("mass = {}", "9".repeat(100_000)));
+    let long = refusal(&format!("mass = 0.{}", "9".repeat(1_000)));
+    assert!(long.contains("at most 1000 characters"), "{long}");
     refusal(&format!("mass = 0x{}", "f".repeat(100_000)));
     refusal(&format!("layers = 0x{}", "f".repeat(100_000)));
     refusal(&format!("{} = 1", "a".repeat(100_000)));

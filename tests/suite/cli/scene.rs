@@ -241,6 +241,22 @@ fn a_scene_is_written_and_read() {
 }
 
 #[test]
+fn what_is_no_text_is_refused_as_such() {
+    let file = Scratch::new("bytes", "");
+    fs::write(&file.0, b"layers = 3 # \xff\n").expect("a file");
+    assert!(file.refused("base").contains("not text in UTF-8"));
+    // An odd letter, so that two bytes each are cut in the middle.
+    fs::write(&file.0, format!("#{}", "é".repeat(17 << 20))).expect("a file");
+    assert!(file.refused("base").contains("longer than 16777216 bytes"));
+}
+
+#[test]
+fn stdin_is_read_once() {
+    let told = refusal("verify - --scene -");
+    assert!(told.contains("FILE and --scene are both -"), "{told}");
+}
+
+#[test]
 fn a_scene_comes_through_a_pipe() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
         .args(["base", "--scene", "-"])

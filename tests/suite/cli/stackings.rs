@@ -147,7 +147,7 @@ fn refusals_name_the_option() {
         ("base --load 0,0,0", "--load"),
         (
             "base --load 0,0,0=-1",
-            "--load: the load of sphere (0,0,0) must not be negative",
+            "--load: the load of the sphere (i,j,k) = (0,0,0) must not be negative",
         ),
         ("base --load 0,5,0=1", "--load: no sphere"),
         (

@@ -52,6 +52,11 @@ fn piles() {
     let apex = Site::APEX;
     let low = Site { i: 1, j: 0, k: 3 };
     for pile in [
+        Pile::triangular(1),
+        Pile::isosceles(1, ratio(1, 3)),
+        Pile::discs(1),
+        Pile::under(Region::hexagon(2, 1).unwrap(), "A".parse().unwrap()),
+        Pile::on(Region::hexagon(2, 1).unwrap(), "A".parse().unwrap()),
         Pile::triangular(10),
         Pile::triangular(MAX_LAYERS),
         Pile::isosceles(4, ratio(1, 3)),
@@ -124,6 +129,34 @@ fn no_invalid_pile_comes_in() {
     ] {
         let error = read(&text).expect_err(&text).to_string();
         assert!(error.contains(said), "{text}: no '{said}' in {error}");
+    }
+    let weight = r#"{"site":{"i":"0","j":"0","k":"1"},"weight":"2"}"#;
+    let weights = |list: &str| {
+        let weights = format!(r#""weights":[{list}]"#);
+        text(3, "1/2", "++", site, "[]").replace(r#""weights":[]"#, &weights)
+    };
+    read(&weights(weight)).expect("a pile");
+    let error = read(&weights(&format!("{weight},{weight}"))).expect_err("two weights");
+    assert!(
+        error
+            .to_string()
+            .contains("two weights of the sphere (i,j,k) = (0,0,1)")
+    );
+    // Cut anywhere, or with a byte changed, it is a pile that can be written, or an error.
+    let pile = Pile::under(Region::hexagon(3, 2).unwrap(), "+-++".parse().unwrap());
+    let pile = pile
+        .and_then(|pile| pile.with_load(Site::APEX, ratio(7, 3)))
+        .unwrap();
+    let bytes = postcard::to_allocvec(&pile).unwrap();
+    for place in 0..bytes.len() {
+        assert!(postcard::from_bytes::<Pile>(&bytes[..place]).is_err());
+        for byte in 0..=u8::MAX {
+            let mut bytes = bytes.clone();
+            bytes[place] = byte;
+            if let Ok(pile) = postcard::from_bytes::<Pile>(&bytes) {
+                back(&pile);
+            }
+        }
     }
     // In bytes, too: the sign of a load is its first letter.
     let pile = Pile::triangular(2)
