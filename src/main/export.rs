@@ -1,7 +1,7 @@
 //! `export`: a whole pile as files.
 
 use std::io::{self, IsTerminal};
-use std::path::PathBuf;
+use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
 use cannonpile::Error;
@@ -9,7 +9,7 @@ use cannonpile::export::{NumberFormat, PileExport, PileFormat, WriteError, Writt
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::options::{Output, Refused, SceneOptions};
+use crate::options::{Output, SceneOptions};
 use crate::{Failure, complain, warn_if_it_falls};
 
 #[derive(Args)]
@@ -69,15 +69,33 @@ pub(crate) fn run(export: &Export) -> Result<(), Failure> {
     let files = PileExport::new(&packing)?;
     let formats = export.to.iter().flat_map(|target| target.formats());
     let formats: Vec<PileFormat> = formats.copied().collect();
+    keep_apart(export, &formats)?;
     let begun = Instant::now();
     let bar = bar(rows(&files, &formats));
     let written = files.write(&formats, &export.folder, &mut |rows| bar.inc(rows));
     bar.finish_and_clear();
-    let written = written.map_err(refused)?;
+    let written = written.map_err(|error| refused(&export.scene, error))?;
     let table = tables::files(&written);
     crate::write_table(table, NumberFormat::Exact, &export.output)?;
     warn_if_it_falls(&pile);
     tell_rate(&written, begun);
+    Ok(())
+}
+
+/// The list must not take the place of one of the files that it lists.
+fn keep_apart(export: &Export, formats: &[PileFormat]) -> Result<(), Failure> {
+    let Some(list) = &export.output.file else {
+        return Ok(());
+    };
+    let place = |path: &Path| path::absolute(path).ok();
+    let files = formats.iter().flat_map(|format| format.files());
+    let mut paths = files.map(|file| export.folder.join(file.name()));
+    if paths.any(|path| place(&path) == place(list)) {
+        let list = list.display();
+        return Err(Failure::Told(format!(
+            "--output: {list} is one of the files of the export: name another file for the list"
+        )));
+    }
     Ok(())
 }
 
@@ -120,11 +138,19 @@ fn tell_rate(written: &[Written], begun: Instant) {
 }
 
 /// The option to change where a number does not fit: there is no other format of numbers.
-fn refused(error: WriteError) -> Failure {
+fn refused(scene: &SceneOptions, error: WriteError) -> Failure {
     match error {
-        WriteError::Answer(error @ Error::Overflow { quantity, .. }) => {
-            let length = ["radius", "a position", "the volume of a sphere"].contains(&quantity);
-            Refused::of(if length { "radius" } else { "mass" }, error).into()
+        WriteError::Answer(Error::Overflow { quantity, scalar }) => {
+            let option = match quantity {
+                "radius" | "a position" | "the volume of a sphere" => "radius",
+                "gravity" => "gravity",
+                _ => "mass",
+            };
+            let place = scene.line_of(option);
+            let place = place.unwrap_or_else(|| format!("--{option}"));
+            Failure::Told(format!(
+                "{place}: {quantity} does not fit in {scalar}: give radius, mass and gravity in other units"
+            ))
         }
         error => error.into(),
     }

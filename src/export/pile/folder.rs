@@ -81,6 +81,10 @@ struct Made(Vec<PathBuf>);
 
 impl Made {
     fn folder(folder: &Path) -> io::Result<Self> {
+        // What is there and is no folder would be said to exist already.
+        if folder.exists() && !folder.is_dir() {
+            return Err(io::ErrorKind::NotADirectory.into());
+        }
         let missing = folder
             .ancestors()
             .take_while(|path| *path != Path::new("") && !path.exists());

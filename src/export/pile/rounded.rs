@@ -22,6 +22,9 @@ pub(super) fn nearest_rational(number: &BigRational, quantity: &'static str) -> 
     nearest(&number.clone().into(), quantity)
 }
 
+/// How many coordinates along rows are kept: enough for 20,000 layers of spheres under one.
+const KEPT_PLACES: usize = 1 << 16;
+
 /// The centres of spheres.
 ///
 /// Along a row but one coordinate changes: y, of discs x. In all of the pile it is the same multiple of the distance
@@ -77,6 +80,10 @@ impl<'a, 'p> Centres<'a, 'p> {
         } else {
             let [x, y, _] = self.rounded(site)?;
             let along = if self.along == 0 { x } else { y };
+            // One row may be as long as the pile has spheres.
+            if self.rounded.len() >= KEPT_PLACES {
+                self.rounded.clear();
+            }
             self.rounded.insert(place, along);
             along
         };
@@ -268,5 +275,25 @@ impl Hash for Multiple {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.0.numer().hash(state);
         self.0.denom().hash(state);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Pile;
+    use crate::geometry::Spacing;
+
+    #[test]
+    fn a_long_row_takes_no_more_memory() {
+        let pile = Pile::triangular(2).unwrap();
+        let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).unwrap();
+        let packing = Packing::new(&pile, &spacing).unwrap();
+        let mut centres = Centres::new(&packing);
+        // As after a row of so many spheres.
+        centres.rounded = (1..).map(|place| (-place, 0.0)).take(KEPT_PLACES).collect();
+        let site = Site { i: 1, j: 0, k: 1 };
+        assert_eq!(centres.of(site).unwrap()[1].to_string(), "1.2");
+        assert!(centres.rounded.len() <= KEPT_PLACES);
     }
 }

@@ -100,14 +100,18 @@ fn what_is_refused_leaves_nothing() {
             "export {}/new --layers 100000",
             ["--layers", "rows are too many"],
         ),
-        ("export {}/new --radius 1e999", ["--radius", "f64"]),
-        ("export {}/new --mass 1e999", ["--mass", "f64"]),
+        ("export {}/new --radius 1e999", ["--radius", "other units"]),
+        ("export {}/new --mass 1e999", ["--mass", "other units"]),
+        (
+            "export {}/new --output {}/./new/base.csv",
+            ["--output", "another file"],
+        ),
         ("export {}/new --to lammps --mass 1e-400", ["--mass", "f64"]),
         (
             "export {}/new --to yade --radius 1e-120",
             ["--radius", "volume"],
         ),
-        ("export {}/file", ["/file", "cannot write"]),
+        ("export {}/file", ["/file: not a directory", "cannot write"]),
         ("export {}/file/new", ["/file/new", "cannot write"]),
     ] {
         let line = refusal(&arguments.replace("{}", &inside.to_string()));
