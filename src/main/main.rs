@@ -63,7 +63,7 @@ fn main() -> ExitCode {
 }
 
 fn cannot_write(target: &str, reason: &str) -> ExitCode {
-    let remedy = "choose a place that exists and can be written";
+    let remedy = "choose a place that exists, can be written and has room";
     complain(&format!("error: cannot write {target}: {reason}; {remedy}"));
     ExitCode::from(BAD_USE)
 }
