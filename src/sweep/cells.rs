@@ -164,61 +164,30 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             });
             let counts = pass.region.row_counts(j, pass.run.sign, steps);
             let [on_a, on_b, on_c] = counts.map(|count| Slopes::new(count, i.start, n));
-            let levels = [&on_a, &on_b, &on_c].map(Slopes::level);
-            let start = levels.iter().fold(0, |start, level| start.max(level.start));
-            let end = levels.iter().fold(n, |end, level| end.min(level.end));
-            let level = start..end.max(start);
             for ([alpha, beta, gamma], Ramps([ramp_a, ramp_b, ramp_c])) in
                 self.planes.iter_mut().zip(ramps)
             {
                 let [a, b, c] = places.clone();
                 let (a, b, c) = (&mut alpha[a], &mut beta[b], &mut gamma[c]);
+                add(a, &on_a, ramp_a);
+                add(b, &on_b, ramp_b);
+                add(c, &on_c, ramp_c);
                 if !pass.turns {
-                    add(a, 0, &on_a, ramp_a);
-                    add(b, 0, &on_b, ramp_b);
-                    add(c, 0, &on_c, ramp_c);
                     continue;
                 }
-                for piece in [0..level.start, level.end..n] {
-                    let start = piece.start;
-                    let (a, b, c) = (&mut a[piece.clone()], &mut b[piece.clone()], &mut c[piece]);
-                    add(a, start, &on_a, ramp_a);
-                    add(b, start, &on_b, ramp_b);
-                    add(c, start, &on_c, ramp_c);
-                    for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                        let turned = turn(&[a.clone(), b.clone(), c.clone()]);
-                        [*a, *b, *c] = turned;
-                    }
-                }
-                // Where no count changes, most of a row, all in one go.
-                let level = level.clone();
-                let more = (
-                    on_a.along(level.clone(), ramp_a).level,
-                    on_b.along(level.clone(), ramp_b).level,
-                    on_c.along(level.clone(), ramp_c).level,
-                );
-                let (Some(more_a), Some(more_b), Some(more_c)) = more else {
-                    continue;
-                };
-                let (a, b, c) = (&mut a[level.clone()], &mut b[level.clone()], &mut c[level]);
                 for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                    let sums = [a.clone() + more_a, b.clone() + more_b, c.clone() + more_c];
-                    [*a, *b, *c] = turn(&sums);
+                    let turned = turn(&[a.clone(), b.clone(), c.clone()]);
+                    [*a, *b, *c] = turned;
                 }
             }
         }
     }
 }
 
-/// Adds to a piece of a row, from a place on, what its counts come to.
-fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    piece: &mut [V],
-    from: usize,
-    counts: &Slopes,
-    ramp: &[V],
-) {
-    let Along { up, level, down } = counts.along(from..from + piece.len(), ramp);
-    let (rising, rest) = piece.split_at_mut(up.len());
+/// Adds to a row what its counts come to.
+fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], counts: &Slopes, ramp: &[V]) {
+    let Along { up, level, down } = counts.along(0..row.len(), ramp);
+    let (rising, rest) = row.split_at_mut(up.len());
     let (same, falling) = rest.split_at_mut(rest.len() - down.len());
     for (sum, value) in rising.iter_mut().zip(up) {
         *sum = sum.clone() + value;

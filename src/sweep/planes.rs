@@ -47,7 +47,7 @@ const TURNS: u32 = 5;
 
 /// From so many planes for each thread on, a thread takes all passes that wait on one plane, which stays in its cache,
 /// before it takes the next plane. Fewer are shared out by rows.
-const PLANES_A_THREAD: usize = 3;
+const PLANES_A_THREAD: usize = 1;
 
 /// How wide the numbers of a sweep are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -142,11 +142,6 @@ impl Slopes {
         }
     }
 
-    /// Between the slopes, where the count is the cap.
-    pub(crate) fn level(&self) -> Range<usize> {
-        self.level.clone()
-    }
-
     /// `values[count]` along a piece of the row; as many as there are places, unless `values` is too short for a count.
     pub(crate) fn along<'v, V>(&self, piece: Range<usize>, values: &'v [V]) -> Along<'v, V> {
         let inside = |place: usize| place.clamp(piece.start, piece.end);
