@@ -221,8 +221,8 @@ impl fmt::Display for Comparison {
         let (extra, largest) = (self.strays.len(), self.largest_error());
         write!(
             f,
-            "{matched} of {contacts} contacts measured, {missing} missing, {extra} extra; largest error {largest:e}, rms \
-             {rms:e}"
+            "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs beside them; \
+             largest error {largest:e}, rms {rms:e}"
         )?;
         if let Some(worst) = self.worst() {
             write!(f, "; worst: {worst}")?;
