@@ -85,6 +85,14 @@ pub struct Measured {
 
 impl Measured {
     /// A force of which the magnitude is known.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify::Measured;
+    ///
+    /// let pull = Measured::new([1, 4], -2.0);
+    /// assert_eq!((pull.ids, pull.force, pull.vector), ([1, 4], -2.0, None));
+    /// ```
     #[must_use]
     pub const fn new(ids: [u64; 2], force: f64) -> Self {
         Self {
@@ -95,6 +103,15 @@ impl Measured {
     }
 
     /// With the force on the first of the two spheres as a vector.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify::Measured;
+    ///
+    /// // The magnitude stays what was measured, that of the vector or not.
+    /// let turned = Measured::new([1, 4], 2.0).with_vector([0.0, 0.0, 2.5]);
+    /// assert_eq!((turned.force, turned.vector), (2.0, Some([0.0, 0.0, 2.5])));
+    /// ```
     #[must_use]
     pub const fn with_vector(mut self, vector: [f64; 3]) -> Self {
         self.vector = Some(vector);
@@ -102,6 +119,16 @@ impl Measured {
     }
 
     /// The same, told of the other sphere: the vector is turned round.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify::Measured;
+    ///
+    /// let pull = Measured::new([1, 4], -2.0).with_vector([1.2, 0.0, -1.6]);
+    /// // Pull is pull, seen from either sphere.
+    /// assert_eq!((pull.reversed().ids, pull.reversed().force), ([4, 1], -2.0));
+    /// assert_eq!(pull.reversed().reversed(), pull);
+    /// ```
     #[must_use]
     pub fn reversed(self) -> Self {
         let [first, second] = self.ids;

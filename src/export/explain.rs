@@ -38,6 +38,20 @@ impl<'p> Explanation<'p> {
     /// # Errors
     /// As for [`Pile::plan`](crate::Pile::plan); [`Error::NeedsUnits`] if the quantity is in SI, and the units are those of the
     /// pile.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Error, Pile, Quantity};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let explained = |quantity| Explanation::new(&Units::of_pile(&pile), quantity, Selection::All);
+    /// assert!(explained(Quantity::ContactMultiples).is_ok());
+    /// // Positions are in metres.
+    /// assert!(matches!(explained(Quantity::Positions), Err(Error::NeedsUnits { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(units: &Units<'p>, quantity: Quantity, part: Selection) -> Result<Self, Error> {
         if let (Units::Pile(_), true) = (units, quantity.roots() > 0) {
             return Err(Error::NeedsUnits { quantity });
@@ -79,6 +93,20 @@ impl<'p> Explanation<'p> {
     ///
     /// # Errors
     /// [`Error::TooManyRows`], as tables refuse them.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Error, Pile, Quantity};
+    ///
+    /// // A layer has few answers, the whole pile 5·10¹¹.
+    /// let pile = Pile::triangular(10_000)?;
+    /// let explained = |part| Explanation::new(&Units::of_pile(&pile), Quantity::ContactMultiples, part);
+    /// assert!(explained(Selection::Layer(9))?.check().is_ok());
+    /// assert!(matches!(explained(Selection::All)?.check(), Err(Error::TooManyRows { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn check(&self) -> Result<(), Error> {
         let remedy = "ask for one layer, one sphere, or the plan only";
         super::tables::refuse_beyond(&self.plan.rows, remedy)
@@ -88,6 +116,21 @@ impl<'p> Explanation<'p> {
     ///
     /// # Errors
     /// As for [`check`](Self::check); those of the answers are handed on.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Pile, Quantity};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let units = Units::of_pile(&pile);
+    /// let explanation = Explanation::new(&units, Quantity::ContactMultiples, Selection::Layer(3))?;
+    /// // Three contacts of each of ten spheres.
+    /// let counted = explanation.run()?;
+    /// assert_eq!((counted.visited(), counted.rows()), (10, 30));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn run(&self) -> Result<Counters, Error> {
         self.check()?;
         let counters = Counters::default();
@@ -117,6 +160,20 @@ impl<'p> Explanation<'p> {
 
     /// One row: `quantity, method, runs, visited, turned, passes, numbers, bits, planes, roots, rows, bytes`, all at most,
     /// and what was counted, if it was: `counted_visited, counted_turned, counted_passes, counted_roots, counted_rows`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Counters, Pile, Quantity};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let explanation = Explanation::new(&Units::of_pile(&pile), Quantity::FloorMultiples, Selection::Base)?;
+    /// let last = |counters| explanation.table(counters).columns().last().map(|column| column.name);
+    /// assert_eq!(last(None), Some("bytes"));
+    /// assert_eq!(last(Some(&Counters::default())), Some("counted_rows"));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn table(&self, counters: Option<&Counters>) -> Table<'static> {
         let plan = &self.plan;
@@ -142,6 +199,22 @@ impl<'p> Explanation<'p> {
     }
 
     /// What was counted, alone.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Explanation, FileFormat, NumberFormat};
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Counters, Pile};
+    ///
+    /// let counters = Counters::default();
+    /// let pile = Pile::triangular(10)?;
+    /// pile.statics::<f64>().metered(&counters).contact(Site::APEX, Direction::Alpha)?;
+    /// let mut csv = Vec::new();
+    /// Explanation::counted(&counters).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+    /// // One sphere visited, and nothing else.
+    /// assert!(csv.ends_with(b"\n1,0,0,0,0\n"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn counted(counters: &Counters) -> Table<'static> {
         record(counted(counters).into())

@@ -50,6 +50,14 @@ impl PileFormat {
     pub const ALL: [Self; 4] = [Self::Csv, Self::Lammps, Self::Vtp, Self::Yade];
 
     /// Its files, in the order in which they are written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{PileFile, PileFormat};
+    ///
+    /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
+    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [3, 2, 2, 2]);
+    /// ```
     #[must_use]
     pub const fn files(self) -> &'static [PileFile] {
         match self {
@@ -189,12 +197,41 @@ impl<'p> PileExport<'p> {
     }
 
     /// The pile with its sizes and weights.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing.with_radius(BigRational::new(1.into(), 100.into()))?)?;
+    /// assert_eq!(export.packing().radius().to_string(), "1/100");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn packing(&self) -> &Packing<'p> {
         &self.packing
     }
 
     /// The numbers that its spheres have in all files.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // The row n of `base.csv` is that of sphere 165 + n.
+    /// let export = PileExport::new(&packing)?;
+    /// assert_eq!(export.numbering().first_on_floor(), 166);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn numbering(&self) -> &Numbering<'p> {
         &self.numbering
@@ -291,6 +328,25 @@ impl<'p> PileExport<'p> {
     /// # Errors
     /// [`WriteError::Answer`] as for [`write_file`](Self::write_file); [`WriteError::File`], which names the file or
     /// the folder that could not be written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{PileExport, PileFormat};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let folder = tempfile::tempdir()?;
+    /// let new = folder.path().join("new/pile");
+    /// let written = PileExport::new(&packing)?.write(&PileFormat::ALL, &new, &mut |_| {})?;
+    /// assert_eq!((written.len(), new.read_dir()?.count()), (9, 9));
+    /// for file in written {
+    ///     assert_eq!(file.path.metadata()?.len(), file.bytes);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn write(
         &self,
         formats: &[PileFormat],

@@ -42,6 +42,22 @@ impl<'p> Summary<'p> {
     ///
     /// # Errors
     /// Those of [`Pile::standing`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::{Summary, Units};
+    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::{Pile, Verdict};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let units = Units::of_pile(&pile);
+    /// assert_eq!(Summary::new(&units, Some(Vec::new()))?.verdict(), Some(Verdict::No));
+    /// // Where spheres two layers apart touch, they may take the part of a pull.
+    /// let touching = vec![Apart { layers: 2 }];
+    /// assert_eq!(Summary::new(&units, Some(touching))?.verdict(), Some(Verdict::Undetermined));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(units: &Units<'p>, touching: Option<Vec<Apart>>) -> Result<Self, Error> {
         let pile = units.pile();
         let base = match pile.base_extremes() {
@@ -57,6 +73,16 @@ impl<'p> Summary<'p> {
     }
 
     /// Whether the pile stands; `None` for spheres without weight, of which it is not asked.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::export::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?.weightless();
+    /// assert_eq!(Summary::new(&Units::of_pile(&pile), None)?.verdict(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
         let asked = !self.units.pile().is_weightless();
@@ -71,6 +97,21 @@ impl<'p> Summary<'p> {
     ///
     /// # Errors
     /// Those of the forces are handed on.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::export::{FileFormat, NumberFormat, Summary, Units};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let mut csv = Vec::new();
+    /// let table = Summary::new(&Units::of_pile(&pile), None)?.table()?;
+    /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+    /// // It does not stand: a contact would have to pull.
+    /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn table(&self) -> Result<Table<'p>, Error> {
         let (units, pile) = (&self.units, self.units.pile());
         let (mass, tan) = match units {

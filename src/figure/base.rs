@@ -48,6 +48,22 @@ impl BaseMap {
     /// # Errors
     /// [`Error::TooManyMarks`] for more than 20 000 bottom spheres; [`Error::Overflow`] for forces beyond floats; those
     /// of [`Packing::base`](crate::Packing::base).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{BaseMap, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let map = BaseMap::new(&Subject::of_pile(&pile, &spacing)?)?;
+    /// // 55 spheres bear the weight of all 220.
+    /// assert_eq!(map.cells.len(), 55);
+    /// assert_eq!(map.cells.iter().map(|cell| cell.value).sum::<f64>(), 220.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(subject: &Subject<'_>) -> Result<Self, Error> {
         let pile = subject.pile();
         readable(
@@ -75,6 +91,22 @@ impl BaseMap {
     }
 
     /// The figure: a map of the base as seen from above, with the bar of its colours.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{BaseMap, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let svg = BaseMap::new(&Subject::of_pile(&pile, &spacing)?)?.drawing().to_string();
+    /// assert_eq!(svg.matches("class=\"cell\"").count(), 55);
+    /// // The bar has one colour, since the force is the same everywhere.
+    /// assert!(svg.contains("everywhere"));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let words = Words {

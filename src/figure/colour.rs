@@ -169,6 +169,16 @@ const PALEST: f64 = 0.3;
 
 impl Scale {
     /// The scale of these numbers: from the least to the greatest, or around zero if one of them is negative.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::Scale;
+    ///
+    /// // Without a negative number zero has no place of its own.
+    /// let scale = Scale::of([5.0, 2.0]);
+    /// assert!(!scale.is_around_zero());
+    /// assert_eq!((scale.least(), scale.most()), (2.0, 5.0));
+    /// ```
     #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let (least, most) = ends(values);
@@ -222,24 +232,60 @@ impl Scale {
     }
 
     /// The least number on it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::Scale;
+    ///
+    /// assert_eq!(Scale::of([3.0, -1.0, 2.0]).least(), -1.0);
+    /// // Of no numbers it is 0.
+    /// assert_eq!(Scale::of([]).least(), 0.0);
+    /// ```
     #[must_use]
     pub fn least(&self) -> f64 {
         self.least
     }
 
     /// The greatest number on it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::Scale;
+    ///
+    /// assert_eq!(Scale::of([-3.0, -1.0]).most(), -1.0);
+    /// // Zero is on every scale around it.
+    /// assert_eq!(Scale::around_zero([-3.0, -1.0]).most(), 0.0);
+    /// ```
     #[must_use]
     pub fn most(&self) -> f64 {
         self.most
     }
 
     /// Whether it tells negative from positive numbers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::Scale;
+    ///
+    /// assert!(!Scale::of([1.0, 2.0]).is_around_zero());
+    /// assert!(Scale::of([-1.0, 2.0]).is_around_zero());
+    /// assert!(Scale::of_lines([1.0, 2.0]).is_around_zero());
+    /// ```
     #[must_use]
     pub fn is_around_zero(&self) -> bool {
         self.palette != Palette::Rising
     }
 
     /// Whether all its numbers are the same.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::Scale;
+    ///
+    /// assert!(!Scale::of([0.3, 0.31]).is_uniform());
+    /// // What differs by roundings alone is the same.
+    /// assert!(Scale::of([0.3, 0.1 + 0.2]).is_uniform());
+    /// ```
     #[must_use]
     pub fn is_uniform(&self) -> bool {
         // A range too small for floats is none.

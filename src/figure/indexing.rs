@@ -48,6 +48,22 @@ impl Indexing {
     ///
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::TooManyMarks`] for more than 150 spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::{Indexing, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Error, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(100)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// // 136 spheres, and 153.
+    /// assert!(Indexing::new(&subject, 15).is_ok());
+    /// assert!(matches!(Indexing::new(&subject, 16), Err(Error::TooManyMarks { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(subject: &Subject<'_>, k: i128) -> Result<Self, Error> {
         let pile = subject.pile();
         let spheres = pile.shape().layer(k)?.sites();
@@ -80,6 +96,20 @@ impl Indexing {
     }
 
     /// The figure: the layer as seen from above, x upwards and y to the right, as they are where z points down.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Indexing, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let svg = Indexing::new(&Subject::of_pile(&pile, &spacing)?, 3)?.drawing().to_string();
+    /// assert!(svg.contains(">1,2<") && !svg.contains(">2,2<"));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let layer = &self.seen;

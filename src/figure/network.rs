@@ -87,6 +87,21 @@ impl Network {
     /// # Errors
     /// [`Error::TooManyMarks`] for a pile of more than 200 000 spheres or a section of more than 20 000;
     /// [`Error::Overflow`] for forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Network, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// // Of discs all are in it: 10, of which 6 have two below.
+    /// let pile = Pile::discs(4)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let section = Network::section(&Subject::of_pile(&pile, &spacing)?)?;
+    /// assert_eq!((section.spheres.len(), section.links.len()), (10, 12));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn section(subject: &Subject<'_>) -> Result<Self, Error> {
         let pile = subject.pile();
         let remedy = "use fewer layers, or --layer for one of them";
@@ -132,6 +147,22 @@ impl Network {
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::OnFloor`] for the bottom layer; [`Error::TooManyMarks`] for more than 20 000
     /// spheres; [`Error::Overflow`] for forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::{Network, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Error, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// // Nothing is below the bottom layer.
+    /// assert_eq!(Network::layer(&subject, 8)?.links.len(), 135);
+    /// assert!(matches!(Network::layer(&subject, 9), Err(Error::OnFloor { .. })));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Self, Error> {
         let pile = subject.pile();
         let region = pile.shape().layer(k)?;
@@ -185,6 +216,22 @@ impl Network {
     /// The figure: lines as wide as the forces are great; what carries nothing is dotted.
     ///
     /// Contacts are `<line class="contact" data-direction="…" data-force="…">`, from the upper sphere to the lower.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Network, Response, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Response::of_unit_load(Pile::triangular(4)?)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let svg = Network::layer(&Subject::of_pile(&pile, &spacing)?, 2)?.drawing().to_string();
+    /// // Of 18 contacts those on three lines carry the load.
+    /// assert_eq!(svg.matches("class=\"contact\"").count(), 18);
+    /// assert_eq!(svg.matches("stroke-dasharray").count(), 15);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let ends = self.links.iter().flat_map(|link| link.ends);

@@ -66,6 +66,21 @@ impl Picture {
     ///
     /// # Errors
     /// [`Error::TooManyMarks`] for more than 20 000 spheres; [`Error::Overflow`] for positions beyond floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Picture, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let picture = Picture::new(&Subject::of_pile(&pile, &spacing)?)?;
+    /// // What is nearer than the middle appears larger than it is.
+    /// assert!(picture.spheres[0].radius < 1.0 && picture.spheres[19].radius > 1.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(subject: &Subject<'_>) -> Result<Self, Error> {
         let pile = subject.pile();
         readable(&pile.spheres(), LIMIT, "spheres", "use fewer layers")?;
@@ -109,6 +124,22 @@ impl Picture {
     /// The figure: shaded spheres, layers in turns of two colours, and the directions of x, y and z.
     ///
     /// Spheres are `<circle class="sphere">`, in the order of [`spheres`](Self::spheres).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Picture, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let svg = Picture::new(&Subject::of_pile(&pile, &spacing)?)?.drawing().to_string();
+    /// assert_eq!(svg.matches("class=\"sphere\"").count(), 20);
+    /// // Layers 0 and 2 in one colour.
+    /// assert_eq!(svg.matches("url(#even)").count(), 1 + 6);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let centres = self.spheres.iter().map(|sphere| sphere.at);

@@ -61,6 +61,20 @@ impl Response {
     ///
     /// # Errors
     /// Those of [`Pile::with_load`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::Response;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(Response::of_unit_load(pile.clone())?.weight().to_string(), "1");
+    /// let loaded = pile.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
+    /// assert_eq!(Response::of_unit_load(loaded)?.weight().to_string(), "2");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
         let pile = pile.weightless();
         if pile.loading().loads().len() > 0 {
@@ -75,6 +89,26 @@ impl Response {
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::TooManyMarks`] for a layer of more than 20 000 spheres; [`Error::Overflow`] for
     /// forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Response, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::stacking::Stacking;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Response::of_unit_load(Pile::under(Region::hexagon(3, 3)?, Stacking::hcp(6)?)?)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// // Every layer hands on the whole load.
+    /// for k in 0..6 {
+    ///     let handed_on: f64 = Response::new(&subject, k)?.cells.iter().map(|cell| cell.value).sum();
+    ///     assert!((handed_on - 1.0).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(subject: &Subject<'_>, k: i128) -> Result<Self, Error> {
         let pile = subject.pile();
         let spheres = pile.shape().layer(k)?.sites();
@@ -115,6 +149,22 @@ impl Response {
     }
 
     /// The figure: a map of the layer as seen from above; blue is pulled, orange pushed.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Response, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Response::of_unit_load(Pile::triangular(4)?)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// let svg = |k| Response::new(&subject, k).map(|response| response.drawing().to_string());
+    /// assert!(svg(2)?.contains("Response of layer 2"));
+    /// assert!(svg(3)?.contains("Response of the floor"));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let title = if self.floor {

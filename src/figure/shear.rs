@@ -58,6 +58,23 @@ impl Shear {
     /// # Errors
     /// [`Error::TooManyMarks`] for more than 20 000 bottom spheres; [`Error::Overflow`] for forces beyond floats; those
     /// of [`Packing::base`](crate::Packing::base).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Shear, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let shear = Shear::new(&Subject::of_pile(&pile, &spacing)?)?;
+    /// // The floor is pulled apart, and as a whole not pushed aside.
+    /// for axis in [0, 1] {
+    ///     assert!(shear.arrows.iter().map(|arrow| arrow.force[axis]).sum::<f64>().abs() < 1e-12);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(subject: &Subject<'_>) -> Result<Self, Error> {
         let pile = subject.pile();
         readable(
@@ -85,6 +102,21 @@ impl Shear {
     }
 
     /// The greatest of the forces.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Shear, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// // At the corners, in mg·tanθ.
+    /// let shear = Shear::new(&Subject::of_pile(&pile, &spacing)?)?;
+    /// assert!((shear.greatest() - 3.0).abs() < 1e-12);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn greatest(&self) -> f64 {
         let lengths = self.arrows.iter().map(|arrow| magnitude(arrow.force));
@@ -95,6 +127,21 @@ impl Shear {
     ///
     /// Arrows are `<polygon class="arrow">`, whose first and last corners are on both sides of the tail, and whose
     /// fourth is the tip; their lengths are to the forces as that of the key, of class `key`, is to its label.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{Shear, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let svg = Shear::new(&Subject::of_pile(&pile, &spacing)?)?.drawing().to_string();
+    /// // The key, and the sphere under the apex.
+    /// assert_eq!(["key", "vanishing"].map(|class| svg.matches(&format!("class=\"{class}\"")).count()), [1, 1]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let layer = &self.layer;

@@ -73,6 +73,23 @@ impl SphereForces {
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::Overflow`] for forces beyond floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{SphereForces, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// // A sphere alone: its weight, and the floor against it.
+    /// let pile = Pile::triangular(1)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let sphere = SphereForces::new(&Subject::of_pile(&pile, &spacing)?, Site::APEX)?;
+    /// let forces: Vec<_> = sphere.forces.iter().map(|force| (force.name, force.magnitude, force.along[2])).collect();
+    /// assert_eq!(forces, [("n", 1.0, 1.0), ("w", 1.0, -1.0)]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn new(subject: &Subject<'_>, site: Site) -> Result<Self, Error> {
         let pile = subject.pile();
         let (packing, statics) = (subject.packing(), subject.packing().statics());

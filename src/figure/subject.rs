@@ -38,6 +38,20 @@ impl<'p> Subject<'p> {
     ///
     /// # Errors
     /// Those of [`Packing::new`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{BaseMap, Shear, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// assert_eq!((BaseMap::new(&subject)?.unit, Shear::new(&subject)?.unit), ("mg", "mg·tanθ"));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn of_pile(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         Ok(Self {
             packing: Packing::new(pile, spacing)?,
@@ -46,18 +60,60 @@ impl<'p> Subject<'p> {
     }
 
     /// In metres and newtons.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::{BaseMap, Shear, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let subject = Subject::of_packing(packing);
+    /// assert_eq!((BaseMap::new(&subject)?.unit, Shear::new(&subject)?.unit), ("N", "N"));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn of_packing(packing: Packing<'p>) -> Self {
         Self { packing, si: true }
     }
 
     /// The spheres with their sizes and weights; 1 each, if they are the units.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::Subject;
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// assert_eq!(subject.packing().radius().to_string(), "1");
+    /// assert_eq!(subject.packing().sphere_weight().to_string(), "1");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn packing(&self) -> &Packing<'p> {
         &self.packing
     }
 
     /// The pile.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::Subject;
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// assert_eq!(Subject::of_pile(&pile, &spacing)?.pile().layers(), 10);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.packing.pile()

@@ -110,6 +110,20 @@ impl WorkPrecision {
     }
 
     /// The piles, in the order in which they come first.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::WorkPrecision;
+    ///
+    /// let measured = WorkPrecision::read(
+    ///     "pile,contacts,method,scalar,seconds,relative_error\n\
+    ///      HCP,495,transfer,f64,1.0e-6,2e-16\n\
+    ///      FCC,495,transfer,f64,8.0e-6,3e-16\n\
+    ///      HCP,495,transfer,BigRational,9.0e-5,0\n",
+    /// )?;
+    /// assert_eq!(measured.piles(), ["HCP", "FCC"]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn piles(&self) -> Vec<&str> {
         distinct(self.runs.iter().map(|run| run.pile.as_str()))
@@ -118,6 +132,23 @@ impl WorkPrecision {
     /// The figure.
     ///
     /// Marks are `<g class="mark" data-method="…" data-scalar="…" data-seconds="…" data-error="…">`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::figure::WorkPrecision;
+    ///
+    /// let measured = WorkPrecision::read(
+    ///     "pile,contacts,method,scalar,seconds,relative_error\n\
+    ///      10 layers,495,transfer,f64,1.0e-6,2e-16\n\
+    ///      20 layers,3990,transfer,f64,8.0e-6,3e-16\n\
+    ///      10 layers,495,transfer,BigRational,9.0e-5,0\n",
+    /// )?;
+    /// let svg = measured.drawing().to_string();
+    /// // A panel for each pile, a mark for each run.
+    /// assert_eq!(svg.matches("class=\"frame\"").count(), 2);
+    /// assert_eq!(svg.matches("class=\"mark\"").count(), 3);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         panels::draw(self)

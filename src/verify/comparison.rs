@@ -58,6 +58,22 @@ impl Comparison {
     /// [`Refusal::Entry`] for a number that no sphere has, a sphere paired with itself, a pair that is there twice, and a
     /// force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`] for more than [`MAX_ENTRIES`] contacts;
     /// [`Refusal::OutOfRange`] for exact forces beyond the normal `f64`.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let [one, other] = [Measured::new([1, 2], 0.46), Measured::new([3, 1], 0.47)];
+    /// let comparison = Comparison::new(&packing, [one, other])?;
+    /// assert_eq!(Comparison::new(&packing, [other.reversed(), one.reversed()])?, comparison);
+    /// // A pair is not told twice, whichever sphere is named first.
+    /// assert!(Comparison::new(&packing, [one, one.reversed()]).is_err());
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     pub fn new(
         packing: &Packing<'_>,
         measured: impl IntoIterator<Item = Measured>,
@@ -85,18 +101,60 @@ impl Comparison {
     }
 
     /// How many contacts the pile has.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::Comparison;
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Measured or not.
+    /// assert_eq!(Comparison::new(&packing, [])?.contacts(), 495);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn contacts(&self) -> u64 {
         self.contacts
     }
 
     /// How many of them were measured.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Neither a force of 0 where there is one, nor a pair that is no contact.
+    /// let measured = [([1, 2], 0.46), ([1, 3], 0.0), ([2, 3], 0.1)].map(|(ids, force)| Measured::new(ids, force));
+    /// assert_eq!(Comparison::new(&packing, measured)?.matched(), 1);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn matched(&self) -> u64 {
         self.matched
     }
 
     /// How many have a force and were not measured.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::lattice::Site;
+    /// # use cannonpile::verify::Comparison;
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(3)?.weightless().with_load(Site::APEX, BigRational::from_integer(1.into()))?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // The load goes down on three lines; the contacts beside them have no force.
+    /// let comparison = Comparison::new(&packing, [])?;
+    /// assert_eq!((comparison.missing(), comparison.contacts()), (6, 12));
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn missing(&self) -> u64 {
         self.missing
@@ -144,6 +202,20 @@ impl Comparison {
     }
 
     /// How many pairs that are no contacts of the pile carry something, but no more than that.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Neighbours in a layer, which do not touch at a = 1.2 R.
+    /// let comparison = Comparison::new(&packing, [Measured::new([2, 3], 0.001)])?;
+    /// assert_eq!((comparison.noise(0.01), comparison.noise(1e-6)), (1, 0));
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn noise(&self, tolerance: f64) -> u64 {
         let all = u64::try_from(self.strays.len()).unwrap_or(u64::MAX);
@@ -151,18 +223,62 @@ impl Comparison {
     }
 
     /// The thousand pairs that carry the most without being contacts, from the greatest down, noise included.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let measured = [Measured::new([2, 3], 0.1), Measured::new([4, 3], 0.2)];
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// let ids: Vec<_> = comparison.extra_pairs().iter().map(|pair| pair.ids).collect();
+    /// assert_eq!(ids, [[3, 4], [2, 3]]);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn extra_pairs(&self) -> &[Extra] {
         &self.greatest_strays
     }
 
     /// How many pairs of spheres of the bottom layer were left out.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Spheres 5 to 10 are on the floor; a pair with one above it is judged.
+    /// let measured = [[5, 6], [10, 7], [1, 5]].map(|ids| Measured::new(ids, 0.1));
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// assert_eq!((comparison.fixed(), comparison.extra(0.0)), (2, 1));
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn fixed(&self) -> u64 {
         self.fixed
     }
 
     /// The largest exact force, by magnitude.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::Comparison;
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Of two spheres on a line, whatever was measured.
+    /// let comparison = Comparison::new(&packing, [])?;
+    /// assert_eq!(comparison.largest_force(), 2.0 * 0.46225016352102427);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn largest_force(&self) -> f64 {
         self.largest_force
@@ -170,18 +286,62 @@ impl Comparison {
 
     /// The largest relative error of a contact that was measured; infinite if there is a force where the whole pile has
     /// none.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?.weightless();
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Nothing presses anywhere.
+    /// let compare = |force| Comparison::new(&packing, [Measured::new([1, 2], force)]);
+    /// assert_eq!([compare(0.0)?, compare(1e-9)?].map(|compared| compared.largest_error()), [0.0, f64::INFINITY]);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn largest_error(&self) -> f64 {
         self.worst.as_ref().map_or(0.0, |worst| worst.error)
     }
 
     /// The root of the mean square of the relative errors of the contacts that were measured, to some 1e-8 of itself.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // One force right, and one twice what it should be.
+    /// let measured = [([1, 2], 0.46225016352102427), ([1, 3], 2.0 * 0.46225016352102427)];
+    /// let comparison = Comparison::new(&packing, measured.map(|(ids, force)| Measured::new(ids, force)))?;
+    /// assert!((comparison.rms_error() - 0.5_f64.sqrt()).abs() < 1e-8);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn rms_error(&self) -> f64 {
         self.rms
     }
 
     /// The contact with the largest relative error, the first of several; none if there was no contact measured.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let measured = [([1, 4], 0.5), ([1, 3], 0.5), ([1, 2], 0.46)].map(|(ids, force)| Measured::new(ids, force));
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// assert_eq!(comparison.worst().map(|contact| contact.ids), Some([1, 3]));
+    /// assert_eq!(Comparison::new(&packing, [])?.worst(), None);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn worst(&self) -> Option<&Difference> {
         self.worst.as_ref()

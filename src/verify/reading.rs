@@ -46,24 +46,67 @@ pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
 
 impl Reading {
     /// What was measured, in the order of the file.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify::{self, Measured};
+    ///
+    /// let reading = verify::read(&b"id1,id2,force\n3,1,0.25\n1,2,0.5\n"[..])?;
+    /// assert_eq!(reading.entries(), [Measured::new([3, 1], 0.25), Measured::new([1, 2], 0.5)]);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn entries(&self) -> &[Measured] {
         &self.entries
     }
 
     /// How many snapshots a dump had, the last of which was kept; 0 for csv.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify;
+    ///
+    /// let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n\
+    ///             ITEM: ENTRIES id1 id2 force\n1 2 0.5\n";
+    /// let reading = verify::read(dump.repeat(3).as_bytes())?;
+    /// assert_eq!((reading.snapshots(), reading.entries().len()), (3, 1));
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn snapshots(&self) -> u64 {
         self.snapshots
     }
 
     /// The time step of the snapshot that was kept.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify;
+    ///
+    /// let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n\
+    ///             ITEM: ENTRIES id1 id2 force\n1 2 0.5\n";
+    /// let later = dump.replacen("\n0\n", "\n500\n", 1);
+    /// assert_eq!(verify::read([dump, &later].concat().as_bytes())?.timestep(), Some(500));
+    /// // A csv table has none.
+    /// assert_eq!(verify::read(&b"id1,id2,force\n"[..])?.timestep(), None);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn timestep(&self) -> Option<i64> {
         self.timestep
     }
 
     /// The line of an entry, counted from 1; entries are counted from 0.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::verify;
+    ///
+    /// // Empty lines are no entries, and count as lines.
+    /// let reading = verify::read(&b"id1,id2,force\n1,2,0.5\n\n1,3,0.5\n"[..])?;
+    /// assert_eq!([0, 1].map(|entry| reading.line(entry)), [2, 4]);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
     #[must_use]
     pub fn line(&self, entry: usize) -> u64 {
         let after = self.jumps.partition_point(|(first, _)| *first <= entry);

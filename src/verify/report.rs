@@ -45,6 +45,25 @@ pub struct Report<'c> {
 
 impl<'c> Report<'c> {
     /// The report at an accepted error.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::FileFormat;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::verify::{Comparison, Measured, Report};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let comparison = Comparison::new(&packing, [2, 3, 4].map(|id| Measured::new([1, id], 0.462)))?;
+    /// for (accept, says) in [(1e-3, "yes,"), (1e-4, "no,")] {
+    ///     let mut csv = Vec::new();
+    ///     Report::new(&comparison, accept).write(FileFormat::Csv, &mut csv)?;
+    ///     assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().starts_with(says));
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub const fn new(comparison: &'c Comparison, accept: f64) -> Self {
         Self { comparison, accept }
@@ -54,6 +73,26 @@ impl<'c> Report<'c> {
     ///
     /// # Errors
     /// [`WriteError::Io`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::export::FileFormat;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::verify::{Comparison, Measured, Report};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let comparison = Comparison::new(&packing, [Measured::new([1, 3], 0.46)])?;
+    /// let mut text = Vec::new();
+    /// Report::new(&comparison, 0.01).write(FileFormat::Text, &mut text)?;
+    /// let text = String::from_utf8(text)?;
+    /// assert!(text.starts_with("accepted "));
+    /// // Those with spheres 2 and 4, a line each.
+    /// assert_eq!(text.matches("\nmissing: contact of sphere 1 (k=0, i=0, j=0) with sphere ").count(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn write(self, format: FileFormat, out: &mut dyn Write) -> Result<(), WriteError> {
         match format {
             FileFormat::Json => {

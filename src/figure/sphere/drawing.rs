@@ -16,6 +16,24 @@ impl SphereForces {
     /// The figure: arrows as long as the forces, and a table of their values.
     ///
     /// A force that pushes ends on the surface of the sphere, where it acts; one that pulls begins there.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{SphereForces, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?;
+    /// let svg = SphereForces::new(&subject, Site { i: 1, j: 2, k: 5 })?.drawing().to_string();
+    /// // Six forces of neighbours, and the weight.
+    /// assert_eq!(svg.matches("class=\"neighbour\"").count(), 6);
+    /// assert_eq!(svg.matches("class=\"arrow\"").count(), 7);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn drawing(&self) -> Drawing {
         let view = if self.discs {
