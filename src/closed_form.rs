@@ -48,6 +48,17 @@ impl<T: Ring> Increments<T, 3> {
 
 impl<T: Ring, const D: usize> Increments<T, D> {
     /// Any increments, such as integer numerators of these.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::closed_form::Increments;
+    /// use num_bigint::BigInt;
+    ///
+    /// // (1, 1, 2s) with s = 1/5, over 5.
+    /// let increments = Increments::new([5, 5, 2].map(BigInt::from));
+    /// assert_eq!(increments.sum(), &BigInt::from(12));
+    /// assert_eq!(increments.from_above(&[1, 0, 3].map(BigInt::from)), [5, 0, 6].map(BigInt::from));
+    /// ```
     #[must_use]
     pub fn new(per_line: [T; D]) -> Self {
         let sum = per_line.iter().fold(T::zero(), |sum, w| sum + w);
@@ -69,12 +80,30 @@ impl<T: Ring, const D: usize> Increments<T, D> {
     }
 
     /// What a sphere adds, by direction.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::closed_form::Increments;
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// let increments = Increments::isosceles(&0.25);
+    /// assert_eq!(increments.per_line()[Direction::Gamma.index()], 0.5);
+    /// ```
     #[must_use]
     pub fn per_line(&self) -> &[T; D] {
         &self.per_line
     }
 
     /// W, the sum over the lines: a weight mg is W in the unit mg/W.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::closed_form::Increments;
+    ///
+    /// // 2(1+s), and the number of contacts below a sphere.
+    /// assert_eq!(Increments::isosceles(&0.25).sum(), &2.5);
+    /// assert_eq!(Increments::<f64, 4>::regular().sum(), &4.0);
+    /// ```
     #[must_use]
     pub fn sum(&self) -> &T {
         &self.sum

@@ -92,6 +92,22 @@ impl<V: TryFrom<i128>> Strengths<V> {
     /// # Errors
     /// As for [`nearest`](Self::nearest); [`Error::Overflow`] too if a multiple is no integer, as on isosceles bases, or does
     /// not fit.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Error, Pile, Strengths};
+    ///
+    /// let strengths = Strengths::<i32>::multiples(&Pile::triangular(10)?)?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0; 2]; 3];
+    /// strengths.fill_row(4, 3, [&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!((alpha, beta, gamma), ([2, 1], [1, 2], [4, 4]));
+    ///
+    /// // A contact of 128 f₀ does not fit in an i8.
+    /// assert!(Strengths::<i8>::multiples(&Pile::triangular(128)?).is_ok());
+    /// let refused = Strengths::<i8>::multiples(&Pile::triangular(129)?);
+    /// assert!(matches!(refused, Err(Error::Overflow { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn multiples(pile: &Pile) -> Result<Self, Error> {
         Self::from_pile(pile, |multiple| {
             let whole = multiple
@@ -154,6 +170,16 @@ impl<V: Copy + Send + Sync> Strengths<V> {
     ///
     /// # Errors
     /// [`Error::TooLarge`] if no memory could hold as many.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Pile, Strengths};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// // Of the 220 spheres 55 are on the floor.
+    /// assert_eq!(Strengths::<i32>::multiples(&pile)?.spheres()?, 220 - 55);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn spheres(&self) -> Result<usize, Error> {
         let needed = self.above.last().copied().unwrap_or(0);
         usize::try_from(needed).map_err(|_| Error::TooLarge {
@@ -254,6 +280,17 @@ impl<V: Copy + Send + Sync> Strengths<V> {
     ///
     /// # Errors
     /// As for [`fill`](Self::fill).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Pile, Strengths};
+    ///
+    /// let strengths = Strengths::<i32>::multiples(&Pile::triangular(3)?)?;
+    /// let mut forces = [[0; 3]; 4];
+    /// strengths.fill_interleaved(&mut forces)?;
+    /// assert_eq!(forces, [[1, 1, 1], [2, 1, 1], [1, 2, 1], [1, 1, 2]]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn fill_interleaved(&self, forces: &mut [[V; 3]]) -> Result<(), Error> {
         check_length(forces.len(), self.spheres()?)?;
         self.layers_interleaved(0..self.tables[0].len(), forces);

@@ -194,18 +194,56 @@ impl Inclination {
     }
 
     /// sin²θ, between 0 and 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// let spacing = Spacing::new(ratio(6, 5))?;
+    /// // A third of q for spheres, and a quarter for discs.
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.sin2(), &ratio(12, 25));
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Two)?.sin2(), &ratio(9, 25));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn sin2(&self) -> &BigRational {
         &self.sin2
     }
 
     /// cos²θ = 1 − sin²θ, positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// let spacing = Spacing::new(ratio(6, 5))?;
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.cos2(), ratio(13, 25));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn cos2(&self) -> BigRational {
         BigRational::one() - &self.sin2
     }
 
     /// tan²θ = sin²θ / cos²θ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Inclination, Spacing};
+    /// use cannonpile::lattice::Dimension;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// let spacing = Spacing::new(ratio(6, 5))?;
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.tan2(), ratio(12, 13));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn tan2(&self) -> BigRational {
         &self.sin2 / self.cos2()

@@ -87,6 +87,13 @@ impl Direction {
     }
 
     /// `alpha`, `beta`, `gamma`: the name in tables and on the command line.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// assert_eq!(Direction::ALL.map(Direction::name), ["alpha", "beta", "gamma"]);
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -114,6 +121,13 @@ pub enum Dimension {
 
 impl Dimension {
     /// 2 or 3, which is also the number of contacts below each sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Dimension;
+    ///
+    /// assert_eq!((Dimension::Two.number(), Dimension::Three.number()), (2, 3));
+    /// ```
     #[must_use]
     pub const fn number(self) -> u32 {
         match self {

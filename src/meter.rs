@@ -80,30 +80,102 @@ impl Counters {
     }
 
     /// Spheres whose forces were worked out or looked up.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Counters, Pile};
+    ///
+    /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
+    /// let statics = pile.statics::<f64>().metered(&counters);
+    /// assert_eq!(statics.contacts(pile.rows(Selection::All)?).count(), 495);
+    /// // Each sphere once for its three contacts, and none of the 55 on the floor.
+    /// assert_eq!(counters.visited(), 220 - 55);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn visited(&self) -> u64 {
         self.visited.get()
     }
 
     /// Spheres whose forces were turned, across a change of sign: the transfer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Region, Site};
+    /// use cannonpile::{Counters, Pile};
+    ///
+    /// let counters = Counters::default();
+    /// let pile = Pile::under(Region::SITE, format!("(2,1,{})", 10_i128.pow(30)).parse()?)?;
+    /// let site = Site { i: 1, j: 0, k: pile.layers() - 2 };
+    /// pile.statics::<f64>().metered(&counters).contact(site, Direction::Alpha)?;
+    /// // One sphere at the lower change of sign, and the three above it at the upper.
+    /// assert_eq!(counters.turned(), 1 + 3);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn turned(&self) -> u64 {
         self.turned.get()
     }
 
     /// Runs, or parts of one, that a sweep went through at once.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::{Counters, Method, Pile};
+    ///
+    /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
+    /// let statics = pile.statics::<f64>().by(Method::Sweep)?.metered(&counters);
+    /// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 55);
+    /// // Nine steps, and no sign changes.
+    /// assert_eq!(counters.passes(), 1);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn passes(&self) -> u64 {
         self.passes.get()
     }
 
     /// Square roots taken.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile::{Counters, Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
+    /// for direction in Direction::ALL {
+    ///     packing.contact(Site::APEX, direction)?;
+    /// }
+    /// // Of 1/cos²θ, once for all.
+    /// assert_eq!(counters.roots(), 1);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn roots(&self) -> u64 {
         self.roots.get()
     }
 
     /// Answers given in rows: those of iterators, not of single questions.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Selection, Site};
+    /// use cannonpile::{Counters, Pile};
+    ///
+    /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
+    /// let statics = pile.statics::<f64>().metered(&counters);
+    /// statics.on_floor(Site { i: 5, j: 2, k: 9 })?;
+    /// assert_eq!(counters.rows(), 0);
+    /// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 55);
+    /// assert_eq!(counters.rows(), 55);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn rows(&self) -> u64 {
         self.rows.get()

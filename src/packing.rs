@@ -234,6 +234,19 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 
     /// The method asked for, or `None` for the cheapest.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Method, Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// assert_eq!(packing.method(), None);
+    /// assert_eq!(packing.by(Method::Tree)?.method(), Some(Method::Tree));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn method(&self) -> Option<Method> {
         self.statics.method()
@@ -261,6 +274,18 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 
     /// The pile that is packed.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// assert_eq!(packing.pile(), &pile);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.statics.pile()
@@ -290,6 +315,21 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?.with_weight(Site::APEX, BigRational::from_integer(5.into()))?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let packing = Packing::new(&pile, &spacing)?.with_mass(BigRational::new(1.into(), 10.into()))?;
+    /// assert_eq!(packing.mass_of(Site::APEX)?.to_string(), "1/2");
+    /// assert_eq!(packing.mass_of(Site { i: 0, j: 0, k: 1 })?.to_string(), "1/10");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn mass_of(&self, site: Site) -> Result<BigRational, Error> {
         Ok(self.pile().sphere_weight(site)? * &self.mass)
     }

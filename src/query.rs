@@ -170,6 +170,15 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     }
 
     /// The pile that is asked.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.statics::<f64>().pile(), &pile);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
         self.pile

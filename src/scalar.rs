@@ -79,6 +79,14 @@ pub enum Exactness {
 
 impl Exactness {
     /// What two scalars promise together.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, Exactness};
+    ///
+    /// assert_eq!(f64::EXACTNESS.weaker(f32::EXACTNESS), Exactness::Rounded { bits: 24 });
+    /// assert_eq!(Exactness::Exact.weaker(Exactness::Enclosure), Exactness::Enclosure);
+    /// ```
     #[must_use]
     pub const fn weaker(self, other: Self) -> Self {
         match (self, other) {
@@ -273,6 +281,16 @@ pub struct Enclosure {
 
 impl Enclosure {
     /// The enclosure of a value known exactly.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Enclosure, RealEmbeddable};
+    /// use num_rational::BigRational;
+    ///
+    /// // A float is a rational, and known exactly.
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// assert_eq!(0.5_f64.enclosure(), Some(Enclosure::point(half)));
+    /// ```
     #[must_use]
     pub fn point(value: BigRational) -> Self {
         Self {

@@ -460,6 +460,15 @@ pub enum Pattern {
 
 impl Pattern {
     /// The layers of a stacking that is spelled out.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// assert_eq!(Pattern::Hcp.layers(), None);
+    /// assert_eq!(Pattern::Spelled("++-".parse()?).layers(), Some(4));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn layers(&self) -> Option<i128> {
         match self {
@@ -473,6 +482,18 @@ impl Pattern {
     /// # Errors
     /// [`Error::Layers`]; [`Error::TooManyRuns`]; [`Error::LayersOfStacking`] if it is spelled out and has another
     /// number.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Error;
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// assert_eq!(Pattern::Hcp.stacking(4)?.to_string(), "+-+");
+    /// let spelled = Pattern::Spelled("++-".parse()?);
+    /// assert_eq!(spelled.stacking(4)?.to_string(), "++-");
+    /// assert!(matches!(spelled.stacking(5), Err(Error::LayersOfStacking { layers: 5, spelled: 4 })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn stacking(&self, layers: i128) -> Result<Stacking, Error> {
         match self {
             Self::Fcc => Stacking::fcc(layers),

@@ -79,6 +79,14 @@ pub enum Method {
 
 impl Method {
     /// `identity`, `sum`, `induction`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::theorem::{self, Method};
+    ///
+    /// assert_eq!(Method::Induction.name(), "induction");
+    /// assert_eq!(theorem::find("spheres").unwrap().method.name(), "sum");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -107,6 +115,16 @@ pub struct Theorem {
 
 impl Theorem {
     /// The proof for the crate's own formulas.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::theorem;
+    ///
+    /// let proof = theorem::find("contacts").unwrap().prove();
+    /// assert!(proof.holds());
+    /// // For every L at once.
+    /// assert_eq!(proof.steps[0].right.to_string(), "(L^3 - L)/2");
+    /// ```
     #[must_use]
     pub fn prove(&self) -> Proof {
         self.prove_for(&Formulas::LIBRARY)
@@ -142,6 +160,18 @@ pub struct Proof {
 
 impl Proof {
     /// Whether every step holds.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::theorem::{self, Proof, Relation};
+    ///
+    /// let mut proof = theorem::find("counts").unwrap().prove();
+    /// assert!(proof.holds());
+    /// // Not with one wrong step, nor without any.
+    /// proof.steps[0].relation = Relation::Different;
+    /// assert!(!proof.holds());
+    /// assert!(!Proof { steps: vec![] }.holds());
+    /// ```
     #[must_use]
     pub fn holds(&self) -> bool {
         !self.steps.is_empty() && self.steps.iter().all(Step::holds)
@@ -188,12 +218,36 @@ impl Step {
     }
 
     /// `left` − `right`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    /// use cannonpile::theorem::{Relation, Step};
+    ///
+    /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let sum = x.clone() + &y;
+    /// let (left, right) = (sum.clone() * &sum, x.clone() * &x + &(y.clone() * &y));
+    /// let step = Step { claim: "(x+y)² = x² + y²".into(), left, right, relation: Relation::Equal };
+    /// assert_eq!(step.difference().to_string(), "2 x y");
+    /// ```
     #[must_use]
     pub fn difference(&self) -> Polynomial {
         self.left.clone() - &self.right
     }
 
     /// Whether the claim holds.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    /// use cannonpile::theorem::{Relation, Step};
+    ///
+    /// let x = Polynomial::from(Symbol("x"));
+    /// let (left, right) = (x.clone() + &x, x);
+    /// let step = Step { claim: "2x ≠ x".into(), left, right, relation: Relation::Different };
+    /// assert!(step.holds());
+    /// assert!(!Step { relation: Relation::Equal, ..step }.holds());
+    /// ```
     #[must_use]
     pub fn holds(&self) -> bool {
         self.difference().is_zero() == (self.relation == Relation::Equal)
@@ -201,6 +255,16 @@ impl Step {
 }
 
 /// Every theorem, in the order in which one would read them.
+///
+/// # Examples
+/// ```
+/// use cannonpile::theorem;
+///
+/// assert!(theorem::all().any(|theorem| theorem.name == "weight"));
+/// for theorem in theorem::all() {
+///     assert!(theorem.prove().holds(), "{}", theorem.name);
+/// }
+/// ```
 pub fn all() -> impl Iterator<Item = &'static Theorem> {
     [
         counts::THEOREMS,

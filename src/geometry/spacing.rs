@@ -35,6 +35,18 @@ impl Spacing {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Error;
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Spacing::new(ratio(6, 5))?.to_string(), "6/5");
+    /// assert!(matches!(Spacing::new(ratio(-6, 5)), Err(Error::NotPositive { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn new(ratio: BigRational) -> Result<Self, Error> {
         if ratio.is_positive() {
             Ok(Self {
@@ -52,6 +64,19 @@ impl Spacing {
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless q is positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Error;
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Spacing::from_square(ratio(36, 25))?, Spacing::new(ratio(6, 5))?);
+    /// assert_eq!(Spacing::from_square(ratio(8, 3))?.to_string(), "2/3*sqrt(6)");
+    /// assert!(matches!(Spacing::from_square(ratio(0, 1)), Err(Error::NotPositive { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn from_square(square: BigRational) -> Result<Self, Error> {
         if square.is_positive() {
             Ok(Self { square })
@@ -64,12 +89,33 @@ impl Spacing {
     }
 
     /// q = (a/R)².
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Spacing::new(ratio(6, 5))?.square(), &ratio(36, 25));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn square(&self) -> &BigRational {
         &self.square
     }
 
     /// a/R itself.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Spacing::new(ratio(6, 5))?.ratio().to_rational(), Some(ratio(6, 5)));
+    /// assert_eq!(Spacing::from_square(ratio(2, 1))?.ratio().to_string(), "sqrt(2)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn ratio(&self) -> Surd {
         // A square is not negative.

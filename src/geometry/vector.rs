@@ -20,6 +20,15 @@ pub struct Vector<T> {
 
 impl<T: Ring> Vector<T> {
     /// The zero vector.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Vector;
+    ///
+    /// let v = Vector { x: 1.0, y: 2.0, z: 3.0 };
+    /// assert_eq!(v.clone() + &Vector::zero(), v);
+    /// assert_eq!(v.clone() - &v, Vector::zero());
+    /// ```
     #[must_use]
     pub fn zero() -> Self {
         Self {
@@ -98,6 +107,14 @@ impl<T: Ring> Vector<T> {
 
 impl<T> Vector<T> {
     /// The vector with `f` applied to each component.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Vector;
+    ///
+    /// let v = Vector { x: 1, y: -2, z: 3 };
+    /// assert_eq!(v.map(f64::from), Vector { x: 1.0, y: -2.0, z: 3.0 });
+    /// ```
     #[must_use]
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Vector<U> {
         let [x, y, z] = self.into_array().map(f);
@@ -105,6 +122,14 @@ impl<T> Vector<T> {
     }
 
     /// [x, y, z].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::{Vector, directions};
+    ///
+    /// let [a, _, _] = directions(&0.25);
+    /// assert_eq!(a.into_array(), [0.25, 0.5, -1.0]);
+    /// ```
     #[must_use]
     pub fn into_array(self) -> [T; 3] {
         [self.x, self.y, self.z]

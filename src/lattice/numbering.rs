@@ -57,6 +57,15 @@ impl<'p> Numbering<'p> {
     }
 
     /// The shape whose spheres these are.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.numbering()?.shape(), pile.shape());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn shape(&self) -> &'p Shape {
         self.shape

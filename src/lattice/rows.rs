@@ -149,6 +149,16 @@ impl<'p> Rows<'p> {
     }
 
     /// The pile whose rows they are.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Selection, Shape};
+    ///
+    /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
+    /// // The rows are of one layer, and their pile is the whole of it.
+    /// assert_eq!(pyramid.rows(Selection::Layer(1))?.shape(), &pyramid);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn shape(&self) -> &'p Shape {
         self.shape

@@ -42,6 +42,25 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// The contacts of the spheres in `rows`, each with the spheres below it, lazily.
     ///
     /// As [`Statics::contacts`](crate::Statics::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::scalar::Surd;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let contacts = packing.contacts(pile.rows(Selection::All)?).collect::<Result<Vec<_>, _>>()?;
+    /// assert_eq!(contacts.len(), 12);
+    /// for contact in contacts {
+    ///     let squares = contact.vector.iter().map(Surd::square);
+    ///     assert_eq!(squares.sum::<BigRational>(), contact.force.square());
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn contacts(
         &self,
         rows: Rows<'p>,

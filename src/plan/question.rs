@@ -40,6 +40,15 @@ pub enum Quantity {
 impl Quantity {
     /// The square roots that it takes, at most: of 1/cos²θ; of tan²θ; of sin²θ and cos²θ; and of 4cos²φ, wherever there
     /// is a component along y.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Quantity;
+    ///
+    /// assert_eq!(Quantity::FloorMultiples.roots(), 0);
+    /// // Of tan²θ and of 4cos²φ.
+    /// assert_eq!(Quantity::FloorForces.roots(), 2);
+    /// ```
     #[must_use]
     pub const fn roots(self) -> u64 {
         match self {
@@ -52,6 +61,14 @@ impl Quantity {
     }
 
     /// Whether it is of contacts, between spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Quantity;
+    ///
+    /// assert!(Quantity::ContactVectors.is_of_contacts());
+    /// assert!(!Quantity::FloorForces.is_of_contacts());
+    /// ```
     #[must_use]
     pub const fn is_of_contacts(self) -> bool {
         matches!(

@@ -37,6 +37,14 @@ pub struct DoubleDouble {
 
 impl DoubleDouble {
     /// A float.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::DoubleDouble;
+    ///
+    /// let x = DoubleDouble::new(0.1);
+    /// assert_eq!((x.high(), x.low()), (0.1, 0.0));
+    /// ```
     #[must_use]
     pub const fn new(value: f64) -> Self {
         Self {
@@ -57,12 +65,30 @@ impl DoubleDouble {
     }
 
     /// The nearest float.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, DoubleDouble};
+    /// use num_rational::BigRational;
+    ///
+    /// let third = DoubleDouble::from_rational(&BigRational::new(1.into(), 3.into()));
+    /// assert_eq!(third.high(), 1.0 / 3.0);
+    /// ```
     #[must_use]
     pub const fn high(&self) -> f64 {
         self.high
     }
 
     /// What is left to it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{DoubleDouble, Ring};
+    ///
+    /// // 2⁵³ + 1 lies between two floats.
+    /// let n = DoubleDouble::from_i128((1 << 53) + 1);
+    /// assert_eq!((n.high(), n.low()), (9007199254740992.0, 1.0));
+    /// ```
     #[must_use]
     pub const fn low(&self) -> f64 {
         self.low

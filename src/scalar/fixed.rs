@@ -97,6 +97,14 @@ impl<I: FixedInteger> FixedRational<I> {
     }
 
     /// Numerator and positive denominator in lowest terms, or `None` for a fault.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::FixedRational;
+    ///
+    /// assert_eq!(FixedRational::new(6, -4).parts(), Some((-3, 2)));
+    /// assert_eq!(FixedRational::<i64>::FAULT.parts(), None);
+    /// ```
     #[must_use]
     pub fn parts(&self) -> Option<(I, I)> {
         self.0.as_ref().map(|r| (*r.numer(), *r.denom()))

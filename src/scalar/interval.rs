@@ -59,18 +59,46 @@ impl Interval {
     }
 
     /// A float as a point; the whole line if it is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Interval;
+    ///
+    /// assert_eq!(Some(Interval::point(0.1)), Interval::new(0.1, 0.1));
+    /// assert_eq!(Interval::point(f64::NAN), Interval::WHOLE);
+    /// ```
     #[must_use]
     pub fn point(value: f64) -> Self {
         Self::new(value, value).unwrap_or(Self::WHOLE)
     }
 
     /// The lower end.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, Interval};
+    /// use num_rational::BigRational;
+    ///
+    /// // The float nearest to 1/10 is greater.
+    /// let tenth = Interval::from_rational(&BigRational::new(1.into(), 10.into()));
+    /// assert_eq!(tenth.lower(), 0.1_f64.next_down());
+    /// ```
     #[must_use]
     pub const fn lower(&self) -> f64 {
         self.lower
     }
 
     /// The upper end.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, Interval};
+    /// use num_rational::BigRational;
+    ///
+    /// // The float nearest to 1/10 is greater.
+    /// let tenth = Interval::from_rational(&BigRational::new(1.into(), 10.into()));
+    /// assert_eq!(tenth.upper(), 0.1);
+    /// ```
     #[must_use]
     pub const fn upper(&self) -> f64 {
         self.upper

@@ -54,6 +54,18 @@ impl core::error::Error for Broken {}
 ///
 /// # Errors
 /// The first law that a, b, c break.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{Polynomial, Symbol, laws};
+///
+/// let [a, b, c] = ["a", "b", "c"].map(|name| Polynomial::from(Symbol(name)));
+/// laws::algebra(&a, &b, &c)?;
+/// // Of floats no associativity is demanded.
+/// assert_ne!((1e16 - 1e16) + 1.0, 1e16 + (1.0 - 1e16));
+/// laws::algebra(&1e16, &-1e16, &1.0)?;
+/// # Ok::<(), laws::Broken>(())
+/// ```
 pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
     let law = |law: &'static str, left: T, right: T| {
         // A fault or an overflow on either side excuses a scalar that may have them.
@@ -109,6 +121,18 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
 ///
 /// # Errors
 /// The first law that x, y break.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::{FixedRational, laws};
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// laws::embedding::<f64>(&ratio(1, 3), &ratio(-2, 7))?;
+/// // The sum does not fit in eight bits: a fault, which breaks no law.
+/// laws::embedding::<FixedRational<i8>>(&ratio(1, 100), &ratio(1, 101))?;
+/// # Ok::<(), laws::Broken>(())
+/// ```
 pub fn embedding<T: Field + RealEmbeddable>(
     x: &BigRational,
     y: &BigRational,
@@ -173,6 +197,15 @@ pub fn embedding<T: Field + RealEmbeddable>(
 ///
 /// # Errors
 /// The law, if n breaks it.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::laws;
+///
+/// // No f32, and rounded to the same on both ways.
+/// laws::integers::<f32>((1 << 24) + 1)?;
+/// # Ok::<(), laws::Broken>(())
+/// ```
 pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
     let (direct, by_rational) = (
         T::from_i128(n),
@@ -193,6 +226,17 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
 ///
 /// # Errors
 /// The law, if x and y break it.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::laws;
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+/// // 3/6 and 2/6, reduced again.
+/// laws::numerators::<BigRational>(&ratio(1, 2), &ratio(1, 3))?;
+/// # Ok::<(), laws::Broken>(())
+/// ```
 pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Broken> {
     let values = [x.clone(), y.clone()];
     let (numerators, denominator) = T::numerators(&values);

@@ -62,6 +62,14 @@ where
     B: Field + RealEmbeddable,
 {
     /// Two values that are meant to be the same number.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Pair;
+    ///
+    /// assert!(Pair::new(0.1_f64, 0.1_f32).parting().is_none());
+    /// assert_eq!(Pair::new(0.1_f64, 0.2_f32).parting().unwrap().operation, "a value");
+    /// ```
     #[must_use]
     pub fn new(first: A, second: B) -> Self {
         Self {
@@ -73,18 +81,48 @@ where
     }
 
     /// The value in the first scalar.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, Pair};
+    /// use num_rational::BigRational;
+    ///
+    /// let third = Pair::<BigRational, f64>::from_rational(&BigRational::new(1.into(), 3.into()));
+    /// assert_eq!(third.first().to_string(), "1/3");
+    /// ```
     #[must_use]
     pub fn first(&self) -> &A {
         &self.first
     }
 
     /// The value in the second scalar.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Algebra, Pair};
+    /// use num_rational::BigRational;
+    ///
+    /// let third = Pair::<BigRational, f64>::from_rational(&BigRational::new(1.into(), 3.into()));
+    /// assert_eq!(third.second(), &(1.0 / 3.0));
+    /// ```
     #[must_use]
     pub fn second(&self) -> &B {
         &self.second
     }
 
     /// The first operation on the way here at which the two parted.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Pair, Ring};
+    /// use num_rational::BigRational;
+    ///
+    /// let [one, big] = [1, 10_i128.pow(20)].map(Pair::<BigRational, f64>::from_i128);
+    /// let lost = big.clone() + &one - &big;
+    /// // Carried along; later ones are not recorded.
+    /// let product = lost * &big;
+    /// assert_eq!(product.parting().unwrap().operation, "a - b");
+    /// ```
     #[must_use]
     pub fn parting(&self) -> Option<&Parting> {
         self.parting.as_deref()

@@ -138,6 +138,16 @@ impl PartialEq for Polynomial {
 
 impl Polynomial {
     /// A constant.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    /// use num_rational::BigRational;
+    ///
+    /// let half = Polynomial::constant(&BigRational::new(1.into(), 2.into()));
+    /// assert_eq!((half.to_string(), half.degree()), ("1/2".into(), 0));
+    /// assert_eq!((half * &Polynomial::from(Symbol("x"))).to_string(), "x/2");
+    /// ```
     #[must_use]
     pub fn constant(value: &BigRational) -> Self {
         let terms = [(Monomial::default(), value.numer().clone())];
@@ -187,6 +197,15 @@ impl Polynomial {
     }
 
     /// The degree in one symbol; 0 if it does not occur.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let p = x.clone() * &x * &y + &y;
+    /// assert_eq!(["x", "y", "z"].map(|name| p.degree_in(Symbol(name))), [2, 1, 0]);
+    /// ```
     #[must_use]
     pub fn degree_in(&self, symbol: Symbol) -> u32 {
         self.terms
@@ -197,6 +216,17 @@ impl Polynomial {
     }
 
     /// The symbols that occur, in order.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    /// let product = y.clone() * &x;
+    /// assert_eq!(product.symbols(), [Symbol("x"), Symbol("y")]);
+    /// // What cancels does not occur.
+    /// assert_eq!((product.clone() + &y - &product).symbols(), [Symbol("y")]);
+    /// ```
     #[must_use]
     pub fn symbols(&self) -> Vec<Symbol> {
         let mut symbols: Vec<Symbol> = self

@@ -50,6 +50,20 @@ impl Surd {
     ///
     /// # Errors
     /// [`Error::NegativeRadicand`] if the radicand is negative: the root would not be real.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Error;
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// // √(8/9) = (2/3)√2
+    /// assert_eq!(Surd::new(ratio(1, 2), ratio(8, 9))?.to_string(), "1/3*sqrt(2)");
+    /// let refused = Surd::new(ratio(1, 2), ratio(-8, 9));
+    /// assert!(matches!(refused, Err(Error::NegativeRadicand { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn new(coefficient: BigRational, radicand: BigRational) -> Result<Self, Error> {
         if radicand.is_negative() {
             return Err(Error::NegativeRadicand { given: radicand });
@@ -81,6 +95,17 @@ impl Surd {
     }
 
     /// The number zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(3.into()))?;
+    /// assert_eq!(root.scaled(&BigRational::from_integer(0.into())), Surd::zero());
+    /// assert_eq!(root.checked_add(&Surd::zero()), Some(root));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn zero() -> Self {
         BigRational::zero().into()
@@ -101,18 +126,50 @@ impl Surd {
     }
 
     /// The rational factor c of c·√n.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Surd::sqrt(ratio(8, 9))?.coefficient(), &ratio(2, 3));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn coefficient(&self) -> &BigRational {
         &self.coefficient
     }
 
     /// The integer n ≥ 1 of c·√n.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Surd::sqrt(ratio(8, 9))?.radicand().to_string(), "2");
+    /// // Of a rational it is 1.
+    /// assert_eq!(Surd::sqrt(ratio(4, 9))?.radicand().to_string(), "1");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn radicand(&self) -> &BigUint {
         &self.radicand
     }
 
     /// The square c²n, always rational.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Surd::new(ratio(-1, 2), ratio(3, 1))?.square(), ratio(3, 4));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn square(&self) -> BigRational {
         let radicand = BigRational::from_integer(self.radicand.clone().into());
@@ -120,12 +177,35 @@ impl Surd {
     }
 
     /// The sign, always known.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Sign, Surd};
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(3.into()))?;
+    /// assert_eq!(root.sign(), Sign::Positive);
+    /// assert_eq!((-root).sign(), Sign::Negative);
+    /// assert_eq!(Surd::zero().sign(), Sign::Zero);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn sign(&self) -> Sign {
         super::RealEmbeddable::sign(&self.coefficient)
     }
 
     /// The value itself where it is rational, or `None`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert_eq!(Surd::sqrt(ratio(4, 9))?.to_rational(), Some(ratio(2, 3)));
+    /// assert_eq!(Surd::sqrt(ratio(2, 9))?.to_rational(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn to_rational(&self) -> Option<BigRational> {
         self.radicand.is_one().then(|| self.coefficient.clone())

@@ -107,6 +107,18 @@ impl Pile {
     ///
     /// # Errors
     /// [`Error::TooLarge`] if a layer does not fit in memory; [`Error::NoSuchMethod`] for discs.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Error, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let sweep = pile.exact_sweep()?;
+    /// assert_eq!(sweep.passed_on(Site::APEX)?.map(|force| force.to_string()), ["1"; 3]);
+    /// assert!(matches!(Pile::discs(10)?.exact_sweep(), Err(Error::NoSuchMethod { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn exact_sweep(&self) -> Result<ExactSweep<'_>, Error> {
         self.check_method(Method::Sweep)?;
         let last = last_with_contacts(self);
@@ -149,6 +161,18 @@ fn elsewhere(pile: &Pile, at: i128, layer: i128) -> Error {
 
 impl<T: Algebra> Sweep<'_, T> {
     /// The layer it is at.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut sweep = pile.sweep::<f64>()?;
+    /// assert_eq!(sweep.layer(), 0);
+    /// sweep.advance(5)?;
+    /// assert_eq!(sweep.layer(), 5);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn layer(&self) -> i128 {
         self.descent.k()
@@ -180,6 +204,18 @@ impl<T: Algebra> Sweep<'_, T> {
     ///
     /// # Errors
     /// [`Error::TooLarge`] if no memory could hold as many.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut sweep = pile.sweep::<f64>()?;
+    /// assert_eq!(sweep.spheres()?, 1);
+    /// sweep.advance(8)?;
+    /// assert_eq!(sweep.spheres()?, 45);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn spheres(&self) -> Result<usize, Error> {
         let sites = self.pile.shape().layer(self.layer())?.sites();
         sites.to_usize().ok_or(Error::TooLarge {
@@ -195,6 +231,19 @@ impl<T: Algebra> Sweep<'_, T> {
     /// # Errors
     /// [`Error::Length`] for a slice that is not as long as [`spheres`](Self::spheres) says; [`Error::OnFloor`] for a pile of
     /// one layer; [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let mut sweep = pile.sweep::<f64>()?;
+    /// sweep.advance(1)?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
+    /// sweep.fill([&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!((alpha, beta, gamma), ([2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn fill(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
         let (k, needed) = (self.layer(), self.spheres()?);
         for slice in &slices {
@@ -353,6 +402,18 @@ impl<T: Algebra> Below<T> {
 
 impl ExactSweep<'_> {
     /// The layer it is at.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut sweep = pile.exact_sweep()?;
+    /// assert_eq!(sweep.layer(), 0);
+    /// sweep.advance(5)?;
+    /// assert_eq!(sweep.layer(), 5);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     pub fn layer(&self) -> i128 {
         self.descent.k()
@@ -362,6 +423,22 @@ impl ExactSweep<'_> {
     ///
     /// # Errors
     /// As for [`Sweep::advance`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Error, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut sweep = pile.exact_sweep()?;
+    /// sweep.advance(5)?;
+    /// let forces = sweep.passed_on(Site { i: 1, j: 2, k: 5 })?;
+    /// assert_eq!(forces.map(|force| force.to_string()), ["3", "2", "3"]);
+    /// // Neither back nor to the floor.
+    /// assert!(matches!(sweep.advance(4), Err(Error::SweepElsewhere { at: 5, .. })));
+    /// assert!(matches!(sweep.advance(9), Err(Error::SweepElsewhere { last: 8, .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn advance(&mut self, k: i128) -> Result<(), Error> {
         advance(self.pile, &mut self.descent, k)
     }

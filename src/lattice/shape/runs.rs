@@ -101,6 +101,18 @@ impl Shape {
     }
 
     /// The sign of the step down from layer k; none from the floor.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::stacking::Sign;
+    ///
+    /// let shape = Shape::under(Region::SITE, "++-".parse()?)?;
+    /// assert_eq!(shape.sign_below(1), Some(Sign::Plus));
+    /// assert_eq!(shape.sign_below(2), Some(Sign::Minus));
+    /// assert_eq!(shape.sign_below(3), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     #[must_use]
     #[inline]
     pub fn sign_below(&self, k: i128) -> Option<Sign> {
