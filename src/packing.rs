@@ -23,10 +23,11 @@ use roots::{Once, Roots};
 /// Checked for overlap when it is made. Every answer is an exact [`Surd`]; [`Surd::nearest`] rounds it
 /// correctly.
 ///
-/// The frame: x and y are the paper's, z points **up**, and z = 0 is the height of the centres of the
-/// bottom layer; x = y = 0 under site (0, 0) of the top layer, the apex, or at that of the base if the pile was grown from there. (Turning z alone makes a left-handed frame of a right-handed one; the
-/// mirror α ↔ β, y → −y, leads back, and leaves all forces as they are.) Lengths are in the unit of the radius, forces in the unit of
-/// mass times gravity: with kg, m and m/s², in N.
+/// The frame: x and y are the paper's, z points **up**, and z = 0 is the height of the centres of the bottom layer;
+/// x = y = 0 under site (0, 0) of the top layer, the apex, or at that of the base if the pile was grown from there.
+/// (Turning z alone makes a left-handed frame of a right-handed one; the mirror α ↔ β, y → −y, leads back, and leaves
+/// all forces as they are.) Lengths are in the unit of the radius, forces in the unit of mass times gravity: with kg, m
+/// and m/s², in N.
 ///
 /// # Examples
 /// ```

@@ -131,7 +131,7 @@ impl WorkPrecision {
 
     /// The figure.
     ///
-    /// Marks are `<g class="mark" data-method="…" data-scalar="…" data-seconds="…" data-error="…">`.
+    /// Marks are `<g class="mark" data-seconds="…" data-error="…">`.
     ///
     /// # Examples
     /// ```

@@ -196,8 +196,9 @@ impl<T: Algebra> Sweep<'_, T> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn advance(&mut self, k: i128) -> Result<(), Error> {
+        advance(self.pile, &mut self.descent, k)?;
         self.stops += 1;
-        advance(self.pile, &mut self.descent, k)
+        Ok(())
     }
 
     /// How many spheres this layer has: the length of each slice to fill.
