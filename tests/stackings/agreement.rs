@@ -34,8 +34,6 @@ fn every_stacking_on_triangles_and_hexagons_with_sides_up_to_5() {
     agree_on(1..=5);
 }
 
-/// Optimized only, where it takes seconds and not half a minute.
-#[cfg(not(debug_assertions))]
 #[test]
 fn every_stacking_on_triangles_and_hexagons_with_a_side_of_6() {
     agree_on(6..=6);
