@@ -128,8 +128,10 @@ fn tell_rate(written: &[Written], begun: Instant) {
     }
     let rows: u64 = written.iter().filter_map(|file| file.rows).sum();
     let bytes: u64 = written.iter().map(|file| file.bytes).sum();
-    // Counts of files that fit on a disk are exact enough as floats.
-    #[expect(clippy::cast_precision_loss)]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "rows that fit on a disk are exact enough as floats"
+    )]
     let rate = rows as f64 / seconds;
     let files = written.len();
     complain(&format!(

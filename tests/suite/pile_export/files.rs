@@ -75,7 +75,7 @@ fn arrays(file: &[u8]) -> Vec<(String, Vec<f64>)> {
                 .chunks(8)
                 .map(|n| f64::from_le_bytes(eight(n)))
                 .collect(),
-            #[expect(clippy::cast_precision_loss)]
+            #[expect(clippy::cast_precision_loss, reason = "numbers of few spheres")]
             "Int64" => data
                 .chunks(8)
                 .map(|n| i64::from_le_bytes(eight(n)) as f64)
