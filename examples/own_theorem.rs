@@ -5,8 +5,9 @@
 //! nothing is fitted. Run it with `cargo run --example own_theorem`.
 
 use cannonpile::closed_form::Increments;
-use cannonpile::lattice::{Selection, count};
+use cannonpile::lattice::count;
 use cannonpile::scalar::{Polynomial, Ring, Symbol};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};

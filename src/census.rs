@@ -31,8 +31,8 @@ use alloc::vec::Vec;
 
 use num_bigint::BigUint;
 
-use crate::lattice::Region;
-use crate::stacking::{Run, Sign, Stacking};
+use crate::lattice::{Region, Sign};
+use crate::stacking::{Run, Stacking};
 use crate::{Error, Pile, Standing};
 
 /// A stacking, and whether it stands.

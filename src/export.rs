@@ -11,7 +11,7 @@
 //! ```
 //! use cannonpile::Pile;
 //! use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
-//! use cannonpile::lattice::Selection;
+//! use cannonpile::shape::Selection;
 //!
 //! let pile = Pile::triangular(2)?;
 //! let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;

@@ -10,9 +10,10 @@ use core::ops::Range;
 
 use num_rational::BigRational;
 
-use crate::lattice::{Along, Dimension, Direction, Region, Shape, Slopes};
+use crate::lattice::Sign;
+use crate::lattice::{Along, Dimension, Direction, Region, Slopes};
 use crate::scalar::{NearestFloat, Ring, Surd};
-use crate::stacking::Sign;
+use crate::shape::Shape;
 use crate::{Error, Packing, Pile, parallel};
 
 /// The distinct contact forces of a straight pile, by direction: what 1, 2, 3, … increments come to.

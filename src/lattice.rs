@@ -16,23 +16,18 @@
 //! The unit in which a pile is walked is the [`Row`]: fixed k and j, consecutive i.
 
 pub mod count;
-mod numbering;
 mod region;
-mod rows;
-mod shape;
+mod row;
+mod sign;
 mod symmetry;
 
-pub use numbering::Numbering;
 pub use region::Region;
 pub(crate) use region::{Along, Slopes, Trapezoid};
-pub use rows::{Row, Rows, Selection, Sites};
-pub use shape::Shape;
-pub(crate) use shape::Stretch;
+pub use row::{Row, Sites};
+pub use sign::Sign;
 pub use symmetry::Symmetry;
 
 use core::fmt;
-
-use crate::stacking::Sign;
 
 /// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);

@@ -124,6 +124,7 @@ pub mod scene;
 #[cfg(feature = "serde")]
 #[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
 pub mod serde;
+pub mod shape;
 pub mod stacking;
 mod standing;
 mod sweep;

@@ -23,10 +23,11 @@ use num_traits::{One, Zero, pow};
 
 use crate::Pile;
 use crate::closed_form::Increments;
-use crate::lattice::{Direction, Shape, Site, Stretch};
+use crate::lattice::Sign;
+use crate::lattice::{Direction, Site};
 use crate::meter::Meter;
 use crate::scalar::{Algebra, Ring};
-use crate::stacking::Sign;
+use crate::shape::{Shape, Stretch};
 use crate::transfer::{THREE, turn_numerators};
 
 /// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.

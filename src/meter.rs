@@ -46,7 +46,8 @@ impl Meter for () {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Region, Selection};
+/// use cannonpile::lattice::Region;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Counters, Pile};
 ///
 /// let counters = Counters::default();
@@ -83,7 +84,7 @@ impl Counters {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
@@ -122,7 +123,7 @@ impl Counters {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Method, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
@@ -165,7 +166,8 @@ impl Counters {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Selection, Site};
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());

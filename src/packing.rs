@@ -110,7 +110,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Packing, Pile};
     /// use num_rational::BigRational;
     ///

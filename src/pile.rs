@@ -7,10 +7,11 @@ use num_traits::{One, Zero};
 use crate::Error;
 use crate::closed_form::Increments;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
-use crate::lattice::{Dimension, Numbering, Region, Rows, Selection, Shape, Site, count};
+use crate::lattice::{Dimension, Region, Site, count};
 use crate::load::Loading;
 use crate::query::Statics;
 use crate::scalar::{Algebra, Ring};
+use crate::shape::{Numbering, Rows, Selection, Shape};
 use crate::stacking::Stacking;
 
 /// A pile: which sites it has, how they are stacked, what they weigh, and sin φ.
@@ -439,7 +440,7 @@ impl Pile {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
     /// assert_eq!(pile.rows(Selection::Layer(2))?.sites(), 6_u32.into());

@@ -12,8 +12,9 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::lattice::{Direction, Rows, Site};
+use crate::lattice::{Direction, Site};
 use crate::lines::{Lines, MAX_NODES};
+use crate::shape::Rows;
 use crate::sweep::{Grid, Size};
 use crate::{Error, Pile};
 
@@ -21,7 +22,7 @@ use crate::{Error, Pile};
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Method, Pile};
 ///
 /// assert_eq!(Pile::triangular(10)?.plan(Selection::All)?.method, Method::Closed);
@@ -54,7 +55,8 @@ impl fmt::Display for Method {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Region, Selection};
+/// use cannonpile::lattice::Region;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Method, Pile};
 ///
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
@@ -124,7 +126,8 @@ impl Pile {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Selection};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Method, Pile, Question};
     ///
     /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;

@@ -16,12 +16,12 @@ use num_traits::Zero;
 
 use crate::closed_form::{self, Increments};
 use crate::geometry::{Vector, position};
+use crate::lattice::Sign;
 use crate::lattice::{Direction, Site, count};
 use crate::lines::{Above, Lines, Wanted};
 use crate::meter::Meter;
 use crate::plan::Method;
 use crate::scalar::{Algebra, Ring};
-use crate::stacking::Sign;
 use crate::{Error, Pile};
 
 /// The forces of a pile in the scalar `T`: of a straight stacking each by closed form, O(1), whatever the number of
@@ -92,7 +92,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(4)?, Counters::default());
@@ -123,7 +123,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Method, Pile};
     ///
     /// let pile = Pile::triangular(10)?;

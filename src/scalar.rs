@@ -259,7 +259,7 @@ pub trait Field: Algebra {
 
 /// The sign of a value on the real line, as far as the scalar knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Sign {
+pub enum RealSign {
     /// Less than zero.
     Negative,
     /// Zero.
@@ -321,19 +321,19 @@ impl Enclosure {
 /// the quantity it approximates: a verdict needs a scalar that is exact.
 ///
 /// # Laws
-/// The sign is that of every value in the enclosure, or [`Sign::Unknown`].
+/// The sign is that of every value in the enclosure, or [`RealSign::Unknown`].
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{RealEmbeddable, Sign};
+/// use cannonpile::scalar::{RealEmbeddable, RealSign};
 ///
-/// assert_eq!((-0.5).sign(), Sign::Negative);
-/// assert_eq!(f64::NAN.sign(), Sign::Unknown);
+/// assert_eq!((-0.5).sign(), RealSign::Negative);
+/// assert_eq!(f64::NAN.sign(), RealSign::Unknown);
 /// assert!(f64::INFINITY.enclosure().is_none());
 /// ```
 pub trait RealEmbeddable {
     /// The sign of the value.
-    fn sign(&self) -> Sign;
+    fn sign(&self) -> RealSign;
 
     /// The tightest rational bounds known, or `None` for a value without finite bounds.
     fn enclosure(&self) -> Option<Enclosure>;

@@ -13,7 +13,8 @@ use num_rational::BigRational;
 use num_traits::{One, Signed};
 
 use crate::geometry::Spacing;
-use crate::lattice::{Dimension, Region, Shape};
+use crate::lattice::{Dimension, Region};
+use crate::shape::Shape;
 use crate::stacking::Pattern;
 use crate::{Error, Packing, Pile};
 

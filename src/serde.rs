@@ -1,7 +1,8 @@
 //! The data types with `Serialize` and `Deserialize` of [serde](https://serde.rs), without a digit lost.
 //!
 //! ```
-//! use cannonpile::lattice::{Region, Selection};
+//! use cannonpile::lattice::Region;
+//! use cannonpile::shape::Selection;
 //! use cannonpile::{ContactForce, Pile};
 //! use num_rational::BigRational;
 //!
@@ -19,11 +20,11 @@
 //! # Serde
 //! | written as | |
 //! |---|---|
-//! | a string, as it prints | rationals, big integers and `i128` (`"7/3"`, `"12"`), [`Surd`] and [`Spacing`](crate::geometry::Spacing) (`"7/3*sqrt(2)"`), [`FixedRational`], [`Stacking`](crate::stacking::Stacking), [`Pattern`](crate::stacking::Pattern), [`Region`](crate::lattice::Region) (`"hexagon:3,2"`), and names: [`Sign`](crate::stacking::Sign) (`"+"`), [`Direction`](crate::lattice::Direction), [`Verdict`](crate::Verdict), [`Method`](crate::Method), [`Quantity`](crate::Quantity) |
+//! | a string, as it prints | rationals, big integers and `i128` (`"7/3"`, `"12"`), [`Surd`] and [`Spacing`](crate::geometry::Spacing) (`"7/3*sqrt(2)"`), [`FixedRational`], [`Stacking`](crate::stacking::Stacking), [`Pattern`](crate::stacking::Pattern), [`Region`](crate::lattice::Region) (`"hexagon:3,2"`), and names: [`Sign`](crate::lattice::Sign) (`"+"`), [`Direction`](crate::lattice::Direction), [`Verdict`](crate::Verdict), [`Method`](crate::Method), [`Quantity`](crate::Quantity) |
 //! | a number | [`Dimension`](crate::lattice::Dimension) (2 or 3), counts below 2⁶⁴, `f32` and `f64` in answers |
 //! | a record of its fields | [`Site`](crate::lattice::Site), [`Run`](crate::stacking::Run), [`Row`](crate::lattice::Row), [`Apart`](crate::geometry::Apart), [`Vector`](crate::geometry::Vector), [`Enclosure`](crate::scalar::Enclosure), [`ContactForce`](crate::ContactForce), [`FloorForce`](crate::FloorForce), [`PackedContact`](crate::PackedContact), [`BaseExtremes`](crate::BaseExtremes), [`Standing`](crate::Standing), [`Plan`](crate::Plan), [`Question`](crate::Question), [`Counters`](crate::Counters), [`Entry`](crate::census::Entry), [`At`](crate::scene::parse::At), [`Scene`](crate::scene::Scene) |
 //! | a record of strings | [`Interval`] (`lower`, `upper`) and [`DoubleDouble`] (`high`, `low`): many readers of JSON take the last digit of a float less seriously than a bound can bear |
-//! | a name and what belongs to it | [`Selection`](crate::lattice::Selection), [`Anchor`](crate::scene::Anchor): `"base"`, `{"layer":"3"}` |
+//! | a name and what belongs to it | [`Selection`](crate::shape::Selection), [`Anchor`](crate::scene::Anchor): `"base"`, `{"layer":"3"}` |
 //! | what it is made of | [`Pile`](crate::Pile): `dimension`, `sin_phi`, `stacking` (from the top), `anchor`, `weightless`, `weights`, `loads` |
 //!
 //! What is read goes through the parsers of [`scene::parse`](crate::scene::parse) and the checked constructors: there is

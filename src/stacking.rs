@@ -18,79 +18,16 @@ mod notation;
 pub use notation::{Abc, Hagg, Jagodzinski, Zhdanov};
 
 use alloc::vec::Vec;
-use core::ops::Neg;
 
 use crate::Error;
-use crate::lattice::{Direction, MAX_LAYERS};
-
-/// The Hägg sign of a step from a layer to the one below.
-///
-/// # Examples
-/// ```
-/// use cannonpile::stacking::Sign;
-///
-/// assert_eq!(-Sign::Plus, Sign::Minus);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Sign {
-    /// (i, j) rests on (i, j), (i+1, j), (i, j+1).
-    Plus,
-    /// (i, j) rests on (i, j), (i−1, j), (i, j−1).
-    Minus,
-}
-
-impl Sign {
-    /// The step (Δi, Δj) to the support in a direction.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::lattice::Direction;
-    /// use cannonpile::stacking::Sign;
-    ///
-    /// assert_eq!(Sign::Minus.descent(Direction::Gamma), [0, -1]);
-    /// ```
-    #[must_use]
-    pub const fn descent(self, direction: Direction) -> [i128; 2] {
-        let [i, j, _] = direction.descent();
-        match self {
-            Self::Plus => [i, j],
-            Self::Minus => [-i, -j],
-        }
-    }
-
-    /// `+` or `-`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::stacking::Sign;
-    ///
-    /// assert_eq!(Sign::Minus.symbol(), '-');
-    /// ```
-    #[must_use]
-    pub const fn symbol(self) -> char {
-        match self {
-            Self::Plus => '+',
-            Self::Minus => '-',
-        }
-    }
-}
-
-impl Neg for Sign {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        match self {
-            Self::Plus => Self::Minus,
-            Self::Minus => Self::Plus,
-        }
-    }
-}
+use crate::lattice::{MAX_LAYERS, Sign};
 
 /// Consecutive steps of one sign.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::stacking::{Run, Sign, Stacking};
+/// use cannonpile::lattice::Sign;
+/// use cannonpile::stacking::{Run, Stacking};
 ///
 /// let stacking: Stacking = "+++-".parse()?;
 /// let first = stacking.runs().next();
@@ -111,7 +48,8 @@ pub struct Run {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::stacking::{Sign, Stacking};
+/// use cannonpile::lattice::Sign;
+/// use cannonpile::stacking::Stacking;
 ///
 /// let stacking: Stacking = "++-+".parse()?;
 /// assert_eq!((stacking.layers(), stacking.changes()), (5, 2));
@@ -152,7 +90,8 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::{Run, Sign, Stacking};
+    /// use cannonpile::lattice::Sign;
+    /// use cannonpile::stacking::{Run, Stacking};
     ///
     /// let runs = [(Sign::Plus, 2), (Sign::Plus, 1), (Sign::Minus, 5)].map(|(sign, steps)| Run { sign, steps });
     /// assert_eq!(Stacking::from_runs(runs)?.zhdanov().to_string(), "(3,5)");
@@ -199,7 +138,8 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::{Sign, Stacking};
+    /// use cannonpile::lattice::Sign;
+    /// use cannonpile::stacking::Stacking;
     ///
     /// let stacking = Stacking::from_signs([Sign::Minus, Sign::Plus])?;
     /// assert_eq!(stacking.hagg().to_string(), "-+");
@@ -349,7 +289,8 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::{Sign, Stacking};
+    /// use cannonpile::lattice::Sign;
+    /// use cannonpile::stacking::Stacking;
     ///
     /// let stacking: Stacking = "+-".parse()?;
     /// assert!(stacking.signs().eq([Sign::Plus, Sign::Minus]));

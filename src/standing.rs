@@ -17,9 +17,10 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::geometry::Apart;
-use crate::lattice::{Direction, Selection, Shape, Site};
+use crate::lattice::{Direction, Site};
 use crate::lines::{Lines, Wanted};
 use crate::plan::trees_are_cheaper;
+use crate::shape::{Selection, Shape};
 use crate::sweep::{Descent, Grid, MAX_NUMBERS, Planes};
 use crate::{ContactForce, Error, Pile};
 

@@ -31,10 +31,11 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::Error;
-use crate::lattice::{Region, Row, Shape, Site, Stretch};
+use crate::lattice::{Region, Row, Site};
 use crate::lines::Lines;
 use crate::meter::Meter;
 use crate::scalar::Algebra;
+use crate::shape::{Shape, Stretch};
 
 /// The most numbers that a sweep keeps, 1 GiB of `i64`.
 pub(crate) const MAX_NUMBERS: u64 = 1 << 27;

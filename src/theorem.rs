@@ -1,11 +1,11 @@
 //! What is proved for every pile, and how.
 //!
-//! # Method
+//! # ProofKind
 //! A test shows that an identity holds for the piles tried. The formulas of this crate are polynomials in
 //! i, j, k, L and s = sin φ, and they are written over any [`Algebra`](crate::scalar::Algebra). So they are run
 //! here with [`Polynomial`]s for their numbers: the very functions that a user calls return polynomials, and if
 //! the difference of the two sides of an identity is the zero polynomial, it holds for **every** i, j, k, L
-//! and s at once. There are three kinds of proof ([`Method`]):
+//! and s at once. There are three kinds of proof ([`ProofKind`]):
 //!
 //! * *identity*: the two sides, run on symbols, are the same polynomial;
 //! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are
@@ -68,7 +68,7 @@ use crate::scalar::Polynomial;
 
 /// How a theorem is proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Method {
+pub enum ProofKind {
     /// Both sides are the same polynomial.
     Identity,
     /// As an identity, after summing in closed form.
@@ -77,14 +77,14 @@ pub enum Method {
     Induction,
 }
 
-impl Method {
+impl ProofKind {
     /// `identity`, `sum`, `induction`.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::theorem::{self, Method};
+    /// use cannonpile::theorem::{self, ProofKind};
     ///
-    /// assert_eq!(Method::Induction.name(), "induction");
+    /// assert_eq!(ProofKind::Induction.name(), "induction");
     /// assert_eq!(theorem::find("spheres").unwrap().method.name(), "sum");
     /// ```
     #[must_use]
@@ -107,7 +107,7 @@ pub struct Theorem {
     /// For which values of the symbols it is meant.
     pub hypotheses: &'static str,
     /// How it is proved.
-    pub method: Method,
+    pub method: ProofKind,
     /// The symbols in it.
     pub symbols: &'static str,
     derive: fn(&Formulas) -> Vec<Step>,

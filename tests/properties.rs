@@ -12,9 +12,11 @@ use std::collections::BTreeMap;
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::lattice::{Dimension, Region, Selection, Site};
+use cannonpile::lattice::Sign;
+use cannonpile::lattice::{Dimension, Region, Site};
 use cannonpile::scene::parse;
-use cannonpile::stacking::{Sign, Stacking};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
 use proptest::collection::vec;
 use proptest::prelude::any;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};

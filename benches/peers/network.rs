@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Dimension, Direction, Selection, Site};
+use cannonpile::lattice::{Dimension, Direction, Site};
 use cannonpile::scalar::Algebra;
+use cannonpile::shape::Selection;
 
 use super::basis;
 

@@ -81,9 +81,7 @@ pub(crate) fn check<V: PartialEq + Debug + Copy>(
     slices: &[Vec<V>; 3],
     exact: impl Fn(Site, cannonpile::lattice::Direction) -> Option<V>,
 ) {
-    let rows = pile
-        .rows(cannonpile::lattice::Selection::All)
-        .expect("rows");
+    let rows = pile.rows(cannonpile::shape::Selection::All).expect("rows");
     let sites = rows.off_the_floor().flatten();
     let step = slices[0].len() / 1000 + 1;
     for (place, site) in sites.enumerate().step_by(step) {

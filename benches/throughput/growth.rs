@@ -3,8 +3,9 @@
 use std::hint::black_box;
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Ring;
+use cannonpile::shape::Selection;
 use num_rational::BigRational;
 
 use crate::time::{median, seconds};

@@ -3,7 +3,8 @@
 use std::hint::black_box;
 
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Direction, Selection};
+use cannonpile::lattice::Direction;
+use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile, Strengths};
 use num_rational::BigRational;
 

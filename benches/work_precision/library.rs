@@ -1,8 +1,8 @@
 //! The methods of the library, in every scalar, each held to what its scalar promises.
 
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::Selection;
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
+use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile, Statics, Strengths};
 use num_rational::BigRational;
 

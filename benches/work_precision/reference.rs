@@ -2,8 +2,9 @@
 
 use cannonpile::Pile;
 use cannonpile::geometry::Vector;
-use cannonpile::lattice::{Direction, Selection};
+use cannonpile::lattice::Direction;
 use cannonpile::scalar::{Algebra, Enclosure, RealEmbeddable, Ring};
+use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};

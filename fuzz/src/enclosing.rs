@@ -2,7 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, Interval, Pair, RealEmbeddable, Ring, Sign, laws,
+    Algebra, DoubleDouble, Field, Interval, Pair, RealEmbeddable, Ring, RealSign, laws,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -153,7 +153,7 @@ fn intervals(u: &mut Unstructured<'_>) -> Result<()> {
             "{operation:?} of {a:?} and {b:?} gave {got:?} without {exact}"
         );
         let sign = RealEmbeddable::sign(&exact);
-        assert!(got.sign() == Sign::Unknown || got.sign() == sign);
+        assert!(got.sign() == RealSign::Unknown || got.sign() == sign);
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use num_bigint::{BigInt, BigUint};
 
 use super::table::Layout;
 use super::{Cell, Column, Table, Units};
-use crate::lattice::Selection;
+use crate::shape::Selection;
 use crate::{Counters, Error, Method, Plan, Quantity, Question};
 
 /// A question about a pile in some units, as a table of it would put it.
@@ -12,7 +12,7 @@ use crate::{Counters, Error, Method, Plan, Quantity, Question};
 /// # Examples
 /// ```
 /// use cannonpile::export::{Explanation, FileFormat, NumberFormat, Units};
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Pile, Quantity};
 ///
 /// let pile = Pile::triangular(10)?;
@@ -42,7 +42,7 @@ impl<'p> Explanation<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::export::{Explanation, Units};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Error, Pile, Quantity};
     ///
     /// let pile = Pile::triangular(10)?;
@@ -73,7 +73,7 @@ impl<'p> Explanation<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::export::{Explanation, Units};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Pile, Quantity};
     ///
     /// let pile = Pile::triangular(10_i128.pow(30))?;
@@ -97,7 +97,7 @@ impl<'p> Explanation<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::export::{Explanation, Units};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Error, Pile, Quantity};
     ///
     /// // A layer has few answers, the whole pile 5·10¹¹.
@@ -120,7 +120,7 @@ impl<'p> Explanation<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::export::{Explanation, Units};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Pile, Quantity};
     ///
     /// let pile = Pile::triangular(10)?;
@@ -164,7 +164,7 @@ impl<'p> Explanation<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::export::{Explanation, Units};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Pile, Quantity};
     ///
     /// let pile = Pile::triangular(10)?;

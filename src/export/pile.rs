@@ -19,7 +19,7 @@ use num_bigint::BigUint;
 
 use super::tables::refuse_beyond;
 use super::{Units, WriteError};
-use crate::lattice::{Numbering, Selection};
+use crate::shape::{Numbering, Selection};
 use crate::{Error, Packing, Pile};
 
 use progress::Progress;

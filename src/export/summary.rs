@@ -6,8 +6,9 @@ use num_rational::BigRational;
 use super::table::Layout;
 use super::{Cell, Column, Table, Units};
 use crate::geometry::Apart;
-use crate::lattice::{Dimension, Selection};
+use crate::lattice::Dimension;
 use crate::scalar::Surd;
+use crate::shape::Selection;
 use crate::stacking::Stacking;
 use crate::{BaseExtremes, ContactForce, Error, Pile, Standing, Verdict};
 

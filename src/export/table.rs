@@ -104,7 +104,7 @@ impl Table<'_> {
     /// ```
     /// use cannonpile::Pile;
     /// use cannonpile::export::{Units, tables};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
     /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;
@@ -127,7 +127,7 @@ impl Table<'_> {
     /// ```
     /// use cannonpile::Pile;
     /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::discs(1)?;
     /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;

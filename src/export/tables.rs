@@ -8,8 +8,9 @@ use super::summary::steps;
 use super::table::{Layout, Row};
 use super::{Cell, Column, Table, Written};
 use crate::census::Entry;
-use crate::lattice::{Dimension, Direction, Rows, Selection, Site};
+use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::{Ring, Surd};
+use crate::shape::{Rows, Selection};
 use crate::theorem::{Proof, Theorem};
 use crate::{ContactForce, Error, FloorForce, Packing, Pile, Statics};
 
@@ -32,7 +33,7 @@ impl<'p> Units<'p> {
     /// ```
     /// use cannonpile::Pile;
     /// use cannonpile::export::{Units, tables};
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
     /// let table = tables::contacts(&Units::of_pile(&pile), Selection::All)?;
@@ -50,7 +51,7 @@ impl<'p> Units<'p> {
     /// ```
     /// use cannonpile::export::{Units, tables};
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
     ///
@@ -172,7 +173,8 @@ impl<'p> Units<'p> {
 /// ```
 /// use cannonpile::Pile;
 /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
-/// use cannonpile::lattice::{Selection, Site};
+/// use cannonpile::lattice::Site;
+/// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(10)?;
 /// let corner = Selection::One(Site { i: 0, j: 0, k: 9 });
@@ -223,7 +225,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
 /// ```
 /// use cannonpile::Pile;
 /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(2)?;
 /// let table = tables::contacts(&Units::of_pile(&pile), Selection::All)?;
@@ -298,7 +300,8 @@ fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
 /// ```
 /// use cannonpile::export::{FileFormat, NumberFormat, tables};
 /// use cannonpile::geometry::Spacing;
-/// use cannonpile::lattice::{Selection, Site};
+/// use cannonpile::lattice::Site;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Packing, Pile};
 /// use num_rational::BigRational;
 ///

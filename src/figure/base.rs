@@ -7,7 +7,7 @@ use super::colour::Scale;
 use super::layer::Layer;
 use super::subject::{nearest, readable};
 use crate::Error;
-use crate::lattice::Selection;
+use crate::shape::Selection;
 
 /// The normal forces of the bottom spheres on the floor.
 ///

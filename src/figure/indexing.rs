@@ -9,8 +9,7 @@ use super::subject::readable;
 use super::{Subject, of};
 use crate::Error;
 use crate::geometry::Vector;
-use crate::lattice::{Direction, Site};
-use crate::stacking::Sign;
+use crate::lattice::{Direction, Sign, Site};
 use num_rational::BigRational;
 
 /// The spheres of a layer with their indices.

@@ -5,7 +5,8 @@ use super::panel::{Bounds, Panel};
 use super::subject::nearest;
 use super::{Subject, canvas};
 use crate::Error;
-use crate::lattice::{Selection, Site};
+use crate::lattice::Site;
+use crate::shape::Selection;
 
 /// Where the spheres of a layer are, seen from above: u to the right, v upwards, in R.
 ///

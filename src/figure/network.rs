@@ -13,7 +13,8 @@ use super::panel::{Bounds, Margins, Panel};
 use super::response::middle;
 use super::subject::{nearest, readable};
 use super::{Subject, of};
-use crate::lattice::{Direction, Selection, Site};
+use crate::lattice::{Direction, Site};
+use crate::shape::Selection;
 use crate::{ContactForce, Error};
 
 /// Contacts, and where they are in the figure.

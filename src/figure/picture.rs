@@ -8,7 +8,8 @@ use super::subject::readable;
 use super::view::{Vector, View, moved, norm};
 use super::{Subject, of};
 use crate::Error;
-use crate::lattice::{Selection, Site};
+use crate::lattice::Site;
+use crate::shape::Selection;
 
 /// The spheres of a pile as a camera sees them.
 ///

@@ -10,8 +10,9 @@ use super::cells::{MapCell, Words, draw};
 use super::colour::Scale;
 use super::layer::Layer;
 use super::subject::{nearest, readable};
-use crate::lattice::{Selection, Site};
+use crate::lattice::Site;
 use crate::scalar::Surd;
+use crate::shape::Selection;
 use crate::{Error, Pile};
 
 /// The vertical forces that the spheres of a layer hand on downwards.

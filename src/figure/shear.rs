@@ -9,7 +9,8 @@ use super::subject::{nearest, readable};
 use super::ticks::{round_below, short};
 use super::{Subject, of};
 use crate::Error;
-use crate::lattice::{Selection, Site};
+use crate::lattice::Site;
+use crate::shape::Selection;
 
 /// The horizontal forces of the bottom spheres on the floor.
 ///

@@ -41,8 +41,9 @@ use num_traits::{One, Signed, Zero};
 
 use super::{Inclination, Spacing, square_per_sin2, squared_distance};
 use crate::Error;
-use crate::lattice::{Dimension, Shape};
+use crate::lattice::Dimension;
 use crate::scalar::Ring;
+use crate::shape::Shape;
 
 /// How far apart two spheres are that touch, or would overlap.
 ///

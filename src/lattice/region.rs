@@ -13,7 +13,7 @@ use num_integer::Integer;
 
 use super::Row;
 use crate::Error;
-use crate::stacking::Sign;
+use crate::lattice::Sign;
 
 /// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of one layer: a triangle, trapezium, parallelogram,
 /// pentagon or hexagon. Never empty, and its bounds are tight: each is attained.
@@ -22,8 +22,7 @@ use crate::stacking::Sign;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::Region;
-/// use cannonpile::stacking::Sign;
+/// use cannonpile::lattice::{Region, Sign};
 ///
 /// let hexagon = Region::hexagon(3, 3)?;
 /// assert_eq!(hexagon.sites(), 19_u32.into());
@@ -190,7 +189,7 @@ impl Region {
     /// ```
     /// use cannonpile::lattice::Region;
     ///
-    /// use cannonpile::stacking::Sign;
+    /// use cannonpile::lattice::Sign;
     ///
     /// assert_eq!(Region::SITE.dilated(Sign::Minus)?.to_string(), "-1..0,-1..0,-1..0");
     /// # Ok::<(), cannonpile::Error>(())
@@ -208,7 +207,7 @@ impl Region {
     /// ```
     /// use cannonpile::lattice::Region;
     ///
-    /// use cannonpile::stacking::Sign;
+    /// use cannonpile::lattice::Sign;
     ///
     /// assert_eq!(Region::SITE.dilated_by(Sign::Plus, 9)?, Region::triangle(10)?);
     /// # Ok::<(), cannonpile::Error>(())
@@ -237,7 +236,7 @@ impl Region {
     /// ```
     /// use cannonpile::lattice::Region;
     ///
-    /// use cannonpile::stacking::Sign;
+    /// use cannonpile::lattice::Sign;
     ///
     /// assert_eq!(Region::triangle(4)?.eroded(Sign::Plus), Some(Region::triangle(3)?));
     /// assert_eq!(Region::SITE.eroded(Sign::Plus), None);
@@ -358,7 +357,7 @@ impl Region {
     }
 
     /// After how many erosions of one sign each of the three sides that they shorten has vanished.
-    pub(super) const fn vanishing_sides(&self, sign: Sign) -> [i128; 3] {
+    pub(crate) const fn vanishing_sides(&self, sign: Sign) -> [i128; 3] {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         match sign {
             Sign::Plus => [x0 + y1 - s0, y0 + x1 - s0, x1 + y1 - s1],
@@ -368,7 +367,7 @@ impl Region {
 
     /// The layer this many + and − steps further down; bounds must stay within `i128`.
     #[inline]
-    pub(super) fn grown(&self, plus: i128, minus: i128) -> Self {
+    pub(crate) fn grown(&self, plus: i128, minus: i128) -> Self {
         Self {
             lower: self.lower.map(|bound| bound - minus),
             upper: self.upper.map(|bound| bound + plus),

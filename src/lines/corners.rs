@@ -14,8 +14,9 @@ use alloc::vec::Vec;
 use num_bigint::BigUint;
 
 use super::{Lines, start_of};
-use crate::lattice::{Direction, Stretch};
+use crate::lattice::Direction;
 use crate::scalar::Algebra;
+use crate::shape::Stretch;
 
 /// The ends of pieces in a row, if nothing special meets it: the ends of the row, and three places for each line.
 const ENDS_OF_A_ROW: u32 = 14;

@@ -7,8 +7,9 @@ use num_traits::{One, Zero};
 
 use super::{Line, Lines, start_of};
 use crate::Error;
-use crate::lattice::{Direction, Shape, Site, Stretch};
+use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
+use crate::shape::{Shape, Stretch};
 use crate::transfer::turn_numerators;
 
 /// The most nodes of a tree that are visited for one row.

@@ -1,8 +1,9 @@
 //! Many answers in SI, one after the other.
 
-use crate::lattice::{Direction, Rows, Site};
+use crate::lattice::{Direction, Site};
 use crate::meter::Meter;
 use crate::scalar::Surd;
+use crate::shape::Rows;
 use crate::{ContactForce, Error, FloorForce, Packing};
 
 /// A contact between two spheres, in the units and the frame of a [`Packing`].
@@ -10,7 +11,7 @@ use crate::{ContactForce, Error, FloorForce, Packing};
 /// # Examples
 /// ```
 /// use cannonpile::geometry::Spacing;
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Packing, Pile};
 /// use num_rational::BigRational;
 ///
@@ -46,7 +47,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::scalar::Surd;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -86,7 +87,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
     ///
@@ -125,7 +126,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
     ///
@@ -156,7 +157,8 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::{Region, Selection};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
     ///

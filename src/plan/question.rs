@@ -3,14 +3,14 @@
 use core::fmt;
 
 use super::Method;
-use crate::lattice::Selection;
+use crate::shape::Selection;
 
 /// What is wanted of the spheres asked about.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::{Pile, Quantity, Question};
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(10)?;
 /// let roots = |quantity| {
@@ -97,7 +97,7 @@ impl fmt::Display for Quantity {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{Quantity, Question};
 ///
 /// let question = Question::from(Selection::Base);

@@ -7,9 +7,10 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
 use super::Method;
-use crate::lattice::{Dimension, Rows};
+use crate::lattice::Dimension;
 use crate::lines::Lines;
 use crate::scalar::{Algebra, Exactness};
+use crate::shape::Rows;
 use crate::sweep::{Grid, Size, bound};
 use crate::{Error, Pile};
 

@@ -4,17 +4,19 @@ use super::source::Source;
 use super::{Statics, edge, edge_all};
 use crate::Error;
 use crate::geometry::Vector;
-use crate::lattice::{Direction, Rows, Site};
+use crate::lattice::Sign;
+use crate::lattice::{Direction, Site};
 use crate::lines::Wanted;
 use crate::meter::Meter;
 use crate::scalar::Algebra;
-use crate::stacking::Sign;
+use crate::shape::Rows;
 
 /// The force of contact between a sphere and the one below it.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Direction, Selection, Site};
+/// use cannonpile::lattice::{Direction, Site};
+/// use cannonpile::shape::Selection;
 /// use cannonpile::{ContactForce, Pile};
 ///
 /// let pile = Pile::triangular(10)?;
@@ -156,7 +158,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
     /// let statics = pile.statics::<f64>();

@@ -5,10 +5,11 @@ use super::{Statics, edge_all};
 use crate::Error;
 use crate::closed_form;
 use crate::geometry::Vector;
-use crate::lattice::{Rows, Site};
+use crate::lattice::Site;
 use crate::lines::Wanted;
 use crate::meter::Meter;
 use crate::scalar::Algebra;
+use crate::shape::Rows;
 
 /// The force of one bottom sphere on the floor.
 ///
@@ -108,7 +109,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Selection;
+    /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
     /// let statics = pile.statics::<f64>();

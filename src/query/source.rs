@@ -10,11 +10,12 @@ use num_traits::Zero;
 use super::{FloorForce, Statics, edge_all};
 use crate::Error;
 use crate::geometry::Vector;
-use crate::lattice::{Rows, Selection, Site};
+use crate::lattice::Site;
 use crate::lines::{Lines, Wanted};
 use crate::meter::Meter;
 use crate::plan::{CHUNK, Route, last_of, trees_are_cheaper};
 use crate::scalar::{Algebra, Exactness};
+use crate::shape::{Rows, Selection};
 use crate::sweep::{Cells, Descent, Grid, Planes};
 
 /// The forces of the spheres of some rows.

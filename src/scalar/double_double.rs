@@ -11,7 +11,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::error_free::{fast_two_sum, is_ordinary, scale, significand, two_product, two_sum};
-use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring};
 
 /// A number high + low with |low| at most half a unit in the last place of high: about 106 bits.
 ///
@@ -270,7 +270,7 @@ impl Field for DoubleDouble {
 }
 
 impl RealEmbeddable for DoubleDouble {
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         self.high.sign()
     }
 

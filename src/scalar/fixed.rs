@@ -13,7 +13,7 @@ use num_integer::Integer;
 use num_rational::{BigRational, Ratio};
 use num_traits::{Bounded, CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, One, Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
 
 mod sealed {
     pub trait Sealed {}
@@ -277,12 +277,12 @@ impl<I: FixedInteger> Field for FixedRational<I> {
 }
 
 impl<I: FixedInteger> RealEmbeddable for FixedRational<I> {
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         match &self.0 {
-            None => Sign::Unknown,
-            Some(r) if r.is_positive() => Sign::Positive,
-            Some(r) if r.is_negative() => Sign::Negative,
-            Some(_) => Sign::Zero,
+            None => RealSign::Unknown,
+            Some(r) if r.is_positive() => RealSign::Positive,
+            Some(r) if r.is_negative() => RealSign::Negative,
+            Some(_) => RealSign::Zero,
         }
     }
 

@@ -5,7 +5,7 @@ use core::num::NonZeroI64;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring};
 
 macro_rules! float_scalar {
     ($float:ident) => {
@@ -80,15 +80,15 @@ macro_rules! float_scalar {
         }
 
         impl RealEmbeddable for $float {
-            fn sign(&self) -> Sign {
+            fn sign(&self) -> RealSign {
                 if *self > 0.0 {
-                    Sign::Positive
+                    RealSign::Positive
                 } else if *self < 0.0 {
-                    Sign::Negative
+                    RealSign::Negative
                 } else if *self == 0.0 {
-                    Sign::Zero
+                    RealSign::Zero
                 } else {
-                    Sign::Unknown
+                    RealSign::Unknown
                 }
             }
 

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::error_free::{is_ordinary, significand, two_product, two_sum};
-use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, Ring, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring};
 
 /// A closed interval [lower, upper] of reals with `f64` ends, which may be infinite.
 ///
@@ -18,13 +18,13 @@ use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, 
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, Ring, Sign};
+/// use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, Ring, RealSign};
 /// use num_rational::BigRational;
 ///
 /// let third = Interval::from_i128(1).div_int(3.try_into().unwrap());
 /// assert_eq!(third.upper(), third.lower().next_up());
 /// let rest = Interval::from_i128(1) - &(third + third + third);
-/// assert_eq!(rest.sign(), Sign::Unknown);
+/// assert_eq!(rest.sign(), RealSign::Unknown);
 /// // Around zero there is no quotient.
 /// assert_eq!(third.checked_div(&rest), None);
 /// ```
@@ -369,15 +369,15 @@ impl Field for Interval {
 }
 
 impl RealEmbeddable for Interval {
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         if self.lower > 0.0 {
-            Sign::Positive
+            RealSign::Positive
         } else if self.upper < 0.0 {
-            Sign::Negative
+            RealSign::Negative
         } else if self.is_zero() {
-            Sign::Zero
+            RealSign::Zero
         } else {
-            Sign::Unknown
+            RealSign::Unknown
         }
     }
 

@@ -26,7 +26,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::{Algebra, Exactness, Field, RealEmbeddable, Sign};
+use super::{Algebra, Exactness, Field, RealEmbeddable, RealSign};
 
 /// A law that does not hold, and the operands that show it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -152,7 +152,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
     stands_for("a b", &(a.clone() * &b), &(&p * &q))?;
     match a.checked_div(&b) {
         Some(quotient) if !q.is_zero() => stands_for("a / b", &quotient, &(&p / &q))?,
-        None if q.is_zero() || b.sign() == Sign::Unknown => {}
+        None if q.is_zero() || b.sign() == RealSign::Unknown => {}
         _ => {
             let (law, witness) = ("a / b is undefined just for b = 0", format!("b = {b:?}"));
             return Err(Broken {
@@ -176,11 +176,11 @@ pub fn embedding<T: Field + RealEmbeddable>(
         stands_for("a / n", &a.clone().div_int(n), &quotient)?;
     }
     let sign = match p.numer().sign() {
-        num_bigint::Sign::Minus => Sign::Negative,
-        num_bigint::Sign::NoSign => Sign::Zero,
-        num_bigint::Sign::Plus => Sign::Positive,
+        num_bigint::Sign::Minus => RealSign::Negative,
+        num_bigint::Sign::NoSign => RealSign::Zero,
+        num_bigint::Sign::Plus => RealSign::Positive,
     };
-    let unknown = T::EXACTNESS == Exactness::Enclosure && a.sign() == Sign::Unknown;
+    let unknown = T::EXACTNESS == Exactness::Enclosure && a.sign() == RealSign::Unknown;
     if a.sign() == sign || unknown {
         Ok(())
     } else {

@@ -11,7 +11,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
 
 /// The first operation after which two scalars stood for different numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -344,11 +344,11 @@ where
     B: Field + RealEmbeddable,
 {
     /// The sign on which the two agree.
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         if self.first.sign() == self.second.sign() {
             self.first.sign()
         } else {
-            Sign::Unknown
+            RealSign::Unknown
         }
     }
 

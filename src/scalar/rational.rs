@@ -7,7 +7,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
+use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
 
 impl Ring for BigRational {
     fn from_i128(n: i128) -> Self {
@@ -60,13 +60,13 @@ impl Field for BigRational {
 }
 
 impl RealEmbeddable for BigRational {
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         if self.is_positive() {
-            Sign::Positive
+            RealSign::Positive
         } else if self.is_negative() {
-            Sign::Negative
+            RealSign::Negative
         } else {
-            Sign::Zero
+            RealSign::Zero
         }
     }
 

@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::nearest::{nearest_ratio, nearest_root, screened};
-use super::{Decision, NearestFloat, Sign};
+use super::{Decision, NearestFloat, RealSign};
 use crate::Error;
 
 /// An exact number c·√n, with c rational and n a positive integer.
@@ -180,17 +180,17 @@ impl Surd {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::scalar::{Sign, Surd};
+    /// use cannonpile::scalar::{RealSign, Surd};
     /// use num_rational::BigRational;
     ///
     /// let root = Surd::sqrt(BigRational::from_integer(3.into()))?;
-    /// assert_eq!(root.sign(), Sign::Positive);
-    /// assert_eq!((-root).sign(), Sign::Negative);
-    /// assert_eq!(Surd::zero().sign(), Sign::Zero);
+    /// assert_eq!(root.sign(), RealSign::Positive);
+    /// assert_eq!((-root).sign(), RealSign::Negative);
+    /// assert_eq!(Surd::zero().sign(), RealSign::Zero);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn sign(&self) -> Sign {
+    pub fn sign(&self) -> RealSign {
         super::RealEmbeddable::sign(&self.coefficient)
     }
 

@@ -8,8 +8,9 @@ use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_rational::BigRational;
 
 use super::number;
-use crate::lattice::{Dimension, Region, Shape, Site};
+use crate::lattice::{Dimension, Region, Site};
 use crate::scene::Anchor;
+use crate::shape::Shape;
 use crate::stacking::Stacking;
 use crate::{Error, Pile};
 

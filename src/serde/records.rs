@@ -9,9 +9,11 @@ use num_rational::BigRational;
 use super::{Number, number};
 use crate::census::Entry;
 use crate::geometry::{Apart, Vector};
-use crate::lattice::{Direction, Row, Selection, Site};
+use crate::lattice::Sign;
+use crate::lattice::{Direction, Row, Site};
 use crate::scalar::{Enclosure, Surd};
-use crate::stacking::{Run, Sign};
+use crate::shape::Selection;
+use crate::stacking::Run;
 use crate::{
     BaseExtremes, ContactForce, Counters, FloorForce, Method, PackedContact, Pile, Plan, Quantity,
     Question, Standing,

@@ -8,10 +8,11 @@ use num_bigint::BigInt;
 
 use super::{Number, read_text};
 use crate::geometry::Spacing;
+use crate::lattice::Sign;
 use crate::lattice::{Dimension, Direction, Region};
-use crate::scalar::{FixedInteger, FixedRational, Sign as RealSign, Surd};
+use crate::scalar::{FixedInteger, FixedRational, RealSign, Surd};
 use crate::scene::{parse, text};
-use crate::stacking::{Pattern, Sign, Stacking};
+use crate::stacking::{Pattern, Stacking};
 use crate::{Error, Method, Quantity, Verdict};
 
 macro_rules! words {

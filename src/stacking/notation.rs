@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::str::FromStr;
 
-use super::{Run, Sign, Stacking};
+use super::{Run, Stacking};
 use crate::Error;
+use crate::lattice::Sign;
 
 /// The longest text read, in bytes.
 const LONGEST: usize = 4_000_000;

@@ -313,7 +313,8 @@ fn limbs(value: &BigInt, planes: usize) -> Vec<i64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::{Dimension, Shape};
+    use crate::lattice::Dimension;
+    use crate::shape::Shape;
 
     fn two_planes(grid: &Grid<'_>) -> Planes {
         let planes = Planes::new(grid, BigInt::from(1) << 100);

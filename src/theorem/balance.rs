@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, above, int, symbol};
-use super::{Formulas, Method, Step, Theorem};
+use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
 use crate::lattice::Direction;
 
@@ -16,7 +16,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "The increments Δα = Δβ = 1, Δγ = 2s in the unit mg/(2(1+s)cosθ) solve the paper's system, \
                     denominators cleared: s(Δα+Δβ) − Δγ = 0, Δα − Δβ = 0, Δα+Δβ+Δγ = 2(1+s); for every φ; an identity",
         hypotheses: "0 < s < 1",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "s",
         derive: paper_system,
     },
@@ -25,7 +25,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "The vectors ê_a, ê_b, ê_c have length 1, and squared distances are those of the Gram form: \
                     |n_a ê_a + n_b ê_b + n_c ê_c|² = squared_distance(n), with σ = sin²θ; an identity",
         hypotheses: "0 < s < 1, 0 < σ < 1",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "a, b, c, s, σ",
         derive: unit_directions,
     },
@@ -34,7 +34,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Equilibrium of every sphere, at the surface too: the three supports push with what the forces \
                     from above and the weight press, in all three components, for every φ; an identity",
         hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j, 0 < s < 1",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "i, j, k, s",
         derive: equilibrium,
     },
@@ -43,7 +43,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Equilibrium at the surface: where no sphere lies above on a line, its force from above is zero, so \
                     the equations of a sphere inside hold for one at the surface i = 0, j = 0 or i+j = k; an identity",
         hypotheses: "sites of a face",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "i, j, k, s",
         derive: surface,
     },
@@ -52,7 +52,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Action and reaction: what a sphere passes on in a direction is what the sphere below receives from \
                     it, so that every contact has one force; for every φ; an identity",
         hypotheses: "a sphere off the floor",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "i, j, k, s",
         derive: action_reaction,
     },
@@ -61,7 +61,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Central force: the forces from above on a sphere of a pile with equilateral base sum to \
                     mg/(6R cosθ)·r, r its position from the apex; in f₀ and 2R they are equal; an identity",
         hypotheses: "s = 1/2",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "i, j, k",
         derive: central_force,
     },
@@ -70,7 +70,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "G = (2/3)J − I, which passes forces across a sign change of the stacking, takes g to (2/3)(g_1+g_2+g_3)(1,1,1) − g; it is orthogonal \
                     (|Gg|² = |g|²), symmetric (h·Gg = g·Gh), its own inverse (GGg = g), and fixes (1, 1, 1); an identity",
         hypotheses: "any forces g, h",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, h_1, h_2, h_3",
         derive: half_turn,
     },

@@ -8,7 +8,7 @@ use num_traits::Zero;
 use super::setting::{
     P, Setting, above, above_floor, int, last_layer, sum_over_base, sum_over_pile, symbol,
 };
-use super::{Formulas, Method, Step, Theorem};
+use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
 use crate::scalar::Symbol;
 
@@ -18,7 +18,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "The normal force on the floor is mg[1 + ((L−1−j) + 2sj)/(2(1+s))], and mg(L+2)/3 under every \
                     sphere of an equilateral base; an identity",
         hypotheses: "0 ≤ j ≤ L−1, 0 ≤ i ≤ L−1−j",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "L, i, j, s",
         derive: base_normal,
     },
@@ -27,7 +27,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Uniform base: the normal forces of two bottom spheres differ by (2s−1)(j−j') increments, so the \
                     pressure is uniform if and only if sin φ = 1/2; an identity",
         hypotheses: "two bottom spheres (i, j) and (i', j'), L ≥ 2",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "L, i, i', j, j', s",
         derive: uniform_base,
     },
@@ -36,7 +36,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Total weight: the normal forces on the floor sum to the weight of all spheres, for every φ; by \
                     summing over the base",
         hypotheses: "L ≥ 1, 0 < s < 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, s",
         derive: weight,
     },
@@ -45,7 +45,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "The shear on the floor is that of the paper, −(L−1−3j)/2·sinθ along x and −√3/2·(L−1−2i−j)·sinθ \
                     along y, in f₀, on an equilateral base; an identity",
         hypotheses: "s = 1/2",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "L, i, j",
         derive: shear,
     },
@@ -53,7 +53,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         name: "total-shear",
         statement: "Total shear: the horizontal forces on the floor sum to zero, for every φ; by summing over the base",
         hypotheses: "L ≥ 1, 0 < s < 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, s",
         derive: total_shear,
     },
@@ -63,7 +63,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     of the weights about both horizontal axes, ΣF_z r_b = Σ mg r_s; for every φ; by summing over \
                     base and pile",
         hypotheses: "L ≥ 1, 0 < s < 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, s",
         derive: total_moment,
     },
@@ -72,7 +72,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Second moment: ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ), r horizontal from the axis, H_s the height of \
                     a sphere over the base; for every φ; by summing over base and pile",
         hypotheses: "L ≥ 1, 0 < s < 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, s",
         derive: second_moment,
     },
@@ -81,7 +81,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "The shear of a bottom sphere is its horizontal position from the axis, in f₀ and 2R, on an \
                     equilateral base: so it vanishes on the axis and nowhere else; an identity",
         hypotheses: "s = 1/2",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "L, i, j",
         derive: shear_on_axis,
     },
@@ -91,7 +91,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     base, since the normal force is uniform and (L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α) ≥ 0; \
                     an identity",
         hypotheses: "s = 1/2, N ≥ 0",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "L, i, j",
         derive: shear_ratio,
     },

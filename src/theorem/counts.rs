@@ -8,7 +8,7 @@ use num_traits::{One, Zero};
 use super::setting::{
     P, above, int, last_layer, sum_off_floor, sum_over_layer, sum_over_pile, symbol,
 };
-use super::{Formulas, Method, Step, Theorem};
+use super::{Formulas, ProofKind, Step, Theorem};
 use crate::lattice::Direction;
 use crate::scalar::Symbol;
 
@@ -19,7 +19,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     lines. None above the apex; one more at the sphere below on the line, and the same on the \
                     other two lines; none at the surface where the line begins; by induction",
         hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
-        method: Method::Induction,
+        method: ProofKind::Induction,
         symbols: "i, j, k",
         derive: counts,
     },
@@ -28,7 +28,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "The rotation {j → k−i−j, i → j} about the axis carries N_α → N_β → N_γ → N_α, and three times \
                     it is the identity; an identity",
         hypotheses: "any site",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "i, j, k",
         derive: rotation,
     },
@@ -37,7 +37,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "A pile has L(L+1)(L+2)/6 spheres, (k+1)(k+2)/2 in layer k, and (i, j, k) is the number \
                     before(i, j, k) of them in row order; by summing over the layers",
         hypotheses: "L ≥ 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, i, j, k",
         derive: spheres,
     },
@@ -46,7 +46,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "A pile has L(L−1)(L+1)/2 contacts, three below each sphere that is not on the floor; by \
                     summing over the layers",
         hypotheses: "L ≥ 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L",
         derive: contacts,
     },
@@ -56,7 +56,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     C(L+2,4)·f₀, the mean contact carries (L+2)/4·f₀, and the sum of squares is \
                     C(L+2,4)(2L+1)/5·f₀²; by summing over the spheres, and over n",
         hypotheses: "1 ≤ n ≤ L−1, s = 1/2",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, n",
         derive: strengths,
     },

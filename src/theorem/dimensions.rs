@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, int, last_layer, symbol};
-use super::{Formulas, Method, Step, Theorem};
+use super::{Formulas, ProofKind, Step, Theorem};
 use crate::closed_form::Increments;
 use crate::scalar::Symbol;
 
@@ -17,7 +17,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     every bottom disc, the shear −(L−1−2i)/2·mg tanθ, and they sum to the weight L(L+1)/2·mg and to \
                     zero; identities, and by summing over the base",
         hypotheses: "0 ≤ i ≤ k, j = 0, s = 0",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, i, k",
         derive: discs,
     },
@@ -27,7 +27,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     mg(L+d−1)/d under every bottom sphere, one increment is added on every line, the spheres number \
                     C(L+d−1, d), and the normal forces sum to their weight; identities, and by summing over the layers",
         hypotheses: "n_m ≥ 0, L ≥ 1",
-        method: Method::Sum,
+        method: ProofKind::Sum,
         symbols: "L, k, n_1 … n_d",
         derive: dimensions,
     },

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, int, symbol};
-use super::{Formulas, Method, Step, Theorem};
+use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
 use crate::lattice::Direction;
 use crate::scalar::Algebra;
@@ -21,7 +21,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     its surface, or at the first layer of the run, and one more at the sphere below on the line; by \
                     induction, for − steps under (i, j) → (−i, −j)",
         hypotheses: "bounds tight",
-        method: Method::Induction,
+        method: ProofKind::Induction,
         symbols: "i, j, m, x_0, x_1, y_0, y_1, s_0, s_1",
         derive: region_counts,
     },
@@ -30,7 +30,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         statement: "Within a run of one sign a line of contacts that carries f at its first sphere carries f + m w \
                     after m spheres more, w an increment: one jump is as good as m steps; by induction",
         hypotheses: "m ≥ 0",
-        method: Method::Induction,
+        method: ProofKind::Induction,
         symbols: "f, m, s",
         derive: run,
     },
@@ -38,7 +38,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
         name: "tripled-half-turn",
         statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, which the exact engine computes, is 3Gg; an identity",
         hypotheses: "any forces",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
         derive: tripled,
     },
@@ -49,7 +49,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     If the sign changes there, that sphere passes on 1 − (f+m−1)/3 along it, which is negative if \
                     f + m > 4: so no run of five steps or more, after which the sign changes, stands; an identity",
         hypotheses: "f ≥ 0, m ≥ 1, weights of mg",
-        method: Method::Identity,
+        method: ProofKind::Identity,
         symbols: "f, m",
         derive: edge,
     },
@@ -62,7 +62,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     sign or not. Loads add up, and a weight is a load: so under gravity, of every stacking and base, \
                     ΣF_z is the weight, ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ); by induction",
         hypotheses: "s = 1/2, no other weights",
-        method: Method::Induction,
+        method: ProofKind::Induction,
         symbols: "g_1, g_2, g_3, x, y",
         derive: point_load,
     },

@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use num_rational::BigRational;
 
 use super::Refusal;
-use crate::lattice::{Direction, Numbering, Selection, Site};
-use crate::scalar::{Sign, Surd};
-use crate::{ContactForce, Error, Packing, stacking};
+use crate::lattice::{Direction, Sign, Site};
+use crate::scalar::{RealSign, Surd};
+use crate::shape::{Numbering, Selection};
+use crate::{ContactForce, Error, Packing};
 
 /// A contact of the pile.
 pub(super) struct Exact {
@@ -50,7 +51,7 @@ pub(super) fn contacts<'p>(
 const KNOWN: usize = 1 << 15;
 
 /// What a force depends on: the way it points, and its multiple of f₀.
-type Key = (Option<stacking::Sign>, Direction, BigRational);
+type Key = (Option<Sign>, Direction, BigRational);
 
 /// Forces rounded to floats, each once while it is remembered.
 struct Rounded<'r, 'p> {
@@ -98,7 +99,7 @@ impl<'r, 'p> Rounded<'r, 'p> {
 /// A force as the nearest float, of full precision.
 fn rounded(force: &Surd) -> Result<f64, Refusal> {
     match (force.nearest::<f64>(), force.sign()) {
-        (Some(float), Sign::Zero) => Ok(float),
+        (Some(float), RealSign::Zero) => Ok(float),
         (Some(float), _) if float.is_normal() => Ok(float),
         _ => Err(Refusal::OutOfRange),
     }

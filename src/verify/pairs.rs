@@ -1,7 +1,7 @@
 //! Measured pairs, each once, with the sphere of the lesser number first.
 
 use super::{Fault, MAX_ENTRIES, Measured, Refusal};
-use crate::lattice::Numbering;
+use crate::shape::Numbering;
 
 /// What was measured, sorted by pairs.
 pub(super) struct Pairs(Vec<Pair>);

@@ -4,7 +4,8 @@ use super::difference::{Difference, Extra, distance};
 use super::exact::Exact;
 use super::pairs::Pairs;
 use super::{Comparison, Measured};
-use crate::lattice::{Dimension, Numbering};
+use crate::lattice::Dimension;
+use crate::shape::Numbering;
 
 /// How many missing and how many extra contacts are kept; all of them are counted.
 const KEPT: usize = 1000;

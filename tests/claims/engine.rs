@@ -6,7 +6,8 @@
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
-use cannonpile::lattice::{Direction, Selection, Site};
+use cannonpile::lattice::{Direction, Site};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, FloorForce, Statics};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -190,7 +191,7 @@ mod planted {
     use crate::generators::number::power;
     use cannonpile::Pile;
     use cannonpile::lattice::Region;
-    use cannonpile::stacking::Sign::{Minus, Plus};
+    use cannonpile::lattice::Sign::{Minus, Plus};
 
     /// A pile with one change of each kind, a heavy sphere and a load.
     fn described() -> Described {

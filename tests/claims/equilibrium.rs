@@ -5,7 +5,8 @@
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
-use cannonpile::lattice::{Dimension, Direction, Selection, Site};
+use cannonpile::lattice::{Dimension, Direction, Site};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, FloorForce, Pile, Statics};
 use num_rational::BigRational;
 use num_traits::{One, Zero};

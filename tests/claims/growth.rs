@@ -2,8 +2,7 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::lattice::{Direction, MAX_LAYERS, Region};
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{Direction, MAX_LAYERS, Region, Sign};
 
 use super::numbered::first_of;
 use super::{Checked, demand, one_line, same};

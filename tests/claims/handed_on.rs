@@ -8,8 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use cannonpile::lattice::{Direction, Site};
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{Direction, Sign, Site};
 use cannonpile::{ContactForce, FloorForce};
 use num_rational::BigRational;
 use num_traits::Zero;

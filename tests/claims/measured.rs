@@ -7,8 +7,8 @@ use std::fmt::Write;
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::Selection;
 use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
 use cannonpile::verify::{self, Comparison, Measured, Refusal};
 use cannonpile::{Packing, Pile};
 use num_traits::{Signed, ToPrimitive};

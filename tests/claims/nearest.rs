@@ -1,7 +1,7 @@
 //! A root is rounded to the nearest float, ties to even. The judge stands in `tests/judge`.
 
 use arbitrary::Unstructured;
-use cannonpile::scalar::{NearestFloat, Sign, Surd};
+use cannonpile::scalar::{NearestFloat, RealSign, Surd};
 use num_traits::Zero;
 
 use super::{Checked, Failure, same};
@@ -31,9 +31,9 @@ pub(crate) fn nearest(surd: &Surd, value: &Value) -> Checked {
     let square = value.square();
     same("the square", &surd.square(), &square)?;
     let sign = match (square.is_zero(), value.is_negative()) {
-        (true, _) => Sign::Zero,
-        (false, true) => Sign::Negative,
-        (false, false) => Sign::Positive,
+        (true, _) => RealSign::Zero,
+        (false, true) => RealSign::Negative,
+        (false, false) => RealSign::Positive,
     };
     same("the sign", &surd.sign(), &sign)?;
     is_nearest(surd.nearest::<f64>(), value)?;

@@ -2,7 +2,8 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::lattice::{MAX_LAYERS, Region, Row, Shape, Site};
+use cannonpile::lattice::{MAX_LAYERS, Region, Row, Site};
+use cannonpile::shape::Shape;
 use cannonpile::stacking::Stacking;
 use num_bigint::{BigInt, BigUint};
 

@@ -5,8 +5,7 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::lattice::{MAX_LAYERS, Region};
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{MAX_LAYERS, Region, Sign};
 use num_bigint::BigInt;
 
 use super::sets::{Sites, dilated, eroded, within};

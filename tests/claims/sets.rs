@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::Sign;
 
 /// The sites of one layer, each as (j, i).
 pub(crate) type Sites = BTreeSet<(i128, i128)>;

@@ -2,7 +2,8 @@
 //! others.
 
 use arbitrary::Unstructured;
-use cannonpile::lattice::{Dimension, Selection, Site, count};
+use cannonpile::lattice::{Dimension, Site, count};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -5,8 +5,8 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::lattice::MAX_LAYERS;
-use cannonpile::stacking::{Run, Sign, Stacking};
+use cannonpile::lattice::{MAX_LAYERS, Sign};
+use cannonpile::stacking::{Run, Stacking};
 use num_bigint::{BigInt, BigUint, ToBigUint};
 use num_traits::{One, Zero};
 

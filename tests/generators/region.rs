@@ -2,8 +2,9 @@
 //! on them.
 
 use arbitrary::{Result, Unstructured};
-use cannonpile::lattice::{MAX_LAYERS, Region, Shape, Site};
-use cannonpile::stacking::{Sign, Stacking};
+use cannonpile::lattice::{MAX_LAYERS, Region, Sign, Site};
+use cannonpile::shape::Shape;
+use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Signed;

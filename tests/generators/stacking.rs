@@ -1,8 +1,8 @@
 //! Stackings: straight, periodic, changed once or anyhow; runs of any length; their notations, and damaged ones.
 
 use arbitrary::{Result, Unstructured};
-use cannonpile::lattice::MAX_LAYERS;
-use cannonpile::stacking::{Run, Sign, Stacking};
+use cannonpile::lattice::{MAX_LAYERS, Sign};
+use cannonpile::stacking::{Run, Stacking};
 
 /// Up to `most` signs: straight, of period one or two, with one change, or any.
 pub(crate) fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {

@@ -3,8 +3,9 @@
 use std::panic::catch_unwind;
 
 use cannonpile::Error;
-use cannonpile::lattice::{Dimension, Region, Selection, Shape};
-use cannonpile::stacking::{MAX_RUNS, Run, Sign, Stacking};
+use cannonpile::lattice::{Dimension, Region, Sign};
+use cannonpile::shape::{Selection, Shape};
+use cannonpile::stacking::{MAX_RUNS, Run, Stacking};
 
 #[test]
 fn one_layer_is_its_own_mirror_image() {

@@ -4,8 +4,9 @@
 //! polynomial from there on: every way in which that happens in a box is tried.
 
 use cannonpile::Error;
-use cannonpile::lattice::{Region, Row, Selection, Shape, Site};
-use cannonpile::stacking::{Run, Sign, Stacking};
+use cannonpile::lattice::{Region, Row, Sign, Site};
+use cannonpile::shape::{Selection, Shape};
+use cannonpile::stacking::{Run, Stacking};
 
 use crate::sets::{Sites, on};
 use crate::{each_bounds, each_signs, random_bounds, region, sites_of};

@@ -1,7 +1,6 @@
 //! Dilation and erosion against their definitions, and the spheres above on a line against a walk up it.
 
-use cannonpile::lattice::Region;
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{Region, Sign};
 
 use crate::sets::{Sites, dilated, eroded, on, supports, under};
 use crate::{each_bounds, random_bounds, region, sites_of};

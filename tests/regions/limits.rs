@@ -1,8 +1,7 @@
 //! Regions about the greatest coordinates, ±10³⁶: refused beyond, and nothing overflows up to them.
 
 use cannonpile::Error;
-use cannonpile::lattice::{MAX_LAYERS, Region};
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{MAX_LAYERS, Region, Sign};
 use num_bigint::{BigInt, BigUint};
 
 use crate::region;

@@ -1,8 +1,8 @@
 //! Stackings of many layers, which are as small as their changes of sign, and what is refused.
 
 use cannonpile::Error;
-use cannonpile::lattice::MAX_LAYERS;
-use cannonpile::stacking::{MAX_RUNS, Run, Sign, Stacking};
+use cannonpile::lattice::{MAX_LAYERS, Sign};
+use cannonpile::stacking::{MAX_RUNS, Run, Stacking};
 
 /// The longest text read, in bytes.
 const LONGEST: usize = 4_000_000;

@@ -23,8 +23,7 @@ mod sets;
 mod shapes;
 
 use cannonpile::Error;
-use cannonpile::lattice::Region;
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{Region, Sign};
 use proptest::collection::vec;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 

@@ -1,6 +1,7 @@
 //! Every stacking of up to twelve steps in four notations, against signs kept as booleans.
 
-use cannonpile::stacking::{Run, Sign, Stacking};
+use cannonpile::lattice::Sign;
+use cannonpile::stacking::{Run, Stacking};
 
 use crate::each_signs;
 

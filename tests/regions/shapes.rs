@@ -1,8 +1,9 @@
 //! Piles of mixed stackings, layer by layer against sets of sites: what they have, how they are walked and counted.
 
 use cannonpile::Error;
-use cannonpile::lattice::{Direction, Region, Row, Rows, Selection, Shape, Site};
-use cannonpile::stacking::{Sign, Stacking};
+use cannonpile::lattice::{Direction, Region, Row, Sign, Site};
+use cannonpile::shape::{Rows, Selection, Shape};
+use cannonpile::stacking::Stacking;
 use num_bigint::BigUint;
 
 use crate::sets::{Sites, on, supports, under};

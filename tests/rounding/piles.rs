@@ -1,9 +1,10 @@
 //! Piles of every kind, their spacings, sizes and weights.
 
 use cannonpile::geometry::Spacing;
+use cannonpile::lattice::Sign;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
 use cannonpile::scalar::{NearestFloat, Surd};
-use cannonpile::stacking::{Sign, Stacking};
+use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};

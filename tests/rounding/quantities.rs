@@ -1,7 +1,7 @@
 //! The physical quantities of a pile.
 
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::scalar::{Sign, Surd};
+use cannonpile::scalar::{RealSign, Surd};
 use cannonpile::{Error, Packing, Strengths};
 
 use super::piles::{self, Measure};
@@ -105,7 +105,10 @@ impl Quantity {
                 tally.meet(&root);
             }
         }
-        let nonzero: Vec<&Surd> = targets.iter().filter(|x| x.sign() != Sign::Zero).collect();
+        let nonzero: Vec<&Surd> = targets
+            .iter()
+            .filter(|x| x.sign() != RealSign::Zero)
+            .collect();
         for _ in 0..64 {
             let target = (!nonzero.is_empty()).then(|| random.of(&nonzero));
             packing = piles::resized(packing, self.measure(), target, random)?;

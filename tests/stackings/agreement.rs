@@ -5,7 +5,8 @@
 
 use std::ops::RangeInclusive;
 
-use cannonpile::lattice::{Region, Selection};
+use cannonpile::lattice::Region;
+use cannonpile::shape::Selection;
 
 use crate::cases::{Bounds, Case, Random, all_on, all_signs};
 use crate::compare::{agrees, contacts_in_rows};

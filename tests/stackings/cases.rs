@@ -1,8 +1,8 @@
 //! The piles of the tests, each made twice: for the library and for the oracle.
 
 use cannonpile::Pile;
-use cannonpile::lattice::Region;
-use cannonpile::stacking::{Sign, Stacking};
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 

@@ -1,6 +1,6 @@
 //! Every answer of the library beside that of the oracle. An error says where they part.
 
-use cannonpile::lattice::Selection;
+use cannonpile::shape::Selection;
 use cannonpile::{ContactForce, FloorForce, Pile, Statics};
 use num_rational::BigRational;
 

@@ -1,6 +1,7 @@
 //! What the documentation promises at the edges: of other piles' rows, single layers, straight piles of − steps.
 
-use cannonpile::lattice::{Region, Selection};
+use cannonpile::lattice::Region;
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{ContactForce, Error, Pile, Statics};
 use num_rational::BigRational;

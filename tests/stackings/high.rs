@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use cannonpile::lattice::{Region, Selection};
-use cannonpile::stacking::{Run, Sign, Stacking};
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::{Run, Stacking};
 use cannonpile::{Method, Pile};
 use num_rational::BigRational;
 

@@ -5,7 +5,7 @@
 //! Heights are n·2R cosθ over the base, and (n·2R cosθ)² tan²θ = n² in the unit (2R sinθ)².
 
 use cannonpile::Statics;
-use cannonpile::lattice::Selection;
+use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};

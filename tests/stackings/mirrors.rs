@@ -1,6 +1,7 @@
 //! Symmetric piles have symmetric forces: the mirror image of any pile, the rotations and reflections of tops that have them.
 
-use cannonpile::lattice::{Region, Selection, Site};
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{ContactForce, FloorForce, Pile, Statics};
 use num_rational::BigRational;

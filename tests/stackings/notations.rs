@@ -95,7 +95,7 @@ fn mirrored_and_reversed_are_what_they_are_of_the_signs() {
         assert_eq!(it.layers(), i128::try_from(signs.len() + 1).unwrap());
         assert!(
             it.signs()
-                .map(cannonpile::stacking::Sign::symbol)
+                .map(cannonpile::lattice::Sign::symbol)
                 .eq(signs.chars())
         );
     }

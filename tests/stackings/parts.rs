@@ -1,7 +1,8 @@
 //! Parts of a pile in rows: begun in the middle, of one sphere, of another pile; and piles of discs and on isosceles
 //! bases with loads.
 
-use cannonpile::lattice::{Region, Rows, Selection, Site};
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::{Rows, Selection};
 use cannonpile::{ContactForce, Error, Pile, Statics};
 use num_rational::BigRational;
 use num_traits::Zero;

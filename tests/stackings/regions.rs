@@ -1,7 +1,6 @@
 //! Six-sided regions as the sets of sites that they are: bounds, corners, rows, dilation, erosion, mirror images.
 
-use cannonpile::lattice::Region;
-use cannonpile::stacking::Sign;
+use cannonpile::lattice::{Region, Sign};
 
 use crate::cases::{Bounds, Random};
 use crate::oracle::{Naive, Sites};

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use cannonpile::Statics;
-use cannonpile::lattice::Selection;
+use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};

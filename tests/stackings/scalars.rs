@@ -1,8 +1,8 @@
 //! Other scalars than `BigRational`, against the oracle: rounded ones within a bound that follows from their
 //! precision, enclosing ones around it, bounded ones equal to it or refused.
 
-use cannonpile::lattice::Selection;
 use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Interval, Polynomial};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, Statics};
 use num_bigint::BigInt;
 use num_rational::BigRational;

@@ -1,6 +1,7 @@
 //! Which sites a pile has, who touches whom, how many there are: against sets of sites.
 
-use cannonpile::lattice::{Selection, Site};
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
 use num_bigint::BigUint;
 
 use crate::cases::{Bounds, Case, Random, all_on, all_signs};

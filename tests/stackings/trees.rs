@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
 

@@ -4,7 +4,8 @@
 use std::collections::BTreeSet;
 
 use cannonpile::Plan;
-use cannonpile::lattice::{Selection, Site};
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::pow;

@@ -3,8 +3,8 @@
 use core::fmt;
 
 use cannonpile::Pile;
-use cannonpile::lattice::Selection;
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
+use cannonpile::shape::Selection;
 use num_rational::BigRational;
 use num_traits::Signed;
 

@@ -1,7 +1,8 @@
 //! What is asked of each pile, in any scalar: contact forces and forces on the floor, in pile units.
 
-use cannonpile::lattice::{Direction, Region, Rows, Selection, Site};
+use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Algebra;
+use cannonpile::shape::{Rows, Selection};
 use cannonpile::{Error, Pile, Statics};
 
 /// Three numbers about a sphere.

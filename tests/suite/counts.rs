@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::answers::{Shape, above, below, ratio};
-use cannonpile::lattice::{
-    Dimension, Direction, MAX_LAYERS, Row, Selection, Shape as Sites, Site, count,
-};
+use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Row, Site, count};
+use cannonpile::shape::{Selection, Shape as Sites};
 use cannonpile::{Error, Pile};
 use num_bigint::BigUint;
 use num_rational::BigRational;

@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use cannonpile::scalar::{Algebra, DoubleDouble, Field, RealEmbeddable, Ring, Sign};
+use cannonpile::scalar::{Algebra, DoubleDouble, Field, RealEmbeddable, RealSign, Ring};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
@@ -291,5 +291,5 @@ fn infinities_and_not_a_number() {
         }
     }
     let tiny = DoubleDouble::new(1.0) + DoubleDouble::new(-1e-30);
-    assert_eq!((tiny - &DoubleDouble::one()).sign(), Sign::Negative);
+    assert_eq!((tiny - &DoubleDouble::one()).sign(), RealSign::Negative);
 }

@@ -2,9 +2,10 @@
 
 use crate::answers::{Shape, ratio};
 use cannonpile::geometry::{Inclination, Spacing};
-use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Selection, Site};
+use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Site};
 use cannonpile::scalar::{FixedRational, Surd};
 use cannonpile::scene::{Scene, parse};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;
 

@@ -1,6 +1,7 @@
 //! Extremes over a base, and the least contact, found among few spheres, are those of all.
 
-use cannonpile::lattice::{Region, Selection, Site};
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{BaseExtremes, ContactForce, Pile};
 use num_rational::BigRational;

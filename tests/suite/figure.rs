@@ -10,8 +10,9 @@ use cannonpile::figure::{
     BaseMap, Indexing, Network, Picture, Response, Scale, SphereForces, Subject, WorkPrecision,
 };
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing};
 use num_rational::BigRational;

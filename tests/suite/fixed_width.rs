@@ -4,7 +4,7 @@ use core::num::NonZeroI64;
 
 use crate::answers::{Shape, ratio};
 use cannonpile::lattice::{Direction, MAX_LAYERS, Site};
-use cannonpile::scalar::{Algebra, FixedInteger, FixedRational, RealEmbeddable, Ring, Sign};
+use cannonpile::scalar::{Algebra, FixedInteger, FixedRational, RealEmbeddable, RealSign, Ring};
 use cannonpile::{Error, Pile, Statics};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -196,7 +196,7 @@ fn least_integers_are_faults() {
         let big: BigInt = least.into();
         let image = FixedRational::<I>::from_rational(&BigRational::from_integer(big.clone()));
         assert!(!image.is_defined() && image != image, "{name}");
-        assert_eq!(image.sign(), Sign::Unknown);
+        assert_eq!(image.sign(), RealSign::Unknown);
         assert_eq!(image.enclosure(), None);
         let inverse = FixedRational::<I>::from_rational(&BigRational::new(1.into(), big));
         assert!(!inverse.is_defined(), "{name}");

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::answers::ratio;
 use crate::flawed::{Fault, Flawed, flawed};
-use cannonpile::scalar::{Exactness, NearestFloat, Sign, laws};
+use cannonpile::scalar::{Exactness, NearestFloat, RealSign, laws};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Signed, Zero};
@@ -128,7 +128,7 @@ caught! {
         fn div_int(a: &Q, n: i64) -> Q { a / BigInt::from(n).abs() }
     }
     sign_of_zero breaks "the sign is that of the value": {
-        fn sign(a: &Q) -> Sign { if a.is_negative() { Sign::Negative } else { Sign::Positive } }
+        fn sign(a: &Q) -> RealSign { if a.is_negative() { RealSign::Negative } else { RealSign::Positive } }
     }
     cast_to_64_bits breaks "n and n/1 have one image": {
         fn integer(n: i128) -> Q { wrapped(&Q::from_integer(n.into())) }

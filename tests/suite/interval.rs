@@ -1,6 +1,6 @@
 //! An interval holds every true result, and hardly more: against rationals, on operands of every size.
 
-use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, Ring, Sign};
+use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, RealSign, Ring};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Zero};
@@ -299,12 +299,16 @@ fn signs_are_those_of_all_points() {
     for a in nasty() {
         let holds_zero = a.contains(&BigRational::zero());
         let want = match (holds_zero, a.lower() < 0.0, a.upper() > 0.0) {
-            (true, false, false) => Sign::Zero,
-            (true, ..) => Sign::Unknown,
-            (false, true, _) => Sign::Negative,
-            (false, ..) => Sign::Positive,
+            (true, false, false) => RealSign::Zero,
+            (true, ..) => RealSign::Unknown,
+            (false, true, _) => RealSign::Negative,
+            (false, ..) => RealSign::Positive,
         };
-        assert_eq!((a.sign(), a.is_zero()), (want, want == Sign::Zero), "{a:?}");
+        assert_eq!(
+            (a.sign(), a.is_zero()),
+            (want, want == RealSign::Zero),
+            "{a:?}"
+        );
         assert_eq!(
             Interval::one().checked_div(&a).is_none(),
             holds_zero,

@@ -1,8 +1,9 @@
 //! Every method gives the same exact forces, and takes no more than its plan says.
 
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Dimension, Direction, Region, Selection, Site};
+use cannonpile::lattice::{Dimension, Direction, Region, Site};
 use cannonpile::scalar::{Algebra, FixedRational, Interval, Pair, RealEmbeddable};
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Counters, Error, Method, Packing, Pile, Plan, Quantity, Question};
 use num_bigint::{BigInt, BigUint};

@@ -4,10 +4,11 @@ use cannonpile::closed_form::{
     Increments, corner_shear_ratio, force_on_floor, resultant_above, unbalanced,
 };
 use cannonpile::geometry::{Vector, directions, disc_directions, position, squared_distance};
-use cannonpile::lattice::{Direction, Selection, Site, count};
+use cannonpile::lattice::{Direction, Site, count};
 use cannonpile::scalar::{
     Algebra, DoubleDouble, Exactness, Field, Interval, Polynomial, RealEmbeddable, Symbol,
 };
+use cannonpile::shape::Selection;
 use cannonpile::transfer::half_turn;
 use cannonpile::{Error, Pile};
 use num_bigint::BigInt;

@@ -4,11 +4,12 @@ use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Direction, Selection, Site};
+use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{
     Algebra, DoubleDouble, Enclosure, Exactness, Field, FixedRational, Interval, Pair,
-    RealEmbeddable, Ring, Sign,
+    RealEmbeddable, RealSign, Ring,
 };
+use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};
@@ -123,7 +124,7 @@ impl<const WRONG: u8> Field for Planted<WRONG> {
 }
 
 impl<const WRONG: u8> RealEmbeddable for Planted<WRONG> {
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         self.0.sign()
     }
 
@@ -275,13 +276,13 @@ fn an_overflow_is_a_parting() {
             .values
             .ends_with("overflow")
     );
-    assert_eq!((fault.sign(), fault.enclosure()), (Sign::Unknown, None));
+    assert_eq!((fault.sign(), fault.enclosure()), (RealSign::Unknown, None));
     // No quotient by what one of the two cannot divide by.
     assert!(big.checked_div(&fault).is_none() && big.checked_div(&Checked::zero()).is_none());
     let around_zero = Pair::new(Q::one(), Interval::new(-1.0, 1.0).expect("an interval"));
     assert_eq!(
         (around_zero.sign(), around_zero.checked_div(&around_zero)),
-        (Sign::Unknown, None)
+        (RealSign::Unknown, None)
     );
     assert_eq!(around_zero.enclosure(), Some(Enclosure::point(Q::one())));
 }

@@ -7,10 +7,12 @@ use core::fmt::Debug;
 
 use cannonpile::census;
 use cannonpile::geometry::{Apart, Spacing, Vector};
-use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Selection, Site};
+use cannonpile::lattice::Sign;
+use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Site};
 use cannonpile::scalar::{DoubleDouble, Enclosure, FixedRational, Interval, Surd};
 use cannonpile::scene::parse;
-use cannonpile::stacking::{Pattern, Run, Sign, Stacking};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::{Pattern, Run, Stacking};
 use cannonpile::{
     BaseExtremes, ContactForce, Counters, FloorForce, Method, PackedContact, Packing, Pile, Plan,
     Quantity, Question, Standing, Verdict,

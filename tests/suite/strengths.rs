@@ -1,8 +1,9 @@
 //! Forces filled into slices are those that are asked for one by one.
 
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Direction, Region, Selection, Site};
+use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scene::parse;
+use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing, Pile, Strengths};
 use num_rational::BigRational;
 

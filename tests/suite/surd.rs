@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use crate::answers::ratio;
 use crate::judge::exact;
-use cannonpile::scalar::{Sign, Surd};
+use cannonpile::scalar::{RealSign, Surd};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, Zero};
 
@@ -66,9 +66,9 @@ fn order_is_that_of_the_signed_squares() {
 fn sign_square_and_negation() {
     for (a, sign, square) in samples() {
         let wanted = match sign {
-            -1 => Sign::Negative,
-            0 => Sign::Zero,
-            _ => Sign::Positive,
+            -1 => RealSign::Negative,
+            0 => RealSign::Zero,
+            _ => RealSign::Positive,
         };
         assert_eq!(a.sign(), wanted, "{a}");
         assert_eq!(a.square(), square, "{a}");

@@ -6,7 +6,7 @@ mod numbers;
 use std::collections::BTreeSet;
 
 use self::faults::Fault;
-use cannonpile::theorem::{self, Formulas, Listing, Method};
+use cannonpile::theorem::{self, Formulas, Listing, ProofKind};
 
 #[test]
 fn every_theorem_holds() {
@@ -70,9 +70,9 @@ fn statements_name_their_subject_and_method() {
         let (_, subject) = named.unwrap_or_else(|| panic!("no subject for {}", theorem.name));
         assert!(theorem.statement.contains(subject), "{}", theorem.name);
         let words: &[_] = match theorem.method {
-            Method::Identity => &["an identity"],
-            Method::Sum => &["by summing"],
-            Method::Induction => &["by induction"],
+            ProofKind::Identity => &["an identity"],
+            ProofKind::Sum => &["by summing"],
+            ProofKind::Induction => &["by induction"],
         };
         assert!(
             words.iter().any(|word| theorem.statement.contains(word)),

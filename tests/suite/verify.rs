@@ -6,7 +6,8 @@ mod files;
 mod lammps;
 
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Region, Selection, Site};
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::verify::{Comparison, Fault, Measured, Refusal};
 use cannonpile::{Error, Packing, Pile};

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::PileExport;
 use super::progress::Progress;
 use crate::export::{FileFormat, NumberFormat, Units, WriteError, tables};
-use crate::lattice::Selection;
+use crate::shape::Selection;
 
 pub(super) fn write(
     export: &PileExport<'_>,

@@ -8,7 +8,8 @@ use super::progress::Progress;
 use super::rounded::Centres;
 use crate::Error;
 use crate::export::WriteError;
-use crate::lattice::{Dimension, Selection};
+use crate::lattice::Dimension;
+use crate::shape::Selection;
 
 /// The most atoms of LAMMPS as it is usually compiled.
 const MOST_ATOMS: u64 = i32::MAX as u64;

@@ -6,9 +6,10 @@ use std::hash::{Hash, Hasher};
 
 use num_rational::BigRational;
 
-use crate::lattice::{Dimension, Direction, Numbering, Row, Rows, Selection, Site};
+use crate::lattice::Sign;
+use crate::lattice::{Dimension, Direction, Row, Site};
 use crate::scalar::Surd;
-use crate::stacking::Sign;
+use crate::shape::{Numbering, Rows, Selection};
 use crate::{Error, Packing};
 
 /// The nearest float; `quantity` is named if there is none.

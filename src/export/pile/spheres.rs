@@ -7,7 +7,8 @@ use super::progress::Progress;
 use super::rounded::{Centres, nearest_rational};
 use crate::Error;
 use crate::export::WriteError;
-use crate::lattice::{Dimension, Selection, Site};
+use crate::lattice::{Dimension, Site};
+use crate::shape::Selection;
 
 pub(super) fn write(
     export: &PileExport<'_>,

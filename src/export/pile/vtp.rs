@@ -8,7 +8,8 @@ use super::progress::Progress;
 use super::rounded::{Centres, Forces, Touch, Touches, contacts, nearest, nearest_rational};
 use crate::Error;
 use crate::export::WriteError;
-use crate::lattice::{Selection, Site};
+use crate::lattice::Site;
+use crate::shape::Selection;
 
 /// A point and a vertex for each sphere.
 pub(super) fn write_spheres(

@@ -7,7 +7,8 @@ use super::dem::{Springs, burdens, density, inertia, normal};
 use super::progress::Progress;
 use super::rounded::Centres;
 use crate::export::WriteError;
-use crate::lattice::{Dimension, Selection};
+use crate::lattice::Dimension;
+use crate::shape::Selection;
 
 /// What `ymport.text` reads: `x y z r`, a sphere a line.
 pub(super) fn write_spheres(

@@ -3,8 +3,7 @@
 use core::ops::Range;
 
 use super::Region;
-use crate::lattice::count;
-use crate::stacking::Sign;
+use crate::lattice::{Sign, count};
 
 impl Region {
     /// How many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
@@ -15,8 +14,7 @@ impl Region {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::Region;
-    /// use cannonpile::stacking::Sign;
+    /// use cannonpile::lattice::{Region, Sign};
     ///
     /// // Layer 5 of the paper's pile: (k−i−j, i, j).
     /// let layer = Region::triangle(6)?;

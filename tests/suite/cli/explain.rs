@@ -2,7 +2,8 @@
 
 use cannonpile::export::{Explanation, Units};
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Region, Selection};
+use cannonpile::lattice::Region;
+use cannonpile::shape::Selection;
 use cannonpile::{Packing, Pile, Quantity};
 use num_rational::BigRational;
 

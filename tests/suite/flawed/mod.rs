@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, Ring, Sign};
+use cannonpile::scalar::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
@@ -44,7 +44,7 @@ pub(crate) trait Fault: Clone + Debug + PartialEq + Send + Sync {
     fn div(a: &Q, b: &Q) -> Option<Q> {
         (!b.is_zero()).then(|| a / b)
     }
-    fn sign(a: &Q) -> Sign {
+    fn sign(a: &Q) -> RealSign {
         RealEmbeddable::sign(a)
     }
 }
@@ -162,7 +162,7 @@ impl<F: Fault> Field for Flawed<F> {
 }
 
 impl<F: Fault> RealEmbeddable for Flawed<F> {
-    fn sign(&self) -> Sign {
+    fn sign(&self) -> RealSign {
         F::sign(&self.0)
     }
 

@@ -2,7 +2,8 @@
 
 use cannonpile::Pile;
 use cannonpile::export::{FileFormat, NumberFormat, PileExport, PileFile, Table, Units, tables};
-use cannonpile::lattice::{Dimension, Selection, Site};
+use cannonpile::lattice::{Dimension, Site};
+use cannonpile::shape::Selection;
 
 use super::{bytes, columns, for_each_pile, packing, text};
 

@@ -1,6 +1,7 @@
 //! Forces on the floor, sphere by sphere and summed over real piles.
 
-use cannonpile::lattice::{Selection, Site};
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational as Q;
 use num_traits::Zero;

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Direction, Selection, Site, Symmetry};
+use cannonpile::lattice::{Direction, Site, Symmetry};
+use cannonpile::shape::Selection;
 use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
 

@@ -1,7 +1,8 @@
 //! Discs, and piles in more dimensions, sphere by sphere.
 
 use cannonpile::closed_form::Increments;
-use cannonpile::lattice::{Selection, Site};
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational as Q;
 use num_traits::Zero;

@@ -8,14 +8,16 @@ use num_traits::Zero;
 
 use super::{Anchor, Shape, Stretch};
 use crate::Error;
-use crate::lattice::{Numbering, Site};
+use crate::lattice::Site;
+use crate::shape::Numbering;
 
 impl Shape {
     /// The number of spheres, of any size.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     /// use cannonpile::stacking::Stacking;
     ///
     /// let shape = Shape::under(Region::SITE, Stacking::fcc(10)?)?;
@@ -84,7 +86,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
     /// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
@@ -105,7 +108,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
     /// assert_eq!(pyramid.numbering()?.id(Site { i: 1, j: 1, k: 2 })?, 9);

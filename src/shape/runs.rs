@@ -1,7 +1,7 @@
 //! The runs of a pile's stacking, by layer.
 
 use super::{Anchor, Shape};
-use crate::stacking::Sign;
+use crate::lattice::Sign;
 
 /// How many steps of each sign lead from one layer to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,8 +104,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
-    /// use cannonpile::stacking::Sign;
+    /// use cannonpile::lattice::{Region, Sign};
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::under(Region::SITE, "++-".parse()?)?;
     /// assert_eq!(shape.sign_below(1), Some(Sign::Plus));

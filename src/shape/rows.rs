@@ -3,8 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::{Shape, Site};
+use super::Shape;
 use crate::Error;
+use crate::lattice::{Row, Site};
 use num_bigint::BigUint;
 
 /// A part of a pile.
@@ -12,7 +13,7 @@ use num_bigint::BigUint;
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::lattice::Selection;
+/// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(10)?;
 /// assert_eq!(pile.rows(Selection::Base)?.sites(), 55_u32.into());
@@ -31,56 +32,12 @@ pub enum Selection {
     All,
 }
 
-/// Consecutive sites of one row: fixed k and j, a range of i.
-///
-/// # Examples
-/// ```
-/// use cannonpile::lattice::{Row, Site};
-///
-/// let row = Row { k: 2, j: 1, i: 0..2 };
-/// assert!(row.into_iter().eq([Site { i: 0, j: 1, k: 2 }, Site { i: 1, j: 1, k: 2 }]));
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Row {
-    /// The layer.
-    pub k: i128,
-    /// The row within the layer.
-    pub j: i128,
-    /// The places within the row.
-    pub i: Range<i128>,
-}
-
-impl IntoIterator for Row {
-    type Item = Site;
-    type IntoIter = Sites;
-
-    fn into_iter(self) -> Sites {
-        Sites(self)
-    }
-}
-
-/// The sites of a [`Row`], in order.
-#[derive(Clone, Debug)]
-pub struct Sites(Row);
-
-impl Iterator for Sites {
-    type Item = Site;
-
-    fn next(&mut self) -> Option<Site> {
-        let Row { k, j, ref mut i } = self.0;
-        i.next().map(|i| Site { i, j, k })
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        self.0.i.size_hint()
-    }
-}
-
 /// The rows of a [`Selection`], from the top, made as they are asked for.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Dimension, Row, Selection, Shape};
+/// use cannonpile::lattice::{Dimension, Row};
+/// use cannonpile::shape::{Selection, Shape};
 ///
 /// let pyramid = Shape::pyramid(3, Dimension::Three)?;
 /// let mut base = pyramid.rows(Selection::Base)?;
@@ -133,7 +90,8 @@ impl<'p> Rows<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Selection, Shape};
+    /// use cannonpile::lattice::Dimension;
+    /// use cannonpile::shape::{Selection, Shape};
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let rows = pyramid.rows(Selection::All)?.off_the_floor();
@@ -152,7 +110,8 @@ impl<'p> Rows<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Selection, Shape};
+    /// use cannonpile::lattice::Dimension;
+    /// use cannonpile::shape::{Selection, Shape};
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// // The rows are of one layer, and their pile is the whole of it.
@@ -178,7 +137,8 @@ impl<'p> Rows<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Selection, Shape};
+    /// use cannonpile::lattice::Dimension;
+    /// use cannonpile::shape::{Selection, Shape};
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let mut rows = pyramid.rows(Selection::All)?;
@@ -206,7 +166,8 @@ impl<'p> Rows<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Selection, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::{Selection, Shape};
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let corners: Vec<Site> = pyramid.rows(Selection::All)?.corners().collect();

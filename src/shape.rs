@@ -1,7 +1,12 @@
 //! The sites of a pile, layer by layer, and how its layers are stacked.
 
 mod counts;
+mod numbering;
+mod rows;
 mod runs;
+
+pub use numbering::Numbering;
+pub use rows::{Rows, Selection};
 
 pub(crate) use runs::Stretch;
 use runs::{Descent, Start};
@@ -9,9 +14,9 @@ use runs::{Descent, Start};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use super::{Dimension, Direction, MAX_LAYERS, Region, Rows, Selection, Site, Trapezoid};
 use crate::Error;
-use crate::stacking::{Pattern, Run, Sign, Stacking};
+use crate::lattice::{Dimension, Direction, MAX_LAYERS, Region, Sign, Site, Trapezoid};
+use crate::stacking::{Pattern, Run, Stacking};
 
 /// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
 ///
@@ -23,7 +28,8 @@ use crate::stacking::{Pattern, Run, Sign, Stacking};
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Direction, Region, Shape, Site};
+/// use cannonpile::lattice::{Direction, Region, Site};
+/// use cannonpile::shape::Shape;
 ///
 /// let hcp = Shape::under(Region::SITE, "+-".parse()?)?;
 /// assert_eq!(hcp.layer(2)?.to_string(), "-1..1,-1..1,-1..1");
@@ -62,7 +68,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
     /// assert!(pyramid.contains(Site { i: 4, j: 5, k: 9 }));
@@ -81,7 +88,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     /// use cannonpile::stacking::Stacking;
     ///
     /// // p plus and q minus steps lead to the hexagon −q ≤ i, j, i+j ≤ p.
@@ -107,7 +115,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     /// use cannonpile::Error;
     ///
     /// assert!(Shape::on(Region::triangle(3)?, "++".parse()?).is_ok());
@@ -173,7 +182,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
     /// assert_eq!(shape.layers(), 3);
@@ -188,7 +198,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Region, Shape};
+    /// use cannonpile::lattice::{Dimension, Region};
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
     /// assert_eq!(shape.dimension(), Dimension::Three);
@@ -203,7 +214,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
     /// assert_eq!(shape.stacking().changes(), 1);
@@ -218,7 +230,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
     /// assert!(!shape.is_pyramid());
@@ -238,7 +251,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
     /// assert!(shape.is_grown_from_base());
@@ -256,7 +270,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Region, Shape};
+    /// use cannonpile::lattice::{Dimension, Region};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
     /// assert_eq!(pyramid.layer(9)?, Region::triangle(10)?);
@@ -274,7 +289,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Region, Shape};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Shape;
     ///
     /// let shape = Shape::on(Region::hexagon(3, 3)?, "+-".parse()?)?;
     /// assert_eq!(shape.base(), Region::hexagon(3, 3)?);
@@ -337,7 +353,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let discs = Shape::pyramid(10, Dimension::Two)?;
     /// assert!(discs.contains(Site { i: 9, j: 0, k: 9 }));
@@ -358,7 +375,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
     /// assert_eq!(pyramid.check(Site::APEX), Ok(Site::APEX));
@@ -389,7 +407,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Direction, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Direction, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(3, Dimension::Three)?;
     /// let below = pyramid.below(Site::APEX, Direction::Beta);
@@ -406,7 +425,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Direction, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Direction, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(3, Dimension::Three)?;
     /// let above = pyramid.above(Site { i: 1, j: 0, k: 1 }, Direction::Beta);
@@ -433,7 +453,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Selection, Shape};
+    /// use cannonpile::lattice::Dimension;
+    /// use cannonpile::shape::{Selection, Shape};
     ///
     /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
     /// assert_eq!(pyramid.rows(Selection::Layer(3))?.count(), 4);
@@ -447,7 +468,8 @@ impl Shape {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Dimension, Shape, Site};
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile::shape::Shape;
     ///
     /// let pyramid = Shape::pyramid(2, Dimension::Three)?;
     /// let sites: Vec<Site> = pyramid.sites().collect();

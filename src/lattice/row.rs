@@ -1,0 +1,51 @@
+//! Consecutive sites of a layer.
+
+use core::ops::Range;
+
+use super::Site;
+
+/// Consecutive sites of one row: fixed k and j, a range of i.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Site;
+/// use cannonpile::shape::Row;
+///
+/// let row = Row { k: 2, j: 1, i: 0..2 };
+/// assert!(row.into_iter().eq([Site { i: 0, j: 1, k: 2 }, Site { i: 1, j: 1, k: 2 }]));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Row {
+    /// The layer.
+    pub k: i128,
+    /// The row within the layer.
+    pub j: i128,
+    /// The places within the row.
+    pub i: Range<i128>,
+}
+
+impl IntoIterator for Row {
+    type Item = Site;
+    type IntoIter = Sites;
+
+    fn into_iter(self) -> Sites {
+        Sites(self)
+    }
+}
+
+/// The sites of a [`Row`], in order.
+#[derive(Clone, Debug)]
+pub struct Sites(Row);
+
+impl Iterator for Sites {
+    type Item = Site;
+
+    fn next(&mut self) -> Option<Site> {
+        let Row { k, j, ref mut i } = self.0;
+        i.next().map(|i| Site { i, j, k })
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.0.i.size_hint()
+    }
+}
