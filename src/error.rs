@@ -8,9 +8,9 @@ use alloc::string::String;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
+use crate::engine::{Method, Quantity};
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
-use crate::plan::{Method, Quantity};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -270,6 +270,21 @@ pub enum Error {
         /// The narrower question.
         remedy: &'static str,
     },
+    /// Something that cannot be, by the named invariant: a fault of this library and of no input.
+    Bug {
+        /// What was to hold, and does not.
+        invariant: &'static str,
+    },
+}
+
+/// Returns the error for a case that `invariant` rules out; where debug assertions are on, it panics instead.
+///
+/// It stands where a default would be a wrong answer: `value.ok_or_else(|| bug("a bottom sphere rests on the floor"))?`.
+#[cold]
+#[track_caller]
+pub(crate) fn bug(invariant: &'static str) -> Error {
+    debug_assert!(false, "broken invariant: {invariant}");
+    Error::Bug { invariant }
 }
 
 impl Error {

@@ -100,6 +100,7 @@ extern crate alloc;
 
 pub mod census;
 pub mod closed_form;
+mod engine;
 mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
@@ -107,18 +108,11 @@ pub mod export;
 #[cfg(feature = "plot")]
 #[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
 pub mod figure;
-mod fill;
+mod forces;
 pub mod geometry;
 pub mod lattice;
-mod lines;
-mod load;
-mod meter;
 mod packing;
-mod parallel;
 mod pile;
-mod plan;
-mod query;
-mod reactions;
 pub mod scalar;
 pub mod scene;
 #[cfg(feature = "serde")]
@@ -127,23 +121,20 @@ pub mod serde;
 pub mod shape;
 pub mod stacking;
 mod standing;
-mod sweep;
 pub mod theorem;
 pub mod transfer;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;
 
+pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
 pub use error::Error;
-pub use fill::Strengths;
-pub use meter::{Counters, Meter};
+pub use forces::{
+    Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
+};
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
-pub use plan::{Method, Plan, Quantity, Question};
-pub use query::{ContactForce, FloorForce, Statics};
-pub use reactions::BaseExtremes;
-pub use standing::{Standing, Verdict};
-pub use sweep::{ExactSweep, Sweep};
+pub use standing::{BaseExtremes, Standing, Verdict};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

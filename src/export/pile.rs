@@ -187,9 +187,8 @@ impl<'p> PileExport<'p> {
         let pile = packing.pile();
         let remedy = "use fewer layers, or a smaller top or base";
         refuse_beyond(&pile.spheres().max(pile.contacts()), remedy)?;
-        let units = Units::of_packing(packing.clone());
-        pile.plan(units.question(Selection::All, false))?;
-        pile.plan(units.question(Selection::Base, true))?;
+        pile.plan(Selection::All)?;
+        pile.plan(Selection::Base)?;
         Ok(Self {
             numbering: pile.numbering()?,
             packing: packing.clone(),

@@ -12,7 +12,7 @@ use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::{Ring, Surd};
 use crate::shape::{Rows, Selection};
 use crate::theorem::{Proof, Theorem};
-use crate::{ContactForce, Error, FloorForce, Packing, Pile, Statics};
+use crate::{ContactForce, Error, FloorForce, Packing, Forces, Pile};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;
@@ -21,7 +21,7 @@ pub const MAX_ROWS: u64 = 100_000_000_000;
 #[derive(Clone, Debug)]
 pub enum Units<'p> {
     /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
-    Pile(Box<Statics<'p, BigRational>>),
+    Pile(Box<Forces<'p, BigRational>>),
     /// Newtons and metres, for radius, mass and gravity in SI units.
     Si(Box<Packing<'p>>),
 }
@@ -42,7 +42,7 @@ impl<'p> Units<'p> {
     /// ```
     #[must_use]
     pub fn of_pile(pile: &'p Pile) -> Self {
-        Self::Pile(Box::new(pile.statics()))
+        Self::Pile(Box::new(pile.forces()))
     }
 
     /// SI units.
@@ -68,7 +68,7 @@ impl<'p> Units<'p> {
 
     pub(super) fn pile(&self) -> &'p Pile {
         match self {
-            Self::Pile(statics) => statics.pile(),
+            Self::Pile(forces) => forces.pile(),
             Self::Si(packing) => packing.pile(),
         }
     }
@@ -76,24 +76,18 @@ impl<'p> Units<'p> {
     /// The forces of the bottom spheres of these rows on the floor.
     fn base(
         &self,
-        rows: Rows<'p>,
-    ) -> Box<dyn Iterator<Item = Result<FloorForce<Surd>, Error>> + 'p> {
-        match self {
-            Self::Pile(statics) => Box::new(statics.base(rows).map(|force| {
-                let force = force?;
-                Ok(FloorForce {
-                    site: force.site,
-                    normal: force.normal.into(),
-                    shear_x: force.shear_x.into(),
-                    shear_y: force.shear_y.into(),
-                })
-            })),
-            Self::Si(packing) => Box::new(packing.base(rows)),
-        }
+        part: Selection,
+    ) -> Result<Box<dyn Iterator<Item = Result<FloorForce<Surd>, Error>> + 'p>, Error> {
+        Ok(match self {
+            Self::Pile(forces) => {
+                Box::new(forces.base(part)?.map(|force| Ok(force?.map(Surd::from))))
+            }
+            Self::Si(packing) => Box::new(packing.base(part)?),
+        })
     }
 
     /// The contacts of the spheres of these rows, as the cells of a table.
-    fn contacts(&self, rows: Rows<'p>) -> Box<dyn Iterator<Item = Row> + 'p> {
+    fn contacts(&self, part: Selection) -> Result<Box<dyn Iterator<Item = Row> + 'p>, Error> {
         let pile = self.pile();
         let first = move |site: Site, direction: Direction, force: Cell| {
             let mut cells = vec![site.k.into()];
@@ -101,19 +95,19 @@ impl<'p> Units<'p> {
             cells.extend([direction.name().into(), force]);
             cells
         };
-        match self {
-            Self::Pile(statics) => Box::new(statics.contacts(rows).map(move |contact| {
+        Ok(match self {
+            Self::Pile(forces) => Box::new(forces.contacts(part)?.map(move |contact| {
                 let contact = contact?;
                 Ok(first(contact.site, contact.direction, contact.force.into()))
             })),
-            Self::Si(packing) => Box::new(packing.contacts(rows).map(move |contact| {
+            Self::Si(packing) => Box::new(packing.contacts(part)?.map(move |contact| {
                 let contact = contact?;
                 let mut cells = first(contact.site, contact.direction, contact.force.into());
                 cells.extend(contact.vector.map(Cell::from));
                 cells.extend(contact.point.map(Cell::from));
                 Ok(cells)
             })),
-        }
+        })
     }
 
     /// A number that no force of the pile exceeds, in mg or f₀: in ℓ² over a layer, no more is passed on than √3 times
@@ -188,7 +182,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     let rows = pile.rows(selection)?;
     refuse_beyond(&rows.sites(), "ask for one sphere with --at")?;
     // What cannot be done is refused before a row is written.
-    pile.plan(units.question(selection, true))?;
+    let forces = units.base(selection)?;
     let mut columns = indices(pile, &[]);
     columns.push(Column::summed("normal", units.normal()));
     columns.push(Column::summed("shear_x", units.shear_x()));
@@ -205,13 +199,16 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
         Ok(cells)
     };
     let corners = corners(pile, &rows);
-    let extremes = corners.flat_map(|rows| units.base(rows)).map(row).collect();
+    let mut extremes = Vec::new();
+    for corner in corners {
+        extremes.extend(units.base(corner)?.map(row));
+    }
     Ok(Table {
         bounds: bounds(&columns, units),
         columns,
         layout: Layout::Rows("bottom spheres"),
         extremes,
-        rows: Box::new(units.base(rows).map(row)),
+        rows: Box::new(forces.map(row)),
     })
 }
 
@@ -245,7 +242,7 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         &(rows.sites() * directions.len()),
         "ask for --layer or --at",
     )?;
-    pile.plan(units.question(selection, false))?;
+    let contacts = units.contacts(selection)?;
     let mut columns = indices(pile, &["k"]);
     columns.push(Column::plain("direction"));
     columns.push(Column::summed("force", units.force()));
@@ -254,26 +251,27 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
     }
     let corners = corners(pile, &rows);
-    let extremes = corners.flat_map(|rows| units.contacts(rows)).collect();
+    let mut extremes = Vec::new();
+    for corner in corners {
+        extremes.extend(units.contacts(corner)?);
+    }
     Ok(Table {
         bounds: bounds(&columns, units),
         columns,
         layout: Layout::Rows("contacts"),
         extremes,
-        rows: units.contacts(rows),
+        rows: contacts,
     })
 }
 
 /// The single spheres in which the columns of a table take their extremes, of a pile that the paper solved.
-fn corners<'p>(pile: &'p Pile, rows: &Rows<'p>) -> impl Iterator<Item = Rows<'p>> + use<'p> {
+fn corners(pile: &Pile, rows: &Rows<'_>) -> impl Iterator<Item = Selection> + use<> {
     let corners: Vec<Site> = if pile.is_paper_pile() {
         rows.corners().collect()
     } else {
         Vec::new()
     };
-    corners
-        .into_iter()
-        .filter_map(|site| pile.rows(Selection::One(site)).ok())
+    corners.into_iter().map(Selection::One)
 }
 
 /// A row that no row of the table exceeds, for the columns that hold forces.

@@ -129,8 +129,8 @@ impl Network {
         )?;
         let forces = subject
             .packing()
-            .statics()
-            .contacts(pile.rows(Selection::All)?);
+            .forces()
+            .contacts(Selection::All)?;
         let mut links = Vec::new();
         for contact in forces {
             let contact = contact?;
@@ -183,9 +183,8 @@ impl Network {
             .iter()
             .map(|place| (place.site, place.at))
             .collect();
-        let rows = pile.rows(Selection::Layer(k))?;
         let mut links = Vec::new();
-        for contact in subject.packing().statics().contacts(rows) {
+        for contact in subject.packing().forces().contacts(Selection::Layer(k))? {
             let contact = contact?;
             let Some(upper) = place(&spheres, contact.site) else {
                 continue;

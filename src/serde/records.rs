@@ -227,8 +227,6 @@ struct CountersRecord {
     turned: u64,
     #[serde(getter = "Counters::passes")]
     passes: u64,
-    #[serde(getter = "Counters::roots")]
-    roots: u64,
     #[serde(getter = "Counters::rows")]
     rows: u64,
 }
@@ -239,7 +237,6 @@ impl From<CountersRecord> for Counters {
             record.visited,
             record.turned,
             record.passes,
-            record.roots,
             record.rows,
         ])
     }

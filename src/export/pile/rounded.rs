@@ -203,8 +203,7 @@ pub(super) fn contacts<'a>(
     packing: &Packing<'a>,
     numbering: &'a Numbering<'a>,
 ) -> Result<impl Iterator<Item = Result<(Touch, BigRational), Error>> + use<'a>, Error> {
-    let rows = packing.pile().rows(Selection::All)?;
-    let forces = packing.statics().contacts(rows);
+    let forces = packing.forces().contacts(Selection::All)?;
     let contacts = Touches::new(numbering)?.zip(forces);
     Ok(contacts.map(|(touch, force)| Ok((touch?, force?.force))))
 }

@@ -93,8 +93,7 @@ fn write_reactions(export: &PileExport<'_>, data: &mut PolyData<'_>) -> Result<(
     for _ in 1..export.numbering.first_on_floor() {
         data.vector([0.0; 3])?;
     }
-    let rows = export.pile().rows(Selection::Base)?;
-    for force in export.packing.base(rows) {
+    for force in export.packing.base(Selection::Base)? {
         let force = force?;
         let quantity = "a reaction";
         data.vector([

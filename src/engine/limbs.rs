@@ -33,10 +33,10 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::cells::{Ramps, WORTH_A_THREAD, bands};
-use super::{Cells, Grid, Layer, Pass};
+use super::cells::{Cells, Ramps, WORTH_A_THREAD, bands};
+use super::grid::{Grid, Layer, Pass};
+use super::parallel;
 use crate::lattice::Direction;
-use crate::parallel;
 use crate::transfer::tripled_half_turn;
 
 /// The bits of a limb below the top one.

@@ -1,9 +1,41 @@
-//! What can be asked of a pile.
+//! What can be asked of a pile, and by which method.
 
 use core::fmt;
 
-use super::Method;
 use crate::shape::Selection;
+
+/// How forces are found.
+///
+/// # Examples
+/// ```
+/// use cannonpile::shape::Selection;
+/// use cannonpile::{Method, Pile};
+///
+/// assert_eq!(Pile::triangular(10)?.plan(Selection::All)?.method, Method::Closed);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// By counting the spheres on three lines: O(1) a force. For stackings without a change of sign.
+    Closed,
+    /// From the lines above one sphere, which begin at the changes of sign: the cost follows the changes, not the
+    /// layers.
+    Tree,
+    /// Layer after layer from the top, a run at a time, with one layer in memory.
+    Sweep,
+}
+
+impl fmt::Display for Method {
+    /// `closed`, `tree`, `sweep`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Closed => "closed",
+            Self::Tree => "tree",
+            Self::Sweep => "sweep",
+        })
+    }
+}
 
 /// What is wanted of the spheres asked about.
 ///

@@ -5,8 +5,9 @@ use alloc::vec::Vec;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 
-use super::{Line, Lines, start_of};
+use super::lines::{Line, Lines, start_of};
 use crate::Error;
+use crate::error::bug;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
@@ -60,6 +61,63 @@ impl Wanted {
     }
 }
 
+/// Errors if the forces above these spheres depend on too many others.
+pub(crate) fn check_tree(shape: &Shape, k: i128, sites: &[[i128; 2]]) -> Result<(), Error> {
+    levels(shape, k, sites, Wanted::All).map(|_| ())
+}
+
+/// Returns how many spheres at changes of sign the force of a contact depends on.
+pub(crate) fn nodes(shape: &Shape, site: Site, direction: Direction) -> Result<usize, Error> {
+    let wanted = Wanted::for_contact(shape, site, direction);
+    let levels = levels(shape, site.k, &[[site.i, site.j]], wanted)?;
+    let above: usize = levels.iter().skip(1).map(|level| level.sites.len()).sum();
+    Ok(above + usize::from(wanted == Wanted::All))
+}
+
+/// Returns the levels of the tree above some spheres, from the question up.
+fn levels(
+    shape: &Shape,
+    k: i128,
+    sites: &[[i128; 2]],
+    wanted: Wanted,
+) -> Result<Vec<Level>, Error> {
+    let mut levels = Vec::new();
+    let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
+    let mut nodes = 0;
+    while let (Some(stretch), false) = (shape.stretch_to(k), sites.is_empty()) {
+        sites.sort_unstable();
+        sites.dedup();
+        nodes += sites.len();
+        if nodes > MAX_NODES {
+            return Err(Error::TooLarge {
+                quantity: "the forces on spheres this far below so many changes of sign",
+                needed: BigUint::from(nodes),
+                limit: MAX_NODES as u64,
+                remedy: "ask for fewer layers or spheres",
+            });
+        }
+        let mut starts = Vec::new();
+        if stretch.index > 0 {
+            for site in &sites {
+                let counts = shape.spheres_above(&stretch, k, *site);
+                for (direction, count) in Direction::ALL.into_iter().zip(counts) {
+                    if count == k - stretch.from && wanted.includes(direction) {
+                        starts.push(start_of(*site, direction, stretch.sign, count));
+                    }
+                }
+            }
+        }
+        levels.push(Level {
+            stretch,
+            k,
+            sites,
+            wanted,
+        });
+        (k, sites, wanted) = (stretch.from, starts, Wanted::All);
+    }
+    Ok(levels)
+}
+
 impl<T: Algebra> Lines<'_, T> {
     /// The force below a sphere of a straight stacking, whose site the caller has checked: one increment more than the
     /// spheres above it on the line. `None` if a sign changes.
@@ -104,7 +162,7 @@ impl<T: Algebra> Lines<'_, T> {
         sites: &[[i128; 2]],
         wanted: Wanted,
     ) -> Result<Above<T>, Error> {
-        let levels = self.levels(k, sites, wanted)?;
+        let levels = levels(self.shape, k, sites, wanted)?;
         let nodes = levels.iter().skip(1).map(|level| level.sites.len()).sum();
         let mut levels = levels.into_iter().rev();
         let Some(first) = levels.next() else {
@@ -116,116 +174,61 @@ impl<T: Algebra> Lines<'_, T> {
                 nodes: 0,
             });
         };
-        let mut forces = self.received(&first, &[], &[]);
+        let mut forces = self.received(&first, &[], &[])?;
         let mut level = first;
         for next in levels {
             let turned: Vec<_> = forces.iter().map(turn_numerators::<T>).collect();
-            forces = self.received(&next, &level.sites, &turned);
+            forces = self.received(&next, &level.sites, &turned)?;
             level = next;
         }
-        let changes = level.stretch.index;
         let of_site = |site: &[i128; 2]| {
             let place = level.sites.binary_search(site).ok();
-            place.and_then(|place| forces.get(place)).cloned()
+            let force = place.and_then(|place| forces.get(place)).cloned();
+            force.ok_or_else(|| bug("the last level of a tree has every sphere asked for"))
         };
-        let nothing = || core::array::from_fn(|_| T::Numerator::zero());
-        let forces = sites
-            .iter()
-            .map(|site| of_site(site).unwrap_or_else(nothing))
-            .collect();
         Ok(Above {
-            forces,
-            changes,
+            forces: sites.iter().map(of_site).collect::<Result<_, _>>()?,
+            changes: level.stretch.index,
             nodes,
         })
     }
 
-    /// That the forces above these spheres do not depend on too many.
-    pub(crate) fn check_tree(&self, k: i128, sites: &[[i128; 2]]) -> Result<(), Error> {
-        self.levels(k, sites, Wanted::All).map(|_| ())
-    }
-
-    /// How many spheres at changes of sign the force of a contact depends on.
-    pub(crate) fn nodes(&self, site: Site, direction: Direction) -> Result<usize, Error> {
-        let wanted = Wanted::for_contact(self.shape, site, direction);
-        let levels = self.levels(site.k, &[[site.i, site.j]], wanted)?;
-        let above: usize = levels.iter().skip(1).map(|level| level.sites.len()).sum();
-        Ok(above + usize::from(wanted == Wanted::All))
-    }
-
-    /// The levels of the tree, from the question up.
-    fn levels(&self, k: i128, sites: &[[i128; 2]], wanted: Wanted) -> Result<Vec<Level>, Error> {
-        let mut levels = Vec::new();
-        let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
-        let mut nodes = 0;
-        while let (Some(stretch), false) = (self.shape.stretch_to(k), sites.is_empty()) {
-            sites.sort_unstable();
-            sites.dedup();
-            nodes += sites.len();
-            if nodes > MAX_NODES {
-                return Err(Error::TooLarge {
-                    quantity: "the forces on spheres this far below so many changes of sign",
-                    needed: BigUint::from(nodes),
-                    limit: MAX_NODES as u64,
-                    remedy: "ask for fewer layers or spheres",
-                });
-            }
-            let mut starts = Vec::new();
-            if stretch.index > 0 {
-                for site in &sites {
-                    let counts = self.shape.spheres_above(&stretch, k, *site);
-                    for (direction, count) in Direction::ALL.into_iter().zip(counts) {
-                        if count == k - stretch.from && wanted.includes(direction) {
-                            starts.push(start_of(*site, direction, stretch.sign, count));
-                        }
-                    }
-                }
-            }
-            levels.push(Level {
-                stretch,
-                k,
-                sites,
-                wanted,
-            });
-            (k, sites, wanted) = (stretch.from, starts, Wanted::All);
-        }
-        Ok(levels)
-    }
-
-    /// The forces from above on the spheres of a level, from what the spheres `starts` at the change of sign above
+    /// Returns the forces from above on the spheres of a level, from what the spheres `starts` at the change of sign above
     /// receive, turned.
     fn received(
         &self,
         level: &Level,
         starts: &[[i128; 2]],
         turned: &[[T::Numerator; 3]],
-    ) -> Vec<[T::Numerator; 3]> {
-        let Level {
-            stretch, k, sites, ..
-        } = level;
-        let unit = self.scaled(T::Numerator::one(), stretch.index);
-        let of_site = |site: &[i128; 2]| {
-            let counts = self.shape.spheres_above(stretch, *k, *site);
-            Direction::ALL.map(|direction| {
+    ) -> Result<Vec<[T::Numerator; 3]>, Error> {
+        let (run, k) = (level.stretch, level.k);
+        let unit = self.scaled(T::Numerator::one(), run.index);
+        let mut forces = Vec::with_capacity(level.sites.len());
+        for site in &level.sites {
+            let counts = self.shape.spheres_above(&run, k, *site);
+            let mut force = core::array::from_fn(|_| T::Numerator::zero());
+            for direction in Direction::ALL {
                 if !level.wanted.includes(direction) {
-                    return T::Numerator::zero();
+                    continue;
                 }
                 let n = counts[direction.index()];
-                let counted = self.counted(*stretch, *k, *site, direction, n) * &unit;
-                let start = start_of(*site, direction, stretch.sign, n);
-                let carried = if n == k - stretch.from {
+                let counted = self.counted(run, k, *site, direction, n) * &unit;
+                // A line that begins at a change of sign carries on what is turned there.
+                let begins_at_change = run.index > 0 && n == k - run.from;
+                force[direction.index()] = if begins_at_change {
+                    let start = start_of(*site, direction, run.sign, n);
                     let place = starts.binary_search(&start).ok();
-                    place.and_then(|place| turned.get(place))
+                    let carried = place.and_then(|place| turned.get(place));
+                    let carried = carried
+                        .ok_or_else(|| bug("a line that crosses a change of sign starts there"))?;
+                    counted + &carried[direction.index()]
                 } else {
-                    None
+                    counted
                 };
-                match carried {
-                    Some(carried) => counted + &carried[direction.index()],
-                    None => counted,
-                }
-            })
-        };
-        sites.iter().map(of_site).collect()
+            }
+            forces.push(force);
+        }
+        Ok(forces)
     }
 
     /// What the `n` spheres above a site on a line add to it, over the first denominator.

@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+use crate::error::bug;
 use crate::geometry::Vector;
 use crate::scalar::{Ring, Surd};
 use crate::{Error, Pile};
@@ -55,12 +56,12 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn base_extremes(&self) -> Result<BaseExtremes, Error> {
-        let statics = self.statics::<BigRational>();
+        let forces = self.forces::<BigRational>();
         // The squared length of the unit of shear along y, 4cos²φ.
         let s = self.sin_phi();
         let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
         let mut extremes = Extremes::default();
-        let unit = statics.ends_of_base(|force| extremes.meet(force, &across))?;
+        let unit = forces.ends_of_base(|force| extremes.meet(force, &across))?;
         extremes.over(&unit)
     }
 }
@@ -101,11 +102,11 @@ impl Extremes {
 
     /// Their values, for forces over this denominator.
     fn over(self, unit: &BigInt) -> Result<BaseExtremes, Error> {
-        // A base has a sphere.
-        let (least, most) = self.normals.unwrap_or_default();
-        let (n, d) = self
-            .ratio
-            .unwrap_or_else(|| (BigInt::zero(), BigInt::one()));
+        let normals = self.normals.ok_or_else(|| bug("a base has a sphere"))?;
+        let (least, most) = normals;
+        // Where no sphere presses on the floor there is no ratio, and no shear.
+        let none = (BigInt::zero(), BigInt::one());
+        let (n, d) = self.ratio.unwrap_or(none);
         Ok(BaseExtremes {
             normal_min: BigRational::new(least, unit.clone()),
             normal_max: BigRational::new(most, unit.clone()),

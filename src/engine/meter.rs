@@ -12,8 +12,8 @@ use core::fmt;
 ///
 /// let counters = Counters::default();
 /// let pile = Pile::triangular(1_000_000)?;
-/// let statics = pile.statics::<f64>().metered(&counters);
-/// statics.contact(Site { i: 5, j: 7, k: 999_000 }, Direction::Alpha)?;
+/// let forces = pile.forces::<f64>().metered(&counters);
+/// forces.contact(Site { i: 5, j: 7, k: 999_000 }, Direction::Alpha)?;
 /// // No other sphere was looked at.
 /// assert_eq!(counters.visited(), 1);
 /// # Ok::<(), cannonpile::Error>(())
@@ -30,9 +30,6 @@ pub trait Meter: Copy {
 
     /// A layer was led through a run, or a part of one, at once.
     fn pass(self) {}
-
-    /// A square root was taken.
-    fn take_root(self) {}
 
     /// So many answers were given.
     fn answer(self, _rows: usize) {}
@@ -52,8 +49,8 @@ impl Meter for () {
 ///
 /// let counters = Counters::default();
 /// let pile = Pile::under(Region::SITE, "++-+".parse()?)?;
-/// let statics = pile.statics::<f64>().metered(&counters);
-/// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 18);
+/// let forces = pile.forces::<f64>().metered(&counters);
+/// assert_eq!(forces.base(Selection::Base)?.count(), 18);
 /// // Two changes of sign, in layers of 6 and 12 spheres, and then the 18 of the base.
 /// assert_eq!((counters.turned(), counters.visited(), counters.passes()), (18, 18, 3));
 /// # Ok::<(), cannonpile::Error>(())
@@ -63,19 +60,17 @@ pub struct Counters {
     visited: Cell<u64>,
     turned: Cell<u64>,
     passes: Cell<u64>,
-    roots: Cell<u64>,
     rows: Cell<u64>,
 }
 
 impl Counters {
-    /// Visited, turned, passes, roots and rows.
+    /// Visited, turned, passes and rows.
     #[cfg(feature = "serde")]
-    pub(crate) fn of([visited, turned, passes, roots, rows]: [u64; 5]) -> Self {
+    pub(crate) fn of([visited, turned, passes, rows]: [u64; 4]) -> Self {
         Self {
             visited: Cell::new(visited),
             turned: Cell::new(turned),
             passes: Cell::new(passes),
-            roots: Cell::new(roots),
             rows: Cell::new(rows),
         }
     }
@@ -88,8 +83,8 @@ impl Counters {
     /// use cannonpile::{Counters, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
-    /// let statics = pile.statics::<f64>().metered(&counters);
-    /// assert_eq!(statics.contacts(pile.rows(Selection::All)?).count(), 495);
+    /// let forces = pile.forces::<f64>().metered(&counters);
+    /// assert_eq!(forces.contacts(Selection::All)?.count(), 495);
     /// // Each sphere once for its three contacts, and none of the 55 on the floor.
     /// assert_eq!(counters.visited(), 220 - 55);
     /// # Ok::<(), cannonpile::Error>(())
@@ -109,7 +104,7 @@ impl Counters {
     /// let counters = Counters::default();
     /// let pile = Pile::under(Region::SITE, format!("(2,1,{})", 10_i128.pow(30)).parse()?)?;
     /// let site = Site { i: 1, j: 0, k: pile.layers() - 2 };
-    /// pile.statics::<f64>().metered(&counters).contact(site, Direction::Alpha)?;
+    /// pile.forces::<f64>().metered(&counters).contact(site, Direction::Alpha)?;
     /// // One sphere at the lower change of sign, and the three above it at the upper.
     /// assert_eq!(counters.turned(), 1 + 3);
     /// # Ok::<(), cannonpile::Error>(())
@@ -127,8 +122,8 @@ impl Counters {
     /// use cannonpile::{Counters, Method, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
-    /// let statics = pile.statics::<f64>().by(Method::Sweep)?.metered(&counters);
-    /// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 55);
+    /// let forces = pile.forces::<f64>().by(Method::Sweep)?.metered(&counters);
+    /// assert_eq!(forces.base(Selection::Base)?.count(), 55);
     /// // Nine steps, and no sign changes.
     /// assert_eq!(counters.passes(), 1);
     /// # Ok::<(), cannonpile::Error>(())
@@ -136,30 +131,6 @@ impl Counters {
     #[must_use]
     pub fn passes(&self) -> u64 {
         self.passes.get()
-    }
-
-    /// Square roots taken.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::{Direction, Site};
-    /// use cannonpile::{Counters, Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
-    /// for direction in Direction::ALL {
-    ///     packing.contact(Site::APEX, direction)?;
-    /// }
-    /// // Of 1/cos²θ, once for all.
-    /// assert_eq!(counters.roots(), 1);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn roots(&self) -> u64 {
-        self.roots.get()
     }
 
     /// Answers given in rows: those of iterators, not of single questions.
@@ -171,10 +142,10 @@ impl Counters {
     /// use cannonpile::{Counters, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(10)?, Counters::default());
-    /// let statics = pile.statics::<f64>().metered(&counters);
-    /// statics.on_floor(Site { i: 5, j: 2, k: 9 })?;
+    /// let forces = pile.forces::<f64>().metered(&counters);
+    /// forces.on_floor(Site { i: 5, j: 2, k: 9 })?;
     /// assert_eq!(counters.rows(), 0);
-    /// assert_eq!(statics.base(pile.rows(Selection::Base)?).count(), 55);
+    /// assert_eq!(forces.base(Selection::Base)?.count(), 55);
     /// assert_eq!(counters.rows(), 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -197,10 +168,6 @@ impl Meter for &Counters {
         add(&self.passes, 1);
     }
 
-    fn take_root(self) {
-        add(&self.roots, 1);
-    }
-
     fn answer(self, rows: usize) {
         add(&self.rows, rows);
     }
@@ -211,15 +178,14 @@ fn add(counter: &Cell<u64>, more: usize) {
 }
 
 impl fmt::Display for Counters {
-    /// `18 visited, 18 turned, 3 passes, 0 roots, 18 rows`
+    /// `18 visited, 18 turned, 3 passes, 18 rows`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} visited, {} turned, {} passes, {} roots, {} rows",
+            "{} visited, {} turned, {} passes, {} rows",
             self.visited(),
             self.turned(),
             self.passes(),
-            self.roots(),
             self.rows()
         )
     }

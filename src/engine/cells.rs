@@ -3,9 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
-use super::{Grid, Layer, Pass};
+use super::grid::{Grid, Layer, Pass};
+use super::parallel;
 use crate::lattice::{Along, Slopes};
-use crate::parallel;
 use crate::scalar::{Algebra, Ring};
 use crate::transfer::turn_numerators;
 

@@ -89,13 +89,11 @@ impl Loading {
     }
 
     /// The spheres that do not weigh mg, in their order, with their weights.
-    #[cfg(feature = "serde")]
     pub(crate) fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
         self.weights.iter().map(|(site, weight)| (*site, weight))
     }
 
     /// The spheres with something on them, in their order, with the loads.
-    #[cfg(any(feature = "plot", feature = "serde"))]
     pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
         self.loads.iter().map(|(site, load)| (*site, load))
     }

@@ -9,39 +9,41 @@
 //!
 //! A straight pile has no change of sign: its tree has no nodes, and every force is closed.
 
-mod corners;
-mod tree;
-
-pub(crate) use tree::{Above, MAX_NODES, Wanted};
-
 use alloc::collections::BTreeMap;
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
-use crate::Pile;
+use super::meter::Meter;
 use crate::closed_form::Increments;
 use crate::lattice::Sign;
 use crate::lattice::{Direction, Site};
-use crate::meter::Meter;
+use crate::pile::System;
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
 use crate::transfer::{THREE, turn_numerators};
+
+/// Forces on a sphere, by direction, as numerators.
+#[derive(Clone, Debug)]
+pub(crate) struct Received<T: Algebra> {
+    pub(crate) forces: [T::Numerator; 3],
+    /// The changes of sign before: the denominator is [`Lines::scale`] of it.
+    pub(crate) changes: usize,
+}
 
 /// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
 ///
 /// A force after d changes of sign has the denominator [`scale`](Self::scale)(d).
 #[derive(Clone, Debug)]
 pub(crate) struct Lines<'p, T: Algebra> {
-    shape: &'p Shape,
+    pub(super) shape: &'p Shape,
     /// Of an ordinary sphere.
-    ordinary: Increments<T::Numerator, 3>,
+    pub(super) ordinary: Increments<T::Numerator, 3>,
     /// What some spheres add beside, by line, and by layer on it.
-    extras: BTreeMap<(Line, i128), T::Numerator>,
+    pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
     /// What acts on some spheres beside an ordinary weight, in mg/W.
-    extra_weights: BTreeMap<Site, T::Numerator>,
+    pub(super) extra_weights: BTreeMap<Site, T::Numerator>,
     scale: T::Numerator,
     /// Whether a change of sign triples the denominator: the ring of numerators has no thirds.
     triples: bool,
@@ -49,7 +51,7 @@ pub(crate) struct Lines<'p, T: Algebra> {
 
 /// A line of contacts within a run: its direction, and the place where it would cross layer 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Line {
+pub(super) struct Line {
     run: usize,
     direction: Direction,
     place: [i128; 2],
@@ -62,21 +64,16 @@ fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerato
 }
 
 impl<'p, T: Algebra> Lines<'p, T> {
-    pub(crate) fn new(pile: &'p Pile) -> Self {
-        let increments: Increments<BigRational, 3> = pile.increments();
-        let (per_line, loading) = (increments.per_line(), pile.loading());
+    pub(crate) fn new(system: &System<'p>) -> Self {
+        let (per_line, loading) = (system.increments.per_line(), system.loading);
         // One denominator for all: of increments, and of weights and loads times increments.
-        let own = per_line.iter().fold(BigInt::one(), |d, w| d.lcm(w.denom()));
-        let given = loading
-            .extras()
-            .fold(BigInt::one(), |d, (_, w)| d.lcm(w.denom()));
-        let least = BigRational::new(BigInt::one(), own * given);
+        let least = BigRational::new(BigInt::one(), system.denominator());
         let (_, scale) = T::numerators(core::array::from_ref(&least));
         let ordinary = per_line
             .each_ref()
             .map(|w| numerator::<T>(w * loading.ordinary(), &least));
         let mut lines = Self {
-            shape: pile.shape(),
+            shape: system.shape,
             ordinary: Increments::new(ordinary),
             extras: BTreeMap::new(),
             extra_weights: BTreeMap::new(),
@@ -96,7 +93,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
                         .insert((Line::through(site, direction, run), site.k), w);
                 }
             }
-            let weight = numerator::<T>(increments.sum() * &extra, &least);
+            let weight = numerator::<T>(system.increments.sum() * &extra, &least);
             lines.extra_weights.insert(site, weight);
         }
         lines
@@ -108,7 +105,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     }
 
     /// A numerator over the first denominator, over the one after so many changes.
-    fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
+    pub(super) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
         if self.triples && changes > 0 {
             numerator * &pow(T::Numerator::from_i128(3), changes)
         } else {
@@ -131,6 +128,11 @@ impl<'p, T: Algebra> Lines<'p, T> {
         self.scaled(weight, changes)
     }
 
+    /// Returns what `n` ordinary spheres add to a line of a direction, over the first denominator.
+    pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
+        self.ordinary.force(n, line)
+    }
+
     /// What an ordinary sphere adds to its lines after so many changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
         let per_line = self.ordinary.per_line().each_ref();
@@ -146,8 +148,10 @@ impl<'p, T: Algebra> Lines<'p, T> {
             let extra = self
                 .extras
                 .get(&(Line::through(site, direction, run), site.k));
-            let extra = extra.cloned().unwrap_or_else(T::Numerator::zero);
-            self.scaled(extra, run.index)
+            // A sphere of ordinary weight has none.
+            extra.map_or_else(T::Numerator::zero, |extra| {
+                self.scaled(extra.clone(), run.index)
+            })
         })
     }
 
@@ -167,48 +171,47 @@ impl<'p, T: Algebra> Lines<'p, T> {
         sites.map(|(site, _)| *site)
     }
 
-    /// What a sphere passes on in each direction, from what it receives and the changes of sign before.
+    /// Returns what a sphere passes on in each direction, from what it receives.
     pub(crate) fn to_below(
         &self,
         site: Site,
-        from_above: [T::Numerator; 3],
-        changes: usize,
+        above: Received<T>,
         meter: impl Meter,
-    ) -> ([T::Numerator; 3], usize) {
+    ) -> Received<T> {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
-            return (from_above, changes);
+            return above;
         };
-        let received = if run.index > changes {
+        let received = if run.index > above.changes {
             meter.turn(1);
-            turn_numerators::<T>(&from_above)
+            turn_numerators::<T>(&above.forces)
         } else {
-            from_above
+            above.forces
         };
         self.with_own(site, received, run.index)
     }
 
-    /// What a sphere passes on, from what it receives, turned if the sign changes there.
+    /// Returns what a sphere passes on, from what it receives, turned if the sign changes there.
     pub(crate) fn with_own(
         &self,
         site: Site,
         received: [T::Numerator; 3],
         changes: usize,
-    ) -> ([T::Numerator; 3], usize) {
-        let mut passed = received;
-        for (force, w) in passed.iter_mut().zip(self.ordinary.per_line()) {
+    ) -> Received<T> {
+        let mut forces = received;
+        for (force, w) in forces.iter_mut().zip(self.ordinary.per_line()) {
             *force = self.scaled(w.clone(), changes) + &*force;
         }
         if !self.extra_weights.is_empty() && self.extra_weights.contains_key(&site) {
-            for (force, extra) in passed.iter_mut().zip(self.extra(site)) {
+            for (force, extra) in forces.iter_mut().zip(self.extra(site)) {
                 *force = extra + &*force;
             }
         }
-        (passed, changes)
+        Received { forces, changes }
     }
 }
 
 impl Line {
-    fn through(site: Site, direction: Direction, run: Stretch) -> Self {
+    pub(super) fn through(site: Site, direction: Direction, run: Stretch) -> Self {
         let place = start_of([site.i, site.j], direction, run.sign, site.k);
         Self {
             run: run.index,
@@ -219,7 +222,12 @@ impl Line {
 }
 
 /// The site so many steps up a line.
-fn start_of([i, j]: [i128; 2], direction: Direction, sign: Sign, steps: i128) -> [i128; 2] {
+pub(super) fn start_of(
+    [i, j]: [i128; 2],
+    direction: Direction,
+    sign: Sign,
+    steps: i128,
+) -> [i128; 2] {
     let [di, dj] = sign.descent(direction);
     [i - di * steps, j - dj * steps]
 }
