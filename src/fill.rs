@@ -10,6 +10,7 @@ use core::ops::Range;
 
 use num_rational::BigRational;
 
+use crate::formula;
 use crate::lattice::Sign;
 use crate::lattice::{Along, Dimension, Direction, Region, Slopes};
 use crate::scalar::{NearestFloat, Ring, Surd};
@@ -144,9 +145,9 @@ impl<V> Strengths<V> {
         }
         let increments = pile.increments::<BigRational>();
         let table = |direction: Direction| {
-            let w = &increments.per_line()[direction.index()];
+            let w = &increments[direction.index()];
             (1..pile.layers())
-                .map(|n| value(&(BigRational::from_i128(n) * w)))
+                .map(|n| value(&formula::force(BigRational::from_i128(n), w)))
                 .collect::<Result<Vec<V>, Error>>()
         };
         let [alpha, beta, gamma] = Direction::ALL.map(table);

@@ -56,7 +56,7 @@
 //! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
 //! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
-//! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
+//! | [`formula`] | the paper's equations and the step across a change of sign, generic over the scalar |
 //! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
 //! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
 //! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
@@ -99,7 +99,6 @@
 extern crate alloc;
 
 pub mod census;
-pub mod closed_form;
 mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
@@ -108,6 +107,7 @@ pub mod export;
 #[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
 pub mod figure;
 mod fill;
+pub mod formula;
 pub mod geometry;
 pub mod lattice;
 mod lines;
@@ -129,7 +129,6 @@ pub mod stacking;
 mod standing;
 mod sweep;
 pub mod theorem;
-pub mod transfer;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;

@@ -22,13 +22,12 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use crate::Pile;
-use crate::closed_form::Increments;
+use crate::formula::{self, force, half_turn, passed_on};
 use crate::lattice::Sign;
 use crate::lattice::{Direction, Site};
 use crate::meter::Meter;
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
-use crate::transfer::{THREE, turn_numerators};
 
 /// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
 ///
@@ -37,7 +36,7 @@ use crate::transfer::{THREE, turn_numerators};
 pub(crate) struct Lines<'p, T: Algebra> {
     shape: &'p Shape,
     /// Of an ordinary sphere.
-    ordinary: Increments<T::Numerator, 3>,
+    ordinary: [T::Numerator; 3],
     /// What some spheres add beside, by line, and by layer on it.
     extras: BTreeMap<(Line, i128), T::Numerator>,
     /// What acts on some spheres beside an ordinary weight, in mg/W.
@@ -63,25 +62,27 @@ fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerato
 
 impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn new(pile: &'p Pile) -> Self {
-        let increments: Increments<BigRational, 3> = pile.increments();
-        let (per_line, loading) = (increments.per_line(), pile.loading());
+        let increments: [BigRational; 3] = pile.increments();
+        let loading = pile.loading();
         // One denominator for all: of increments, and of weights and loads times increments.
-        let own = per_line.iter().fold(BigInt::one(), |d, w| d.lcm(w.denom()));
+        let own = increments
+            .iter()
+            .fold(BigInt::one(), |d, w| d.lcm(w.denom()));
         let given = loading
             .extras()
             .fold(BigInt::one(), |d, (_, w)| d.lcm(w.denom()));
         let least = BigRational::new(BigInt::one(), own * given);
         let (_, scale) = T::numerators(core::array::from_ref(&least));
-        let ordinary = per_line
+        let ordinary = increments
             .each_ref()
-            .map(|w| numerator::<T>(w * loading.ordinary(), &least));
+            .map(|w| numerator::<T>(force(loading.ordinary(), w), &least));
         let mut lines = Self {
             shape: pile.shape(),
-            ordinary: Increments::new(ordinary),
+            ordinary,
             extras: BTreeMap::new(),
             extra_weights: BTreeMap::new(),
             scale,
-            triples: T::divide_numerator(T::Numerator::one(), THREE).is_none(),
+            triples: formula::triples::<T>(),
         };
         for (site, extra) in loading.extras() {
             let run_below = lines
@@ -90,13 +91,15 @@ impl<'p, T: Algebra> Lines<'p, T> {
                 .filter(|run| site.k < run.to);
             for direction in Direction::ALL {
                 if let Some(run) = run_below {
-                    let w = numerator::<T>(&per_line[direction.index()] * &extra, &least);
+                    let own = force(extra.clone(), &increments[direction.index()]);
+                    let w = numerator::<T>(own, &least);
                     lines
                         .extras
                         .insert((Line::through(site, direction, run), site.k), w);
                 }
             }
-            let weight = numerator::<T>(increments.sum() * &extra, &least);
+            let weight = force(extra, &formula::weight(&increments));
+            let weight = numerator::<T>(weight, &least);
             lines.extra_weights.insert(site, weight);
         }
         lines
@@ -123,7 +126,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
     pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
-        let ordinary = self.ordinary.sum().clone();
+        let ordinary = formula::weight(&self.ordinary);
         let weight = match self.extra_weights.get(&site) {
             Some(extra) => ordinary + extra,
             None => ordinary,
@@ -133,8 +136,8 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// What an ordinary sphere adds to its lines after so many changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
-        let per_line = self.ordinary.per_line().each_ref();
-        per_line.map(|w| self.scaled(w.clone(), changes))
+        let ordinary = self.ordinary.each_ref();
+        ordinary.map(|w| self.scaled(w.clone(), changes))
     }
 
     /// What a sphere adds to its lines in the run below it, beside an ordinary weight.
@@ -180,7 +183,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         };
         let received = if run.index > changes {
             meter.turn(1);
-            turn_numerators::<T>(&from_above)
+            half_turn::<T>(&from_above)
         } else {
             from_above
         };
@@ -194,14 +197,9 @@ impl<'p, T: Algebra> Lines<'p, T> {
         received: [T::Numerator; 3],
         changes: usize,
     ) -> ([T::Numerator; 3], usize) {
-        let mut passed = received;
-        for (force, w) in passed.iter_mut().zip(self.ordinary.per_line()) {
-            *force = self.scaled(w.clone(), changes) + &*force;
-        }
+        let mut passed = add(received, &self.increments_after(changes));
         if !self.extra_weights.is_empty() && self.extra_weights.contains_key(&site) {
-            for (force, extra) in passed.iter_mut().zip(self.extra(site)) {
-                *force = extra + &*force;
-            }
+            passed = add(passed, &self.extra(site));
         }
         (passed, changes)
     }
@@ -216,6 +214,15 @@ impl Line {
             place,
         }
     }
+}
+
+/// What a sphere passes on by direction, from what it receives and adds.
+fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
+    [
+        passed_on(a, own_a),
+        passed_on(b, own_b),
+        passed_on(c, own_c),
+    ]
 }
 
 /// The site so many steps up a line.

@@ -5,7 +5,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::Error;
-use crate::closed_form::Increments;
+use crate::formula;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, Region, Site, count};
 use crate::load::Loading;
@@ -506,8 +506,8 @@ impl Pile {
     }
 
     /// What a sphere of this pile adds to its lines.
-    pub(crate) fn increments<T: Algebra>(&self) -> Increments<T, 3> {
-        Increments::isosceles(&T::from_rational(&self.sin_phi))
+    pub(crate) fn increments<T: Algebra>(&self) -> [T; 3] {
+        formula::increments(&T::from_rational(&self.sin_phi))
     }
 
     /// ê_a, ê_b, ê_c in the symbolic basis.

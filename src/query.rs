@@ -14,7 +14,7 @@ pub use floor::FloorForce;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::closed_form::{self, Increments};
+use crate::formula;
 use crate::geometry::{Vector, position};
 use crate::lattice::Sign;
 use crate::lattice::{Direction, Site, count};
@@ -64,8 +64,8 @@ pub struct Statics<'p, T: Algebra, M = ()> {
 
 impl<'p, T: Algebra> Statics<'p, T> {
     pub(crate) fn new(pile: &'p Pile) -> Self {
-        let increments: Increments<BigRational, 3> = pile.increments();
-        let ([increment_sum], sum_scale) = T::numerators(&[increments.sum().clone()]);
+        let increments: [BigRational; 3] = pile.increments();
+        let ([increment_sum], sum_scale) = T::numerators(&[formula::weight(&increments)]);
         let [a, b, c] = pile.directions().map(Vector::into_array);
         let [ax, ay, az] = a;
         let [bx, by, bz] = b;
@@ -334,7 +334,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
         let site = self.pile.shape().check(site)?;
         let (above, changes) = self.received(site, Wanted::All)?;
         let directions = self.directions_under(self.sign_above(site.k));
-        let force = closed_form::resultant(&above, &directions);
+        let force = formula::resultant(&above, &directions);
         self.edge_vector("a resultant force", force, changes)
     }
 
@@ -388,11 +388,14 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
         let (below, changes) = self.passed_on(site)?;
         let (above, changes_above) = self.received(site, Wanted::All)?;
         let sign = self.pile.shape().sign_below(site.k).unwrap_or(Sign::Plus);
-        let pushed_up = Vector::combination(&below, &self.directions_under(sign));
         let above = above.map(|force| self.lines.rescaled(force, changes_above, changes));
-        let directions = self.directions_under(self.sign_above(site.k));
-        let weight = self.weight(site, changes);
-        let left = pushed_up + &closed_form::handed_on(&above, &directions, &weight);
+        let left = formula::unbalanced(
+            &below,
+            &self.directions_under(sign),
+            &above,
+            &self.directions_under(self.sign_above(site.k)),
+            &self.weight(site, changes),
+        );
         self.edge_vector("a resultant force", left, changes)
     }
 

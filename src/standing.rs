@@ -16,6 +16,7 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use crate::formula;
 use crate::geometry::Apart;
 use crate::lattice::{Direction, Site};
 use crate::lines::{Lines, Wanted};
@@ -235,7 +236,7 @@ impl Pile {
         let contact = |site, direction: Direction| ContactForce {
             site,
             direction,
-            force: loading.total(site) * &increments.per_line()[direction.index()],
+            force: formula::force(loading.total(site), &increments[direction.index()]),
         };
         let special: BTreeSet<Site> = loading.extras().map(|(site, _)| site).collect();
         let directions = self.dimension().directions();
@@ -342,7 +343,7 @@ impl Descent<'_, BigRational, Planes> {
         let [i, j] = least.place;
         // A change of sign is only where all directions are alike.
         let [own, ..] = self.lines().increments_after(changes);
-        let force: BigInt = least.numerator + own;
+        let force = formula::passed_on(least.numerator, &own);
         Some(ContactForce {
             site: Site { i, j, k: self.k() },
             direction: least.direction,

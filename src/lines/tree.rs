@@ -7,10 +7,10 @@ use num_traits::{One, Zero};
 
 use super::{Line, Lines, start_of};
 use crate::Error;
+use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
-use crate::transfer::turn_numerators;
 
 /// The most nodes of a tree that are visited for one row.
 pub(crate) const MAX_NODES: usize = 4_000_000;
@@ -119,7 +119,7 @@ impl<T: Algebra> Lines<'_, T> {
         let mut forces = self.received(&first, &[], &[]);
         let mut level = first;
         for next in levels {
-            let turned: Vec<_> = forces.iter().map(turn_numerators::<T>).collect();
+            let turned: Vec<_> = forces.iter().map(formula::half_turn::<T>).collect();
             forces = self.received(&next, &level.sites, &turned);
             level = next;
         }
@@ -220,7 +220,9 @@ impl<T: Algebra> Lines<'_, T> {
                     None
                 };
                 match carried {
-                    Some(carried) => counted + &carried[direction.index()],
+                    Some(carried) => {
+                        formula::passed_on(carried[direction.index()].clone(), &counted)
+                    }
                     None => counted,
                 }
             })
@@ -237,15 +239,14 @@ impl<T: Algebra> Lines<'_, T> {
         direction: Direction,
         n: i128,
     ) -> T::Numerator {
-        let ordinary = self
-            .ordinary
-            .force(T::Numerator::from_i128(n), direction.index());
+        let ordinary = &self.ordinary[direction.index()];
+        let ordinary = formula::force(T::Numerator::from_i128(n), ordinary);
         if self.extras.is_empty() {
             return ordinary;
         }
         let [i, j] = site;
         let line = Line::through(Site { i, j, k }, direction, run);
         let extras = self.extras.range((line, k - n)..(line, k));
-        extras.fold(ordinary, |sum, (_, extra)| sum + extra)
+        extras.fold(ordinary, |sum, (_, extra)| formula::passed_on(sum, extra))
     }
 }

@@ -3,7 +3,7 @@
 use super::source::Source;
 use super::{Statics, edge_all};
 use crate::Error;
-use crate::closed_form;
+use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::Site;
 use crate::lines::Wanted;
@@ -96,7 +96,7 @@ impl<'p, T: Algebra, M: Meter> Statics<'p, T, M> {
         changes: usize,
     ) -> (Vector<T::Numerator>, T::Numerator) {
         let directions = self.directions_under(self.sign_above(site.k));
-        let force = closed_form::handed_on(above, &directions, &self.weight(site, changes));
+        let force = formula::handed_on(above, &directions, &self.weight(site, changes));
         // mg is W of the unit of forces along lines.
         let unit = self.lines.scale(changes) * &self.direction_scale * &self.increment_sum;
         (force.scaled(&self.sum_scale), unit)
