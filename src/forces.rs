@@ -18,11 +18,11 @@ pub use layers::{Layer, Layers};
 pub(crate) use nearest::Units;
 pub use nearest::{NearestLayer, NearestLayers};
 
-use crate::closed_form;
 use crate::engine::{
     Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact, nodes,
     received,
 };
+use crate::formula;
 use crate::geometry::{Vector, position};
 use crate::lattice::{Direction, Site, count};
 use crate::scalar::{Algebra, Ring};
@@ -584,7 +584,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
         let site = self.pile.shape().check(site)?;
         let Received { forces, changes } = self.received(site, Wanted::All)?;
-        let force = closed_form::resultant(&forces, &self.terms.directions_above(site.k));
+        let force = formula::resultant(&forces, &self.terms.directions_above(site.k));
         self.terms.vector("a resultant force", force, changes)
     }
 
@@ -645,12 +645,16 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
         let below = self.passed_on(site)?;
         let above = self.received(site, Wanted::All)?;
         let (terms, changes) = (&self.terms, below.changes);
-        let pushed_up = Vector::combination(&below.forces, &terms.directions_below(site.k));
         let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);
         let received = above.forces.map(rescaled);
-        let weight = terms.weight(site, changes);
-        let handed_on = closed_form::handed_on(&received, &terms.directions_above(site.k), &weight);
-        terms.vector("a resultant force", pushed_up + &handed_on, changes)
+        let unbalanced = formula::unbalanced(
+            &below.forces,
+            &terms.directions_below(site.k),
+            &received,
+            &terms.directions_above(site.k),
+            &terms.weight(site, changes),
+        );
+        terms.vector("a resultant force", unbalanced, changes)
     }
 
     /// Returns the layer on the floor.

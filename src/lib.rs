@@ -56,7 +56,7 @@
 //! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
 //! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
-//! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
+//! | [`formula`] | the paper's equations, each once, under its printed number, and the step across a sign change |
 //! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
 //! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
 //! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
@@ -99,7 +99,6 @@
 extern crate alloc;
 
 pub mod census;
-pub mod closed_form;
 mod engine;
 mod error;
 #[cfg(feature = "export")]
@@ -109,6 +108,7 @@ pub mod export;
 #[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
 pub mod figure;
 mod forces;
+pub mod formula;
 pub mod geometry;
 pub mod lattice;
 mod packing;
@@ -122,7 +122,6 @@ pub mod shape;
 pub mod stacking;
 mod standing;
 pub mod theorem;
-pub mod transfer;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;

@@ -11,7 +11,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::Error;
-use crate::closed_form::Increments;
+use crate::formula;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, Region, Site, count};
 use crate::scalar::{Algebra, Ring};
@@ -554,7 +554,7 @@ impl Pile {
     pub(crate) fn system(&self) -> System<'_> {
         System {
             shape: &self.shape,
-            increments: Increments::isosceles(&self.sin_phi),
+            increments: formula::increments(&self.sin_phi),
             directions: self.directions(),
             loading: &self.loading,
         }

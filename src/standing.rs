@@ -24,6 +24,7 @@ use crate::engine::{
     Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, exact_sweep, trees_are_cheaper,
 };
 use crate::error::bug;
+use crate::formula;
 use crate::geometry::Apart;
 use crate::lattice::{Direction, Site};
 use crate::pile::System;
@@ -245,7 +246,7 @@ impl Pile {
         let contact = |site, direction: Direction| ContactForce {
             site,
             direction,
-            force: loading.total(site) * &increments.per_line()[direction.index()],
+            force: formula::force(loading.total(site), &increments[direction.index()]),
         };
         let special: BTreeSet<Site> = loading.extras().map(|(site, _)| site).collect();
         let directions = self.dimension().directions();
@@ -353,7 +354,7 @@ fn least_passed_on(
     let [i, j] = least.place;
     // A change of sign is only where all directions are alike.
     let [own, ..] = lines.increments_after(changes);
-    let force: BigInt = least.numerator + own;
+    let force = formula::passed_on(least.numerator, &own);
     Ok(ContactForce {
         site: Site { i, j, k },
         direction: least.direction,

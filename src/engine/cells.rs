@@ -5,9 +5,9 @@ use core::ops::{Add, Range};
 
 use super::grid::{Grid, Layer, Pass};
 use super::parallel;
+use crate::formula;
 use crate::lattice::{Along, Slopes};
 use crate::scalar::{Algebra, Ring};
-use crate::transfer::turn_numerators;
 
 /// How many numbers are worth a thread of their own.
 pub(super) const WORTH_A_THREAD: usize = 1 << 13;
@@ -66,7 +66,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
     pub(super) fn add_to(&mut self, cells: [usize; 3], values: &[V; 3]) {
         for ((line, cell), value) in self.0.iter_mut().zip(cells).zip(values) {
             if let Some(sum) = line.get_mut(cell) {
-                *sum = sum.clone() + value;
+                *sum = formula::passed_on(sum.clone(), value);
             }
         }
     }
@@ -190,25 +190,27 @@ fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], counts: &Slopes
     let (rising, rest) = row.split_at_mut(up.len());
     let (same, falling) = rest.split_at_mut(rest.len() - down.len());
     for (sum, value) in rising.iter_mut().zip(up) {
-        *sum = sum.clone() + value;
+        *sum = formula::passed_on(sum.clone(), value);
     }
     if let Some(value) = level {
         for sum in same {
-            *sum = sum.clone() + value;
+            *sum = formula::passed_on(sum.clone(), value);
         }
     }
     for (sum, value) in falling.iter_mut().zip(down.iter().rev()) {
-        *sum = sum.clone() + value;
+        *sum = formula::passed_on(sum.clone(), value);
     }
 }
 
 impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
     fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]) {
-        let ramps = Ramps::new(pass, increments, |w, n| T::Numerator::from_i128(n) * w);
+        let ramps = Ramps::new(pass, increments, |w, n| {
+            formula::force(T::Numerator::from_i128(n), w)
+        });
         let bands = bands(core::slice::from_mut(self), grid, pass);
         parallel::for_each(bands, |mut band| {
             let ramps = core::slice::from_ref(&ramps);
-            band.add_and_turn(grid, pass, ramps, turn_numerators::<T>);
+            band.add_and_turn(grid, pass, ramps, formula::half_turn::<T>);
         });
     }
 

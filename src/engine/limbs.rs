@@ -36,8 +36,8 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use super::cells::{Cells, Ramps, WORTH_A_THREAD, bands};
 use super::grid::{Grid, Layer, Pass};
 use super::parallel;
+use crate::formula::{force, tripled_half_turn};
 use crate::lattice::Direction;
-use crate::transfer::tripled_half_turn;
 
 /// The bits of a limb below the top one.
 const LIMB: u32 = 48;
@@ -236,7 +236,7 @@ impl Layer<BigRational> for Planes {
         let planes = self.cells.len();
         let waiting = core::mem::take(&mut self.waiting);
         let waiting = waiting.iter().map(|(pass, increments)| {
-            let ramps = Ramps::new(pass, increments, |w, n| limbs(&(w * n), planes));
+            let ramps = Ramps::new(pass, increments, |w, n| limbs(&force(n.into(), w), planes));
             let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
             (pass, ramps)
         });

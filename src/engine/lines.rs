@@ -16,13 +16,12 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use super::meter::Meter;
-use crate::closed_form::Increments;
+use crate::formula::{self, force, half_turn, passed_on};
 use crate::lattice::Sign;
 use crate::lattice::{Direction, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
-use crate::transfer::{THREE, turn_numerators};
 
 /// Forces on a sphere, by direction, as numerators.
 #[derive(Clone, Debug)]
@@ -39,7 +38,7 @@ pub(crate) struct Received<T: Algebra> {
 pub(crate) struct Lines<'p, T: Algebra> {
     pub(super) shape: &'p Shape,
     /// Of an ordinary sphere.
-    pub(super) ordinary: Increments<T::Numerator, 3>,
+    pub(super) ordinary: [T::Numerator; 3],
     /// What some spheres add beside, by line, and by layer on it.
     pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
     /// What acts on some spheres beside an ordinary weight, in mg/W.
@@ -65,20 +64,20 @@ fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerato
 
 impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn new(system: &System<'p>) -> Self {
-        let (per_line, loading) = (system.increments.per_line(), system.loading);
+        let (increments, loading) = (&system.increments, system.loading);
         // One denominator for all: of increments, and of weights and loads times increments.
         let least = BigRational::new(BigInt::one(), system.denominator());
         let (_, scale) = T::numerators(core::array::from_ref(&least));
-        let ordinary = per_line
+        let ordinary = increments
             .each_ref()
-            .map(|w| numerator::<T>(w * loading.ordinary(), &least));
+            .map(|w| numerator::<T>(force(loading.ordinary(), w), &least));
         let mut lines = Self {
             shape: system.shape,
-            ordinary: Increments::new(ordinary),
+            ordinary,
             extras: BTreeMap::new(),
             extra_weights: BTreeMap::new(),
             scale,
-            triples: T::divide_numerator(T::Numerator::one(), THREE).is_none(),
+            triples: formula::triples::<T>(),
         };
         for (site, extra) in loading.extras() {
             let run_below = lines
@@ -87,13 +86,15 @@ impl<'p, T: Algebra> Lines<'p, T> {
                 .filter(|run| site.k < run.to);
             for direction in Direction::ALL {
                 if let Some(run) = run_below {
-                    let w = numerator::<T>(&per_line[direction.index()] * &extra, &least);
+                    let own = force(extra.clone(), &increments[direction.index()]);
+                    let w = numerator::<T>(own, &least);
                     lines
                         .extras
                         .insert((Line::through(site, direction, run), site.k), w);
                 }
             }
-            let weight = numerator::<T>(system.increments.sum() * &extra, &least);
+            let weight = force(extra, &formula::weight(increments));
+            let weight = numerator::<T>(weight, &least);
             lines.extra_weights.insert(site, weight);
         }
         lines
@@ -120,7 +121,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
     pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
-        let ordinary = self.ordinary.sum().clone();
+        let ordinary = formula::weight(&self.ordinary);
         let weight = match self.extra_weights.get(&site) {
             Some(extra) => ordinary + extra,
             None => ordinary,
@@ -130,13 +131,13 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Returns what `n` ordinary spheres add to a line of a direction, over the first denominator.
     pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
-        self.ordinary.force(n, line)
+        force(n, &self.ordinary[line])
     }
 
     /// What an ordinary sphere adds to its lines after so many changes.
     pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
-        let per_line = self.ordinary.per_line().each_ref();
-        per_line.map(|w| self.scaled(w.clone(), changes))
+        let ordinary = self.ordinary.each_ref();
+        ordinary.map(|w| self.scaled(w.clone(), changes))
     }
 
     /// What a sphere adds to its lines in the run below it, beside an ordinary weight.
@@ -183,7 +184,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
         };
         let received = if run.index > above.changes {
             meter.turn(1);
-            turn_numerators::<T>(&above.forces)
+            half_turn::<T>(&above.forces)
         } else {
             above.forces
         };
@@ -197,17 +198,21 @@ impl<'p, T: Algebra> Lines<'p, T> {
         received: [T::Numerator; 3],
         changes: usize,
     ) -> Received<T> {
-        let mut forces = received;
-        for (force, w) in forces.iter_mut().zip(self.ordinary.per_line()) {
-            *force = self.scaled(w.clone(), changes) + &*force;
-        }
+        let mut forces = add(received, &self.increments_after(changes));
         if !self.extra_weights.is_empty() && self.extra_weights.contains_key(&site) {
-            for (force, extra) in forces.iter_mut().zip(self.extra(site)) {
-                *force = extra + &*force;
-            }
+            forces = add(forces, &self.extra(site));
         }
         Received { forces, changes }
     }
+}
+
+/// Returns what a sphere passes on along its three lines.
+fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
+    [
+        passed_on(a, own_a),
+        passed_on(b, own_b),
+        passed_on(c, own_c),
+    ]
 }
 
 impl Line {

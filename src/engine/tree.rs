@@ -8,10 +8,10 @@ use num_traits::{One, Zero};
 use super::lines::{Line, Lines, start_of};
 use crate::Error;
 use crate::error::bug;
+use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
-use crate::transfer::turn_numerators;
 
 /// The most nodes of a tree that are visited for one row.
 pub(crate) const MAX_NODES: usize = 4_000_000;
@@ -177,7 +177,7 @@ impl<T: Algebra> Lines<'_, T> {
         let mut forces = self.received(&first, &[], &[])?;
         let mut level = first;
         for next in levels {
-            let turned: Vec<_> = forces.iter().map(turn_numerators::<T>).collect();
+            let turned: Vec<_> = forces.iter().map(formula::half_turn::<T>).collect();
             forces = self.received(&next, &level.sites, &turned)?;
             level = next;
         }
@@ -221,7 +221,7 @@ impl<T: Algebra> Lines<'_, T> {
                     let carried = place.and_then(|place| turned.get(place));
                     let carried = carried
                         .ok_or_else(|| bug("a line that crosses a change of sign starts there"))?;
-                    counted + &carried[direction.index()]
+                    formula::passed_on(carried[direction.index()].clone(), &counted)
                 } else {
                     counted
                 };
@@ -240,15 +240,13 @@ impl<T: Algebra> Lines<'_, T> {
         direction: Direction,
         n: i128,
     ) -> T::Numerator {
-        let ordinary = self
-            .ordinary
-            .force(T::Numerator::from_i128(n), direction.index());
+        let ordinary = self.ordinary(T::Numerator::from_i128(n), direction.index());
         if self.extras.is_empty() {
             return ordinary;
         }
         let [i, j] = site;
         let line = Line::through(Site { i, j, k }, direction, run);
         let extras = self.extras.range((line, k - n)..(line, k));
-        extras.fold(ordinary, |sum, (_, extra)| sum + extra)
+        extras.fold(ordinary, |sum, (_, extra)| formula::passed_on(sum, extra))
     }
 }

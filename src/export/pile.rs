@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use num_bigint::BigUint;
 
 use super::tables::refuse_beyond;
-use super::{Units, WriteError};
+use super::WriteError;
 use crate::shape::{Numbering, Selection};
 use crate::{Error, Packing, Pile};
 

@@ -12,7 +12,7 @@ use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::{Ring, Surd};
 use crate::shape::{Rows, Selection};
 use crate::theorem::{Proof, Theorem};
-use crate::{ContactForce, Error, FloorForce, Packing, Forces, Pile};
+use crate::{ContactForce, Error, FloorForce, Forces, Packing, Pile};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;

@@ -127,10 +127,7 @@ impl Network {
             "spheres of a section",
             remedy,
         )?;
-        let forces = subject
-            .packing()
-            .forces()
-            .contacts(Selection::All)?;
+        let forces = subject.packing().forces().contacts(Selection::All)?;
         let mut links = Vec::new();
         for contact in forces {
             let contact = contact?;

@@ -15,10 +15,10 @@ use crate::engine::{
     received,
 };
 use crate::error::bug;
+use crate::formula::{half_turn, passed_on};
 use crate::lattice::{Region, Site};
 use crate::scalar::{Algebra, Exactness, Ring};
 use crate::shape::{Selection, Shape};
-use crate::transfer::turn_numerators;
 
 /// A way down through the layers of a part of a pile, made by [`Forces::layers`].
 ///
@@ -656,7 +656,7 @@ impl<T: Algebra> Below<T> {
         let mut defined = true;
         for ((carried, out), own) in carried.into_iter().zip([a, b, c]).zip(&self.own) {
             for (force, out) in carried.iter().zip(out) {
-                defined &= self.put(force.clone() + own, out);
+                defined &= self.put(passed_on(force.clone(), own), out);
             }
         }
         defined
@@ -668,9 +668,9 @@ impl<T: Algebra> Below<T> {
         let [to_a, to_b, to_c] = out;
         for (((a, b), c), ((to_a, to_b), to_c)) in carried.zip(to_a.iter_mut().zip(to_b).zip(to_c))
         {
-            let turned = turn_numerators::<T>(&[a.clone(), b.clone(), c.clone()]);
+            let turned = half_turn::<T>(&[a.clone(), b.clone(), c.clone()]);
             for ((force, out), own) in turned.into_iter().zip([to_a, to_b, to_c]).zip(&self.own) {
-                defined &= self.put(force + own, out);
+                defined &= self.put(passed_on(force, own), out);
             }
         }
         defined

@@ -2,8 +2,8 @@
 
 use super::FloorForce;
 use crate::Error;
-use crate::closed_form;
 use crate::engine::{Lines, Received};
+use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, Site};
 use crate::pile::System;
@@ -24,7 +24,7 @@ pub(super) struct Terms<'p, T: Algebra> {
 
 impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn new(system: System<'p>) -> Self {
-        let ([increment_sum], sum_scale) = T::numerators(&[system.increments.sum().clone()]);
+        let ([increment_sum], sum_scale) = T::numerators(&[formula::weight(&system.increments)]);
         let [a, b, c] = system.directions.clone().map(Vector::into_array);
         let [ax, ay, az] = a;
         let [bx, by, bz] = b;
@@ -90,7 +90,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
     ) -> (Vector<T::Numerator>, T::Numerator) {
         let Received { forces, changes } = above;
         let directions = self.directions_above(site.k);
-        let force = closed_form::handed_on(forces, &directions, &self.weight(site, *changes));
+        let force = formula::handed_on(forces, &directions, &self.weight(site, *changes));
         (force.scaled(&self.sum_scale), self.floor_unit(*changes))
     }
 

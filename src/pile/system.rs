@@ -6,7 +6,6 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::Loading;
-use crate::closed_form::Increments;
 use crate::geometry::Vector;
 use crate::lattice::Dimension;
 use crate::shape::Shape;
@@ -17,7 +16,7 @@ use crate::shape::Shape;
 pub(crate) struct System<'p> {
     pub(crate) shape: &'p Shape,
     /// Of an ordinary sphere that weighs mg.
-    pub(crate) increments: Increments<BigRational, 3>,
+    pub(crate) increments: [BigRational; 3],
     /// Under a + step.
     pub(crate) directions: [Vector<BigRational>; 3],
     pub(crate) loading: &'p Loading,
@@ -26,7 +25,7 @@ pub(crate) struct System<'p> {
 impl System<'_> {
     /// Returns the common denominator D of all increments, and of all extra weights and loads times increments.
     pub(crate) fn denominator(&self) -> BigInt {
-        let per_line = self.increments.per_line().iter();
+        let per_line = self.increments.iter();
         let own = per_line.fold(BigInt::one(), |d, w| d.lcm(w.denom()));
         let extras = self.loading.extras();
         own * extras.fold(BigInt::one(), |d, (_, w)| d.lcm(w.denom()))
@@ -38,7 +37,7 @@ impl System<'_> {
         let scale = BigRational::from_integer(self.denominator());
         let extras = self.loading.extras().map(|(_, extra)| extra.abs());
         let extras = extras.fold(BigRational::zero(), |sum, extra| sum + extra);
-        let per_line = self.increments.per_line().iter();
+        let per_line = self.increments.iter();
         let greatest = per_line.fold(BigRational::zero(), |most, w| most.max(w.clone()));
         let ordinary = greatest * self.loading.ordinary();
         // Integers: the scale is a multiple of all denominators.

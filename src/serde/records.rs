@@ -233,11 +233,6 @@ struct CountersRecord {
 
 impl From<CountersRecord> for Counters {
     fn from(record: CountersRecord) -> Self {
-        Self::of([
-            record.visited,
-            record.turned,
-            record.passes,
-            record.rows,
-        ])
+        Self::of([record.visited, record.turned, record.passes, record.rows])
     }
 }

@@ -72,8 +72,12 @@ fn beside(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
 
 /// The number of spheres before `site`.
 fn before(pile: &Pile, site: Site) -> BigInt {
-    let [i, j, k] = [site.i, site.j, site.k].map(|n| BigRational::from_integer(n.into()));
-    count::before(&i, &j, &k, pile.dimension().number()).to_integer()
+    let Site { i, j, k } = site;
+    let layers = BigRational::from_integer(k.into());
+    let above = count::spheres(&layers, pile.dimension().number()).to_integer();
+    // Rows 0 … j−1 hold k+1, k, … spheres.
+    let [i, j, k] = [i, j, k].map(BigInt::from);
+    above + (k * 2 + 3 - &j) * j / 2 + i
 }
 
 /// The next site in the row, or the first of the next row or layer.

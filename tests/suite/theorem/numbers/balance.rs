@@ -1,9 +1,9 @@
 //! Forces on every sphere of piles on every base.
 
 use cannonpile::Pile;
+use cannonpile::formula::half_turn;
 use cannonpile::geometry::{Vector, squared_distance};
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::transfer::half_turn;
 use num_rational::BigRational as Q;
 use num_traits::Zero;
 
@@ -149,6 +149,11 @@ fn half_turns_turn_forces() {
     let proof = prove("half-turn");
     let [names_g, names_h] = [["g_1", "g_2", "g_3"], ["h_1", "h_2", "h_3"]];
     let dot = |a: &[Q; 3], b: &[Q; 3]| -> Q { a.iter().zip(b).map(|(x, y)| x * y).sum() };
+    // Fractions are turned as integers over one denominator, 21 · 3.
+    let turn = |g: &[Q; 3]| {
+        let numerators = g.each_ref().map(|g| (g * int(63)).to_integer());
+        half_turn::<Q>(&numerators).map(|tripled| Q::new(tripled, 189.into()))
+    };
     for n in 0..30 {
         let g = [ratio(n, 1), ratio(5 - n, 3), ratio(n * n, 7)];
         let h = [ratio(1, 2), ratio(-n, 5), ratio(3, 1)];
@@ -157,10 +162,10 @@ fn half_turns_turn_forces() {
             .zip(g.clone())
             .chain(names_h.into_iter().zip(h.clone()));
         let values: Vec<_> = named.collect();
-        let turned = half_turn(&g);
+        let turned = turn(&g);
         assert_eq!(value(&proof, "|Gg|²", &values), dot(&turned, &turned));
         assert_eq!(value(&proof, "h·Gg", &values), dot(&h, &turned));
-        assert_eq!(half_turn(&turned), g);
+        assert_eq!(turn(&turned), g);
         // A half turn about (1, 1, 1): what is along the axis stays, the rest is reversed.
         let mean = g.iter().sum::<Q>() / int(3);
         for (x, turned) in g.iter().zip(&turned) {
