@@ -16,6 +16,7 @@ mod figure;
 mod fixed_width;
 mod flawed;
 mod flawed_scalars;
+mod formula_is_what_answers;
 mod geometry;
 mod interval;
 #[path = "../judge/mod.rs"]
