@@ -66,7 +66,8 @@
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
 //! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
-//! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
+//! | `table` | tables as csv, json and text (feature `export`) |
+//! | `dem` | piles as files for LAMMPS, ParaView, YADE (feature `export`) |
 //! | `verify` | measured forces against the exact ones (feature `export`) |
 //! | `figure` | the paper's figures and more, as SVG (feature `plot`) |
 //!
@@ -99,11 +100,11 @@
 extern crate alloc;
 
 pub mod census;
-mod engine;
-mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod export;
+pub mod dem;
+mod engine;
+mod error;
 #[cfg(feature = "plot")]
 #[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
 pub mod figure;
@@ -121,6 +122,9 @@ pub mod serde;
 pub mod shape;
 pub mod stacking;
 mod standing;
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub mod table;
 pub mod theorem;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]

@@ -6,7 +6,7 @@ mod refusals;
 
 use std::collections::BTreeMap;
 
-use cannonpile::export::{PileExport, PileFile};
+use cannonpile::dem::{PileExport, PileFile};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::{Packing, Pile};
 

@@ -4,9 +4,9 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::One;
 
+use super::rows::{Layout, Row};
 use super::summary::steps;
-use super::table::{Layout, Row};
-use super::{Cell, Column, Table, Written};
+use super::{Cell, Column, Table};
 use crate::census::Entry;
 use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::{Ring, Surd};
@@ -32,11 +32,11 @@ impl<'p> Units<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::export::{Units, tables};
+    /// use cannonpile::table::{self, Units};
     /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
-    /// let table = tables::contacts(&Units::of_pile(&pile), Selection::All)?;
+    /// let table = table::contacts(&Units::of_pile(&pile), Selection::All)?;
     /// assert_eq!(table.columns()[4].unit, "mg/(3cosθ)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -49,7 +49,7 @@ impl<'p> Units<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Units, tables};
+    /// use cannonpile::table::{self, Units};
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Packing, Pile};
@@ -58,7 +58,7 @@ impl<'p> Units<'p> {
     /// let pile = Pile::triangular(10)?;
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
     /// let units = Units::of_packing(Packing::new(&pile, &spacing)?);
-    /// assert_eq!(tables::base(&units, Selection::Base)?.columns()[2].unit, "N");
+    /// assert_eq!(table::base(&units, Selection::Base)?.columns()[2].unit, "N");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -166,14 +166,14 @@ impl<'p> Units<'p> {
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+/// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
 /// use cannonpile::lattice::Site;
 /// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(10)?;
 /// let corner = Selection::One(Site { i: 0, j: 0, k: 9 });
 /// let mut csv = Vec::new();
-/// tables::base(&Units::of_pile(&pile), corner)?.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// table::base(&Units::of_pile(&pile), corner)?.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// assert_eq!(String::from_utf8(csv)?, "i,j,normal,shear_x,shear_y\n0,0,4,-3/2,-3/2\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -221,11 +221,11 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+/// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
 /// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(2)?;
-/// let table = tables::contacts(&Units::of_pile(&pile), Selection::All)?;
+/// let table = table::contacts(&Units::of_pile(&pile), Selection::All)?;
 /// let mut csv = Vec::new();
 /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// assert_eq!(
@@ -296,7 +296,7 @@ fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::{FileFormat, NumberFormat, tables};
+/// use cannonpile::table::{self, FileFormat, NumberFormat};
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::lattice::Site;
 /// use cannonpile::shape::Selection;
@@ -305,7 +305,7 @@ fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
 ///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::from_integer(1.into()))?)?;
-/// let table = tables::spheres(&packing, Selection::One(Site::APEX))?;
+/// let table = table::spheres(&packing, Selection::One(Site::APEX))?;
 /// let mut csv = Vec::new();
 /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// assert_eq!(
@@ -356,10 +356,10 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::tables;
+/// use cannonpile::table;
 /// use cannonpile::theorem;
 ///
-/// let table = tables::theorems(theorem::all().map(|theorem| (theorem, theorem.prove())));
+/// let table = table::theorems(theorem::all().map(|theorem| (theorem, theorem.prove())));
 /// assert_eq!(table.columns().len(), 4);
 /// ```
 pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> Table<'t> {
@@ -395,9 +395,9 @@ pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> 
 /// # Examples
 /// ```
 /// use cannonpile::census;
-/// use cannonpile::export::{FileFormat, NumberFormat, tables};
+/// use cannonpile::table::{self, FileFormat, NumberFormat};
 ///
-/// let table = tables::census(census::under_one_sphere(3, false)?);
+/// let table = table::census(census::under_one_sphere(3, false)?);
 /// let mut csv = Vec::new();
 /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// assert_eq!(
@@ -456,38 +456,6 @@ pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> T
     }
 }
 
-/// Files that were written, one a row: `file, rows, bytes`.
-///
-/// # Examples
-/// ```
-/// use cannonpile::export::{FileFormat, NumberFormat, PileFile, Written, tables};
-///
-/// let (file, path) = (PileFile::LammpsData, "pile.data".into());
-/// let written = [Written { file, path, rows: Some(220), bytes: 20_000 }];
-/// let mut csv = Vec::new();
-/// tables::files(&written).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
-/// assert_eq!(String::from_utf8(csv)?, "file,rows,bytes\npile.data,220,20000\n");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[must_use]
-pub fn files(written: &[Written]) -> Table<'_> {
-    let row = |written: &Written| -> Row {
-        let rows = written.rows.map(|rows| Cell::Integer(rows.into()));
-        Ok(vec![
-            Cell::Word(written.path.display().to_string().into()),
-            rows.unwrap_or(Cell::Missing),
-            Cell::Integer(written.bytes.into()),
-        ])
-    };
-    Table {
-        columns: ["file", "rows", "bytes"].map(Column::plain).into(),
-        layout: Layout::Rows("files"),
-        extremes: Vec::new(),
-        bounds: Vec::new(),
-        rows: Box::new(written.iter().map(row)),
-    }
-}
-
 /// The columns that say where a sphere is: those named first, then i, and j in space.
 fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
     let places: &[_] = if pile.dimension() == Dimension::Two {
@@ -511,7 +479,7 @@ fn places(pile: &Pile, site: Site) -> Vec<Cell> {
     }
 }
 
-pub(super) fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {
+pub(crate) fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {
     if *rows <= BigUint::from(MAX_ROWS) {
         return Ok(());
     }

@@ -3,12 +3,12 @@
 use std::io::Write;
 
 use super::PileExport;
-use super::dem::{Springs, burdens, density, inertia, normal};
 use super::progress::Progress;
 use super::rounded::Centres;
-use crate::export::WriteError;
+use super::springs::{Springs, burdens, density, inertia, normal};
 use crate::lattice::Dimension;
 use crate::shape::Selection;
+use crate::table::WriteError;
 
 /// What `ymport.text` reads: `x y z r`, a sphere a line.
 pub(super) fn write_spheres(

@@ -2,7 +2,7 @@
 
 use num_bigint::{BigInt, BigUint};
 
-use super::table::Layout;
+use super::rows::Layout;
 use super::{Cell, Column, Table, Units};
 use crate::shape::Selection;
 use crate::{Counters, Error, Method, Plan, Quantity, Question};
@@ -11,7 +11,7 @@ use crate::{Counters, Error, Method, Plan, Quantity, Question};
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::{Explanation, FileFormat, NumberFormat, Units};
+/// use cannonpile::table::{Explanation, FileFormat, NumberFormat, Units};
 /// use cannonpile::shape::Selection;
 /// use cannonpile::{Pile, Quantity};
 ///
@@ -41,7 +41,7 @@ impl<'p> Explanation<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::table::{Explanation, Units};
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Error, Pile, Quantity};
     ///
@@ -72,7 +72,7 @@ impl<'p> Explanation<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::table::{Explanation, Units};
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Pile, Quantity};
     ///
@@ -96,7 +96,7 @@ impl<'p> Explanation<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::table::{Explanation, Units};
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Error, Pile, Quantity};
     ///
@@ -119,7 +119,7 @@ impl<'p> Explanation<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::table::{Explanation, Units};
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Pile, Quantity};
     ///
@@ -163,7 +163,7 @@ impl<'p> Explanation<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Explanation, Units};
+    /// use cannonpile::table::{Explanation, Units};
     /// use cannonpile::shape::Selection;
     /// use cannonpile::{Counters, Pile, Quantity};
     ///
@@ -202,7 +202,7 @@ impl<'p> Explanation<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Explanation, FileFormat, NumberFormat};
+    /// use cannonpile::table::{Explanation, FileFormat, NumberFormat};
     /// use cannonpile::lattice::{Direction, Site};
     /// use cannonpile::{Counters, Pile};
     ///
@@ -267,7 +267,7 @@ impl Units<'_> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::Units;
+    /// use cannonpile::table::Units;
     /// use cannonpile::{Method, Pile};
     ///
     /// let pile = Pile::discs(5)?;

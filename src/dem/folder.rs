@@ -5,8 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::{PileExport, PileFormat, Written};
-use crate::export::WriteError;
-use crate::export::file::Aside;
+use crate::table::Aside;
+use crate::table::WriteError;
 
 pub(super) fn write(
     export: &PileExport<'_>,

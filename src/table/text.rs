@@ -5,7 +5,7 @@ use std::io::Write;
 use num_bigint::BigUint;
 use num_traits::Zero;
 
-use super::table::{Column, Layout, Row, texts};
+use super::rows::{Column, Layout, Row, texts};
 use super::{Cell, NumberFormat, Table, WriteError};
 use crate::scalar::Surd;
 

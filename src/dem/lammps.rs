@@ -3,13 +3,13 @@
 use std::io::Write;
 
 use super::PileExport;
-use super::dem::{Springs, burdens, density, inertia, normal};
 use super::progress::Progress;
 use super::rounded::Centres;
+use super::springs::{Springs, burdens, density, inertia, normal};
 use crate::Error;
-use crate::export::WriteError;
 use crate::lattice::Dimension;
 use crate::shape::Selection;
+use crate::table::WriteError;
 
 /// The most atoms of LAMMPS as it is usually compiled.
 const MOST_ATOMS: u64 = i32::MAX as u64;

@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::table::Layout;
+use super::rows::Layout;
 use super::{Cell, Column, Table, Units};
 use crate::geometry::Apart;
 use crate::lattice::Dimension;
@@ -16,7 +16,7 @@ use crate::{BaseExtremes, ContactForce, Error, Pile, Standing, Verdict};
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::{FileFormat, NumberFormat, Summary, Units};
+/// use cannonpile::table::{FileFormat, NumberFormat, Summary, Units};
 /// use cannonpile::{Pile, Verdict};
 ///
 /// let pile = Pile::triangular(10)?;
@@ -46,7 +46,7 @@ impl<'p> Summary<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{Summary, Units};
+    /// use cannonpile::table::{Summary, Units};
     /// use cannonpile::geometry::Apart;
     /// use cannonpile::lattice::Region;
     /// use cannonpile::{Pile, Verdict};
@@ -78,7 +78,7 @@ impl<'p> Summary<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::export::{Summary, Units};
+    /// use cannonpile::table::{Summary, Units};
     ///
     /// let pile = Pile::triangular(10)?.weightless();
     /// assert_eq!(Summary::new(&Units::of_pile(&pile), None)?.verdict(), None);
@@ -102,7 +102,7 @@ impl<'p> Summary<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::export::{FileFormat, NumberFormat, Summary, Units};
+    /// use cannonpile::table::{FileFormat, NumberFormat, Summary, Units};
     /// use cannonpile::lattice::Region;
     ///
     /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;

@@ -61,7 +61,7 @@ impl Column {
 }
 
 /// A row, or why it could not be made.
-pub(super) type Row = Result<Vec<Cell>, Error>;
+pub(crate) type Row = Result<Vec<Cell>, Error>;
 
 /// How a text table is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +72,7 @@ pub(super) enum Layout {
     Record,
 }
 
-/// A table: columns, and rows made as they are asked for. [`tables`](super::tables) makes them.
+/// A table: columns, and rows made as they are asked for. [`base`](super::base), [`contacts`](super::contacts) and others make them.
 pub struct Table<'a> {
     pub(super) columns: Vec<Column>,
     pub(super) layout: Layout,
@@ -80,7 +80,7 @@ pub struct Table<'a> {
     pub(super) extremes: Vec<Row>,
     /// A row that no row exceeds, where the extremes are not known.
     pub(super) bounds: Vec<Cell>,
-    pub(super) rows: Box<dyn Iterator<Item = Row> + 'a>,
+    pub(crate) rows: Box<dyn Iterator<Item = Row> + 'a>,
 }
 
 impl Table<'static> {
@@ -98,16 +98,27 @@ impl Table<'static> {
 }
 
 impl Table<'_> {
+    /// A table of these rows, a line a row; `noun` says in the plural what they are.
+    pub(crate) fn of_rows(columns: Vec<Column>, noun: &'static str, rows: Vec<Row>) -> Self {
+        Self {
+            columns,
+            layout: Layout::Rows(noun),
+            extremes: Vec::new(),
+            bounds: Vec::new(),
+            rows: Box::new(rows.into_iter()),
+        }
+    }
+
     /// The columns, in order.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::export::{Units, tables};
+    /// use cannonpile::table::{self, Units};
     /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
-    /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;
+    /// let table = table::base(&Units::of_pile(&pile), Selection::Base)?;
     /// let normal = &table.columns()[2];
     /// assert_eq!((normal.name, normal.unit, normal.summed), ("normal", "mg", true));
     /// # Ok::<(), cannonpile::Error>(())
@@ -126,11 +137,11 @@ impl Table<'_> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+    /// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
     /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::discs(1)?;
-    /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;
+    /// let table = table::base(&Units::of_pile(&pile), Selection::Base)?;
     /// let mut json = Vec::new();
     /// table.write(FileFormat::Json, NumberFormat::F64, &mut json)?;
     /// let json = String::from_utf8(json)?;

@@ -6,9 +6,9 @@ use super::PileExport;
 use super::progress::Progress;
 use super::rounded::{Centres, nearest_rational};
 use crate::Error;
-use crate::export::WriteError;
 use crate::lattice::{Dimension, Site};
 use crate::shape::Selection;
+use crate::table::WriteError;
 
 pub(super) fn write(
     export: &PileExport<'_>,

@@ -7,9 +7,9 @@ use super::polydata::{Array, Kind, PolyData, Section};
 use super::progress::Progress;
 use super::rounded::{Centres, Forces, Touch, Touches, contacts, nearest, nearest_rational};
 use crate::Error;
-use crate::export::WriteError;
 use crate::lattice::Site;
 use crate::shape::Selection;
+use crate::table::WriteError;
 
 /// A point and a vertex for each sphere.
 pub(super) fn write_spheres(

@@ -4,8 +4,8 @@ use std::io::Write;
 
 use super::PileExport;
 use super::progress::Progress;
-use crate::export::{FileFormat, NumberFormat, Units, WriteError, tables};
 use crate::shape::Selection;
+use crate::table::{self, FileFormat, NumberFormat, Units, WriteError};
 
 pub(super) fn write(
     export: &PileExport<'_>,
@@ -13,7 +13,7 @@ pub(super) fn write(
     progress: &mut Progress<'_>,
 ) -> Result<(), WriteError> {
     let units = Units::of_packing(export.packing.clone());
-    let mut table = tables::base(&units, Selection::Base)?;
+    let mut table = table::base(&units, Selection::Base)?;
     table.rows = Box::new(table.rows.inspect(|_| progress.row()));
     table.write(FileFormat::Csv, NumberFormat::F64, out)
 }

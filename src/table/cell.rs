@@ -91,7 +91,7 @@ impl NumberFormat {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::NumberFormat;
+    /// use cannonpile::table::NumberFormat;
     /// use cannonpile::scalar::Surd;
     /// use num_rational::BigRational;
     ///

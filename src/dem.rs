@@ -2,13 +2,13 @@
 
 mod base;
 mod contacts;
-mod dem;
 mod folder;
 mod lammps;
 mod polydata;
 mod progress;
 mod rounded;
 mod spheres;
+mod springs;
 mod vtp;
 mod yade;
 
@@ -17,9 +17,8 @@ use std::path::{Path, PathBuf};
 
 use num_bigint::BigUint;
 
-use super::tables::refuse_beyond;
-use super::WriteError;
 use crate::shape::{Numbering, Selection};
+use crate::table::{Cell, Column, Table, WriteError, refuse_beyond};
 use crate::{Error, Packing, Pile};
 
 use progress::Progress;
@@ -28,7 +27,7 @@ use progress::Progress;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::PileFormat;
+/// use cannonpile::dem::PileFormat;
 ///
 /// let names = PileFormat::Lammps.files().iter().map(|file| file.name());
 /// assert!(names.eq(["pile.data", "pile.in"]));
@@ -53,7 +52,7 @@ impl PileFormat {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{PileFile, PileFormat};
+    /// use cannonpile::dem::{PileFile, PileFormat};
     ///
     /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
     /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [3, 2, 2, 2]);
@@ -79,11 +78,11 @@ impl PileFormat {
 /// have the numbers of [`Numbering`] in all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PileFile {
-    /// `spheres.csv`: the table of [`tables::spheres`](super::tables::spheres).
+    /// `spheres.csv`: the table of [`table::spheres`](crate::table::spheres).
     SpheresCsv,
     /// `contacts.csv`: `id1,id2,force,fx,fy,fz`; id1 is the upper sphere, on which the force acts.
     ContactsCsv,
-    /// `base.csv`: the table of [`tables::base`](super::tables::base), a row for each sphere of the floor; the n-th is
+    /// `base.csv`: the table of [`table::base`](crate::table::base), a row for each sphere of the floor; the n-th is
     /// that of sphere [`first_on_floor`](Numbering::first_on_floor) + n − 1.
     BaseCsv,
     /// `pile.data`: spheres of `atom_style sphere`, those on the floor of type 2.
@@ -106,7 +105,7 @@ impl PileFile {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::PileFile;
+    /// use cannonpile::dem::PileFile;
     ///
     /// assert_eq!(PileFile::ContactsCsv.name(), "contacts.csv");
     /// ```
@@ -143,7 +142,7 @@ pub struct Written {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::{PileExport, PileFormat};
+/// use cannonpile::dem::{PileExport, PileFormat};
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::{Packing, Pile};
 /// use num_rational::BigRational;
@@ -168,12 +167,12 @@ impl<'p> PileExport<'p> {
     /// The files of this pile.
     ///
     /// # Errors
-    /// [`Error::TooManyRows`] for more than [`MAX_ROWS`](super::tables::MAX_ROWS) contacts, [`Error::TooLarge`] if a
+    /// [`Error::TooManyRows`] for more than [`MAX_ROWS`](crate::table::MAX_ROWS) contacts, [`Error::TooLarge`] if a
     /// layer does not fit in memory where forces have to be swept.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::PileExport;
+    /// use cannonpile::dem::PileExport;
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -199,7 +198,7 @@ impl<'p> PileExport<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::PileExport;
+    /// use cannonpile::dem::PileExport;
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -219,7 +218,7 @@ impl<'p> PileExport<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::PileExport;
+    /// use cannonpile::dem::PileExport;
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -244,7 +243,7 @@ impl<'p> PileExport<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{PileExport, PileFile};
+    /// use cannonpile::dem::{PileExport, PileFile};
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -280,7 +279,7 @@ impl<'p> PileExport<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{PileExport, PileFile};
+    /// use cannonpile::dem::{PileExport, PileFile};
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -330,7 +329,7 @@ impl<'p> PileExport<'p> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::{PileExport, PileFormat};
+    /// use cannonpile::dem::{PileExport, PileFormat};
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
@@ -354,4 +353,32 @@ impl<'p> PileExport<'p> {
     ) -> Result<Vec<Written>, WriteError> {
         folder::write(self, formats, folder, progress)
     }
+}
+
+/// Files that were written, one a row: `file, rows, bytes`.
+///
+/// # Examples
+/// ```
+/// use cannonpile::dem::{self, PileFile, Written};
+/// use cannonpile::table::{FileFormat, NumberFormat};
+///
+/// let (file, path) = (PileFile::LammpsData, "pile.data".into());
+/// let written = [Written { file, path, rows: Some(220), bytes: 20_000 }];
+/// let mut csv = Vec::new();
+/// dem::files(&written).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(String::from_utf8(csv)?, "file,rows,bytes\npile.data,220,20000\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn files(written: &[Written]) -> Table<'static> {
+    let row = |written: &Written| {
+        let rows = written.rows.map(|rows| Cell::Integer(rows.into()));
+        Ok(vec![
+            Cell::Word(written.path.display().to_string().into()),
+            rows.unwrap_or(Cell::Missing),
+            Cell::Integer(written.bytes.into()),
+        ])
+    };
+    let columns = ["file", "rows", "bytes"].map(Column::plain).into();
+    Table::of_rows(columns, "files", written.iter().map(row).collect())
 }

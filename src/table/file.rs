@@ -19,7 +19,7 @@ use super::WriteError;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::write_aside;
+/// use cannonpile::table::write_aside;
 ///
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("base.csv");
@@ -37,7 +37,7 @@ pub fn write_aside(
 
 /// What has been written for a path, and is not there yet.
 #[derive(Debug)]
-pub(super) struct Aside {
+pub(crate) struct Aside {
     /// None if it had to be written directly.
     file: Option<NamedTempFile>,
     target: PathBuf,
@@ -46,7 +46,7 @@ pub(super) struct Aside {
 
 impl Aside {
     /// Writes beside the target; dropped, it leaves nothing.
-    pub(super) fn write(
+    pub(crate) fn write(
         path: &Path,
         write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<Self, WriteError> {
@@ -96,7 +96,7 @@ impl Aside {
     }
 
     /// Renames it into place, and tells how many bytes it has.
-    pub(super) fn keep(self) -> io::Result<u64> {
+    pub(crate) fn keep(self) -> io::Result<u64> {
         if let Some(file) = self.file {
             file.persist(&self.target).map_err(|error| error.error)?;
         }
@@ -104,7 +104,7 @@ impl Aside {
     }
 
     /// Where it goes, links followed.
-    pub(super) fn target(&self) -> &Path {
+    pub(crate) fn target(&self) -> &Path {
         &self.target
     }
 }

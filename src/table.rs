@@ -1,20 +1,17 @@
-//! Tables of a pile's forces and spheres, as csv, json and aligned text; whole piles as files.
+//! Tables of a pile's forces and spheres, as csv, json and aligned text.
 //!
 //! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
 //! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
 //! against the extremes of the table before the first byte is written.
 //!
-//! A [`PileExport`] is a whole pile as files for other programs: csv for any, input for LAMMPS and YADE, geometry for
-//! ParaView.
-//!
 //! # Examples
 //! ```
 //! use cannonpile::Pile;
-//! use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+//! use cannonpile::table::{self, FileFormat, NumberFormat, Units};
 //! use cannonpile::shape::Selection;
 //!
 //! let pile = Pile::triangular(2)?;
-//! let table = tables::base(&Units::of_pile(&pile), Selection::Base)?;
+//! let table = table::base(&Units::of_pile(&pile), Selection::Base)?;
 //! let mut csv = Vec::new();
 //! table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 //! assert_eq!(
@@ -28,19 +25,19 @@ mod cell;
 mod explain;
 mod file;
 mod json;
-mod pile;
+mod rows;
 mod summary;
-mod table;
-pub mod tables;
+mod tables;
 mod text;
 
 pub use cell::{Cell, NumberFormat};
 pub use explain::Explanation;
+pub(crate) use file::Aside;
 pub use file::write_aside;
-pub use pile::{PileExport, PileFile, PileFormat, Written};
+pub use rows::{Column, Table};
 pub use summary::Summary;
-pub use table::{Column, Table};
-pub use tables::Units;
+pub(crate) use tables::refuse_beyond;
+pub use tables::{MAX_ROWS, Units, base, census, contacts, spheres, theorems};
 
 use std::io;
 use std::path::PathBuf;

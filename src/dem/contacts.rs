@@ -5,7 +5,7 @@ use std::io::Write;
 use super::PileExport;
 use super::progress::Progress;
 use super::rounded::{Forces, contacts};
-use crate::export::WriteError;
+use crate::table::WriteError;
 
 pub(super) fn write(
     export: &PileExport<'_>,
