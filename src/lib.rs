@@ -134,7 +134,7 @@ pub mod transfer;
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;
 
-pub use error::Error;
+pub use error::{Culprit, Error};
 pub use fill::Strengths;
 pub use meter::{Counters, Meter};
 pub use packing::{PackedContact, Packing};

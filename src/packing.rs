@@ -14,7 +14,7 @@ use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
 use crate::meter::Meter;
 use crate::scalar::{Ring, Surd};
-use crate::{Error, FloorForce, Method, Pile, Statics};
+use crate::{Culprit, Error, FloorForce, Method, Pile, Statics};
 
 use roots::{Once, Roots};
 
@@ -184,7 +184,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_radius(self, radius: BigRational) -> Result<Self, Error> {
-        let radius = positive("radius", radius)?;
+        let radius = positive(Culprit::Radius, radius)?;
         Ok(Self { radius, ..self })
     }
 
@@ -207,7 +207,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
-        let mass = positive("mass", mass)?;
+        let mass = positive(Culprit::Mass, mass)?;
         Ok(Self { mass, ..self }.weighed())
     }
 
@@ -230,7 +230,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
-        let gravity = positive("gravity", gravity)?;
+        let gravity = positive(Culprit::Gravity, gravity)?;
         Ok(Self { gravity, ..self }.weighed())
     }
 
@@ -667,7 +667,7 @@ impl<'p, M: Meter> Packing<'p, M> {
 }
 
 /// `value`, if it is positive.
-fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
+fn positive(quantity: Culprit, value: BigRational) -> Result<BigRational, Error> {
     if value.is_positive() {
         Ok(value)
     } else {
