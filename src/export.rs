@@ -33,6 +33,7 @@ mod summary;
 mod table;
 pub mod tables;
 mod text;
+mod unfinished;
 
 pub use cell::{Cell, NumberFormat};
 pub use explain::Explanation;
@@ -41,6 +42,7 @@ pub use pile::{PileExport, PileFile, PileFormat, Written};
 pub use summary::Summary;
 pub use table::{Column, Table};
 pub use tables::Units;
+pub use unfinished::remove_unfinished;
 
 use std::io;
 use std::path::PathBuf;
