@@ -1,6 +1,9 @@
 //! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
 
+mod culprit;
 mod display;
+
+pub use culprit::Culprit;
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -159,9 +162,9 @@ pub enum Error {
     /// Two options of a scene that exclude each other.
     Excluded {
         /// The one.
-        given: &'static str,
+        given: Culprit,
         /// The other.
-        beside: &'static str,
+        beside: Culprit,
     },
     /// An answer that would take more memory than is sensible.
     TooLarge {
@@ -177,7 +180,7 @@ pub enum Error {
     /// A length, mass, gravity or spacing that is not positive.
     NotPositive {
         /// What it is.
-        quantity: &'static str,
+        quantity: Culprit,
         /// The value asked for.
         given: BigRational,
     },

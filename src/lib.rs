@@ -131,7 +131,7 @@ pub mod theorem;
 pub mod verify;
 
 pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
-pub use error::Error;
+pub use error::{Culprit, Error};
 pub use forces::{
     Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
 };

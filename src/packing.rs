@@ -13,7 +13,7 @@ use crate::engine::{Meter, Method};
 use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Ring, Surd};
-use crate::{Error, FloorForce, Forces, Pile};
+use crate::{Culprit, Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
 ///
@@ -183,7 +183,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_radius(self, radius: BigRational) -> Result<Self, Error> {
-        let radius = positive("radius", radius)?;
+        let radius = positive(Culprit::Radius, radius)?;
         Ok(Self { radius, ..self })
     }
 
@@ -206,7 +206,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
-        let mass = positive("mass", mass)?;
+        let mass = positive(Culprit::Mass, mass)?;
         Ok(Self { mass, ..self }.weighed())
     }
 
@@ -229,7 +229,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
-        let gravity = positive("gravity", gravity)?;
+        let gravity = positive(Culprit::Gravity, gravity)?;
         Ok(Self { gravity, ..self }.weighed())
     }
 
@@ -693,7 +693,7 @@ impl Roots {
 }
 
 /// `value`, if it is positive.
-fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
+fn positive(quantity: Culprit, value: BigRational) -> Result<BigRational, Error> {
     if value.is_positive() {
         Ok(value)
     } else {

@@ -29,6 +29,7 @@ mod rows;
 mod summary;
 mod tables;
 mod text;
+mod unfinished;
 
 pub use cell::{Cell, NumberFormat};
 pub use explain::Explanation;
@@ -38,6 +39,8 @@ pub use rows::{Column, Table};
 pub use summary::Summary;
 pub(crate) use tables::refuse_beyond;
 pub use tables::{MAX_ROWS, Units, base, census, contacts, spheres, theorems};
+pub(crate) use unfinished::Begun;
+pub use unfinished::remove_unfinished;
 
 use std::io;
 use std::path::PathBuf;

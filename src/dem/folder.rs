@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{PileExport, PileFormat, Written};
 use crate::table::Aside;
-use crate::table::WriteError;
+use crate::table::{Begun, WriteError};
 
 pub(super) fn write(
     export: &PileExport<'_>,
@@ -77,7 +77,11 @@ impl Drop for New {
 }
 
 /// Folders that were not there before, the innermost first, removed again unless they are kept.
-struct Made(Vec<PathBuf>);
+struct Made {
+    folders: Vec<PathBuf>,
+    /// Of the folders, the outermost first.
+    begun: Vec<Begun>,
+}
 
 impl Made {
     fn folder(folder: &Path) -> io::Result<Self> {
@@ -88,19 +92,25 @@ impl Made {
         let missing = folder
             .ancestors()
             .take_while(|path| *path != Path::new("") && !path.exists());
-        let made = Self(missing.map(Path::to_owned).collect());
+        let mut made = Self {
+            folders: missing.map(Path::to_owned).collect(),
+            begun: Vec::new(),
+        };
         fs::create_dir_all(folder)?;
+        for folder in made.folders.iter().rev() {
+            made.begun.push(Begun::new(folder)?);
+        }
         Ok(made)
     }
 
     fn keep(mut self) {
-        self.0.clear();
+        self.folders.clear();
     }
 }
 
 impl Drop for Made {
     fn drop(&mut self) {
-        for folder in &self.0 {
+        for folder in &self.folders {
             // One that has something in it by now stays.
             let _ = fs::remove_dir(folder);
         }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::Error;
+use super::{Culprit, Error};
 use crate::geometry::{Bound, Spacing};
 use crate::lattice::{Dimension, MAX_LAYERS, Site};
 
@@ -198,10 +198,18 @@ impl Error {
                 f,
                 "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
             ),
-            Self::Excluded { given, beside } => write!(
-                f,
-                "{given} has no meaning beside {beside}: leave one of the two out"
-            ),
+            Self::Excluded { given, beside } => {
+                // Of dimensions only this one excludes anything.
+                let two = if *beside == Culprit::Dimension {
+                    " 2"
+                } else {
+                    ""
+                };
+                write!(
+                    f,
+                    "{given} has no meaning beside {beside}{two}: leave one of the two out"
+                )
+            }
             Self::TooLarge {
                 quantity,
                 needed,

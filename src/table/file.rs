@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::WriteError;
+use super::unfinished::Begun;
 
 /// Writes a file aside, and renames it into place when it is complete: a failure leaves what was there.
 ///
 /// What is not a regular file, such as a pipe or a device, is written directly. A link is followed, one to
-/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. Killed on the way, a
-/// hidden file `.cannonpile-…` is left in the folder.
+/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. Killed on the way, it
+/// leaves a hidden file `.cannonpile-…` in the folder, unless a handler of the signal calls
+/// [`remove_unfinished`](super::remove_unfinished).
 ///
 /// # Errors
 /// Those of `write`, and [`WriteError::Io`].
@@ -39,7 +41,7 @@ pub fn write_aside(
 #[derive(Debug)]
 pub(crate) struct Aside {
     /// None if it had to be written directly.
-    file: Option<NamedTempFile>,
+    file: Option<(NamedTempFile, Begun)>,
     target: PathBuf,
     bytes: u64,
 }
@@ -84,12 +86,13 @@ impl Aside {
             aside.permissions(fs::Permissions::from_mode(0o666));
         }
         let mut aside = aside.prefix(".cannonpile-").tempfile_in(folder)?;
+        let begun = Begun::new(aside.path())?;
         let bytes = write_to(aside.as_file_mut(), write)?;
         if let Some(permissions) = permissions {
             aside.as_file().set_permissions(permissions)?;
         }
         Ok(Self {
-            file: Some(aside),
+            file: Some((aside, begun)),
             target,
             bytes,
         })
@@ -97,7 +100,7 @@ impl Aside {
 
     /// Renames it into place, and tells how many bytes it has.
     pub(crate) fn keep(self) -> io::Result<u64> {
-        if let Some(file) = self.file {
+        if let Some((file, _begun)) = self.file {
             file.persist(&self.target).map_err(|error| error.error)?;
         }
         Ok(self.bytes)

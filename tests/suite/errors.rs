@@ -6,7 +6,7 @@ use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Site};
 use cannonpile::scalar::{FixedRational, Surd};
 use cannonpile::scene::{Scene, parse};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, Packing, Pile};
+use cannonpile::{Culprit, Error, Packing, Pile};
 use num_rational::BigRational;
 
 /// The message is one plain line that holds all of `parts`.
@@ -118,24 +118,28 @@ fn not_positive() {
         let text = given.to_string();
         let refused = [
             (
-                "radius",
+                Culprit::Radius,
                 packing.clone().with_radius(given.clone()).unwrap_err(),
             ),
             (
-                "mass",
+                Culprit::Mass,
                 packing.clone().with_mass(given.clone()).unwrap_err(),
             ),
-            ("gravity", packing.with_gravity(given.clone()).unwrap_err()),
-            ("spacing", Spacing::new(given.clone()).unwrap_err()),
             (
-                "squared spacing",
+                Culprit::Gravity,
+                packing.with_gravity(given.clone()).unwrap_err(),
+            ),
+            (Culprit::Spacing, Spacing::new(given.clone()).unwrap_err()),
+            (
+                Culprit::Spacing,
                 Spacing::from_square(given.clone()).unwrap_err(),
             ),
         ];
         for (quantity, error) in refused {
             let given = given.clone();
+            assert_eq!(error.culprit(), Some(quantity));
             assert_eq!(error, Error::NotPositive { quantity, given });
-            says(&error, &[quantity, &text, "must be positive"]);
+            says(&error, &[quantity.name(), &text, "must be positive"]);
         }
     }
 }
