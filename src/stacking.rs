@@ -18,6 +18,8 @@ mod notation;
 pub use notation::{Abc, Hagg, Jagodzinski, Zhdanov};
 
 use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
 
 use crate::Error;
 use crate::lattice::{MAX_LAYERS, Sign};
@@ -35,10 +37,16 @@ use crate::lattice::{MAX_LAYERS, Sign};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Run {
     /// Their sign.
     pub sign: Sign,
     /// How many, at least 1.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub steps: i128,
 }
 
@@ -449,5 +457,47 @@ impl Pattern {
     }
 }
 
+impl fmt::Display for Pattern {
+    /// Prints what [`FromStr`] reads: a name, or the stacking.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fcc => f.write_str("fcc"),
+            Self::Hcp => f.write_str("hcp"),
+            Self::Dhcp => f.write_str("dhcp"),
+            Self::Spelled(stacking) => stacking.fmt(f),
+        }
+    }
+}
+
+impl FromStr for Pattern {
+    type Err = Error;
+
+    /// Reads `fcc`, `hcp`, `dhcp`, or a stacking that is spelled out in one of the four notations.
+    ///
+    /// # Errors
+    /// Those of [`Stacking`]'s.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// assert_eq!("hcp".parse::<Pattern>()?, Pattern::Hcp);
+    /// assert_eq!("ABCB".parse::<Pattern>()?, Pattern::Spelled("++-".parse()?));
+    /// assert!("bcc".parse::<Pattern>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Ok(match text {
+            "fcc" => Self::Fcc,
+            "hcp" => Self::Hcp,
+            "dhcp" => Self::Dhcp,
+            _ => Self::Spelled(text.parse()?),
+        })
+    }
+}
+
 /// The most runs a stacking is made of.
 pub const MAX_RUNS: usize = 1_000_000;
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Stacking, Pattern);

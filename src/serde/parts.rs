@@ -7,8 +7,8 @@ use ::serde::de::Error as _;
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_rational::BigRational;
 
-use super::number;
 use crate::lattice::{Dimension, Region, Site};
+use crate::scalar::serde::number;
 use crate::scene::Anchor;
 use crate::shape::Shape;
 use crate::stacking::Stacking;

@@ -240,7 +240,7 @@ fn a_file_is_short_and_the_same_every_time() {
         ("hexagon:1,2", "hexagon:1,2"),
         ("region:0..1,0..1,0..2", "region:0..1,0..1,0..2"),
     ] {
-        let top = Some(Anchor::Top(parse::region(shape).unwrap()));
+        let top = Some(Anchor::Top(shape.parse::<Region>().unwrap()));
         let text = Scene {
             anchor: top,
             ..Scene::default()
