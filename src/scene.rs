@@ -17,6 +17,8 @@ use crate::stacking::Pattern;
 use crate::{Error, Packing, Pile};
 
 use parse::At;
+
+pub use crate::shape::Anchor;
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
 pub use toml::SceneFile;
@@ -75,40 +77,6 @@ pub struct Scene {
     /// The gravity g (1).
     #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub gravity: BigRational,
-}
-
-/// The layer that a pile is grown from.
-///
-/// # Examples
-/// ```
-/// use cannonpile::scene::{Anchor, Scene};
-///
-/// let top = Anchor::Top("hexagon:2".parse()?);
-/// let scene = Scene { anchor: Some(top), layers: Some(2), ..Scene::default() };
-/// assert_eq!(scene.pile()?.base_spheres(), 12_u32.into());
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(::serde::Serialize, ::serde::Deserialize),
-    serde(rename_all = "lowercase")
-)]
-pub enum Anchor {
-    /// Downwards from its top.
-    Top(Region),
-    /// Upwards from its base.
-    Base(Region),
-}
-
-impl Anchor {
-    /// The option that says so: `top` or `base`.
-    const fn name(&self) -> &'static str {
-        match self {
-            Self::Top(_) => "top",
-            Self::Base(_) => "base",
-        }
-    }
 }
 
 impl Default for Scene {

@@ -15,7 +15,7 @@
 
 mod notation;
 
-pub use notation::{Abc, Hagg, Jagodzinski, Zhdanov};
+pub use notation::Notation;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -57,13 +57,13 @@ pub struct Run {
 /// # Examples
 /// ```
 /// use cannonpile::lattice::Sign;
-/// use cannonpile::stacking::Stacking;
+/// use cannonpile::stacking::{Notation, Stacking};
 ///
 /// let stacking: Stacking = "++-+".parse()?;
 /// assert_eq!((stacking.layers(), stacking.changes()), (5, 2));
-/// assert_eq!(stacking.abc().to_string(), "ABCBC");
-/// assert_eq!(stacking.zhdanov().to_string(), "(2,1,1)");
-/// assert_eq!(stacking.mirrored().hagg().to_string(), "--+-");
+/// assert_eq!(stacking.in_notation(Notation::Abc).to_string(), "ABCBC");
+/// assert_eq!(stacking.in_notation(Notation::Zhdanov).to_string(), "(2,1,1)");
+/// assert_eq!(stacking.mirrored().in_notation(Notation::Hagg).to_string(), "--+-");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -99,10 +99,10 @@ impl Stacking {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Sign;
-    /// use cannonpile::stacking::{Run, Stacking};
+    /// use cannonpile::stacking::{Notation, Run, Stacking};
     ///
     /// let runs = [(Sign::Plus, 2), (Sign::Plus, 1), (Sign::Minus, 5)].map(|(sign, steps)| Run { sign, steps });
-    /// assert_eq!(Stacking::from_runs(runs)?.zhdanov().to_string(), "(3,5)");
+    /// assert_eq!(Stacking::from_runs(runs)?.in_notation(Notation::Zhdanov).to_string(), "(3,5)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_runs(runs: impl IntoIterator<Item = Run>) -> Result<Self, Error> {
@@ -147,10 +147,10 @@ impl Stacking {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Sign;
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking = Stacking::from_signs([Sign::Minus, Sign::Plus])?;
-    /// assert_eq!(stacking.hagg().to_string(), "-+");
+    /// assert_eq!(stacking.in_notation(Notation::Hagg).to_string(), "-+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_signs(signs: impl IntoIterator<Item = Sign>) -> Result<Self, Error> {
@@ -164,9 +164,9 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::fcc(4)?.hagg().to_string(), "+++");
+    /// assert_eq!(Stacking::fcc(4)?.in_notation(Notation::Hagg).to_string(), "+++");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fcc(layers: i128) -> Result<Self, Error> {
@@ -180,9 +180,9 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::hcp(4)?.hagg().to_string(), "+-+");
+    /// assert_eq!(Stacking::hcp(4)?.in_notation(Notation::Hagg).to_string(), "+-+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn hcp(layers: i128) -> Result<Self, Error> {
@@ -196,9 +196,9 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::dhcp(4)?.hagg().to_string(), "++-");
+    /// assert_eq!(Stacking::dhcp(4)?.in_notation(Notation::Hagg).to_string(), "++-");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn dhcp(layers: i128) -> Result<Self, Error> {
@@ -344,10 +344,10 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking: Stacking = "++-".parse()?;
-    /// assert_eq!(stacking.mirrored().hagg().to_string(), "--+");
+    /// assert_eq!(stacking.mirrored().in_notation(Notation::Hagg).to_string(), "--+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -367,10 +367,10 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking: Stacking = "++-".parse()?;
-    /// assert_eq!(stacking.reversed().hagg().to_string(), "-++");
+    /// assert_eq!(stacking.reversed().in_notation(Notation::Hagg).to_string(), "-++");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]

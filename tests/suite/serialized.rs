@@ -10,7 +10,6 @@ use cannonpile::geometry::{Apart, Spacing, Vector};
 use cannonpile::lattice::Sign;
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Site};
 use cannonpile::scalar::{DoubleDouble, Enclosure, FixedRational, Interval, Surd};
-use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::{Pattern, Run, Stacking};
 use cannonpile::{

@@ -2,7 +2,6 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Site};
-use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing, Pile, Strengths};
 use num_rational::BigRational;
