@@ -249,12 +249,12 @@ fn syntax() {
         (parse::integer("1.5").unwrap_err(), "1.5", "integer"),
         (parse::layers("ten").unwrap_err(), "ten", "10"),
         (
-            parse::dimension("4").unwrap_err(),
+            "4".parse::<Dimension>().unwrap_err(),
             "4",
             "2 (discs) or 3 (spheres)",
         ),
         (
-            parse::direction("delta").unwrap_err(),
+            "delta".parse::<Direction>().unwrap_err(),
             "delta",
             "alpha, beta or gamma",
         ),

@@ -10,7 +10,6 @@ use cannonpile::geometry::{Apart, Spacing, Vector};
 use cannonpile::lattice::Sign;
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Site};
 use cannonpile::scalar::{DoubleDouble, Enclosure, FixedRational, Interval, Surd};
-use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::{Pattern, Run, Stacking};
 use cannonpile::{
@@ -98,7 +97,10 @@ fn lattices() {
         ("region:0..3,0..3,0..3", "triangle:4"),
         ("region:-2..5,1..1,-1..6", "region:-2..5,1..1,-1..6"),
     ] {
-        assert_eq!(back(&parse::region(shape).unwrap()), format!("\"{text}\""));
+        assert_eq!(
+            back(&shape.parse::<Region>().unwrap()),
+            format!("\"{text}\"")
+        );
     }
     back(&Region::new(-MAX_LAYERS..=MAX_LAYERS, 0..=5, -MAX_LAYERS..=7).unwrap());
     // The checked constructor is the only way in.

@@ -2,7 +2,6 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Site};
-use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing, Pile, Strengths};
 use num_rational::BigRational;
@@ -126,7 +125,7 @@ fn what_has_no_table_is_refused() {
 /// Under any top, up from any base, whichever way the layers lean.
 #[test]
 fn straight_piles_of_any_shape() {
-    let region = |text: &str| parse::region(text).expect("a region");
+    let region = |text: &str| text.parse::<Region>().expect("a region");
     let signs = |text: &str| text.parse().expect("signs");
     let mut met = 0;
     for (top, leaning) in [
