@@ -33,10 +33,11 @@ pub(super) fn write_script(export: &PileExport<'_>, out: &mut dyn Write) -> Resu
     write!(
         out,
         "# cannonpile: relaxes spheres.txt and writes the forces of its contacts to forces.csv.
-# Run in this folder: yade -n -x pile.py
+# Run: yade -n -x pile.py
 # Frictionless spheres on springs; the exact pile is stiff, so forces differ by some 1e-6 of the greatest.
 import csv
 import os
+import sys
 
 from yade import ymport
 
@@ -68,7 +69,8 @@ LOADS = {{
         out,
         "}}
 
-here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else os.getcwd()
+# YADE keeps the path of this script there; __file__ is its own.
+here = os.path.dirname(os.path.abspath(sys.argv[0])) if sys.argv else os.getcwd()
 material = FrictMat(young=STIFFNESS / RADIUS, poisson=0.3, frictionAngle=0.0, density={density:?})
 O.materials.append(material)
 ids = O.bodies.append(ymport.text(os.path.join(here, 'spheres.txt'), material=material))
@@ -103,11 +105,12 @@ while O.iter < MOST_STEPS:
 
 with open(os.path.join(here, 'forces.csv'), 'w', newline='') as file:
     rows = csv.writer(file)
-    rows.writerow(['id1', 'id2', 'force'])
+    rows.writerow(['id1', 'id2', 'force', 'fx', 'fy', 'fz'])
     for contact in O.interactions:
         if contact.isReal:
             numbers = [contact.id1 - ids[0] + 1, contact.id2 - ids[0] + 1]
-            rows.writerow(numbers + [repr(contact.phys.normalForce.norm())])
+            on_second = contact.phys.normalForce
+            rows.writerow([*numbers, on_second.norm(), *-on_second])
 ",
         density = density(springs.mass, springs.radius)?,
         // Rotations do nothing without friction.
