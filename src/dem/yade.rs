@@ -33,17 +33,18 @@ pub(super) fn write_script(export: &PileExport<'_>, out: &mut dyn Write) -> Resu
     write!(
         out,
         "# cannonpile: relaxes spheres.txt and writes the forces of its contacts to forces.csv.
-# Run in this folder: yade -n -x pile.py
+# Run: yade -n -x pile.py
 # Frictionless spheres on springs; the exact pile is stiff, so forces differ by some 1e-6 of the greatest.
 import csv
 import os
+import sys
 
 from yade import ymport
 
 FIRST_ON_FLOOR = {first}  # ids are cannonpile's, from 1; those of YADE begin with 0
 STIFFNESS = {stiffness:?}  # N/m; a contact of two spheres has E*R
 RADIUS = {radius:?}
-UNBALANCED = 1e-7
+REST = {rest:?}  # N, on a sphere: what the last digits of coordinates make of nothing
 MOST_STEPS = {most_steps}
 # Newtons downwards beside the weight, by id.
 LOADS = {{
@@ -51,6 +52,7 @@ LOADS = {{
         first = export.numbering.first_on_floor(),
         stiffness = springs.stiffness,
         radius = springs.radius,
+        rest = 2.0 * springs.rest(),
         most_steps = springs.most_steps,
     )?;
     for burden in burdens(export)? {
@@ -68,7 +70,8 @@ LOADS = {{
         out,
         "}}
 
-here = os.path.dirname(os.path.abspath(__file__)) if '__file__' in globals() else os.getcwd()
+# YADE keeps the path of this script there; __file__ is its own.
+here = os.path.dirname(os.path.abspath(sys.argv[0])) if sys.argv else os.getcwd()
 material = FrictMat(young=STIFFNESS / RADIUS, poisson=0.3, frictionAngle=0.0, density={density:?})
 O.materials.append(material)
 ids = O.bodies.append(ymport.text(os.path.join(here, 'spheres.txt'), material=material))
@@ -96,18 +99,28 @@ O.engines = [
     NewtonIntegrator(gravity=(0, 0, -{gravity:?}), damping=0.3),
 ]
 O.dt = {timestep:?}
+
+
+def at_rest():
+    # YADE gives the greatest force on a sphere in parts of the mean force of a contact.
+    forces = [contact.phys.normalForce.norm() for contact in O.interactions if contact.isReal]
+    return not forces or unbalancedForce(True) * sum(forces) / len(forces) < REST
+
+
 while O.iter < MOST_STEPS:
     O.run(1000, True)
-    if unbalancedForce() < UNBALANCED:
+    if at_rest():
         break
+print('cannonpile: the pile is ' + ('at rest' if at_rest() else 'NOT at rest; run it longer, or it does not stand'))
 
 with open(os.path.join(here, 'forces.csv'), 'w', newline='') as file:
     rows = csv.writer(file)
-    rows.writerow(['id1', 'id2', 'force'])
+    rows.writerow(['id1', 'id2', 'force', 'fx', 'fy', 'fz'])
     for contact in O.interactions:
         if contact.isReal:
             numbers = [contact.id1 - ids[0] + 1, contact.id2 - ids[0] + 1]
-            rows.writerow(numbers + [repr(contact.phys.normalForce.norm())])
+            on_second = contact.phys.normalForce
+            rows.writerow([*numbers, on_second.norm(), *-on_second])
 ",
         density = density(springs.mass, springs.radius)?,
         // Rotations do nothing without friction.
