@@ -250,12 +250,12 @@ fn floats_keep_their_last_bit() {
 fn answers() {
     let region = Region::hexagon(2, 2).unwrap();
     let pile = Pile::under(region, "+-++-".parse().unwrap()).unwrap();
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     let rows = || pile.rows(Selection::All).unwrap();
     let forces: Vec<ContactForce<BigRational>> =
         statics.contacts(rows()).collect::<Result<_, _>>().unwrap();
     back(&forces);
-    let floats = pile.statics::<f64>();
+    let floats = pile.forces::<f64>();
     back(
         &floats
             .contacts(rows())
