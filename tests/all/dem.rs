@@ -6,15 +6,15 @@ mod refusals;
 
 use std::collections::BTreeMap;
 
-use cannonpile::export::{PileExport, PileFile};
+use cannonpile::dem::{PileExport, PileFile};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::{Packing, Pile};
 
 /// Scenes of every kind: straight, isosceles, discs; stackings under and on regions; loads, no weight; SI scales.
 fn scenes() -> Vec<Scene> {
     let rational = |text| parse::rational(text).expect("a number");
-    let region = |text| parse::region(text).expect("a region");
-    let stacking = |text| Some(parse::stacking(text).expect("a stacking"));
+    let region = |text: &str| text.parse().expect("a region");
+    let stacking = |text: &str| Some(text.parse().expect("a stacking"));
     let load = |text, dimension| parse::load(text, dimension).expect("a load");
     let plain = || Scene {
         layers: Some(6),

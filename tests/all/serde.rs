@@ -10,7 +10,6 @@ use cannonpile::geometry::{Apart, Spacing, Vector};
 use cannonpile::lattice::Sign;
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Site};
 use cannonpile::scalar::{DoubleDouble, Enclosure, FixedRational, Interval, Surd};
-use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::{Pattern, Run, Stacking};
 use cannonpile::{
@@ -98,7 +97,10 @@ fn lattices() {
         ("region:0..3,0..3,0..3", "triangle:4"),
         ("region:-2..5,1..1,-1..6", "region:-2..5,1..1,-1..6"),
     ] {
-        assert_eq!(back(&parse::region(shape).unwrap()), format!("\"{text}\""));
+        assert_eq!(
+            back(&shape.parse::<Region>().unwrap()),
+            format!("\"{text}\"")
+        );
     }
     back(&Region::new(-MAX_LAYERS..=MAX_LAYERS, 0..=5, -MAX_LAYERS..=7).unwrap());
     // The checked constructor is the only way in.
@@ -248,12 +250,12 @@ fn floats_keep_their_last_bit() {
 fn answers() {
     let region = Region::hexagon(2, 2).unwrap();
     let pile = Pile::under(region, "+-++-".parse().unwrap()).unwrap();
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     let rows = || pile.rows(Selection::All).unwrap();
     let forces: Vec<ContactForce<BigRational>> =
         statics.contacts(rows()).collect::<Result<_, _>>().unwrap();
     back(&forces);
-    let floats = pile.statics::<f64>();
+    let floats = pile.forces::<f64>();
     back(
         &floats
             .contacts(rows())

@@ -1,7 +1,7 @@
 //! Every answer of the library beside that of the oracle. An error says where they part.
 
 use cannonpile::shape::Selection;
-use cannonpile::{ContactForce, FloorForce, Pile, Statics};
+use cannonpile::{ContactForce, FloorForce, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::Case;
@@ -35,7 +35,7 @@ fn text(error: &cannonpile::Error) -> String {
 
 /// Sphere by sphere, contact by contact: by lines.
 pub(crate) fn one_by_one(pile: &Pile, forces: &Forces) -> Outcome {
-    let statics: Statics<BigRational> = pile.statics();
+    let statics: cannonpile::Forces<BigRational> = pile.forces();
     for (at, expected) in &forces.above {
         let above = statics.from_above(site(*at)).map_err(|e| text(&e))?;
         same(&format!("above {at:?}"), &above, expected)?;
@@ -67,7 +67,7 @@ pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Force
         Selection::Layer(k) => k..k + 1,
         _ => 0..pile.layers(),
     };
-    let statics: Statics<BigRational> = pile.statics();
+    let statics: cannonpile::Forces<BigRational> = pile.forces();
     let mut contacts = statics.contacts(rows);
     let expected = forces.below.iter();
     for (at, expected) in expected.filter(|(at, _)| layers.contains(&at.0)) {
@@ -86,7 +86,7 @@ pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Force
 }
 
 fn base_in_rows(pile: &Pile, forces: &Forces) -> Outcome {
-    let statics: Statics<BigRational> = pile.statics();
+    let statics: cannonpile::Forces<BigRational> = pile.forces();
     let rows = pile.rows(Selection::Base).map_err(|e| text(&e))?;
     let mut base = statics.base(rows);
     for (at, expected) in &forces.floor {

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use cannonpile::Error;
 use cannonpile::census::{self, Entry};
 use cannonpile::lattice::Region;
+use cannonpile::stacking::Notation;
 
 use crate::census::brute::Front;
 use crate::support::cases::{Bounds, Case, Random, all_on};
@@ -50,7 +51,12 @@ fn brute_force() -> Found {
 }
 
 fn signs(entry: &Entry) -> String {
-    entry.pile.shape().stacking().hagg().to_string()
+    entry
+        .pile
+        .shape()
+        .stacking()
+        .in_notation(Notation::Hagg)
+        .to_string()
 }
 
 fn entries(layers: usize, failing: bool) -> Vec<Entry> {

@@ -1,9 +1,9 @@
 //! Plans, counters, methods and intervals on the command line.
 
-use cannonpile::export::{Explanation, Units};
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Region;
 use cannonpile::shape::Selection;
+use cannonpile::table::{Explanation, Units};
 use cannonpile::{Packing, Pile, Quantity};
 use num_rational::BigRational;
 

@@ -1,9 +1,10 @@
 //! What is in the files: the numbers of the tables, each rounded by itself there.
 
 use cannonpile::Pile;
-use cannonpile::export::{FileFormat, NumberFormat, PileExport, PileFile, Table, Units, tables};
+use cannonpile::dem::{PileExport, PileFile};
 use cannonpile::lattice::{Dimension, Site};
 use cannonpile::shape::Selection;
+use cannonpile::table::{self, FileFormat, NumberFormat, Table, Units};
 
 use super::{bytes, columns, for_each_pile, packing, text};
 
@@ -19,13 +20,13 @@ fn csv_of(table: Table<'_>) -> String {
 fn spheres_and_base_are_the_tables() {
     for_each_pile(|scene, export| {
         let packing = export.packing();
-        let spheres = tables::spheres(packing, Selection::All).expect("a table");
+        let spheres = table::spheres(packing, Selection::All).expect("a table");
         assert!(
             text(export, PileFile::SpheresCsv) == csv_of(spheres),
             "{scene:?}"
         );
         let units = Units::of_packing(packing.clone());
-        let base = tables::base(&units, Selection::Base).expect("a table");
+        let base = table::base(&units, Selection::Base).expect("a table");
         assert!(text(export, PileFile::BaseCsv) == csv_of(base), "{scene:?}");
     });
 }
@@ -34,7 +35,7 @@ fn spheres_and_base_are_the_tables() {
 fn contacts_are_the_table_with_numbers_for_sites() {
     for_each_pile(|scene, export| {
         let units = Units::of_packing(export.packing().clone());
-        let table = tables::contacts(&units, Selection::All).expect("a table");
+        let table = table::contacts(&units, Selection::All).expect("a table");
         let flat = export.packing().pile().dimension() == Dimension::Two;
         let places = if flat { 3 } else { 4 };
         let wanted = csv_of(table);

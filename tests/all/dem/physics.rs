@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use cannonpile::export::PileFile;
+use cannonpile::dem::PileFile;
 use cannonpile::scene::Scene;
 
 use super::{columns, for_each_pile, text};

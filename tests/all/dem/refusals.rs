@@ -3,8 +3,9 @@
 use std::fs;
 use std::io::{self, Write};
 
-use cannonpile::export::{PileExport, PileFile, PileFormat, WriteError};
+use cannonpile::dem::{PileExport, PileFile, PileFormat};
 use cannonpile::scene::{Scene, parse};
+use cannonpile::table::WriteError;
 use cannonpile::{Error, Pile};
 
 use super::{bytes, packing};

@@ -3,7 +3,7 @@
 use cannonpile::lattice::Region;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{ContactForce, Error, Pile, Statics};
+use cannonpile::{ContactForce, Error, Forces, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::{repeated, stacking};
@@ -21,10 +21,10 @@ fn a_bottom_sphere_has_no_contact_in_the_rows_of_a_higher_pile() {
         ("+-+-+", "+-+-+++"),
     ] {
         let (pile, higher) = (under_one_sphere(signs), under_one_sphere(more));
-        let statics: Statics<BigRational> = pile.statics();
+        let forces: Forces<BigRational> = pile.forces();
         let contacts = |pile| {
             let rows = Pile::rows(pile, Selection::All).unwrap();
-            statics
+            forces
                 .contacts(rows)
                 .collect::<Vec<Result<ContactForce<_>, Error>>>()
         };
@@ -32,7 +32,7 @@ fn a_bottom_sphere_has_no_contact_in_the_rows_of_a_higher_pile() {
         assert_eq!(found[..own.len()], own);
         assert!(found[own.len()..].iter().all(Result::is_err), "{signs}");
         let bottom = higher.rows(Selection::Base).unwrap();
-        assert!(statics.base(bottom).all(|force| force.is_err()));
+        assert!(forces.base(bottom).all(|force| force.is_err()));
     }
 }
 

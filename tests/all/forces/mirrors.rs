@@ -3,7 +3,7 @@
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{ContactForce, FloorForce, Pile, Statics};
+use cannonpile::{ContactForce, FloorForce, Forces, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::{Bounds, Random, all_signs, repeated, stacking};
@@ -18,7 +18,7 @@ struct Answers {
 
 impl Answers {
     fn of(pile: &Pile) -> Self {
-        let statics: Statics<BigRational> = pile.statics();
+        let statics: Forces<BigRational> = pile.forces();
         let all = pile.rows(Selection::All).unwrap();
         let base = pile.rows(Selection::Base).unwrap();
         Self {

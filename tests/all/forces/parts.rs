@@ -3,7 +3,7 @@
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::{Rows, Selection};
-use cannonpile::{ContactForce, Error, Pile, Statics};
+use cannonpile::{ContactForce, Error, Forces, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -11,7 +11,7 @@ use crate::support::cases::{Random, stacking};
 use crate::support::oracles::naive::ratio;
 
 fn contacts<'p>(
-    statics: &Statics<'p, BigRational>,
+    statics: &Forces<'p, BigRational>,
     rows: Rows<'p>,
 ) -> Vec<Result<ContactForce<BigRational>, Error>> {
     statics.contacts(rows).collect()
@@ -21,7 +21,7 @@ fn contacts<'p>(
 fn rows_may_have_been_walked_before_they_are_asked_for() {
     for signs in ["+-+--+", "++++++", "-+-+-+"] {
         let pile = Pile::under(Region::triangle(2).unwrap(), stacking(signs)).unwrap();
-        let statics = pile.statics();
+        let statics = pile.forces();
         let all = contacts(&statics, pile.rows(Selection::All).unwrap());
         let rows = pile.rows(Selection::All).unwrap().count();
         for walked in 0..=rows {
@@ -37,9 +37,7 @@ fn rows_may_have_been_walked_before_they_are_asked_for() {
         let mut base = pile.rows(Selection::Base).unwrap();
         let row = base.next().unwrap().into_iter().count();
         let rest: Vec<_> = statics.base(base).map(Result::unwrap).collect();
-        let whole = statics
-            .base(pile.rows(Selection::Base).unwrap())
-            .map(Result::unwrap);
+        let whole = statics.base(Selection::Base).unwrap().map(Result::unwrap);
         assert_eq!(rest, whole.skip(row).collect::<Vec<_>>());
     }
 }
@@ -47,7 +45,7 @@ fn rows_may_have_been_walked_before_they_are_asked_for() {
 #[test]
 fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
     let pile = Pile::under(Region::SITE, stacking("+-+-+-")).unwrap();
-    let statics: Statics<BigRational> = pile.statics();
+    let statics: Forces<BigRational> = pile.forces();
     for site in pile.shape().sites() {
         let rows = || pile.rows(Selection::One(site)).unwrap();
         let own = contacts(&statics, rows());
@@ -67,20 +65,18 @@ fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
 fn the_rows_of_another_pile_are_looked_up_in_this_one() {
     let pile = Pile::under(Region::SITE, stacking("+-+-+")).unwrap();
     let loaded = pile.clone().with_load(Site::APEX, ratio(3, 1)).unwrap();
-    let statics: Statics<BigRational> = pile.statics();
+    let statics: Forces<BigRational> = pile.forces();
     let own = contacts(&statics, pile.rows(Selection::All).unwrap());
     assert_eq!(
         contacts(&statics, loaded.rows(Selection::All).unwrap()),
         own
     );
-    let base: Vec<_> = statics.base(pile.rows(Selection::Base).unwrap()).collect();
-    let looked_up: Vec<_> = statics
-        .base(loaded.rows(Selection::Base).unwrap())
-        .collect();
+    let base: Vec<_> = statics.base(Selection::Base).unwrap().collect();
+    let looked_up: Vec<_> = statics.base(Selection::Base).unwrap().collect();
     assert_eq!(looked_up, base);
     // A straight pile whose base is not this one's.
     let straight = Pile::triangular(4).unwrap();
-    let statics = straight.statics::<BigRational>();
+    let statics = straight.forces::<BigRational>();
     let bottom = pile.rows(Selection::Base).unwrap();
     assert!(statics.base(bottom).all(|force| force.is_err()));
 }
@@ -103,12 +99,12 @@ fn loads_on_isosceles_piles_and_on_discs() {
             [ratio(1, 1), ratio(1, 1), ratio(0, 1)],
         ),
     ] {
-        let bare = pile.statics::<BigRational>();
+        let bare = pile.forces::<BigRational>();
         let sites: Vec<Site> = pile.shape().sites().collect();
         for _ in 0..40 {
             let (at, load) = (sites[random.below(sites.len())], random.rational());
             let loaded = pile.clone().with_load(at, load.clone()).unwrap();
-            let statics = loaded.statics::<BigRational>();
+            let statics = loaded.forces::<BigRational>();
             let pairs = contacts(&bare, pile.rows(Selection::All).unwrap()).into_iter();
             let pairs = pairs.zip(contacts(&statics, loaded.rows(Selection::All).unwrap()));
             for (without, with) in pairs {
@@ -123,7 +119,7 @@ fn loads_on_isosceles_piles_and_on_discs() {
                 };
                 assert_eq!(with.force - without.force, more, "{site}");
             }
-            let base = statics.base(loaded.rows(Selection::Base).unwrap());
+            let base = statics.base(Selection::Base).unwrap();
             let normal: BigRational = base.map(|force| force.unwrap().normal).sum();
             assert_eq!(normal, loaded.weight());
             is_least(&loaded);
@@ -134,7 +130,7 @@ fn loads_on_isosceles_piles_and_on_discs() {
 
 /// The least force is the least of all contacts, the first of them.
 fn is_least(pile: &Pile) {
-    let all = contacts(&pile.statics(), pile.rows(Selection::All).unwrap());
+    let all = contacts(&pile.forces(), pile.rows(Selection::All).unwrap());
     let mut least: Option<ContactForce<BigRational>> = None;
     for contact in all.into_iter().map(Result::unwrap) {
         if least

@@ -1,7 +1,8 @@
 //! One body, many scalars: bounds hold the exact answer, rounded ones are near it, polynomials take its value.
 
-use cannonpile::closed_form::{
-    Increments, corner_shear_ratio, force_on_floor, resultant_above, unbalanced,
+use cannonpile::formula::{
+    force, half_turn, handed_on, increments, passed_on, resultant, tripled_apart,
+    tripled_half_turn, unbalanced, weight,
 };
 use cannonpile::geometry::{Vector, directions, disc_directions, position, squared_distance};
 use cannonpile::lattice::{Direction, Site, count};
@@ -9,7 +10,6 @@ use cannonpile::scalar::{
     Algebra, DoubleDouble, Exactness, Field, Interval, Polynomial, RealEmbeddable, Symbol,
 };
 use cannonpile::shape::Selection;
-use cannonpile::transfer::half_turn;
 use cannonpile::{Error, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
@@ -26,16 +26,27 @@ enum Growth {
     Cube,
 }
 
-/// Every formula at a site (i, j, k) of a pile of L layers, with s = sin φ and σ = sin²θ.
-fn formulas<T: Algebra>([i, j, k, l, s, sin2]: &[T; 6]) -> Vec<(&'static str, Growth, T)> {
+/// Every formula at a site (i, j, k) of a pile of L layers, with s = sin φ and σ = sin²θ; the half-turn in the way of the
+/// scalar.
+fn formulas<T: Algebra>(
+    [i, j, k, l, s, sin2]: &[T; 6],
+    turn: fn(&[T; 3]) -> [T; 3],
+) -> Vec<(&'static str, Growth, T)> {
     let above = count::above(i, j, k);
-    let (e, w) = (directions(s), Increments::isosceles(s));
+    let (e, w) = (directions(s), increments(s));
+    let lines = || above.iter().cloned().zip(&w);
+    let by_line = |each: &dyn Fn((T, &T)) -> T| {
+        let forces: Vec<T> = lines().map(each).collect();
+        <[T; 3]>::try_from(forces).expect("three lines")
+    };
+    let from_above = by_line(&|(n, w)| force(n, w));
+    let to_below = by_line(&|(n, w)| passed_on(force(n, w), w));
     let mut all = Vec::new();
     let mut add = |name, growth, values: Vec<T>| {
         all.extend(values.into_iter().map(|value| (name, growth, value)));
     };
-    add("increments", Growth::Linear, w.per_line().to_vec());
-    add("their sum", Growth::Linear, vec![w.sum().clone()]);
+    add("increments", Growth::Linear, w.to_vec());
+    add("weight", Growth::Linear, vec![weight(&w)]);
     add(
         "directions",
         Growth::Linear,
@@ -46,35 +57,38 @@ fn formulas<T: Algebra>([i, j, k, l, s, sin2]: &[T; 6]) -> Vec<(&'static str, Gr
         .flat_map(Vector::into_array);
     add("disc_directions", Growth::Linear, discs.collect());
     add("above", Growth::Linear, above.to_vec());
-    add("from_above", Growth::Linear, w.from_above(&above).to_vec());
-    add("to_below", Growth::Linear, w.to_below(&above).to_vec());
-    add("carried", Growth::Linear, vec![w.carried(&above)]);
-    add("half_turn", Growth::Linear, half_turn(&above).to_vec());
+    add("half_turn", Growth::Linear, turn(&above).to_vec());
+    add("force", Growth::Linear, from_above.to_vec());
+    add("passed_on", Growth::Linear, to_below.to_vec());
+    add(
+        "tripled_half_turn",
+        Growth::Linear,
+        tripled_half_turn(&above).to_vec(),
+    );
+    add(
+        "tripled_apart",
+        Growth::Linear,
+        tripled_apart(&above).to_vec(),
+    );
     add(
         "position",
         Growth::Linear,
         position(&above, &e).into_array().to_vec(),
     );
     add(
-        "resultant_above",
+        "resultant",
         Growth::Linear,
-        resultant_above(&above, &w, &e).into_array().to_vec(),
+        resultant(&from_above, &e).into_array().to_vec(),
     );
-    let on_floor = force_on_floor(&above, &w, &e, w.sum());
-    add(
-        "force_on_floor",
-        Growth::Linear,
-        on_floor.into_array().to_vec(),
-    );
+    let on_floor = handed_on(&from_above, &e, &weight(&w));
+    add("handed_on", Growth::Linear, on_floor.into_array().to_vec());
     add(
         "unbalanced",
         Growth::Linear,
-        unbalanced(&above, &w, &e, w.sum()).into_array().to_vec(),
+        unbalanced(&to_below, &e, &from_above, &e, &weight(&w))
+            .into_array()
+            .to_vec(),
     );
-    for line in 0..3 {
-        let (shear, normal) = corner_shear_ratio(l, &w, line);
-        add("corner_shear_ratio", Growth::Linear, vec![shear, normal]);
-    }
     add(
         "squared_distance",
         Growth::Square,
@@ -94,7 +108,6 @@ fn formulas<T: Algebra>([i, j, k, l, s, sin2]: &[T; 6]) -> Vec<(&'static str, Gr
             vec![count::contacts_of_strength(l, k, d)],
         );
     }
-    add("before", Growth::Cube, vec![count::before(i, j, k, 3)]);
     all
 }
 
@@ -136,12 +149,17 @@ fn is_near<T: Algebra + RealEmbeddable>(got: &T, want: &Q, growth: &Q) -> bool {
     }
 }
 
-fn formulas_are_near<T: Field + RealEmbeddable>() {
+/// G g for the exact scalar, whose numerators are integers.
+fn exact_turn(g: &[Q; 3]) -> [Q; 3] {
+    tripled_half_turn(g).map(|tripled| tripled / BigInt::from(3))
+}
+
+fn formulas_are_near<T: Field + Algebra<Numerator = T> + RealEmbeddable>() {
     for place in places() {
-        let exact = formulas(&place);
+        let exact = formulas(&place, exact_turn);
         let [_, _, _, l, ..] = &place;
         for ((name, growth, got), (_, _, want)) in
-            formulas(&place.clone().map(|x| T::from_rational(&x)))
+            formulas(&place.clone().map(|x| T::from_rational(&x)), half_turn::<T>)
                 .into_iter()
                 .zip(exact)
         {
@@ -184,14 +202,16 @@ fn singles_are_near() {
 #[test]
 fn polynomials_take_the_exact_value() {
     let symbols = ["i", "j", "k", "L", "s", "σ"].map(Symbol);
-    let on_symbols = formulas(&symbols.map(Polynomial::from));
+    let on_symbols = formulas(&symbols.map(Polynomial::from), half_turn::<Polynomial>);
     for place in places().step_by(3) {
         let values: Vec<_> = symbols.into_iter().zip(place.clone()).collect();
         let enclosed: Vec<_> = values
             .iter()
             .map(|(symbol, x)| (*symbol, Interval::from_rational(x)))
             .collect();
-        for ((name, _, polynomial), (_, _, want)) in on_symbols.iter().zip(formulas(&place)) {
+        for ((name, _, polynomial), (_, _, want)) in
+            on_symbols.iter().zip(formulas(&place, exact_turn))
+        {
             assert_eq!(
                 polynomial.evaluate(&values).as_ref(),
                 Some(&want),
@@ -207,7 +227,7 @@ fn polynomials_take_the_exact_value() {
 
 /// All that can be asked of a pile.
 fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
-    let statics = pile.statics::<T>();
+    let statics = pile.forces::<T>();
     let mut all = vec![statics.increment_sum()?];
     for direction in Direction::ALL {
         all.extend(statics.direction(direction)?.into_array());
@@ -224,7 +244,7 @@ fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
             }
         }
     }
-    for force in statics.base(pile.rows(Selection::Base)?) {
+    for force in statics.base(Selection::Base)? {
         let force = force?;
         all.extend([force.normal, force.shear_x, force.shear_y]);
     }

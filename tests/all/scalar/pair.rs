@@ -289,7 +289,7 @@ fn an_overflow_is_a_parting() {
 
 /// Asks everything of a pile in a pair of scalars, and gives each answer with its exact one.
 fn answers<B: Field + RealEmbeddable>(pile: &Pile) -> Vec<(Pair<Q, B>, Q)> {
-    let (pairs, exact) = (pile.statics::<Pair<Q, B>>(), pile.statics::<Q>());
+    let (pairs, exact) = (pile.forces::<Pair<Q, B>>(), pile.forces::<Q>());
     let mut all = vec![(
         pairs.increment_sum().expect("W"),
         exact.increment_sum().expect("W"),
@@ -367,7 +367,7 @@ fn statics_in_a_wrong_scalar_part() {
     }
     let site = Site { i: 1, j: 0, k: 2 };
     let force = pile
-        .statics::<Pair<Q, Planted<IMAGE>>>()
+        .forces::<Pair<Q, Planted<IMAGE>>>()
         .contact(site, Direction::Gamma);
     assert_eq!(parted(&force.expect("a force")), Some("a value"));
 }

@@ -94,7 +94,13 @@ fn numbers_are_what_is_written() {
         assert_eq!(scene.mass, ratio(n, d), "{written}");
     }
     let huge = 10_i128.pow(30);
-    for written in [format!("{huge}"), format!("'{huge}'"), format!("{huge:#x}")] {
+    for written in [
+        format!("{huge}"),
+        format!("'{huge}'"),
+        format!("{huge:#x}"),
+        "1e30".into(),
+        "'1e30'".into(),
+    ] {
         let scene = Scene::from_toml(&format!("layers = {written}")).unwrap();
         assert_eq!(scene.layers, Some(huge), "{written}");
     }
@@ -131,7 +137,7 @@ fn refusals_name_the_line_and_the_key() {
         ("layers = 07", &["line 1"]),
         ("mass = .5", &["line 1"]),
         ("layers = 0", &["line 1, layers", "at least 1", "not 0"]),
-        ("layers = 1e3", &["line 1, layers", "'1e3'"]),
+        ("layers = 1.5", &["line 1, layers", "'1.5'"]),
         ("layers = true", &["line 1, layers", "'true'", "such as 10"]),
         ("layers = [1]", &["line 1, layers", "'[…]'"]),
         ("spacing = inf", &["line 1, spacing", "'inf'", "6/5"]),
@@ -139,13 +145,10 @@ fn refusals_name_the_line_and_the_key() {
         ("spacing = '1/0'", &["line 1, spacing", "other than zero"]),
         ("spacing.x = 1", &["line 1, spacing", "'{…}'"]),
         ("mass = 1979-05-27", &["line 1, mass", "'1979-05-27'"]),
-        (
-            "mass = 1e1001",
-            &["line 1, mass", "exponent from -1000 to 1000"],
-        ),
+        ("mass = 1e5000", &["line 1, mass", "at most 5000 digits"]),
         (
             "mass = 1e-99_999_999_999",
-            &["line 1, mass", "exponent from -1000 to 1000"],
+            &["line 1, mass", "at most 5000 digits"],
         ),
         ("mass = '1e'", &["line 1, mass", "1e-3"]),
         ("mass = '1.x'", &["line 1, mass", "1e-3"]),
@@ -212,8 +215,8 @@ fn what_could_exhaust_the_parser_is_refused() {
     refusal(&format!("{}mass = 1", "a.".repeat(100_000)));
     refusal(&format!("[{}mass]", "a.".repeat(100_000)));
     refusal(&format!("mass = {}", "9".repeat(100_000)));
-    let long = refusal(&format!("mass = 0.{}", "9".repeat(1_000)));
-    assert!(long.contains("at most 1000 characters"), "{long}");
+    let long = refusal(&format!("mass = 0.{}", "9".repeat(5_000)));
+    assert!(long.contains("at most 5000 digits"), "{long}");
     refusal(&format!("mass = 0x{}", "f".repeat(100_000)));
     refusal(&format!("layers = 0x{}", "f".repeat(100_000)));
     refusal(&format!("{} = 1", "a".repeat(100_000)));
@@ -240,7 +243,7 @@ fn a_file_is_short_and_the_same_every_time() {
         ("hexagon:1,2", "hexagon:1,2"),
         ("region:0..1,0..1,0..2", "region:0..1,0..1,0..2"),
     ] {
-        let top = Some(Anchor::Top(parse::region(shape).unwrap()));
+        let top = Some(Anchor::Top(shape.parse::<Region>().unwrap()));
         let text = Scene {
             anchor: top,
             ..Scene::default()

@@ -6,7 +6,7 @@ use crate::support::answers::{Shape, above, below, ratio};
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Row, Site, count};
 use cannonpile::shape::{Selection, Shape as Sites};
 use cannonpile::{Error, Pile};
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
 const SHAPES: [Dimension; 2] = [Dimension::Two, Dimension::Three];
@@ -69,8 +69,12 @@ fn sites_come_in_order_and_are_numbered_so() {
         let listed: Vec<_> = pile.shape().sites().collect();
         assert_eq!(listed, sites);
         for (number, Site { i, j, k }) in sites.into_iter().enumerate() {
-            let [i, j, k] = [i, j, k].map(|n| BigRational::from_integer(n.into()));
-            let before = count::before(&i, &j, &k, shape.dimension().number());
+            // The layers above, the rows 0 … j−1 of k+1, k, … spheres, and i in the row.
+            let above = count::spheres(
+                &BigRational::from_integer(k.into()),
+                shape.dimension().number(),
+            );
+            let before = above + BigInt::from((0..j).map(|row| k + 1 - row).sum::<i128>() + i);
             assert_eq!(before, BigRational::from_integer(number.into()));
         }
     }

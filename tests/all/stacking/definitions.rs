@@ -1,6 +1,6 @@
 //! Stackings in the notations of the field, each from its definition, for every sequence up to 10 steps.
 
-use cannonpile::stacking::Stacking;
+use cannonpile::stacking::{Notation, Stacking};
 
 use crate::support::cases::{all_signs, stacking};
 
@@ -44,10 +44,10 @@ fn every_notation_is_written_by_its_definition_and_read_back() {
     for signs in (0..=10).flat_map(all_signs) {
         let it = stacking(&signs);
         let written = [
-            it.hagg().to_string(),
-            it.abc().to_string(),
-            it.jagodzinski().to_string(),
-            it.zhdanov().to_string(),
+            it.in_notation(Notation::Hagg).to_string(),
+            it.in_notation(Notation::Abc).to_string(),
+            it.in_notation(Notation::Jagodzinski).to_string(),
+            it.in_notation(Notation::Zhdanov).to_string(),
         ];
         let by_definition = [
             signs.clone(),

@@ -2,7 +2,7 @@
 
 use cannonpile::Error;
 use cannonpile::lattice::{MAX_LAYERS, Sign};
-use cannonpile::stacking::{MAX_RUNS, Run, Stacking};
+use cannonpile::stacking::{MAX_RUNS, Notation, Run, Stacking};
 
 /// The longest text read, in bytes.
 const LONGEST: usize = 4_000_000;
@@ -15,8 +15,11 @@ fn a_long_stacking_is_a_few_numbers() {
     let stacking: Stacking = LONG.parse().expect("four runs");
     assert_eq!(stacking.layers(), 10_i128.pow(15));
     assert_eq!((stacking.changes(), stacking.runs().len()), (3, 4));
-    assert_eq!(stacking.zhdanov().to_string(), LONG);
-    let reversed = stacking.reversed().zhdanov().to_string();
+    assert_eq!(stacking.in_notation(Notation::Zhdanov).to_string(), LONG);
+    let reversed = stacking
+        .reversed()
+        .in_notation(Notation::Zhdanov)
+        .to_string();
     assert_eq!(reversed, "(1,666666666666664,1,333333333333333)");
     assert_eq!(stacking.mirrored().layers(), stacking.layers());
     assert!(
@@ -33,7 +36,7 @@ fn a_long_stacking_is_a_few_numbers() {
 fn a_long_stacking_is_read_and_printed_at_once() {
     for _ in 0..1_000 {
         let stacking: Stacking = LONG.parse().expect("four runs");
-        assert_eq!(stacking.zhdanov().to_string(), LONG);
+        assert_eq!(stacking.in_notation(Notation::Zhdanov).to_string(), LONG);
         assert_eq!(stacking.reversed().mirrored().layers(), 10_i128.pow(15));
     }
 }
@@ -107,7 +110,10 @@ fn stackings_of_too_many_layers_are_refused() {
         tallest,
         Stacking::fcc(MAX_LAYERS).expect("as tall as may be")
     );
-    assert_eq!(tallest.zhdanov().to_string(), format!("({most})"));
+    assert_eq!(
+        tallest.in_notation(Notation::Zhdanov).to_string(),
+        format!("({most})")
+    );
     refused(&format!("({MAX_LAYERS})"), because);
     refused(&format!("({most},1)"), because);
     refused(&format!("(1,{most})"), because);

@@ -1,7 +1,7 @@
 //! Every stacking of up to twelve steps in four notations, against signs kept as booleans.
 
 use cannonpile::lattice::Sign;
-use cannonpile::stacking::{Run, Stacking};
+use cannonpile::stacking::{Notation, Run, Stacking};
 
 use crate::lattice::each_signs;
 
@@ -83,10 +83,19 @@ fn is(stacking: &Stacking, naive: &Naive) {
     let changes = naive.0.windows(2).filter(|pair| pair[0] != pair[1]).count();
     assert_eq!(stacking.changes(), changes);
     assert_eq!(stacking.is_straight(), changes == 0);
-    assert_eq!(stacking.hagg().to_string(), naive.hagg());
-    assert_eq!(stacking.abc().to_string(), naive.abc());
-    assert_eq!(stacking.jagodzinski().to_string(), naive.jagodzinski());
-    assert_eq!(stacking.zhdanov().to_string(), naive.zhdanov());
+    assert_eq!(
+        stacking.in_notation(Notation::Hagg).to_string(),
+        naive.hagg()
+    );
+    assert_eq!(stacking.in_notation(Notation::Abc).to_string(), naive.abc());
+    assert_eq!(
+        stacking.in_notation(Notation::Jagodzinski).to_string(),
+        naive.jagodzinski()
+    );
+    assert_eq!(
+        stacking.in_notation(Notation::Zhdanov).to_string(),
+        naive.zhdanov()
+    );
 }
 
 /// All sequences of up to the most steps.
@@ -126,10 +135,10 @@ fn every_notation_is_read_back() {
 fn conversion_loses_nothing_but_the_first_sign() {
     let shown = |stacking: &Stacking| {
         [
-            stacking.hagg().to_string(),
-            stacking.abc().to_string(),
-            stacking.jagodzinski().to_string(),
-            stacking.zhdanov().to_string(),
+            stacking.in_notation(Notation::Hagg).to_string(),
+            stacking.in_notation(Notation::Abc).to_string(),
+            stacking.in_notation(Notation::Jagodzinski).to_string(),
+            stacking.in_notation(Notation::Zhdanov).to_string(),
         ]
     };
     each(|naive, _| {
@@ -215,8 +224,8 @@ fn named_stackings_are_periodic() {
     }
     let texts = |stacking: Stacking| {
         (
-            stacking.abc().to_string(),
-            stacking.jagodzinski().to_string(),
+            stacking.in_notation(Notation::Abc).to_string(),
+            stacking.in_notation(Notation::Jagodzinski).to_string(),
         )
     };
     let of = |abc: &str, letters: &str| (abc.to_owned(), letters.to_owned());
@@ -240,8 +249,18 @@ fn one_layer() {
         assert_eq!(parsed(text), Stacking::single_layer());
     }
     is(&Stacking::single_layer(), &Naive(Vec::new()));
-    assert_eq!(Stacking::single_layer().abc().to_string(), "A");
-    assert_eq!(Stacking::single_layer().zhdanov().to_string(), "()");
+    assert_eq!(
+        Stacking::single_layer()
+            .in_notation(Notation::Abc)
+            .to_string(),
+        "A"
+    );
+    assert_eq!(
+        Stacking::single_layer()
+            .in_notation(Notation::Zhdanov)
+            .to_string(),
+        "()"
+    );
     // Jagodzinski's letters begin with the second layer: one letter is three layers.
     is(&parsed("h"), &Naive(vec![true, false]));
     is(&parsed("c"), &Naive(vec![true, true]));

@@ -8,7 +8,7 @@ use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, FloorForce, Statics};
+use cannonpile::{Error, FloorForce, Forces};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
@@ -17,7 +17,7 @@ use super::{Checked, demand, in_lowest_terms, same};
 use crate::generators::number::ratio;
 use crate::generators::region::{self, Described};
 
-type Exact<'p> = Statics<'p, BigRational>;
+type Exact<'p> = Forces<'p, BigRational>;
 
 /// Every sphere of a small pile of any stacking, with weights and loads.
 pub(crate) fn every_way(u: &mut Unstructured<'_>) -> Checked {
@@ -37,7 +37,7 @@ pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checke
         format!("{described:?}")
     })?;
     let (contacts, floor) = (contacts_of(&balance), floor_of(&balance));
-    let statics = pile.statics();
+    let statics = pile.forces();
     // Its rows are another pile's: no layer is swept for them.
     let twin = pile.clone();
     for asked in [&pile, &twin] {
@@ -68,7 +68,7 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
         return Ok(());
     }
     let pile = described.pile()?;
-    let statics = pile.statics::<f64>();
+    let statics = pile.forces::<f64>();
     let within = (&acting + ratio(1, 1)) * ratio(1, 1 << 40);
     let near = |got: f64, want: &BigRational| {
         let got = BigRational::from_float(got).unwrap_or_default();
@@ -76,12 +76,12 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
             format!("{got} is not {want}")
         })
     };
-    let swept: Result<Vec<_>, Error> = statics.contacts(pile.rows(Selection::All)?).collect();
+    let swept: Result<Vec<_>, Error> = statics.contacts(Selection::All)?.collect();
     let contacts = contacts_of(&balance);
     for (got, want) in swept?.iter().zip(&contacts) {
         near(got.force, &want.force)?;
     }
-    let swept: Result<Vec<_>, Error> = statics.base(pile.rows(Selection::Base)?).collect();
+    let swept: Result<Vec<_>, Error> = statics.base(Selection::Base)?.collect();
     let floor = floor_of(&balance);
     for (got, want) in swept?.iter().zip(&floor) {
         near(got.normal, &want.normal)?;
@@ -227,7 +227,7 @@ mod planted {
         let balance = Balance::of(&described());
         let judge = |described: &Described| {
             let pile: Pile = described.pile().unwrap();
-            let statics = pile.statics();
+            let statics = pile.forces();
             let low = Site { i: 0, j: 1, k: 4 };
             one_sphere(&statics, low, &balance).is_ok()
                 && of_one_layer(&statics, 3, &contacts_of(&balance)).is_ok()

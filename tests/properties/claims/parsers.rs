@@ -36,11 +36,11 @@ pub(crate) fn any_text(u: &mut Unstructured<'_>) -> Checked {
         Ok(value) => reads_back(parse::integer, &value, &value)?,
         Err(refusal) => one_line(&refusal)?,
     }
-    match parse::dimension(&text) {
+    match text.parse::<Dimension>() {
         Ok(value) => same("a dimension", &value.number().to_string(), &text)?,
         Err(refusal) => one_line(&refusal)?,
     }
-    match parse::direction(&text) {
+    match text.parse::<Direction>() {
         Ok(value) => same("a direction", &value.to_string(), &text)?,
         Err(refusal) => one_line(&refusal)?,
     }
@@ -85,7 +85,7 @@ pub(crate) fn a_value(u: &mut Unstructured<'_>) -> Checked {
     let layers = pile::layers(u)?;
     reads_back(parse::layers, &layers, &layers)?;
     let direction = *u.choose(&Direction::ALL)?;
-    reads_back(parse::direction, &direction, &direction)
+    reads_back(str::parse::<Direction>, &direction, &direction)
 }
 
 /// What `shown` prints is read as `value`.

@@ -24,15 +24,15 @@ pub(crate) fn anywhere(u: &mut Unstructured<'_>) -> Checked {
             k: number::machine_integer(u)?,
         }
     };
-    let statics = pile.statics::<BigRational>();
+    let forces = pile.forces::<BigRational>();
     let outside = |refused: Option<Error>| matches!(refused, Some(Error::SiteOutside { .. }));
     let direction = pile::direction(u, &pile)?;
     let refusals = [
         outside(pile.shape().check(site).err()),
-        outside(statics.from_above(site).err()),
-        outside(statics.contact(site, direction).err()),
-        outside(statics.position(site).err()),
-        outside(statics.on_floor(site).err()),
+        outside(forces.from_above(site).err()),
+        outside(forces.contact(site, direction).err()),
+        outside(forces.position(site).err()),
+        outside(forces.on_floor(site).err()),
         outside(pile.rows(Selection::One(site)).err()),
     ];
     has_or_refuses(&pile, site, &refusals)
@@ -72,8 +72,12 @@ fn beside(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
 
 /// The number of spheres before `site`.
 fn before(pile: &Pile, site: Site) -> BigInt {
-    let [i, j, k] = [site.i, site.j, site.k].map(|n| BigRational::from_integer(n.into()));
-    count::before(&i, &j, &k, pile.dimension().number()).to_integer()
+    let Site { i, j, k } = site;
+    let layers = BigRational::from_integer(k.into());
+    let above = count::spheres(&layers, pile.dimension().number()).to_integer();
+    // Rows 0 … j−1 hold k+1, k, … spheres.
+    let [i, j, k] = [i, j, k].map(BigInt::from);
+    above + (k * 2 + 3 - &j) * j / 2 + i
 }
 
 /// The next site in the row, or the first of the next row or layer.

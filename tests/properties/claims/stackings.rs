@@ -6,7 +6,7 @@
 use arbitrary::Unstructured;
 use cannonpile::Error;
 use cannonpile::lattice::{MAX_LAYERS, Sign};
-use cannonpile::stacking::{Run, Stacking};
+use cannonpile::stacking::{Notation, Run, Stacking};
 use num_bigint::{BigInt, BigUint, ToBigUint};
 use num_traits::{One, Zero};
 
@@ -159,18 +159,24 @@ fn printed_again(stacking: &Stacking, parse: impl Fn(&str) -> Result<Stacking, E
             format!("'{shown}' is read as {read:?}, not {want:?}")
         })
     };
-    reads_back(stacking.zhdanov().to_string(), &plus_first)?;
+    reads_back(
+        stacking.in_notation(Notation::Zhdanov).to_string(),
+        &plus_first,
+    )?;
     let layers = stacking.layers();
     if layers > SPELLED_OUT {
         return Ok(());
     }
-    reads_back(stacking.abc().to_string(), stacking)?;
+    reads_back(stacking.in_notation(Notation::Abc).to_string(), stacking)?;
     // An empty text is no stacking.
     if layers > 1 {
-        reads_back(stacking.hagg().to_string(), stacking)?;
+        reads_back(stacking.in_notation(Notation::Hagg).to_string(), stacking)?;
     }
     if layers > 2 {
-        reads_back(stacking.jagodzinski().to_string(), &plus_first)?;
+        reads_back(
+            stacking.in_notation(Notation::Jagodzinski).to_string(),
+            &plus_first,
+        )?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::{MAX_LAYERS, Sign};
-use cannonpile::stacking::{Run, Stacking};
+use cannonpile::stacking::{Notation, Run, Stacking};
 
 /// Up to `most` signs: straight, of period one or two, with one change, or any.
 pub(crate) fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {
@@ -69,12 +69,12 @@ pub(crate) fn text(u: &mut Unstructured<'_>) -> Result<String> {
 fn written(u: &mut Unstructured<'_>) -> Result<String> {
     let stacking = Stacking::from_signs(signs(u, 24)?).expect("few steps");
     Ok(match u.int_in_range(0..=4)? {
-        0 => stacking.hagg().to_string(),
-        1 => stacking.abc().to_string(),
-        2 => stacking.jagodzinski().to_string(),
-        3 => stacking.zhdanov().to_string(),
+        0 => stacking.in_notation(Notation::Hagg).to_string(),
+        1 => stacking.in_notation(Notation::Abc).to_string(),
+        2 => stacking.in_notation(Notation::Jagodzinski).to_string(),
+        3 => stacking.in_notation(Notation::Zhdanov).to_string(),
         _ => {
-            let turned = stacking.abc().to_string();
+            let turned = stacking.in_notation(Notation::Abc).to_string();
             let turned = turned.bytes().map(|b| b'A' + (b - b'A' + 1) % 3);
             turned.map(char::from).collect()
         }

@@ -3,7 +3,7 @@
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Algebra;
 use cannonpile::shape::{Rows, Selection};
-use cannonpile::{Error, Pile, Statics};
+use cannonpile::{Error, Pile};
 
 /// Three numbers about a sphere.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl<T: Algebra> Forces<T> {
     }
 
     fn one_by_one(pile: &Pile) -> Result<Self, Error> {
-        let statics = pile.statics::<T>();
+        let statics = pile.forces::<T>();
         let floor = pile.layers() - 1;
         let mut layers = vec![0, floor / 3, floor / 2, floor - 1];
         layers.dedup();
@@ -86,7 +86,7 @@ impl<T: Algebra> Forces<T> {
     }
 
     fn swept(pile: &Pile) -> Result<Self, Error> {
-        let statics = pile.statics::<T>();
+        let statics = pile.forces::<T>();
         let (rows, stride) = middle_row(pile, Selection::Layer(pile.layers() - 2))?;
         let mut contacts = Vec::new();
         let mut below = statics.contacts(rows);
@@ -116,7 +116,7 @@ impl<T: Algebra> Forces<T> {
     }
 
     fn with_positions(
-        statics: &Statics<'_, T>,
+        statics: &Forces<'_, T>,
         contacts: Vec<OfSphere<T>>,
         floor: Vec<OfSphere<T>>,
     ) -> Result<Self, Error> {

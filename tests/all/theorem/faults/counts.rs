@@ -1,6 +1,6 @@
 //! Spheres counted wrongly, steps taken wrongly.
 
-use cannonpile::lattice::{Direction, Symmetry};
+use cannonpile::lattice::Direction;
 use cannonpile::scalar::Ring;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
@@ -45,14 +45,6 @@ pub(super) fn faults() -> Vec<Fault> {
             other => other.descent(),
         } => ["counts", "action-reaction", "region-counts"];
 
-        "turned the other way": rotate = |above| Symmetry::ALL[2].permute(above) => ["rotation"];
-        "mirrored": rotate = |above| Symmetry::MIRROR.permute(above) => ["rotation"];
-        "not turned": rotate = Clone::clone => ["rotation"];
-        "turned and shifted": rotate = |above| {
-            let [a, b, c] = Symmetry::ROTATION.permute(above);
-            [a, b + &P::one(), c]
-        } => ["rotation"];
-
         "no spheres on the floor": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
             => ["spheres", "weight", "discs", "dimensions"];
         "square pyramids in four dimensions": spheres = |l, d| {
@@ -84,13 +76,6 @@ pub(super) fn faults() -> Vec<Fault> {
             let rest = l.clone() - n;
             over(rest.clone() * &rest, 2)
         } => ["strengths"];
-
-        "columns for rows": before = |i, j, k, d| (RIGHT.before)(j, i, k, d) => ["spheres"];
-        "numbered from 1": before = |i, j, k, d| (RIGHT.before)(i, j, k, d) + &P::one() => ["spheres"];
-        "rows as long as the first": before = |i, j, k, d| {
-            (RIGHT.spheres)(k, d) + &(j.clone() * &(k.clone() + &P::one())) + i
-        } => ["spheres"];
-        "one more in each layer": before = |i, j, k, d| (RIGHT.before)(i, j, k, d) + k => ["spheres"];
 
         "lines of α and β for each other": bounds_above = |i, j, lower, upper, m| {
             let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m);

@@ -1,9 +1,9 @@
 //! Forces on every sphere of piles on every base.
 
 use cannonpile::Pile;
+use cannonpile::formula::half_turn;
 use cannonpile::geometry::{Vector, squared_distance};
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::transfer::half_turn;
 use num_rational::BigRational as Q;
 use num_traits::Zero;
 
@@ -28,7 +28,7 @@ fn increments_solve_the_papers_system() {
     let proof = prove("paper-system");
     for s in sines() {
         let pile = Pile::isosceles(2, s.clone()).expect("a pile");
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         let [alpha, beta, gamma] = Direction::ALL
             .map(|direction| statics.contact(Site::APEX, direction).expect("a contact"));
         let at = [("s", s.clone())];
@@ -64,7 +64,7 @@ fn distances_are_those_between_positions() {
             ];
             let square = value(&proof, "the Gram form", &values);
             assert_eq!(square, squared_distance(&n, &s, &sin2));
-            let Vector { x, y, z } = pile.statics::<Q>().position(site).expect("a position");
+            let Vector { x, y, z } = pile.forces::<Q>().position(site).expect("a position");
             let across = int(4) * (int(1) - &s * &s);
             let horizontal = &x * &x + across * &y * &y;
             assert_eq!(square, horizontal * &sin2 + &z * &z * (int(1) - &sin2));
@@ -77,7 +77,7 @@ fn distances_are_those_between_positions() {
 fn supports_bear_what_lies_above() {
     let proof = prove("equilibrium");
     every_sphere(|pile, site, values| {
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         if site.k == pile.layers() - 1 {
             return;
         }
@@ -109,7 +109,7 @@ fn supports_bear_what_lies_above() {
 fn surfaces_receive_nothing_and_others_what_is_given() {
     let (surface, reaction) = (prove("surface"), prove("action-reaction"));
     every_sphere(|pile, site, values| {
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         let received = statics.from_above(site).expect("forces");
         for (direction, received) in Direction::ALL.into_iter().zip(received) {
             if let Some(above) = pile.shape().above(site, direction) {
@@ -130,7 +130,7 @@ fn surfaces_receive_nothing_and_others_what_is_given() {
 fn resultants_are_positions() {
     let proof = prove("central-force");
     for pile in equilateral_piles(8) {
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         for site in pile.shape().sites() {
             let force = statics.resultant_above(site).expect("a force");
             let of_theorem =
@@ -149,6 +149,11 @@ fn half_turns_turn_forces() {
     let proof = prove("half-turn");
     let [names_g, names_h] = [["g_1", "g_2", "g_3"], ["h_1", "h_2", "h_3"]];
     let dot = |a: &[Q; 3], b: &[Q; 3]| -> Q { a.iter().zip(b).map(|(x, y)| x * y).sum() };
+    // Fractions are turned as integers over one denominator, 21 · 3.
+    let turn = |g: &[Q; 3]| {
+        let numerators = g.each_ref().map(|g| (g * int(63)).to_integer());
+        half_turn::<Q>(&numerators).map(|tripled| Q::new(tripled, 189.into()))
+    };
     for n in 0..30 {
         let g = [ratio(n, 1), ratio(5 - n, 3), ratio(n * n, 7)];
         let h = [ratio(1, 2), ratio(-n, 5), ratio(3, 1)];
@@ -157,10 +162,10 @@ fn half_turns_turn_forces() {
             .zip(g.clone())
             .chain(names_h.into_iter().zip(h.clone()));
         let values: Vec<_> = named.collect();
-        let turned = half_turn(&g);
+        let turned = turn(&g);
         assert_eq!(value(&proof, "|Gg|²", &values), dot(&turned, &turned));
         assert_eq!(value(&proof, "h·Gg", &values), dot(&h, &turned));
-        assert_eq!(half_turn(&turned), g);
+        assert_eq!(turn(&turned), g);
         // A half turn about (1, 1, 1): what is along the axis stays, the rest is reversed.
         let mean = g.iter().sum::<Q>() / int(3);
         for (x, turned) in g.iter().zip(&turned) {

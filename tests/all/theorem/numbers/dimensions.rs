@@ -1,6 +1,5 @@
 //! Discs, and piles in more dimensions, sphere by sphere.
 
-use cannonpile::closed_form::Increments;
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
 use cannonpile::{FloorForce, Pile};
@@ -14,10 +13,10 @@ fn discs_on_the_floor() {
     let proof = prove("discs");
     for layers in 1..=12 {
         let pile = Pile::discs(layers).expect("a pile");
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         let l = ("L", int(layers));
         let (mut total, mut sideways) = (Q::zero(), Q::zero());
-        for force in statics.base(pile.rows(Selection::Base).expect("rows")) {
+        for force in statics.base(Selection::Base).expect("rows") {
             let FloorForce {
                 site,
                 normal,
@@ -61,7 +60,8 @@ fn layer<const D: usize>(k: usize) -> Vec<[i128; D]> {
 fn in_dimension<const D: usize>() {
     const NAMES: [&str; 6] = ["n_1", "n_2", "n_3", "n_4", "n_5", "n_6"];
     let proof = prove("dimensions");
-    let increments = Increments::<Q, D>::regular();
+    // Each of the d lines adds 1 for every sphere above and one for the sphere itself.
+    let carried = |counts: &[i128; D]| int(counts.iter().map(|n| n + 1).sum());
     let mut spheres = 0;
     for last in 0..4 {
         let base = layer::<D>(last);
@@ -70,17 +70,14 @@ fn in_dimension<const D: usize>() {
         let claim = |text: &str| format!("d = {D}: {text}");
         let in_all = value(&proof, &claim("Σ over the layers"), &values);
         assert_eq!(in_all, Q::from_integer(spheres.into()));
-        let total: Q = base
-            .iter()
-            .map(|counts| increments.carried(&counts.map(int)))
-            .sum();
+        let total: Q = base.iter().map(&carried).sum();
         assert_eq!(value(&proof, &claim("ΣF_z = weight"), &values), total);
         assert_eq!(total, Q::from_integer((spheres * D).into()));
         for counts in base {
             values.truncate(1);
             values.extend(NAMES.into_iter().zip(counts.map(int)));
             let normal = value(&proof, &claim("normal force"), &values);
-            assert_eq!(normal, increments.carried(&counts.map(int)));
+            assert_eq!(normal, carried(&counts));
         }
     }
 }
