@@ -1,7 +1,7 @@
 //! Angles, directions, overlap, positions.
 //!
 //! The paper's basis: x and y horizontal, z **down**. A contact leans by θ from the vertical, and the
-//! unit vectors along the contacts point from the lower sphere to the upper one (eq. 1):
+//! unit vectors along the contacts point from the lower sphere to the upper one (paper, (1)):
 //!
 //! ê_a = (sinθ sinφ, sinθ cosφ, −cosθ), ê_b = (sinθ sinφ, −sinθ cosφ, −cosθ), ê_c = (−sinθ, 0, −cosθ).
 //!
@@ -28,9 +28,9 @@ use crate::Error;
 use crate::lattice::Dimension;
 use crate::scalar::{Algebra, Ring, Surd};
 
-/// ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
+/// Returns the contact directions ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
-/// Paper, eq. (1). `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. Exact in exact
+/// Paper, (1). `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. Exact in exact
 /// scalars.
 ///
 /// # Examples
@@ -64,8 +64,8 @@ pub fn directions<T: Algebra>(s: &T) -> [Vector<T>; 3] {
     ]
 }
 
-/// The contact directions of a pile of discs, in the basis (sinθ, 2sinθ, cosθ): ê_a = (1, 0, −1) and
-/// ê_b = (−1, 0, −1).
+/// Returns the contact directions of a pile of discs, in the basis (sinθ, 2sinθ, cosθ): ê_a = (1, 0, −1) and ê_b = (−1,
+/// 0, −1).
 ///
 /// The plane of the discs is x–z. It is the pile of spheres with s = 0, whose γ contacts carry
 /// nothing, turned by a quarter about z; ê_c = (0, ½, −1) completes the three and is not used.
@@ -100,10 +100,10 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
     ]
 }
 
-/// The position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
+/// Returns the position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
 ///
 /// `above` are the counts of spheres above it on its lines ([`count::above`](crate::lattice::count::above)).
-/// THEORY §1: r = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. Exact in exact scalars.
+/// So r = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. Exact in exact scalars.
 ///
 /// # Examples
 /// ```
@@ -117,11 +117,10 @@ pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<
     -Vector::combination(above, directions)
 }
 
-/// The squared distance of two sphere centres over 4R², for centres n_a ê_a + n_b ê_b + n_c ê_c apart
-/// (in 2R).
+/// Returns the squared distance of two sphere centres over 4R², for centres n_a ê_a + n_b ê_b + n_c ê_c apart (in 2R).
 ///
 /// With the Gram matrix ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ,
-/// ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ (THEORY §2). s = 0 and n_c = 0 give discs. Two spheres overlap
+/// ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ. s = 0 and n_c = 0 give discs. Two spheres overlap
 /// if it is below 1 and touch if it is 1. Exact in exact scalars.
 ///
 /// # Examples
@@ -164,7 +163,7 @@ pub struct Inclination {
 }
 
 impl Inclination {
-    /// sin²θ = q(d−1)/(2d), with q = (a/R)².
+    /// Returns the inclination at this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.
     ///
     /// # Errors
     /// [`Error::TooFlat`] if sin²θ ≥ 1: a sphere would fall between those below.
@@ -193,7 +192,7 @@ impl Inclination {
         }
     }
 
-    /// sin²θ, between 0 and 1.
+    /// Returns sin²θ, between 0 and 1.
     ///
     /// # Examples
     /// ```
@@ -213,7 +212,7 @@ impl Inclination {
         &self.sin2
     }
 
-    /// cos²θ = 1 − sin²θ, positive.
+    /// Returns cos²θ = 1 − sin²θ, which is positive.
     ///
     /// # Examples
     /// ```
@@ -231,7 +230,7 @@ impl Inclination {
         BigRational::one() - &self.sin2
     }
 
-    /// tan²θ = sin²θ / cos²θ.
+    /// Returns tan²θ = sin²θ / cos²θ.
     ///
     /// # Examples
     /// ```
@@ -249,7 +248,7 @@ impl Inclination {
         &self.sin2 / self.cos2()
     }
 
-    /// sinθ, exactly.
+    /// Returns sinθ, exactly.
     ///
     /// # Examples
     /// ```
@@ -267,7 +266,7 @@ impl Inclination {
         root(self.sin2.clone())
     }
 
-    /// cosθ, exactly.
+    /// Returns cosθ, exactly.
     ///
     /// # Examples
     /// ```
@@ -285,7 +284,7 @@ impl Inclination {
         root(self.cos2())
     }
 
-    /// tanθ, exactly.
+    /// Returns tanθ, exactly.
     ///
     /// # Examples
     /// ```

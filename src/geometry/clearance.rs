@@ -1,6 +1,6 @@
 //! Which spacings leave room for the spheres.
 //!
-//! # What has to be looked at
+//! # Which pairs of spheres decide
 //! Two spheres of a pile of L layers differ by n = (n_a, n_b, n_c) if both the positive and the negative
 //! parts of n sum to at most L−1. They overlap if the form [`squared_distance`] is below 1 at n. With
 //! σ = sin²θ it is m² + σ(h(n) − m²), linear in σ, where m = n_a+n_b+n_c counts the layers between them
@@ -66,7 +66,7 @@ pub struct Apart {
 }
 
 impl fmt::Display for Apart {
-    /// `in one layer`, `3 layers apart`.
+    /// Prints `in one layer`, `3 layers apart`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.layers {
             0 => f.write_str("in one layer"),
@@ -81,8 +81,8 @@ type Touch = (BigRational, Apart);
 
 /// The spacings a pile allows: those at which no two of its spheres overlap.
 ///
-/// Made by [`Pile::clearance`](crate::Pile::clearance). THEORY §2, "No overlap". On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the bounds
-/// further spheres touch.
+/// [`Pile::clearance`](crate::Pile::clearance) makes it. On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the
+/// bounds further spheres touch.
 ///
 /// # Examples
 /// ```
@@ -111,7 +111,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
+    /// Returns the bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
     pub(crate) fn new(shape: &Shape, s: &BigRational) -> Self {
         if shape.is_pyramid() {
             Self::of_pyramid(shape, s)
@@ -176,7 +176,7 @@ impl Clearance {
         }
     }
 
-    /// The least allowed spacing, or `None` where the pile sets no lower bound (one sphere).
+    /// Returns the least allowed spacing, or `None` for one sphere, which sets no lower bound.
     ///
     /// # Examples
     /// ```
@@ -193,8 +193,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// The greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers
-    /// on an equilateral base).
+    /// Returns the greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers on an
+    /// equilateral base).
     ///
     /// # Examples
     /// ```
@@ -211,8 +211,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// Decides exactly whether the spheres have room, and tells which ones touch beside the contacts
-    /// α, β, γ: none in general, some at the bounds.
+    /// Checks, exactly, that the spheres have room. Returns which of them touch, other than at the contacts α, β, γ:
+    /// none in general, some at the bounds.
     ///
     /// # Errors
     /// [`Error::NoSpacing`] if no spacing at all fits this sin φ, [`Error::Overlap`] with the allowed

@@ -56,7 +56,7 @@ impl<'p> Numbering<'p> {
         Ok(Self { shape, before })
     }
 
-    /// The shape whose spheres these are.
+    /// Returns the shape whose spheres these are.
     ///
     /// # Examples
     /// ```
@@ -71,7 +71,7 @@ impl<'p> Numbering<'p> {
         self.shape
     }
 
-    /// How many spheres there are, which is the greatest number.
+    /// Returns the number of spheres, which is the greatest number of a sphere.
     ///
     /// # Examples
     /// ```
@@ -85,7 +85,7 @@ impl<'p> Numbering<'p> {
         self.before.last().copied().unwrap_or_default()
     }
 
-    /// The number of the first sphere of the bottom layer. From it on all are on the floor.
+    /// Returns the number of the first sphere of the bottom layer. All spheres from it on are on the floor.
     ///
     /// # Examples
     /// ```
@@ -101,7 +101,7 @@ impl<'p> Numbering<'p> {
         before.copied().unwrap_or_default() + 1
     }
 
-    /// The number of a sphere.
+    /// Returns the number of a sphere.
     ///
     /// # Errors
     /// As for [`Shape::check`].
@@ -128,7 +128,7 @@ impl<'p> Numbering<'p> {
         Ok(before.unwrap_or_default() + in_layer + 1)
     }
 
-    /// The sphere of a number, or `None` for 0 and for numbers past the last.
+    /// Returns the sphere of a number, or `None` for 0 and for numbers past the last.
     ///
     /// # Examples
     /// ```
