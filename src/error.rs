@@ -1,7 +1,10 @@
 //! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
 
+mod culprit;
 mod display;
 mod short;
+
+pub use culprit::Culprit;
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -9,9 +12,9 @@ use alloc::string::String;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
+use crate::engine::{Method, Quantity};
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
-use crate::plan::{Method, Quantity};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -160,9 +163,9 @@ pub enum Error {
     /// Two options of a scene that exclude each other.
     Excluded {
         /// The one.
-        given: &'static str,
+        given: Culprit,
         /// The other.
-        beside: &'static str,
+        beside: Culprit,
     },
     /// An answer that would take more memory than is sensible.
     TooLarge {
@@ -178,7 +181,7 @@ pub enum Error {
     /// A length, mass, gravity or spacing that is not positive.
     NotPositive {
         /// What it is.
-        quantity: &'static str,
+        quantity: Culprit,
         /// The value asked for.
         given: BigRational,
     },
@@ -280,6 +283,21 @@ pub enum Error {
         /// The narrower question.
         remedy: &'static str,
     },
+    /// Something that cannot be, by the named invariant: a fault of this library and of no input.
+    Bug {
+        /// What was to hold, and does not.
+        invariant: &'static str,
+    },
+}
+
+/// Returns the error for a case that `invariant` rules out; where debug assertions are on, it panics instead.
+///
+/// It stands where a default would be a wrong answer: `value.ok_or_else(|| bug("a bottom sphere rests on the floor"))?`.
+#[cold]
+#[track_caller]
+pub(crate) fn bug(invariant: &'static str) -> Error {
+    debug_assert!(false, "broken invariant: {invariant}");
+    Error::Bug { invariant }
 }
 
 impl Error {

@@ -56,7 +56,7 @@
 //! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
 //! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
-//! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
+//! | [`formula`] | the paper's equations, each once, under its printed number, and the step across a sign change |
 //! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
 //! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
 //! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
@@ -66,7 +66,8 @@
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
 //! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
-//! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
+//! | `table` | tables as csv, json and text (feature `export`) |
+//! | `dem` | piles as files for LAMMPS, ParaView, YADE (feature `export`) |
 //! | `verify` | measured forces against the exact ones (feature `export`) |
 //! | `figure` | the paper's figures and more, as SVG (feature `plot`) |
 //!
@@ -99,26 +100,20 @@
 extern crate alloc;
 
 pub mod census;
-pub mod closed_form;
-mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod export;
+pub mod dem;
+mod engine;
+mod error;
 #[cfg(feature = "plot")]
 #[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
 pub mod figure;
-mod fill;
+mod forces;
+pub mod formula;
 pub mod geometry;
 pub mod lattice;
-mod lines;
-mod load;
-mod meter;
 mod packing;
-mod parallel;
 mod pile;
-mod plan;
-mod query;
-mod reactions;
 pub mod scalar;
 pub mod scene;
 #[cfg(feature = "serde")]
@@ -127,23 +122,22 @@ pub mod serde;
 pub mod shape;
 pub mod stacking;
 mod standing;
-mod sweep;
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub mod table;
 pub mod theorem;
-pub mod transfer;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;
 
-pub use error::Error;
-pub use fill::Strengths;
-pub use meter::{Counters, Meter};
+pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
+pub use error::{Culprit, Error};
+pub use forces::{
+    Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
+};
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
-pub use plan::{Method, Plan, Quantity, Question};
-pub use query::{ContactForce, FloorForce, Statics};
-pub use reactions::BaseExtremes;
-pub use standing::{Standing, Verdict};
-pub use sweep::{ExactSweep, Sweep};
+pub use standing::{BaseExtremes, Standing, Verdict};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

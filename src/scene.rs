@@ -14,7 +14,7 @@ use crate::geometry::Spacing;
 use crate::lattice::{Dimension, Region};
 use crate::shape::Shape;
 use crate::stacking::Pattern;
-use crate::{Error, Packing, Pile};
+use crate::{Culprit, Error, Packing, Pile};
 
 use parse::At;
 
@@ -79,6 +79,14 @@ pub struct Scene {
     pub gravity: BigRational,
 }
 
+/// Returns which input says where a pile is grown from: the top or the base.
+const fn culprit_of(anchor: &Anchor) -> Culprit {
+    match anchor {
+        Anchor::Top(_) => Culprit::Top,
+        Anchor::Base(_) => Culprit::Base,
+    }
+}
+
 impl Default for Scene {
     fn default() -> Self {
         Self {
@@ -138,19 +146,19 @@ impl Scene {
     fn unloaded(&self) -> Result<Pile, Error> {
         let layers = self.layers.unwrap_or(LAYERS);
         let stacked = match (&self.anchor, &self.stacking) {
-            (Some(anchor), _) => Some(anchor.name()),
-            (None, Some(_)) => Some("stacking"),
+            (Some(anchor), _) => Some(culprit_of(anchor)),
+            (None, Some(_)) => Some(Culprit::Stacking),
             (None, None) => None,
         };
         match (self.dimension, &self.sin_phi, stacked) {
             (Dimension::Two, Some(_), _) => Err(Error::SinPhiOfDiscs),
             (Dimension::Two, None, Some(given)) => Err(Error::Excluded {
                 given,
-                beside: "dimension 2",
+                beside: Culprit::Dimension,
             }),
             (Dimension::Two, None, None) => Pile::discs(layers),
             (Dimension::Three, Some(_), Some(beside)) => Err(Error::Excluded {
-                given: "sin-phi",
+                given: Culprit::SinPhi,
                 beside,
             }),
             (Dimension::Three, Some(s), None) => Pile::isosceles(layers, s.clone()),
@@ -194,9 +202,9 @@ impl Scene {
     /// ```
     pub fn check_sizes(&self) -> Result<(), Error> {
         for (quantity, value) in [
-            ("radius", &self.radius),
-            ("mass", &self.mass),
-            ("gravity", &self.gravity),
+            (Culprit::Radius, &self.radius),
+            (Culprit::Mass, &self.mass),
+            (Culprit::Gravity, &self.gravity),
         ] {
             if !value.is_positive() {
                 return Err(Error::NotPositive {

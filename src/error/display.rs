@@ -3,8 +3,8 @@
 use alloc::string::ToString;
 use core::fmt;
 
-use super::Error;
 use super::short::numbers;
+use super::{Culprit, Error};
 use crate::geometry::{Bound, Spacing};
 use crate::lattice::{Dimension, MAX_LAYERS, Site};
 
@@ -228,10 +228,18 @@ impl Error {
                 f,
                 "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
             ),
-            Self::Excluded { given, beside } => write!(
-                f,
-                "{given} has no meaning beside {beside}: leave one of the two out"
-            ),
+            Self::Excluded { given, beside } => {
+                // Of dimensions only this one excludes anything.
+                let two = if *beside == Culprit::Dimension {
+                    " 2"
+                } else {
+                    ""
+                };
+                write!(
+                    f,
+                    "{given} has no meaning beside {beside}{two}: leave one of the two out"
+                )
+            }
             Self::TooLarge {
                 quantity,
                 needed,
@@ -264,6 +272,10 @@ impl Error {
                 }
             }
             Self::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Self::Bug { invariant } => write!(
+                f,
+                "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"
+            ),
             // Every variant has its text in one of the four.
             _ => write!(f, "{self:?}"),
         }

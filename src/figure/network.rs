@@ -127,10 +127,7 @@ impl Network {
             "spheres of a section",
             remedy,
         )?;
-        let forces = subject
-            .packing()
-            .statics()
-            .contacts(pile.rows(Selection::All)?);
+        let forces = subject.packing().forces().contacts(Selection::All)?;
         let mut links = Vec::new();
         for contact in forces {
             let contact = contact?;
@@ -183,9 +180,8 @@ impl Network {
             .iter()
             .map(|place| (place.site, place.at))
             .collect();
-        let rows = pile.rows(Selection::Layer(k))?;
         let mut links = Vec::new();
-        for contact in subject.packing().statics().contacts(rows) {
+        for contact in subject.packing().forces().contacts(Selection::Layer(k))? {
             let contact = contact?;
             let Some(upper) = place(&spheres, contact.site) else {
                 continue;

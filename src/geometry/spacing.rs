@@ -7,8 +7,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use crate::Error;
 use crate::scalar::{RealSign, Surd};
+use crate::{Culprit, Error};
 
 /// a/R: half the distance 2a of horizontal neighbours, over the radius. Positive; its square q is
 /// rational.
@@ -55,7 +55,7 @@ impl Spacing {
             })
         } else {
             Err(Error::NotPositive {
-                quantity: "spacing",
+                quantity: Culprit::Spacing,
                 given: ratio,
             })
         }
@@ -83,7 +83,7 @@ impl Spacing {
             Ok(Self { square })
         } else {
             Err(Error::NotPositive {
-                quantity: "squared spacing",
+                quantity: Culprit::Spacing,
                 given: square,
             })
         }

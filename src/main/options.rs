@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use cannonpile::export::{FileFormat, NumberFormat, Units};
 use cannonpile::lattice::{Region, Site};
 use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
+use cannonpile::table::{FileFormat, NumberFormat, Units};
 use cannonpile::{Error, Method, Pile, Quantity, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};

@@ -14,8 +14,8 @@ use num_rational::BigRational;
 
 use super::parse::{self, At};
 use super::{Anchor, Scene};
-use crate::Error;
 use crate::lattice::Dimension;
+use crate::{Culprit, Error};
 
 use nearest::nearest;
 use value::{Value, line_of};
@@ -205,10 +205,12 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             "stacking" => scene.stacking = Some(value.read(str::parse)?),
             "top" | "base" => {
                 if let Some(anchor) = &scene.anchor {
-                    return Err(value.refused(Error::Excluded {
-                        given: value.key,
-                        beside: anchor.name(),
-                    }));
+                    let beside = super::culprit_of(anchor);
+                    let given = match beside {
+                        Culprit::Top => Culprit::Base,
+                        _ => Culprit::Top,
+                    };
+                    return Err(value.refused(Error::Excluded { given, beside }));
                 }
                 let grown = if value.key == "top" {
                     Anchor::Top

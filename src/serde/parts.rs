@@ -11,7 +11,7 @@ use crate::lattice::{Dimension, Region, Site};
 use crate::scalar::serde::number;
 use crate::shape::Anchor;
 use crate::stacking::Stacking;
-use crate::{Error, Pile};
+use crate::{Culprit, Error, Pile};
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Pile", deny_unknown_fields)]
@@ -84,17 +84,17 @@ impl Parts {
         };
         // Discs have but one shape, and most shapes but one sin φ.
         let given = if pile.sin_phi() != &self.sin_phi {
-            "sin_phi"
+            Culprit::SinPhi
         } else if pile.shape().stacking() != &self.stacking {
-            "stacking"
+            Culprit::Stacking
         } else if pile.shape().anchor() != self.anchor {
-            "anchor"
+            Culprit::Top
         } else {
             return Ok(pile);
         };
         let beside = match self.dimension {
-            Dimension::Two => "dimension 2",
-            Dimension::Three => "this stacking and anchor",
+            Dimension::Two => Culprit::Dimension,
+            Dimension::Three => Culprit::Stacking,
         };
         Err(Error::Excluded { given, beside })
     }

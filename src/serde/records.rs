@@ -153,20 +153,12 @@ struct CountersRecord {
     turned: u64,
     #[serde(getter = "Counters::passes")]
     passes: u64,
-    #[serde(getter = "Counters::roots")]
-    roots: u64,
     #[serde(getter = "Counters::rows")]
     rows: u64,
 }
 
 impl From<CountersRecord> for Counters {
     fn from(record: CountersRecord) -> Self {
-        Self::of([
-            record.visited,
-            record.turned,
-            record.passes,
-            record.roots,
-            record.rows,
-        ])
+        Self::of([record.visited, record.turned, record.passes, record.rows])
     }
 }

@@ -12,7 +12,7 @@ use crate::scalar::Ring;
 /// (k, j) of the row of each layer that is nearest to the plane of the section, where one is at most half a row away.
 pub(super) fn rows(subject: &Subject<'_>) -> Result<Vec<(i128, i128)>, Error> {
     let pile = subject.pile();
-    let statics = subject.packing().statics();
+    let statics = subject.packing().forces();
     if pile.dimension() == Dimension::Two {
         return Ok((0..pile.layers()).map(|k| (k, 0)).collect());
     }
