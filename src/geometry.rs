@@ -148,13 +148,11 @@ pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
 /// ```
 /// use cannonpile::geometry::{Inclination, Spacing};
 /// use cannonpile::lattice::Dimension;
-/// use num_rational::BigRational;
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-/// let spacing = Spacing::new(ratio(6, 5))?;
+/// let spacing: Spacing = "6/5".parse()?;
 /// let angle = Inclination::new(&spacing, Dimension::Three)?;
-/// assert_eq!(angle.sin2(), &ratio(12, 25));
-/// assert_eq!(angle.tan2(), ratio(12, 13));
+/// assert_eq!(angle.sin2().to_string(), "12/25");
+/// assert_eq!(angle.tan2().to_string(), "12/13");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -198,13 +196,11 @@ impl Inclination {
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let spacing = Spacing::new(ratio(6, 5))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// // A third of q for spheres, and a quarter for discs.
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.sin2(), &ratio(12, 25));
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Two)?.sin2(), &ratio(9, 25));
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.sin2().to_string(), "12/25");
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Two)?.sin2().to_string(), "9/25");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -218,11 +214,9 @@ impl Inclination {
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let spacing = Spacing::new(ratio(6, 5))?;
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.cos2(), ratio(13, 25));
+    /// let spacing: Spacing = "6/5".parse()?;
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.cos2().to_string(), "13/25");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -236,11 +230,9 @@ impl Inclination {
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let spacing = Spacing::new(ratio(6, 5))?;
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.tan2(), ratio(12, 13));
+    /// let spacing: Spacing = "6/5".parse()?;
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.tan2().to_string(), "12/13");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -254,16 +246,15 @@ impl Inclination {
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// let angle = Inclination::new(&spacing, Dimension::Three)?;
     /// assert_eq!(angle.sin().to_string(), "2/5*sqrt(3)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
     pub fn sin(&self) -> Surd {
-        root(self.sin2.clone())
+        Surd::root_of(self.sin2.clone())
     }
 
     /// Returns cosθ, exactly.
@@ -272,16 +263,15 @@ impl Inclination {
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// let angle = Inclination::new(&spacing, Dimension::Three)?;
     /// assert_eq!(angle.cos().to_string(), "1/5*sqrt(13)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
     pub fn cos(&self) -> Surd {
-        root(self.cos2())
+        Surd::root_of(self.cos2())
     }
 
     /// Returns tanθ, exactly.
@@ -290,16 +280,15 @@ impl Inclination {
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// let angle = Inclination::new(&spacing, Dimension::Three)?;
     /// assert_eq!(angle.tan().to_string(), "2/13*sqrt(39)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
     pub fn tan(&self) -> Surd {
-        root(self.tan2())
+        Surd::root_of(self.tan2())
     }
 }
 
@@ -309,12 +298,6 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
         Dimension::Two => 4,
         Dimension::Three => 3,
     })
-}
-
-/// √r of a rational known to be positive.
-fn root(r: BigRational) -> Surd {
-    // The fallback is for a negative radicand, which the callers exclude.
-    Surd::sqrt(r).unwrap_or_else(|_| Surd::zero())
 }
 
 // Unwrapped by the compiler: zero would not build.

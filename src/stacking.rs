@@ -215,14 +215,12 @@ impl Stacking {
         }
         let steps = layers - 1;
         let length = if length == 0 { steps.max(1) } else { length };
-        let runs = usize::try_from(steps / length + i128::from(steps % length > 0));
-        if !runs.is_ok_and(|runs| runs <= MAX_RUNS) {
-            return Err(Error::TooManyRuns { limit: MAX_RUNS });
-        }
-        // Not more than there are runs.
-        let whole = usize::try_from(steps / length).unwrap_or(MAX_RUNS);
+        let (whole, rest) = (steps / length, steps % length);
+        let whole = usize::try_from(whole).ok();
+        let whole = whole.filter(|whole| whole.saturating_add(usize::from(rest > 0)) <= MAX_RUNS);
+        let whole = whole.ok_or(Error::TooManyRuns { limit: MAX_RUNS })?;
         let mut lengths = alloc::vec![length; whole];
-        lengths.extend(Some(steps % length).filter(|rest| *rest > 0));
+        lengths.extend(Some(rest).filter(|rest| *rest > 0));
         Ok(Self {
             first: Sign::Plus,
             lengths,

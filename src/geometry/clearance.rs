@@ -87,15 +87,12 @@ type Touch = (BigRational, Apart);
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::geometry::Spacing;
-/// use num_rational::BigRational;
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
 /// let clearance = Pile::triangular(10)?.clearance();
-/// assert!(clearance.check(&Spacing::new(ratio(163, 100))?).is_ok());
-/// assert!(clearance.check(&Spacing::new(ratio(164, 100))?).is_err());
+/// assert!(clearance.check(&"1.63".parse()?).is_ok());
+/// assert!(clearance.check(&"1.64".parse()?).is_err());
 /// // a = R is the FCC stack: horizontal neighbours touch.
-/// let touching = clearance.check(&Spacing::new(ratio(1, 1))?)?;
+/// let touching = clearance.check(&"1".parse()?)?;
 /// assert_eq!(touching[0].to_string(), "in one layer");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -144,7 +141,7 @@ impl Clearance {
         let lines = pyramid.dimension().directions().len();
         let flat = square_per_sin2(pyramid.dimension());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for n in candidates() {
+        for (layers, n) in candidates() {
             if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
                 continue;
             }
@@ -156,10 +153,7 @@ impl Clearance {
             }
             // at_zero + σ·slope ≥ 1
             let sin2 = (BigRational::one() - at_zero) / &slope;
-            let layers: i128 = n.iter().sum();
-            let apart = Apart {
-                layers: u8::try_from(layers).unwrap_or(u8::MAX),
-            };
+            let apart = Apart { layers };
             if slope.is_positive() {
                 lower.push((sin2 * &flat, apart));
             } else if sin2 < BigRational::one() {
@@ -220,14 +214,12 @@ impl Clearance {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::{Apart, Spacing};
+    /// use cannonpile::geometry::Apart;
     /// use cannonpile::{Error, Pile};
-    /// use num_rational::BigRational;
     ///
     /// let clearance = Pile::triangular(10)?.clearance();
-    /// let most = Spacing::from_square(BigRational::new(8.into(), 3.into()))?;
-    /// assert_eq!(clearance.check(&most)?, [Apart { layers: 3 }]);
-    /// let wide = Spacing::from_square(BigRational::new(17.into(), 6.into()))?;
+    /// assert_eq!(clearance.check(&"2/3*sqrt(6)".parse()?)?, [Apart { layers: 3 }]);
+    /// let wide = "sqrt(17/6)".parse()?;
     /// assert!(matches!(clearance.check(&wide), Err(Error::Overlap { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -268,15 +260,15 @@ impl Clearance {
     }
 }
 
-/// The differences that may overlap (module documentation), one of each ±n.
-fn candidates() -> impl Iterator<Item = [i128; 3]> {
-    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]];
-    let stacked = (1..=3).flat_map(|m| {
+/// The differences that may overlap (module documentation), one of each ±n, with the layers between.
+fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
+    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));
+    let stacked = (1..=3_u8).flat_map(|m| {
         (-1..=4).flat_map(move |t: i128| {
             (-1..=1)
                 .filter(move |d| (t + d) % 2 == 0)
                 .map(move |d| t.midpoint(d))
-                .map(move |a| [a, t - a, m - t])
+                .map(move |a| (m, [a, t - a, i128::from(m) - t]))
         })
     });
     neighbours.into_iter().chain(stacked)

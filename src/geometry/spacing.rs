@@ -119,8 +119,7 @@ impl Spacing {
     /// ```
     #[must_use]
     pub fn ratio(&self) -> Surd {
-        // A square is not negative.
-        Surd::sqrt(self.square.clone()).unwrap_or_else(|_| Surd::zero())
+        Surd::root_of(self.square.clone())
     }
 
     /// a/R in millionths, rounded down, and whether that is exact.

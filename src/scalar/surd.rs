@@ -68,12 +68,22 @@ impl Surd {
         if radicand.is_negative() {
             return Err(Error::NegativeRadicand { given: radicand });
         }
+        Ok(Self::of_valid(coefficient, radicand))
+    }
+
+    /// √`square` of a number that is known not to be negative.
+    pub(crate) fn root_of(square: BigRational) -> Self {
+        debug_assert!(!square.is_negative(), "the root of {square} is not real");
+        Self::of_valid(BigRational::one(), square)
+    }
+
+    fn of_valid(coefficient: BigRational, radicand: BigRational) -> Self {
         // They have no common factor, so that no square is lost when each is looked at for itself.
         let (numer, denom) = radicand.into_raw();
         let [(p, a), (q, b)] = [numer, denom].map(|n| extract_squares(n.into_parts().1));
         // √(p²a/q²b) = p/(qb)·√(ab)
         let root = BigRational::new(p.into(), (q * &b).into());
-        Ok(Self::normal(coefficient * root, a * b))
+        Self::normal(coefficient * root, a * b)
     }
 
     /// √`radicand`.

@@ -160,9 +160,12 @@ impl<'p> Rows<'p> {
         if self.k >= self.end {
             return 0_u32.into();
         }
-        let given = self.j.zip(self.shape.layer(self.k).ok());
-        let given = given.map(|(j, region)| region.sites_before(region.row(j).start, j));
-        self.shape.spheres_in(self.k..self.end) - given.unwrap_or_default()
+        let all = self.shape.spheres_in(self.k..self.end);
+        match (self.j, self.shape.layer(self.k)) {
+            // Some rows of the layer have been given already.
+            (Some(j), Ok(region)) => all - region.sites_before(region.row(j).start, j),
+            _ => all,
+        }
     }
 
     /// Returns the corner sites of the first and the last layer. A linear function of (i, j, k), or its norm, is
