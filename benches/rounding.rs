@@ -6,26 +6,22 @@
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
 //!
-//! With `-- --stress` it measures the tables of `tests/stress` instead, that of a thousand changes of sign in every scalar,
+//! With `-- --stress` it measures the tables of `tests/support/stress` instead, that of a thousand changes of sign in every scalar,
 //! which takes some minutes.
 
-#[path = "../tests/judge/mod.rs"]
-mod judge;
-#[path = "../tests/rounding/mod.rs"]
-mod rounding;
-#[path = "../tests/stress/mod.rs"]
-mod stress;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
 use std::env;
 use std::time::Instant;
 
-use rounding::numbers;
-use rounding::quantities::Quantity;
-use rounding::random::Random;
-use rounding::tally::Tally;
-use stress::cases;
-use stress::deep::Deep;
-use stress::table::{self, Answers};
+use support::rounding::numbers;
+use support::rounding::quantities::Quantity;
+use support::rounding::random::Random;
+use support::rounding::tally::Tally;
+use support::stress::cases;
+use support::stress::deep::Deep;
+use support::stress::table::{self, Answers};
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();

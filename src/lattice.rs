@@ -27,7 +27,11 @@ pub use row::{Row, Sites};
 pub use sign::Sign;
 pub use symmetry::Symmetry;
 
+use alloc::string::ToString;
 use core::fmt;
+use core::str::FromStr;
+
+use crate::Error;
 
 /// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);
@@ -105,8 +109,37 @@ impl fmt::Display for Direction {
     }
 }
 
+impl FromStr for Direction {
+    type Err = Error;
+
+    /// Reads a direction by its [`name`](Self::name).
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// assert_eq!("gamma".parse::<Direction>()?, Direction::Gamma);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|found| found.name() == text);
+        found.ok_or_else(|| Error::syntax(text, "a direction: alpha, beta or gamma"))
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Direction);
+
 /// The number of dimensions a pile lives in: discs in the plane, or spheres in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(into = "u32", try_from = "u32")
+)]
 pub enum Dimension {
     /// A pile of discs: each stands on two, α and β.
     Two,
@@ -148,17 +181,70 @@ impl Dimension {
     }
 }
 
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.number().fmt(f)
+    }
+}
+
+impl FromStr for Dimension {
+    type Err = Error;
+
+    /// Reads a dimension: `2` or `3`.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Dimension;
+    ///
+    /// assert_eq!("2".parse::<Dimension>()?, Dimension::Two);
+    /// assert!("4".parse::<Dimension>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "2" => Ok(Self::Two),
+            "3" => Ok(Self::Three),
+            _ => Err(Error::syntax(text, "a dimension: 2 (discs) or 3 (spheres)")),
+        }
+    }
+}
+
+impl From<Dimension> for u32 {
+    fn from(dimension: Dimension) -> Self {
+        dimension.number()
+    }
+}
+
+impl TryFrom<u32> for Dimension {
+    type Error = Error;
+
+    fn try_from(number: u32) -> Result<Self, Error> {
+        number.to_string().parse()
+    }
+}
+
 /// A place (i, j, k) for a sphere, k counted from the top.
 ///
 /// Any three integers make a site; whether a pile has it is for [`Shape::contains`] to say. Sites
 /// are ordered as tables print them: by layer, row, place in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Site {
     /// The place within the row.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub i: i128,
     /// The row within the layer.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub j: i128,
     /// The layer, 0 at the top.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub k: i128,
 }
 

@@ -8,8 +8,8 @@ mod runs;
 pub use numbering::Numbering;
 pub use rows::{Rows, Selection};
 
+use runs::Steps;
 pub(crate) use runs::Stretch;
-use runs::{Descent, Start};
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -46,18 +46,55 @@ use crate::stacking::{Pattern, Run, Stacking};
 pub struct Shape {
     dimension: Dimension,
     stacking: Stacking,
-    /// Where each run of the stacking begins.
-    starts: Vec<Start>,
+    /// The runs of the stacking, from the top.
+    stretches: Vec<Stretch>,
     /// All steps together.
-    whole: Descent,
+    whole: Steps,
     anchor: Anchor,
 }
 
-/// The layer that all others are grown from.
+/// The layer that all others of a pile are grown from.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Region;
+/// use cannonpile::shape::Anchor;
+///
+/// let pile = Pile::on(Region::triangle(4)?, "++".parse()?)?;
+/// assert_eq!(pile.shape().anchor(), Anchor::Base(Region::triangle(4)?));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Anchor {
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
+pub enum Anchor {
+    /// Downwards from its top.
     Top(Region),
+    /// Upwards from its base.
     Base(Region),
+}
+
+impl Anchor {
+    /// Returns `top` or `base`, the option of the command line and the key of scene files.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Anchor;
+    ///
+    /// assert_eq!(Anchor::Top(Region::SITE).name(), "top");
+    /// ```
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Top(_) => "top",
+            Self::Base(_) => "base",
+        }
+    }
 }
 
 impl Shape {
@@ -99,7 +136,7 @@ impl Shape {
     /// ```
     pub fn under(top: Region, stacking: Stacking) -> Result<Self, Error> {
         let shape = Self::new(Dimension::Three, stacking, Anchor::Top(top));
-        let Descent { plus, minus } = shape.whole;
+        let Steps { plus, minus } = shape.whole;
         top.dilated_by(Sign::Plus, plus)?
             .dilated_by(Sign::Minus, minus)?;
         Ok(shape)
@@ -139,22 +176,24 @@ impl Shape {
     }
 
     fn new(dimension: Dimension, stacking: Stacking, anchor: Anchor) -> Self {
-        let (mut layer, mut descent) = (0, Descent::default());
-        let mut starts = Vec::with_capacity(stacking.runs().len());
-        for Run { sign, steps } in stacking.runs() {
-            starts.push(Start {
-                layer,
+        let (mut from, mut above) = (0, Steps::default());
+        let stretch = |(index, Run { sign, steps }): (usize, Run)| {
+            let stretch = Stretch {
+                index,
                 sign,
-                descent,
-            });
-            layer += steps;
-            descent = descent.further(sign, steps);
-        }
+                from,
+                to: from + steps,
+                above,
+            };
+            (from, above) = (stretch.to, above.and(sign, steps));
+            stretch
+        };
+        let stretches = stacking.runs().enumerate().map(stretch).collect();
         Self {
             dimension,
             stacking,
-            starts,
-            whole: descent,
+            stretches,
+            whole: above,
             anchor,
         }
     }
@@ -247,7 +286,23 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
     }
 
-    /// Whether the pile was grown up from its base.
+    /// Returns the layer that the others are grown from.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Region};
+    /// use cannonpile::shape::{Anchor, Shape};
+    ///
+    /// let shape = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(shape.anchor(), Anchor::Top(Region::SITE));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn anchor(&self) -> Anchor {
+        self.anchor
+    }
+
+    /// Returns whether the pile was grown up from its base.
     ///
     /// # Examples
     /// ```
@@ -320,7 +375,7 @@ impl Shape {
         if !(0..self.layers()).contains(&k) {
             return None;
         }
-        let Descent { plus, minus } = self.descent(k);
+        let Steps { plus, minus } = self.steps_to(k);
         match self.anchor {
             Anchor::Top(top) => Some(top.grown(plus, minus)),
             Anchor::Base(base) => base.shrunk(self.whole.plus - plus, self.whole.minus - minus),

@@ -15,9 +15,11 @@
 
 mod notation;
 
-pub use notation::{Abc, Hagg, Jagodzinski, Zhdanov};
+pub use notation::Notation;
 
 use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
 
 use crate::Error;
 use crate::lattice::{MAX_LAYERS, Sign};
@@ -35,10 +37,16 @@ use crate::lattice::{MAX_LAYERS, Sign};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Run {
     /// Their sign.
     pub sign: Sign,
     /// How many, at least 1.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub steps: i128,
 }
 
@@ -49,13 +57,13 @@ pub struct Run {
 /// # Examples
 /// ```
 /// use cannonpile::lattice::Sign;
-/// use cannonpile::stacking::Stacking;
+/// use cannonpile::stacking::{Notation, Stacking};
 ///
 /// let stacking: Stacking = "++-+".parse()?;
 /// assert_eq!((stacking.layers(), stacking.changes()), (5, 2));
-/// assert_eq!(stacking.abc().to_string(), "ABCBC");
-/// assert_eq!(stacking.zhdanov().to_string(), "(2,1,1)");
-/// assert_eq!(stacking.mirrored().hagg().to_string(), "--+-");
+/// assert_eq!(stacking.in_notation(Notation::Abc).to_string(), "ABCBC");
+/// assert_eq!(stacking.in_notation(Notation::Zhdanov).to_string(), "(2,1,1)");
+/// assert_eq!(stacking.mirrored().in_notation(Notation::Hagg).to_string(), "--+-");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -91,10 +99,10 @@ impl Stacking {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Sign;
-    /// use cannonpile::stacking::{Run, Stacking};
+    /// use cannonpile::stacking::{Notation, Run, Stacking};
     ///
     /// let runs = [(Sign::Plus, 2), (Sign::Plus, 1), (Sign::Minus, 5)].map(|(sign, steps)| Run { sign, steps });
-    /// assert_eq!(Stacking::from_runs(runs)?.zhdanov().to_string(), "(3,5)");
+    /// assert_eq!(Stacking::from_runs(runs)?.in_notation(Notation::Zhdanov).to_string(), "(3,5)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_runs(runs: impl IntoIterator<Item = Run>) -> Result<Self, Error> {
@@ -139,10 +147,10 @@ impl Stacking {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Sign;
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking = Stacking::from_signs([Sign::Minus, Sign::Plus])?;
-    /// assert_eq!(stacking.hagg().to_string(), "-+");
+    /// assert_eq!(stacking.in_notation(Notation::Hagg).to_string(), "-+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_signs(signs: impl IntoIterator<Item = Sign>) -> Result<Self, Error> {
@@ -156,9 +164,9 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::fcc(4)?.hagg().to_string(), "+++");
+    /// assert_eq!(Stacking::fcc(4)?.in_notation(Notation::Hagg).to_string(), "+++");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fcc(layers: i128) -> Result<Self, Error> {
@@ -172,9 +180,9 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::hcp(4)?.hagg().to_string(), "+-+");
+    /// assert_eq!(Stacking::hcp(4)?.in_notation(Notation::Hagg).to_string(), "+-+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn hcp(layers: i128) -> Result<Self, Error> {
@@ -188,9 +196,9 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::dhcp(4)?.hagg().to_string(), "++-");
+    /// assert_eq!(Stacking::dhcp(4)?.in_notation(Notation::Hagg).to_string(), "++-");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn dhcp(layers: i128) -> Result<Self, Error> {
@@ -336,10 +344,10 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking: Stacking = "++-".parse()?;
-    /// assert_eq!(stacking.mirrored().hagg().to_string(), "--+");
+    /// assert_eq!(stacking.mirrored().in_notation(Notation::Hagg).to_string(), "--+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -359,10 +367,10 @@ impl Stacking {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking: Stacking = "++-".parse()?;
-    /// assert_eq!(stacking.reversed().hagg().to_string(), "-++");
+    /// assert_eq!(stacking.reversed().in_notation(Notation::Hagg).to_string(), "-++");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -449,5 +457,47 @@ impl Pattern {
     }
 }
 
+impl fmt::Display for Pattern {
+    /// Prints what [`FromStr`] reads: a name, or the stacking.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fcc => f.write_str("fcc"),
+            Self::Hcp => f.write_str("hcp"),
+            Self::Dhcp => f.write_str("dhcp"),
+            Self::Spelled(stacking) => stacking.fmt(f),
+        }
+    }
+}
+
+impl FromStr for Pattern {
+    type Err = Error;
+
+    /// Reads `fcc`, `hcp`, `dhcp`, or a stacking that is spelled out in one of the four notations.
+    ///
+    /// # Errors
+    /// Those of [`Stacking`]'s.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// assert_eq!("hcp".parse::<Pattern>()?, Pattern::Hcp);
+    /// assert_eq!("ABCB".parse::<Pattern>()?, Pattern::Spelled("++-".parse()?));
+    /// assert!("bcc".parse::<Pattern>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Ok(match text {
+            "fcc" => Self::Fcc,
+            "hcp" => Self::Hcp,
+            "dhcp" => Self::Dhcp,
+            _ => Self::Spelled(text.parse()?),
+        })
+    }
+}
+
 /// The most runs a stacking is made of.
 pub const MAX_RUNS: usize = 1_000_000;
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Stacking, Pattern);

@@ -55,6 +55,11 @@ use crate::shape::Shape;
 /// assert_eq!(Apart { layers: 3 }.to_string(), "3 layers apart");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Apart {
     /// The number of layers between them, 0 for neighbours of one layer.
     pub layers: u8,

@@ -1,13 +1,14 @@
 //! a/R, the distance of neighbours in a layer over the diameter.
 
 use core::fmt;
+use core::str::FromStr;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use crate::Error;
-use crate::scalar::Surd;
+use crate::scalar::{RealSign, Surd};
+use crate::{Culprit, Error};
 
 /// a/R: half the distance 2a of horizontal neighbours, over the radius. Positive; its square q is
 /// rational.
@@ -54,7 +55,7 @@ impl Spacing {
             })
         } else {
             Err(Error::NotPositive {
-                quantity: "spacing",
+                quantity: Culprit::Spacing,
                 given: ratio,
             })
         }
@@ -82,7 +83,7 @@ impl Spacing {
             Ok(Self { square })
         } else {
             Err(Error::NotPositive {
-                quantity: "squared spacing",
+                quantity: Culprit::Spacing,
                 given: square,
             })
         }
@@ -136,6 +137,37 @@ impl fmt::Display for Spacing {
         self.ratio().fmt(f)
     }
 }
+
+impl FromStr for Spacing {
+    type Err = Error;
+
+    /// Reads a/R: `6/5`, `1.2`, `2/3*sqrt(6)`.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`]; [`Error::NotPositive`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    ///
+    /// let spacing: Spacing = "1.2".parse()?;
+    /// assert_eq!(spacing.to_string(), "6/5");
+    /// assert_eq!("2/3*sqrt(6)".parse::<Spacing>()?.square().to_string(), "8/3");
+    /// assert!("0".parse::<Spacing>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let ratio: Surd = text.parse()?;
+        match (ratio.to_rational(), ratio.sign()) {
+            (Some(rational), _) => Self::new(rational),
+            (None, RealSign::Positive) => Self::from_square(ratio.square()),
+            (None, _) => Err(Error::syntax(text, "a spacing: it must be positive")),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Spacing);
 
 /// A bound on the spacing, exact and as a decimal that itself keeps the bound: `2/3*sqrt(6) =
 /// 1.632993…`, `1`.

@@ -9,12 +9,20 @@ use crate::scalar::Ring;
 /// x stands for x·sinθ, y for y·2cosφ·sinθ (√3·sinθ on an equilateral base), z for z·cosθ; the length
 /// or force it is measured in is said where it is returned. [`on`](Self::on) puts the basis in.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(bound = "T: crate::scalar::serde::Number", deny_unknown_fields)
+)]
 pub struct Vector<T> {
     /// The component along x̂ sinθ.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub x: T,
     /// The component along ŷ 2cosφ sinθ.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub y: T,
     /// The component along ẑ cosθ, down.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub z: T,
 }
 

@@ -7,6 +7,7 @@ pub(crate) use lines::{Along, Slopes, Trapezoid};
 use alloc::boxed::Box;
 use core::fmt;
 use core::ops::RangeInclusive;
+use core::str::FromStr;
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
@@ -14,6 +15,7 @@ use num_integer::Integer;
 use super::Row;
 use crate::Error;
 use crate::lattice::Sign;
+use crate::scalar::parse::integer;
 
 /// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of one layer: a triangle, trapezium, parallelogram,
 /// pentagon or hexagon. Never empty, and its bounds are tight: each is attained.
@@ -427,9 +429,86 @@ fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
 }
 
 impl fmt::Display for Region {
-    /// `x0..x1,y0..y1,s0..s1`, as the command line reads it.
+    /// Prints the bounds, `x0..x1,y0..y1,s0..s1`; with `{:#}` the shape by its sides, `triangle:4`, if it is a triangle
+    /// or hexagon about (0, 0), and `region:` before the bounds if not. Both are read by [`FromStr`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let hexagon = Region::hexagon(3, 2)?;
+    /// assert_eq!(format!("{hexagon}"), "-1..2,-1..2,-1..2");
+    /// assert_eq!(format!("{hexagon:#}"), "hexagon:3,2");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        if f.alternate() {
+            // Within ±10³⁶.
+            let (p, q) = (x1 + 1, 1 - x0);
+            let about_zero = Self::hexagon(p, q).as_ref() == Ok(self);
+            return match (about_zero, p, q) {
+                (false, ..) => write!(f, "region:{self}"),
+                (true, 2.., 1) => write!(f, "triangle:{p}"),
+                (true, ..) if p == q => write!(f, "hexagon:{p}"),
+                (true, ..) => write!(f, "hexagon:{p},{q}"),
+            };
+        }
         write!(f, "{x0}..{x1},{y0}..{y1},{s0}..{s1}")
     }
 }
+
+impl FromStr for Region {
+    type Err = Error;
+
+    /// Reads `hexagon:P,Q`, `hexagon:N`, `triangle:N` or `region:x0..x1,y0..y1,s0..s1`, bounds included; `region:` may
+    /// be left out.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`]; those of [`Region::new`] and [`Region::hexagon`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!("hexagon:3,2".parse(), Region::hexagon(3, 2));
+    /// assert_eq!("hexagon:3".parse(), Region::hexagon(3, 3));
+    /// assert_eq!("triangle:4".parse(), Region::triangle(4));
+    /// assert_eq!("region:0..3,0..3,0..3".parse(), Region::triangle(4));
+    /// assert_eq!("0..3,0..3,0..3".parse(), Region::triangle(4));
+    /// assert!("circle:4".parse::<Region>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let syntax = || {
+            Error::syntax(
+                text,
+                "a shape: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1",
+            )
+        };
+        let (kind, sizes) = text.split_once(':').unwrap_or(("region", text));
+        match kind {
+            "hexagon" => {
+                let (p, q) = sizes.split_once(',').unwrap_or((sizes, sizes));
+                Self::hexagon(integer(p)?, integer(q)?)
+            }
+            "triangle" => Self::triangle(integer(sizes)?),
+            "region" => {
+                let mut ranges = sizes.split(',').map(|range| {
+                    let (from, to) = range.split_once("..").ok_or_else(syntax)?;
+                    Ok(integer(from)?..=integer(to)?)
+                });
+                let mut next = || ranges.next().unwrap_or_else(|| Err(syntax()));
+                let (x, y, s) = (next()?, next()?, next()?);
+                match ranges.next() {
+                    None => Self::new(x, y, s),
+                    Some(_) => Err(syntax()),
+                }
+            }
+            _ => Err(syntax()),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Region: ":#");

@@ -21,11 +21,16 @@ use num_bigint::BigUint;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Selection {
     /// One sphere.
     One(Site),
     /// The layer k, counted from the top.
-    Layer(i128),
+    Layer(#[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))] i128),
     /// The bottom layer.
     Base,
     /// Every sphere.
