@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use cannonpile::export::WriteError;
+use cannonpile::table::WriteError;
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 

@@ -5,7 +5,8 @@ use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
 use cannonpile::Error;
-use cannonpile::export::{NumberFormat, PileExport, PileFormat, WriteError, Written, tables};
+use cannonpile::dem::{self, PileExport, PileFormat, Written};
+use cannonpile::table::{NumberFormat, WriteError};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -75,7 +76,7 @@ pub(crate) fn run(export: &Export) -> Result<(), Failure> {
     let written = files.write(&formats, &export.folder, &mut |rows| bar.inc(rows));
     bar.finish_and_clear();
     let written = written.map_err(|error| refused(&export.scene, error))?;
-    let table = tables::files(&written);
+    let table = dem::files(&written);
     crate::write_table(table, NumberFormat::Exact, &export.output)?;
     warn_if_it_falls(&pile);
     tell_rate(&written, begun);

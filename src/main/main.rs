@@ -12,10 +12,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use cannonpile::census::{self, Entry};
-use cannonpile::export::{
-    Explanation, NumberFormat, Summary, Table, Units, WriteError, tables, write_aside,
-};
 use cannonpile::scene::Scene;
+use cannonpile::table::{
+    self, Explanation, NumberFormat, Summary, Table, Units, WriteError, write_aside,
+};
 use cannonpile::theorem::{self, Listing};
 use cannonpile::{Error, Pile, Verdict};
 use clap::Parser;
@@ -133,7 +133,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             let (scene, pile) = scene.read()?;
             let selection = at.on_base(&pile)?;
             let units = method.of(units(&scene, &pile, numbers.units)?)?;
-            let table = tables::base(&units, selection)?;
+            let table = table::base(&units, selection)?;
             write_table(table, numbers.number, output)?;
             warn_if_it_falls(&pile);
         }
@@ -147,7 +147,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
             let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
             let units = method.of(units(&scene, &pile, numbers.units)?)?;
-            let table = tables::contacts(&units, selection)?;
+            let table = table::contacts(&units, selection)?;
             write_table(table, numbers.number, output)?;
             warn_if_it_falls(&pile);
         }
@@ -159,7 +159,7 @@ fn run(command: &Command) -> Result<bool, Failure> {
         } => {
             let (scene, pile) = scene.read()?;
             let selection = part.selection(&pile)?;
-            let table = tables::spheres(&scene.packing(&pile)?, selection)?;
+            let table = table::spheres(&scene.packing(&pile)?, selection)?;
             write_table(table, numbers.number, output)?;
             warn_if_it_falls(&pile);
         }
@@ -171,14 +171,14 @@ fn run(command: &Command) -> Result<bool, Failure> {
             output,
         } => {
             let table = match base {
-                None => tables::census(census::under_one_sphere(*layers, !standing)?),
+                None => table::census(census::under_one_sphere(*layers, !standing)?),
                 Some(base) => {
                     let entries =
                         census::on_base(*base).map_err(|error| Refused::of("base", error))?;
                     let wanted = |entry: &Result<Entry, Error>| {
                         !standing || entry.as_ref().map_or(true, Entry::stands)
                     };
-                    tables::census(entries.filter(move |entry| wanted(entry)))
+                    table::census(entries.filter(move |entry| wanted(entry)))
                 }
             };
             write_table(table, *number, output)?;
@@ -261,7 +261,7 @@ fn prove(name: Option<&str>, output: &Output) -> Result<bool, WriteError> {
     let all_hold = proved.iter().all(|(_, proof)| proof.holds());
     write(output, |out| {
         if output.format != Format::Table {
-            let table = tables::theorems(proved.into_iter());
+            let table = table::theorems(proved.into_iter());
             return table.write(output.format.into(), NumberFormat::Exact, out);
         }
         for (place, (theorem, proof)) in proved.iter().enumerate() {

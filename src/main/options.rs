@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use cannonpile::export::{FileFormat, NumberFormat, Units};
 use cannonpile::lattice::{Region, Site};
 use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
+use cannonpile::table::{FileFormat, NumberFormat, Units};
 use cannonpile::{Error, Method, Pile, Quantity, theorem};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -80,7 +80,7 @@ pub(crate) enum Command {
         layers: i128,
         /// Every stacking of this base, carried as high as it goes: hexagon:P,Q, hexagon:N, triangle:N or
         /// region:x0..x1,y0..y1,s0..s1
-        #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region, conflicts_with = "layers")]
+        #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "layers")]
         base: Option<Region>,
         /// Only those that stand
         #[arg(long)]

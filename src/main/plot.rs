@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cannonpile::export::WriteError;
 use cannonpile::figure::{
     BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
     WorkPrecision,
 };
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::table::WriteError;
 use cannonpile::{Error, Pile};
 use clap::{Args, Subcommand};
 

@@ -7,7 +7,7 @@ use super::Region;
 use crate::lattice::{Sign, count};
 
 impl Region {
-    /// How many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
+    /// Returns how many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
     ///
     /// The least of [`count::bounds_above`], each of which grows by one per step down and vanishes at its surface. None
     /// outside the region.
