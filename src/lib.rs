@@ -64,6 +64,7 @@
 //! | [`Strengths`] | all contact forces of a straight pile, written into slices |
 //! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
+//! | [`paper`] | the paper's equations by number, its errata, and the mathematics of all other piles |
 //! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
 //! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
 //! | `table` | tables as csv, json and text (feature `export`) |
@@ -88,11 +89,10 @@
 //! * No `unsafe`; `no_std` with `alloc` (switch off the default feature `std`).
 //!
 //! # Notation
-//! θ is the angle of a contact with the vertical, φ the azimuth of the paper's eq. (1), s = sin φ, a half the
+//! θ is the angle of a contact with the vertical, φ the azimuth in (1) of the paper, s = sin φ, a half the
 //! distance of horizontal neighbours, R the radius, q = (a/R)², L the number of layers, k the layer counted
-//! from the top. f₀ = mg/(3 cosθ) is the unit of contact force, mg/(2(1+s) cosθ) in general. "THEORY §n" in
-//! these pages are the notes on the paper's mathematics that the crate is written after; the statements used
-//! are repeated where they are used.
+//! from the top. f₀ = mg/(3 cosθ) is the unit of contact force, mg/(2(1+s) cosθ) in general.
+//! "Paper, (8)" names a printed equation: [`paper`] lists them all, and the mathematics behind the rest.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -113,6 +113,8 @@ pub mod formula;
 pub mod geometry;
 pub mod lattice;
 mod packing;
+#[doc = include_str!("paper.md")]
+pub mod paper {}
 mod pile;
 pub mod scalar;
 pub mod scene;

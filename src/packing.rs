@@ -454,7 +454,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 
     /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
-    /// a sphere sum to this times its position from the apex (THEORY §2). In general f₀/(2R), and a
+    /// a sphere sum to this times its position from the apex ([`paper`](crate::paper#closed-form)). In general f₀/(2R), and a
     /// central force only where all directions are alike.
     ///
     /// # Examples

@@ -11,7 +11,7 @@ use crate::shape::Selection;
 
 /// The normal forces of the bottom spheres on the floor.
 ///
-/// Under the paper's pile they are all the same, eq. (result-normal).
+/// Under the paper's pile they are all the same, paper, (13).
 ///
 /// # Examples
 /// ```

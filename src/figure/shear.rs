@@ -15,7 +15,7 @@ use crate::shape::Selection;
 /// The horizontal forces of the bottom spheres on the floor.
 ///
 /// Paper, fig. 4, for ten layers: every arrow points away from the axis of the pile and is as long as it is far from
-/// there, eq. (result-shear).
+/// there, paper, (14).
 ///
 /// # Examples
 /// ```

@@ -8,7 +8,7 @@ use core::ops::Sub;
 use super::Sign;
 use crate::scalar::Algebra;
 
-/// How many spheres lie above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
+/// Returns how many spheres lie above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
 ///
 /// Paper, (9) and appendix. They are also the barycentric coordinates of the site: their
 /// sum is k, and none is negative on the pile. Exact in exact scalars.
@@ -26,12 +26,12 @@ where
     [k.clone() - i - j, i.clone(), j.clone()]
 }
 
-/// What bounds the number of spheres above (i, j) on its lines α, β, γ, in a layer `steps` steps of one sign into a run
+/// Returns what bounds the number of spheres above (i, j) on its lines α, β, γ, in a layer `steps` steps of one sign into a run
 /// of any region: N is the least of each four.
 ///
 /// `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) bound i, j and i+j in that layer, and m = `steps`. For + steps
 /// N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀), N_γ = min(m, j−y₀, x₁−i, i+j−s₀); for − steps
-/// upper and lower bounds change places. Of the paper's pile this is (9), [`above`]. See [`paper`](crate::paper), "Lines".
+/// upper and lower bounds change places. Of the paper's pile this is (9), [`above`]. See [`paper`](crate::paper#lines).
 ///
 /// # Examples
 /// ```
@@ -71,7 +71,7 @@ where
     ]
 }
 
-/// The spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
+/// Returns the number of spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
 ///
 /// For d = 3 this is L(L+1)(L+2)/6. Domain: L ≥ 0.
 ///
@@ -86,7 +86,7 @@ pub fn spheres<T: Algebra>(layers: &T, d: u32) -> T {
     binomial(&shifted(layers, i128::from(d) - 1), d)
 }
 
-/// The spheres of layer k alone: C(k+d−1, d−1). Domain: k ≥ 0, d ≥ 1.
+/// Returns the number of spheres of layer k alone: C(k+d−1, d−1). Domain: k ≥ 0, d ≥ 1.
 ///
 /// # Examples
 /// ```
@@ -99,7 +99,7 @@ pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
     binomial(&shifted(k, below.into()), below)
 }
 
-/// The contacts between spheres: d below each sphere that is not on the floor, d·C(L+d−2, d).
+/// Returns the number of contacts between spheres: d below each sphere that is not on the floor, d·C(L+d−2, d).
 ///
 /// For d = 3 this is L(L−1)(L+1)/2. Domain: L ≥ 1.
 ///
@@ -114,7 +114,7 @@ pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
     spheres(&shifted(layers, -1), d) * &T::from_i128(d.into())
 }
 
-/// The contacts of one direction that carry n increments: C(L−n+d−2, d−1), for n = 1 … L−1.
+/// Returns the number of contacts of one direction that carry n increments: C(L−n+d−2, d−1), for n = 1 … L−1.
 ///
 /// For d = 3 this is (L−n)(L−n+1)/2.
 ///
@@ -134,7 +134,7 @@ fn shifted<T: Algebra>(n: &T, by: i128) -> T {
     n.clone() + &T::from_i128(by)
 }
 
-/// The binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
+/// Returns the binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
 fn binomial<T: Algebra>(x: &T, n: u32) -> T {
     let mut product = T::one();
     for t in 0..n {

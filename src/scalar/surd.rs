@@ -16,7 +16,7 @@ use crate::Error;
 /// An exact number c·√n, with c rational and n a positive integer.
 ///
 /// A contact force is n·mg/(3 cosθ) with cos²θ rational; heights carry cosθ, horizontal positions
-/// sinθ and √3 (THEORY §4): all of them are surds. Two surds multiply to a surd and compare exactly,
+/// sinθ and √3 ([`paper`](crate::paper#exactness)): all of them are surds. Two surds multiply to a surd and compare exactly,
 /// through their squares. They do not add to a surd, so this is a value and not a
 /// [scalar](super::Algebra).
 ///

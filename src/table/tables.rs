@@ -111,7 +111,7 @@ impl<'p> Units<'p> {
     }
 
     /// A number that no force of the pile exceeds, in mg or f₀: in ℓ² over a layer, no more is passed on than √3 times
-    /// the sum of all weights (THEORY §3).
+    /// the sum of all weights ([`paper`](crate::paper#invariants)).
     fn greatest_force(&self) -> Surd {
         let bound = self.pile().weight() * BigRational::from_i128(3);
         match self {

@@ -424,7 +424,7 @@ fn the_papers_names_of_forces() {
     let site = Site { i: 1, j: 2, k: 5 };
     let sphere = SphereForces::new(&subject(&pile), site).unwrap();
     let cos = (13.0_f64 / 25.0).sqrt();
-    // Eqs. (forces2): α′ = k−i−j, β′ = i, γ′ = j in mg/(3cosθ), and one more each below.
+    // Paper, (10): α′ = k−i−j, β′ = i, γ′ = j in mg/(3cosθ), and one more each below.
     let multiples = [
         ("a′", 2.0),
         ("b′", 1.0),

@@ -46,7 +46,6 @@ mod geometry {
 
 mod formula {
     mod one_body;
-    mod what_answers;
 }
 
 mod engine {

@@ -27,7 +27,7 @@ fn scale(document: &Document<'_>) -> f64 {
     x / number(key, "data-force")
 }
 
-/// Whether every arrow of a document is as long and leads where the paper says, eq. (result-shear), for `layers` layers;
+/// Whether every arrow of a document is as long and leads where the paper says, (14), for `layers` layers;
 /// an oracle in floats.
 fn is_the_papers(svg: &str, layers: i32) -> bool {
     let document = Document::parse(svg).unwrap();

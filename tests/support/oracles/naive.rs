@@ -1,6 +1,6 @@
 //! A naive oracle: piles as sets of sites, the equilibrium of one sphere after the other.
 //!
-//! It knows who stands on whom (THEORY §3), where the three supports of a sphere lie around it, and what a sphere
+//! It knows who stands on whom (`paper`, "Stackings"), where the three supports of a sphere lie around it, and what a sphere
 //! weighs. No regions, no runs, no transfer matrix, no common denominators: the three supporting forces are the
 //! solution of the linear system of forces, from the geometry, in rationals. Of the library it has only the names of
 //! sites and directions, for the comparison.
@@ -230,7 +230,7 @@ fn across(forces: &[BigRational; 3], ways: &[[BigRational; 2]; 3]) -> [BigRation
 /// Normal force and shears from forces down and across the two lattice vectors, in f₀cosθ and in thirds of
 /// lattice vectors.
 ///
-/// The lattice vectors are two spheres' distance 2a = 2√3·R sinθ long. By the paper's eq. (1) β − α lies along ê_a − ê_b,
+/// The lattice vectors are two spheres' distance 2a = 2√3·R sinθ long. By the paper's (1) β − α lies along ê_a − ê_b,
 /// along +y, and γ − α along ê_a − ê_c, at 30° to +x: e₁ = (0, 1)·√3ℓ and e₂ = (3/2, √3/2)·ℓ, with ℓ = 2R sinθ. A third of
 /// 1 along e₁ is √3/3 sinθ f₀ along y; f₀ sinθ = mg·tanθ/3.
 fn on_floor(down: &BigRational, across: &[BigRational; 2]) -> [BigRational; 3] {

@@ -1,25 +1,9 @@
-//! What is proved is what answers, read from the sources: every formula that theorems are about is called by an engine
-//! or an answer, and every formula of the crate is one that theorems are about.
+//! What is proved is what answers: every formula that theorems are about is called by an engine or an answer, and every
+//! formula of the crate is one that theorems are about.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
+use std::collections::BTreeSet;
 
-/// Sources by their path under `src`.
-type Sources = BTreeMap<String, String>;
-
-/// The code of a source without comments, and without tests of its own, which are at the end.
-fn code(text: &str) -> String {
-    let lines = text
-        .lines()
-        .map(|line| line.split("//").next().unwrap_or(line));
-    let lines = lines.take_while(|line| line.trim() != "#[cfg(test)]");
-    lines.collect::<Vec<_>>().join("\n")
-}
-
-fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
+use super::{Source, code, is_of_word, sources};
 
 /// The places where `name` stands as a whole word: what is before it, and after.
 fn places<'t>(text: &'t str, name: &str) -> impl Iterator<Item = (&'t str, &'t str)> {
@@ -29,7 +13,7 @@ fn places<'t>(text: &'t str, name: &str) -> impl Iterator<Item = (&'t str, &'t s
     let places: Vec<_> = ends.map(|(at, end)| (&text[..at], &text[end..])).collect();
     places
         .into_iter()
-        .filter(|(before, after)| !before.ends_with(is_word) && !after.starts_with(is_word))
+        .filter(|(before, after)| !before.ends_with(is_of_word) && !after.starts_with(is_of_word))
 }
 
 /// `count::above` and so on, of the rows `field: module::function,` of `Formulas::LIBRARY`.
@@ -64,70 +48,50 @@ fn calls(file: &str, code: &str, module: &str, name: &str) -> bool {
             || is_type && before.ends_with('.') && called
             || own && called && !before.ends_with("fn") && !before.ends_with('.')
     };
-    let exported = file == "formula.rs" && !own;
-    !exported && (imported || places(code, name).any(is_call))
+    imported || places(code, name).any(is_call)
 }
 
 /// What is proved and not called outside `theorem`, and what is a formula and not proved.
-fn missing(sources: &Sources) -> Vec<String> {
-    let proved = proved(sources.get("theorem/formulas.rs").expect("the formulas"));
-    assert!(!proved.is_empty(), "no formulas");
-    let outside = sources
+fn missing(sources: &[Source]) -> Vec<String> {
+    let formulas = sources
         .iter()
-        .filter(|(file, _)| !file.starts_with("theorem"));
-    let outside: Vec<_> = outside.map(|(file, text)| (file, code(text))).collect();
+        .find(|source| source.path == "theorem/formulas.rs");
+    let proved = proved(&formulas.expect("the formulas").text);
+    assert!(!proved.is_empty(), "no formulas");
+    let outside = sources.iter().filter(|source| source.room() != "theorem");
+    let outside: Vec<_> = outside
+        .map(|source| (source.path.as_str(), code(&source.text)))
+        .collect();
     let idle = proved.iter().filter(|(module, name)| {
-        let called = |(file, code): &(&String, String)| calls(file, code, module, name);
+        let called = |(file, code): &(&str, String)| calls(file, code, module, name);
         !outside.iter().any(called)
     });
     let mut missing: Vec<_> = idle
         .map(|(module, name)| format!("{module}::{name} is proved and never called"))
         .collect();
     for (file, code) in &outside {
-        let module = if file.starts_with("formula") {
-            "formula"
-        } else if *file == "lattice/count.rs" {
-            "count"
-        } else {
-            continue;
+        let module = match *file {
+            "lattice/count.rs" => "count",
+            _ if file.starts_with("formula") => "formula",
+            _ => continue,
         };
         for function in code.split("pub fn ").skip(1) {
-            let name: String = function.chars().take_while(|c| is_word(*c)).collect();
+            let name: String = function.chars().take_while(|c| is_of_word(*c)).collect();
             if !proved.contains(&(module.to_owned(), name.clone())) {
-                missing.push(format!("{module}::{name} is called and not proved"));
+                missing.push(format!("{module}::{name} is a formula and not proved"));
             }
         }
     }
     missing
 }
 
-fn read(folder: &Path, root: &Path, sources: &mut Sources) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            read(&path, root, sources);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let name = path.strip_prefix(root).expect("below the root");
-            let name = name.to_str().expect("a name").replace('\\', "/");
-            sources.insert(name, fs::read_to_string(&path).expect("a source"));
-        }
-    }
-}
-
-fn library() -> Sources {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut sources = Sources::new();
-    read(&root, &root, &mut sources);
-    sources
-}
-
 #[test]
 fn what_is_proved_is_what_answers() {
-    assert_eq!(missing(&library()), Vec::<String>::new());
+    assert_eq!(missing(&sources()), Vec::<String>::new());
 }
 
 /// A small library: what it proves, its formulas, and an engine.
-fn small(library: &str, formula: &str, engine: &str) -> Sources {
+fn small(library: &str, formula: &str, engine: &str) -> Vec<Source> {
     let formulas = format!("const LIBRARY: Self = Self {{\n{library}\n}};");
     [
         ("theorem/formulas.rs", formulas.as_str()),
@@ -138,7 +102,7 @@ fn small(library: &str, formula: &str, engine: &str) -> Sources {
         ("formula.rs", formula),
         ("engine.rs", engine),
     ]
-    .map(|(file, text)| (file.to_owned(), text.to_owned()))
+    .map(|(path, text)| Source::new(path, text))
     .into()
 }
 
@@ -172,14 +136,15 @@ fn what_is_amiss_is_found() {
         formula,
         "formula::force(n)",
     ));
-    assert_eq!(unproved, ["formula::turn is called and not proved"]);
+    assert_eq!(unproved, ["formula::turn is a formula and not proved"]);
     // Without one of the functions that the library itself calls.
-    let mut sources = library();
-    let turn = sources.get_mut("formula/turn.rs").expect("the half-turn");
-    *turn = turn.replace(
-        "&& let [Some(a), Some(b), Some(c)] = tripled_apart(g)",
-        "&& let [Some(a), Some(b), Some(c)] = g",
-    );
+    let mut sources = sources();
+    for turn in sources
+        .iter_mut()
+        .filter(|source| source.path == "formula/turn.rs")
+    {
+        turn.text = turn.text.replace("= tripled_apart(g)", "= g");
+    }
     assert_eq!(
         missing(&sources),
         ["formula::tripled_apart is proved and never called"]
