@@ -97,6 +97,41 @@ impl Table<'static> {
     }
 }
 
+impl<'a> Table<'a> {
+    /// Returns the table, whose rows are shown to `look` before they are written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let (pile, mut seen) = (Pile::triangular(10)?, 0);
+    /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?.inspect(|_| seen += 1);
+    /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut Vec::new())?;
+    /// assert_eq!(seen, 55);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn inspect<'b>(self, mut look: impl FnMut(&[Cell]) + 'b) -> Table<'b>
+    where
+        'a: 'b,
+    {
+        let rows = self.rows.inspect(move |row| {
+            if let Ok(row) = row {
+                look(row);
+            }
+        });
+        Table {
+            columns: self.columns,
+            layout: self.layout,
+            extremes: self.extremes,
+            bounds: self.bounds,
+            rows: Box::new(rows),
+        }
+    }
+}
+
 impl Table<'_> {
     /// A table of these rows, a line a row; `noun` says in the plural what they are.
     pub(crate) fn of_rows(columns: Vec<Column>, noun: &'static str, rows: Vec<Row>) -> Self {

@@ -1,18 +1,16 @@
-//! The scene options, on the line and in a file, and the command that writes such a file.
+//! The scene options, on the line and in a file.
 
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::PathBuf;
 
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, SceneFile, parse};
 use cannonpile::stacking::Pattern;
-use cannonpile::{Error, Pile};
+use cannonpile::{Culprit, Error, Pile};
 use clap::Args;
 use num_rational::BigRational;
 
-use crate::options::Refused;
-use crate::{Failure, write_to};
+use crate::output::{Failure, Refused, option_of, reason};
 
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
@@ -60,14 +58,14 @@ pub(crate) struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The scene described, and its pile.
+    /// Returns the scene described, and its pile.
     ///
     /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
     pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
         self.scene().and_then(checked)
     }
 
-    /// The same, with this many layers where nothing says how many.
+    /// Returns the scene described and its pile, of this many layers where nothing says how many.
     pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Refused> {
         let mut scene = self.scene()?;
         let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
@@ -86,7 +84,7 @@ impl SceneOptions {
         let file = file.unwrap_or_default();
         let dimension = self.dimension.unwrap_or(file.dimension);
         let load = |text: &String| {
-            parse::load(text, dimension).map_err(|error| Refused::of("load", error))
+            parse::load(text, dimension).map_err(|error| Refused::of(Culprit::Load, error))
         };
         let loads: Vec<_> = self.load.iter().map(load).collect::<Result<_, _>>()?;
         let anchor = self.top.map(Anchor::Top).or(self.base.map(Anchor::Base));
@@ -112,24 +110,58 @@ impl SceneOptions {
             .is_some_and(|file| file.name == "-")
     }
 
-    /// Where the file gives an option that the line does not.
+    /// Returns the failure of a command whose numbers are floats: what does not fit there comes of the sizes.
+    pub(crate) fn beyond_floats(&self, error: Error, scene: &Scene) -> Failure {
+        let Error::Overflow { quantity, scalar } = error else {
+            return error.into();
+        };
+        let (place, remedy) = match farthest_from_one(scene) {
+            Culprit::Load => (self.place(Culprit::Load), "use smaller loads"),
+            culprit => (
+                self.place(culprit),
+                "give radius, mass and gravity in other units",
+            ),
+        };
+        Failure::BadUse(format!(
+            "{place}: {quantity} does not fit in {scalar}: {remedy}"
+        ))
+    }
+
+    /// Returns the size of a scene to change where a number does not fit, on the line or in the file.
+    pub(crate) fn place_of_size(&self, scene: &Scene) -> String {
+        self.place(farthest_from_one(scene))
+    }
+
+    /// Returns the option, or where it is in the file.
+    fn place(&self, culprit: Culprit) -> String {
+        let option = culprit.name();
+        self.line_of(option)
+            .unwrap_or_else(|| format!("--{option}"))
+    }
+
+    /// Returns where the file gives an option that the line does not.
     pub(crate) fn line_of(&self, option: &str) -> Option<String> {
         let file = self.scene_file.as_ref()?;
         let line = file.content.line(option).filter(|_| !self.gives(option))?;
         Some(format!("--scene {}: line {line}, {option}", file.name))
     }
 
-    /// Where the other of two options that exclude each other is, if it is in the file.
-    pub(crate) fn note(&self, error: &Error) -> Option<String> {
-        let other = match error {
-            Error::Excluded { beside, .. } => beside.split(' ').next()?,
-            Error::LayersOfStacking { .. } => "stacking",
-            Error::SinPhiOfDiscs => "dimension",
-            Error::TooHigh { .. } => "base",
-            _ => return None,
+    /// Returns the refusal as a message: the option or the line of the file to change, what is wrong, and the remedy.
+    pub(crate) fn message(scene: Option<&Self>, refused: &Refused) -> String {
+        let line_of = |culprit| {
+            let option = option_of(culprit)?;
+            scene.and_then(|scene| scene.line_of(option))
         };
-        let place = self.line_of(other)?;
-        Some(format!(" ({place})"))
+        let error = &refused.error;
+        let place = refused.culprit.and_then(|culprit| {
+            line_of(culprit).or_else(|| Some(format!("--{}", option_of(culprit)?)))
+        });
+        let place = place.map_or_else(String::new, |place| format!("{place}: "));
+        // Where the other of two inputs that exclude each other is, if it is in the file.
+        let other = error.conflicts_with().and_then(line_of);
+        let notes = other.or(refused.remedy.map(str::to_owned));
+        let notes = notes.map_or_else(String::new, |notes| format!(" ({notes})"));
+        format!("{place}{error}{notes}")
     }
 
     /// Whether the option, or one in whose place it would be, is on the line.
@@ -151,12 +183,29 @@ impl SceneOptions {
     }
 }
 
+/// Returns the size that is farthest from 1; the radius only if its cube leaves the floats.
+fn farthest_from_one(scene: &Scene) -> Culprit {
+    const FLOATS: u64 = f64::MAX_EXP.unsigned_abs() as u64;
+    let distance = |size: &BigRational| size.numer().bits().abs_diff(size.denom().bits());
+    let loads = scene.loads.iter().map(|(_, load)| (Culprit::Load, load));
+    let sizes = [
+        (Culprit::Radius, &scene.radius),
+        (Culprit::Gravity, &scene.gravity),
+        (Culprit::Mass, &scene.mass),
+    ];
+    let sizes = loads
+        .chain(sizes)
+        .filter(|(culprit, size)| *culprit != Culprit::Radius || 3 * distance(size) >= FLOATS);
+    let farthest = sizes.max_by_key(|(_, size)| distance(size));
+    farthest.map_or(Culprit::Mass, |(culprit, _)| culprit)
+}
+
 /// A scene whose sizes are right, and its pile.
 fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
     scene.check_sizes()?;
     let pile = scene.pile().map_err(|error| match error {
         // The only sites of a scene.
-        Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of("load", error),
+        Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of(Culprit::Load, error),
         error => error.into(),
     })?;
     Ok((scene, pile))
@@ -174,8 +223,7 @@ impl NamedFile {
         let text = text_of(name).map_err(|error| {
             let reason = match error.kind() {
                 io::ErrorKind::InvalidData => "not text in UTF-8".into(),
-                // The kind, without the number of the system.
-                kind => kind.to_string(),
+                _ => reason(&error),
             };
             format!("{reason}; name a TOML file that can be read, or - for stdin")
         })?;
@@ -202,24 +250,4 @@ fn text_of(name: &str) -> io::Result<String> {
         return Ok(String::from_utf8_lossy(&bytes).into_owned());
     }
     String::from_utf8(bytes).map_err(|_| io::ErrorKind::InvalidData.into())
-}
-
-/// `scene`: what the options describe, as a file.
-#[derive(Args)]
-pub(crate) struct WriteScene {
-    #[command(flatten)]
-    pub(crate) scene: SceneOptions,
-    /// Write to a file, which is replaced only when all is written
-    #[arg(long = "output", value_name = "FILE", help_heading = "Output")]
-    pub(crate) file: Option<PathBuf>,
-}
-
-impl WriteScene {
-    pub(crate) fn run(&self) -> Result<(), Failure> {
-        let (scene, _) = self.scene.read()?;
-        let text = scene.to_toml();
-        Ok(write_to(self.file.as_deref(), |out| {
-            Ok(out.write_all(text.as_bytes())?)
-        })?)
-    }
 }

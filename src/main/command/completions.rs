@@ -3,10 +3,10 @@
 use std::io::{self, Write};
 
 use cannonpile::table::WriteError;
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 
-use crate::options::Arguments;
+use crate::output::Failure;
 
 /// `completions`: bash has them after `source <(cannonpile completions bash)`.
 #[derive(Args)]
@@ -21,14 +21,12 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn run(&self) -> Result<(), WriteError> {
+    /// Prints the script for the whole command line.
+    pub(crate) fn print(&self, mut line: clap::Command) -> Result<bool, Failure> {
         let mut script = Vec::new();
-        clap_complete::generate(
-            self.shell,
-            &mut Arguments::command(),
-            "cannonpile",
-            &mut script,
-        );
-        Ok(io::stdout().lock().write_all(&script)?)
+        clap_complete::generate(self.shell, &mut line, "cannonpile", &mut script);
+        let written = io::stdout().lock().write_all(&script);
+        written.map_err(WriteError::from)?;
+        Ok(true)
     }
 }

@@ -4,11 +4,14 @@ use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
+use cannonpile::scene::Scene;
 use cannonpile::verify::{self, Reading, Refusal, Report};
 use clap::Args;
 
-use crate::options::{Output, Refused, SceneOptions};
-use crate::{Failure, complain, warn_if_it_falls, write};
+use super::{Command, note_if_it_falls};
+use crate::args::{Output, SceneOptions};
+use crate::output::{Failure, complain, reason};
+use crate::progress::Progress;
 
 #[derive(Args)]
 pub(crate) struct Verify {
@@ -17,37 +20,51 @@ pub(crate) struct Verify {
     #[arg(value_name = "FILE")]
     measured: PathBuf,
     #[command(flatten)]
-    pub(crate) scene: SceneOptions,
+    scene: SceneOptions,
     /// The greatest relative error accepted; 0 for forces that are the nearest floats
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
     #[command(flatten)]
-    pub(crate) output: Output,
+    output: Output,
 }
 
-impl Verify {
-    /// Compares, and tells whether the file is accepted.
-    pub(crate) fn run(&self) -> Result<bool, Failure> {
+impl Command for Verify {
+    /// Compares, and returns whether the file is accepted.
+    fn run(&self) -> Result<bool, Failure> {
         if self.measured == Path::new("-") && self.scene.is_from_stdin() {
             let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
-            return Err(Failure::Told(reason.into()));
+            return Err(Failure::BadUse(reason.into()));
         }
         let (scene, pile) = self.scene.read()?;
         let packing = scene.packing(&pile)?;
-        let reading = self.read().map_err(|refusal| self.refused(refusal))?;
-        let comparison = reading.compare(&packing);
-        let comparison = comparison.map_err(|refusal| self.refused(refusal))?;
+        let format = self.output.format()?;
+        let refused = |refusal| self.refused(refusal, &scene);
+        let progress = Progress::begin("reading FILE");
+        let reading = self.read().map_err(refused)?;
+        drop(progress);
+        let progress = Progress::begin("comparing with the exact forces");
+        let comparison = reading.compare(&packing).map_err(refused)?;
         let report = Report::new(&comparison, self.accept);
-        write(&self.output, |out| {
-            report.write(self.output.format.into(), out)
-        })?;
+        self.output
+            .write(&progress, |out| report.write(format.into(), out))?;
+        drop(progress);
         if reading.snapshots() > 1 {
             complain(&format!("note: {}", self.judged(&reading)));
         }
-        warn_if_it_falls(&pile);
+        note_if_it_falls(&pile);
         Ok(comparison.accepted(self.accept))
     }
 
+    fn scene(&self) -> Option<&SceneOptions> {
+        Some(&self.scene)
+    }
+
+    fn target(&self) -> String {
+        self.output.target()
+    }
+}
+
+impl Verify {
     fn read(&self) -> Result<Reading, Refusal> {
         if self.measured == Path::new("-") {
             verify::read(io::stdin().lock())
@@ -64,18 +81,17 @@ impl Verify {
         }
     }
 
-    fn refused(&self, refusal: Refusal) -> Failure {
+    fn refused(&self, refusal: Refusal, scene: &Scene) -> Failure {
         let name = self.name();
-        match refusal {
-            Refusal::Scene(error) => Refused::from(error).into(),
-            Refusal::OutOfRange => Failure::Told(format!("--mass: {refusal}")),
-            Refusal::Io(error) => Failure::Told(format!(
+        Failure::BadUse(match refusal {
+            Refusal::Scene(error) => return error.into(),
+            Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
+            Refusal::Io(error) => format!(
                 "FILE: {name} cannot be read: {}; name a file that is there, or - for stdin",
-                // Without the number that the system gives it.
-                error.kind()
-            )),
-            refusal => Failure::Told(format!("FILE: {name}, {refusal}")),
-        }
+                reason(&error)
+            ),
+            refusal => format!("FILE: {name}, {refusal}"),
+        })
     }
 
     fn judged(&self, reading: &Reading) -> String {

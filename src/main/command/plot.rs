@@ -1,0 +1,259 @@
+//! `plot KIND`: the figures.
+
+use std::path::{Path, PathBuf};
+
+use cannonpile::figure::{
+    BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
+};
+use cannonpile::lattice::{Dimension, Region};
+use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::table::WriteError;
+use cannonpile::{Culprit, Error, Pile};
+use clap::{Args, Subcommand};
+
+use super::{Command, note_if_it_falls, note_of_part};
+use crate::args::{SceneOptions, UnitSystem, one, target};
+use crate::output::{Failure, Refused, write_to};
+use crate::progress::Progress;
+
+/// A kind of figure.
+#[derive(Subcommand)]
+pub(crate) enum Plot {
+    /// The pile in perspective, of four layers unless the scene says how many
+    Pile(Of),
+    /// The indices i and j of the spheres of a layer
+    Indexing {
+        #[command(flatten)]
+        of: Of,
+        /// The layer, counted from 0 at the top [default: 3, or the bottom layer if there are fewer]
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+    /// The forces on one sphere
+    Sphere {
+        #[command(flatten)]
+        of: Measured,
+        /// The sphere, as K,I,J, or I,J on the base (discs: K,I or I) [default: in the middle]
+        #[arg(
+            long,
+            value_name = "K,I,J",
+            allow_hyphen_values = true,
+            help_heading = "Output"
+        )]
+        at: Option<String>,
+    },
+    /// The shear force on the floor, as arrows
+    Shear(Measured),
+    /// The normal force on the floor, as a map
+    Base(Measured),
+    /// The contact forces as lines, in a vertical section through the middle
+    Network {
+        #[command(flatten)]
+        of: Measured,
+        /// Instead, those of this layer on the next, seen from above; counted from 0 at the top
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+    /// The vertical force in a layer of weightless spheres, as a map: of --load, or of 1 mg on the middle of a wide top
+    Response {
+        #[command(flatten)]
+        of: Measured,
+        /// The layer, counted from 0 at the top [default: the bottom layer]
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+}
+
+/// A pile, whose figure has no forces.
+#[derive(Args)]
+pub(crate) struct Of {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    output: ToFile,
+}
+
+/// A pile and its forces.
+#[derive(Args)]
+pub(crate) struct Measured {
+    #[command(flatten)]
+    of: Of,
+    /// What forces and lengths are multiples of; of the pile: lengths of R
+    #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
+    units: UnitSystem,
+}
+
+/// Where a figure goes.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+struct ToFile {
+    /// Write to an SVG file, which is replaced only when all is written [default: stdout]
+    #[arg(long = "output", value_name = "FILE.svg")]
+    file: Option<PathBuf>,
+}
+
+impl Command for Plot {
+    fn run(&self) -> Result<bool, Failure> {
+        let file = self.of().output.file.as_deref();
+        keep_to_svg(file)?;
+        let drawing = self.draw()?;
+        write_to(file, |out| drawing.write(out).map_err(WriteError::from))?;
+        Ok(true)
+    }
+
+    fn scene(&self) -> Option<&SceneOptions> {
+        Some(&self.of().scene)
+    }
+
+    fn target(&self) -> String {
+        target("output", self.of().output.file.as_deref())
+    }
+}
+
+/// Figures are written in one format, and a file should not say that it is in another.
+fn keep_to_svg(file: Option<&Path>) -> Result<(), Failure> {
+    let Some(file) = file else { return Ok(()) };
+    match file.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
+            let svg = file.with_extension("svg");
+            Err(Failure::BadUse(format!(
+                "--output: a figure is written as SVG, not in the format of {}: name the file {}, and convert it",
+                file.display(),
+                svg.display()
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The layers of the picture of a pile, as in the paper.
+const PICTURED: i128 = 4;
+
+/// The layer whose indices are shown, as in the paper.
+const INDEXED: i128 = 3;
+
+/// The side of the top under which a response is shown: the load is seen to spread from its middle.
+const WIDE: i128 = 4;
+
+impl Plot {
+    const fn of(&self) -> &Of {
+        match self {
+            Self::Pile(of) | Self::Indexing { of, .. } => of,
+            Self::Shear(measured)
+            | Self::Base(measured)
+            | Self::Sphere { of: measured, .. }
+            | Self::Network { of: measured, .. }
+            | Self::Response { of: measured, .. } => &measured.of,
+        }
+    }
+
+    fn draw(&self) -> Result<Drawing, Failure> {
+        match self {
+            Self::Pile(of) => {
+                let (scene, pile) = of.scene.read_or(PICTURED)?;
+                let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
+                Ok(Picture::new(&subject)?.drawing())
+            }
+            Self::Indexing { of, layer } => {
+                let (scene, pile) = of.scene.read()?;
+                let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
+                let layer = layer.unwrap_or_else(|| INDEXED.min(pile.layers() - 1));
+                let figure = Indexing::new(&subject, layer).map_err(of_layer)?;
+                Ok(figure.drawing())
+            }
+            Self::Sphere { of, at } => of.draw(|subject, pile| {
+                let site = match one(at.as_deref(), pile)? {
+                    Some(site) => site,
+                    None => SphereForces::example(pile)?,
+                };
+                let figure = SphereForces::new(subject, site)?;
+                let pulls = figure.forces.iter().any(|force| force.magnitude < 0.0);
+                Ok((figure.drawing(), Seen::Part { pulls }))
+            }),
+            Self::Network { of, layer } => of.draw(|subject, _| match layer {
+                Some(k) => {
+                    let figure = Network::layer(subject, *k).map_err(of_layer)?;
+                    let pulls = figure.links.iter().any(|link| link.force < 0.0);
+                    Ok((figure.drawing(), Seen::Part { pulls }))
+                }
+                None => Ok((Network::section(subject)?.drawing(), Seen::All)),
+            }),
+            Self::Shear(of) => {
+                of.draw(|subject, _| Ok((Shear::new(subject)?.drawing(), Seen::All)))
+            }
+            Self::Base(of) => {
+                of.draw(|subject, _| Ok((BaseMap::new(subject)?.drawing(), Seen::All)))
+            }
+            Self::Response { of, layer } => {
+                let (mut scene, mut pile) = of.of.scene.read()?;
+                if needs_a_top(&scene) {
+                    scene.anchor = Some(Anchor::Top(Region::hexagon(WIDE, WIDE)?));
+                    pile = scene.pile()?;
+                }
+                let pile = Response::of_unit_load(pile)?;
+                let layer = layer.unwrap_or(pile.layers() - 1);
+                of.draw_pile(&scene, &pile, |subject, _| {
+                    let figure = Response::new(subject, layer).map_err(of_layer)?;
+                    Ok((figure.drawing(), Seen::All))
+                })
+            }
+        }
+    }
+}
+
+/// Blames the layer that was to be drawn, not the number of layers.
+fn of_layer(error: Error) -> Refused {
+    match error {
+        Error::TooManyMarks { .. } | Error::OnFloor { .. } => Refused::of(Culprit::Layer, error),
+        error => error.into(),
+    }
+}
+
+/// Whether a load is to be put on a top that nobody described.
+fn needs_a_top(scene: &Scene) -> bool {
+    scene.anchor.is_none()
+        && scene.loads.is_empty()
+        && scene.sin_phi.is_none()
+        && scene.dimension == Dimension::Three
+}
+
+impl Measured {
+    fn draw(
+        &self,
+        figure: impl FnOnce(&Subject<'_>, &Pile) -> Result<(Drawing, Seen), Refused>,
+    ) -> Result<Drawing, Failure> {
+        let (scene, pile) = self.of.scene.read()?;
+        self.draw_pile(&scene, &pile, figure)
+    }
+
+    fn draw_pile(
+        &self,
+        scene: &Scene,
+        pile: &Pile,
+        figure: impl FnOnce(&Subject<'_>, &Pile) -> Result<(Drawing, Seen), Refused>,
+    ) -> Result<Drawing, Failure> {
+        let subject = match self.units {
+            UnitSystem::Pile => Subject::of_pile(pile, &scene.spacing()?)?,
+            UnitSystem::Si => Subject::of_packing(scene.packing(pile)?),
+        };
+        let progress = Progress::begin("drawing");
+        let drawn = figure(&subject, pile);
+        drop(progress);
+        // A figure has no other numbers than floats.
+        let (drawing, seen) = drawn.map_err(|refused| match refused.error {
+            error @ Error::Overflow { .. } => self.of.scene.beyond_floats(error, scene),
+            _ => refused.into(),
+        })?;
+        match seen {
+            Seen::All => note_if_it_falls(pile),
+            Seen::Part { pulls } => note_of_part(pile, pulls),
+        }
+        Ok(drawing)
+    }
+}
+
+/// Which forces are in a figure, where the verdict on the whole pile may take longer than the figure.
+enum Seen {
+    All,
+    Part { pulls: bool },
+}
