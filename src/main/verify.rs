@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
+use cannonpile::Packing;
 use cannonpile::verify::{self, Reading, Refusal, Report};
 use clap::Args;
 
@@ -34,7 +35,9 @@ impl Verify {
         }
         let (scene, pile) = self.scene.read()?;
         let packing = scene.packing(&pile)?;
-        let reading = self.read().map_err(|refusal| self.refused(refusal))?;
+        let reading = self
+            .read(&packing)
+            .map_err(|refusal| self.refused(refusal))?;
         let comparison = reading.compare(&packing);
         let comparison = comparison.map_err(|refusal| self.refused(refusal))?;
         let report = Report::new(&comparison, self.accept);
@@ -48,11 +51,11 @@ impl Verify {
         Ok(comparison.accepted(self.accept))
     }
 
-    fn read(&self) -> Result<Reading, Refusal> {
+    fn read(&self, packing: &Packing<'_>) -> Result<Reading, Refusal> {
         if self.measured == Path::new("-") {
-            verify::read(io::stdin().lock())
+            verify::read_for(packing, io::stdin().lock())
         } else {
-            verify::read(BufReader::new(File::open(&self.measured)?))
+            verify::read_for(packing, BufReader::new(File::open(&self.measured)?))
         }
     }
 

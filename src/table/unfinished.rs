@@ -133,7 +133,7 @@ pub(crate) fn remove_leftovers(folder: &Path) {
 fn remove_leftover(entry: &fs::DirEntry) -> io::Result<()> {
     // Of the entry itself: a link is not followed.
     let metadata = entry.metadata()?;
-    let age = metadata.modified()?.elapsed().unwrap_or_default();
+    let age = metadata.modified()?.elapsed().unwrap_or(Duration::ZERO);
     if metadata.is_file() && age >= NEW && lock(&fs::File::open(entry.path())?) {
         fs::remove_file(entry.path())?;
     }
