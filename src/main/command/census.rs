@@ -19,7 +19,12 @@ pub(crate) struct Census {
     layers: i128,
     /// Every stacking of this base, carried as high as it goes: hexagon:P,Q, hexagon:N, triangle:N or
     /// region:x0..x1,y0..y1,s0..s1
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, conflicts_with = "layers")]
+    #[arg(
+        long,
+        value_name = "SHAPE",
+        allow_hyphen_values = true,
+        conflicts_with = "layers"
+    )]
     base: Option<Region>,
     /// Only those that stand
     #[arg(long)]
