@@ -270,6 +270,21 @@ pub enum Error {
         /// The narrower question.
         remedy: &'static str,
     },
+    /// Something that cannot be, by the named invariant: a fault of this library and of no input.
+    Bug {
+        /// What was to hold, and does not.
+        invariant: &'static str,
+    },
+}
+
+/// Returns the error for a case that `invariant` rules out; where debug assertions are on, it panics instead.
+///
+/// It stands where a default would be a wrong answer: `value.ok_or_else(|| bug("a bottom sphere rests on the floor"))?`.
+#[cold]
+#[track_caller]
+pub(crate) fn bug(invariant: &'static str) -> Error {
+    debug_assert!(false, "broken invariant: {invariant}");
+    Error::Bug { invariant }
 }
 
 impl Error {

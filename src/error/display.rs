@@ -234,6 +234,10 @@ impl Error {
                 }
             }
             Self::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Self::Bug { invariant } => write!(
+                f,
+                "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"
+            ),
             // Every variant has its text in one of the four.
             _ => write!(f, "{self:?}"),
         }
