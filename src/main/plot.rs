@@ -1,20 +1,16 @@
 //! `cannonpile plot KIND`: the figures.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use cannonpile::export::WriteError;
-use cannonpile::figure::{
-    BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
-    WorkPrecision,
-};
+use cannonpile::figure::{self, Layout, Subject};
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::{Error, Pile};
 use clap::{Args, Subcommand};
 
 use super::options::{Refused, SceneOptions, UnitSystem, one};
-use super::{Failure, warn_if_it_falls, write_to};
+use super::{Failure, complain, write_to};
 
 /// A kind of figure.
 #[derive(Subcommand)]
@@ -62,14 +58,6 @@ pub(crate) enum Figure {
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
-    /// Run times against errors, from the table that the bench work_precision writes
-    WorkPrecision {
-        /// Comma-separated values with the columns pile, contacts, method, scalar, seconds and relative_error
-        #[arg(value_name = "FILE.csv")]
-        table: PathBuf,
-        #[command(flatten)]
-        output: ToFile,
-    },
 }
 
 /// A pile, whose figure has no forces.
@@ -100,6 +88,12 @@ pub(crate) struct ToFile {
     /// Write to an SVG file, which is replaced only when all is written [default: stdout]
     #[arg(long = "output", value_name = "FILE.svg")]
     pub(crate) file: Option<PathBuf>,
+    /// The width of the figure, in pixels; all in it grows with it
+    #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    width: u32,
+    /// Leave out the title and the line below it
+    #[arg(long)]
+    no_title: bool,
 }
 
 impl Figure {
@@ -112,90 +106,85 @@ impl Figure {
             | Self::Sphere { of, .. }
             | Self::Network { of, .. }
             | Self::Response { of, .. } => Some(&of.scene),
-            Self::WorkPrecision { .. } => None,
         }
     }
 
     pub(crate) fn file(&self) -> Option<&Path> {
-        let output = match self {
+        self.output().file.as_deref()
+    }
+
+    fn output(&self) -> &ToFile {
+        match self {
             Self::Pile(of) | Self::Indexing { of, .. } => &of.output,
             Self::Shear(of)
             | Self::Base(of)
             | Self::Sphere { of, .. }
             | Self::Network { of, .. }
             | Self::Response { of, .. } => &of.output,
-            Self::WorkPrecision { output, .. } => output,
-        };
-        output.file.as_deref()
+        }
     }
 
     /// Draws it.
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let drawing = self.draw()?;
-        Ok(write_to(self.file(), |out| {
-            drawing.write(out).map_err(WriteError::from)
-        })?)
+        let ToFile {
+            file,
+            width,
+            no_title,
+        } = self.output();
+        let figure = self.draw()?.laid_out(Layout {
+            width: f64::from(*width),
+            title: !no_title,
+        });
+        write_to(file.as_deref(), |out| {
+            figure.write(out).map_err(WriteError::from)
+        })?;
+        if let Some(note) = figure.note() {
+            complain(&format!("note: {note}"));
+        }
+        Ok(())
     }
 
-    fn draw(&self) -> Result<Drawing, Failure> {
+    fn draw(&self) -> Result<figure::Figure, Failure> {
         match self {
-            Self::WorkPrecision { table, .. } => Ok(measured(table)?.drawing()),
             Self::Pile(of) => {
                 let (scene, pile) = of.scene.read_or(PICTURED)?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
-                Ok(Picture::new(&subject)?.drawing())
+                Ok(figure::pile(&subject)?)
             }
             Self::Indexing { of, layer } => {
                 let (scene, pile) = of.scene.read()?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
                 let layer = layer.unwrap_or_else(|| INDEXED.min(pile.layers() - 1));
-                Ok(Indexing::new(&subject, layer)?.drawing())
+                Ok(figure::indexing(&subject, layer)?)
             }
             Self::Sphere { of, at } => {
                 let (scene, pile) = of.scene.read()?;
                 let site = match one(at.as_deref(), &pile)? {
                     Some(site) => site,
-                    None => SphereForces::example(&pile)?,
+                    None => figure::example(&pile)?,
                 };
-                of.draw_pile(&scene, &pile, |subject| {
-                    Ok(SphereForces::new(subject, site)?.drawing())
-                })
+                of.draw_pile(&scene, &pile, |subject| figure::sphere(subject, site))
             }
-            Self::Network { of, layer } => of.draw(|subject| {
-                let network = match layer {
-                    Some(k) => Network::layer(subject, *k),
-                    None => Network::section(subject),
-                };
-                Ok(network?.drawing())
+            Self::Network { of, layer } => of.draw(|subject| match layer {
+                Some(k) => figure::layer(subject, *k),
+                None => figure::section(subject),
             }),
-            Self::Shear(of) => of.draw(|subject| Ok(Shear::new(subject)?.drawing())),
-            Self::Base(of) => of.draw(|subject| Ok(BaseMap::new(subject)?.drawing())),
+            Self::Shear(of) => of.draw(figure::shear),
+            Self::Base(of) => of.draw(figure::base),
             Self::Response { of, layer } => {
                 let (mut scene, mut pile) = of.scene.read()?;
                 if needs_a_top(&scene) {
                     scene.anchor = Some(Anchor::Top(Region::hexagon(WIDE, WIDE)?));
                     pile = scene.pile()?;
                 }
-                let pile = Response::of_unit_load(pile)?;
+                let pile = figure::of_unit_load(pile)?;
                 let layer = layer.unwrap_or(pile.layers() - 1);
                 let subject = subject(&scene, &pile, of.units)?;
-                let response = Response::new(&subject, layer);
-                Ok(response.map_err(|error| unfit(error, &scene))?.drawing())
+                let response = figure::response(&subject, layer);
+                Ok(response.map_err(|error| unfit(error, &scene))?)
             }
         }
     }
-}
-
-/// The runs of a table.
-fn measured(path: &Path) -> Result<WorkPrecision, Failure> {
-    let refused = |told: String| Failure::Told(format!("{}: {told}", path.display()));
-    let table = fs::read_to_string(path).map_err(|error| {
-        let reason = error.kind();
-        refused(format!(
-            "cannot read it: {reason}; choose a text that exists and can be read"
-        ))
-    })?;
-    WorkPrecision::read(&table).map_err(|error| refused(error.to_string()))
 }
 
 /// The layers of the picture of a pile, as in the paper.
@@ -218,22 +207,20 @@ fn needs_a_top(scene: &Scene) -> bool {
 impl Measured {
     fn draw(
         &self,
-        figure: impl FnOnce(&Subject<'_>) -> Result<Drawing, Error>,
-    ) -> Result<Drawing, Failure> {
+        draw: impl FnOnce(&Subject<'_>) -> Result<figure::Figure, Error>,
+    ) -> Result<figure::Figure, Failure> {
         let (scene, pile) = self.scene.read()?;
-        self.draw_pile(&scene, &pile, figure)
+        self.draw_pile(&scene, &pile, draw)
     }
 
     fn draw_pile(
         &self,
         scene: &Scene,
         pile: &Pile,
-        figure: impl FnOnce(&Subject<'_>) -> Result<Drawing, Error>,
-    ) -> Result<Drawing, Failure> {
+        draw: impl FnOnce(&Subject<'_>) -> Result<figure::Figure, Error>,
+    ) -> Result<figure::Figure, Failure> {
         let subject = subject(scene, pile, self.units)?;
-        let drawing = figure(&subject).map_err(|error| unfit(error, scene))?;
-        warn_if_it_falls(pile);
-        Ok(drawing)
+        Ok(draw(&subject).map_err(|error| unfit(error, scene))?)
     }
 }
 
@@ -249,7 +236,7 @@ fn subject<'p>(scene: &Scene, pile: &'p Pile, units: UnitSystem) -> Result<Subje
 fn unfit(error: Error, scene: &Scene) -> Refused {
     match error {
         Error::Overflow {
-            quantity: "a position" | "the radius",
+            quantity: "a position" | "a coordinate" | "the radius",
             ..
         } => Refused::of("radius", error),
         Error::Overflow { .. } if !scene.loads.is_empty() => Refused::of("load", error),
