@@ -4,8 +4,8 @@ use super::caption::caption;
 use super::colour::{BLACK, BLUE, ORANGE, PALE};
 use super::layer::Layer;
 use super::mark::{Mark, Point, arrow, circle, fitting, line, text};
-use super::page::{Figure, Layout};
-use super::panel::{Margins, Panel};
+use super::page::Figure;
+use super::panel::Panel;
 use super::subject::Subject;
 use crate::Error;
 use crate::lattice::{Sign, Site};
@@ -41,12 +41,7 @@ const LIMIT: u32 = 150;
 pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
     let discs = subject.is_of_discs();
     let layer = Layer::new(subject, k, LIMIT, "choose a higher layer")?;
-    let margins = Margins {
-        left: 40.0,
-        right: 40.0,
-        below: 168.0,
-    };
-    let panel = Panel::new(layer.bounds(1.6), margins, 0.0);
+    let panel = layer.panel(1.6, [40.0, 40.0, 168.0]);
     let radius = panel.length(1.0);
     let words = |Site { i, j, .. }: Site| {
         let j = if discs {
@@ -67,16 +62,8 @@ pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
         marks.push(text(at, size, words(*site)));
     }
     marks.extend(keys(subject, &layer, k, panel.bottom() + 62.0)?);
-    Ok(Figure {
-        title: format!("Indices of the spheres of layer k = {k}"),
-        caption: caption(subject)?,
-        note: None,
-        panel,
-        axes: None,
-        bar: None,
-        marks,
-        layout: Layout::default(),
-    })
+    let title = format!("Indices of the spheres of layer k = {k}");
+    Ok(Figure::new(title, caption(subject)?, panel, marks))
 }
 
 /// Returns the lines along which i and j count.

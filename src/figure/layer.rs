@@ -3,7 +3,7 @@
 use super::caption::readable;
 use super::mark::Point;
 use super::page::Axes;
-use super::panel::{Bounds, Panel};
+use super::panel::{Margins, Panel};
 use super::subject::Subject;
 use crate::Error;
 use crate::lattice::Site;
@@ -59,11 +59,11 @@ impl Layer {
         u.hypot(v)
     }
 
-    /// Returns a box around the spheres with a margin in R, large enough to be a figure.
-    pub(super) fn bounds(&self, margin: f64) -> Bounds {
+    /// Returns a panel around the spheres with a margin in R, large enough to be a figure.
+    pub(super) fn panel(&self, margin: f64, margins: Margins) -> Panel {
         let centres = self.spheres.iter().map(|(_, at)| *at);
         let height = if self.discs { 4.0 } else { 8.0 };
-        Bounds::around(centres, margin).at_least(10.0, height)
+        Panel::around(centres, margin, [10.0, height], margins)
     }
 
     /// Returns the axes x and y; discs have none across.

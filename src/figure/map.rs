@@ -4,8 +4,8 @@ use super::caption::caption;
 use super::colour::{PALE, Scale, WHITE};
 use super::layer::Layer;
 use super::mark::{Mark, cross, fitting, polygon, text, width};
-use super::page::{Bar, Figure, Layout};
-use super::panel::{Margins, Panel, WIDTH};
+use super::page::{Bar, Figure};
+use super::panel::{BAR, Panel, WIDTH};
 use super::subject::{Subject, nearest};
 use super::ticks::digits;
 use crate::Error;
@@ -32,7 +32,7 @@ impl Map<'_> {
     /// Returns the figure: cells are `<polygon class="cell" data-value="…" data-exact="…">`.
     pub(super) fn figure(self, subject: &Subject<'_>) -> Result<Figure, Error> {
         let layer = &self.layer;
-        let panel = Panel::new(layer.bounds(1.5), Margins::BAR, 262.0);
+        let panel = layer.panel(1.5, BAR).lowest(262.0);
         let mut values = Vec::new();
         for force in &self.forces {
             values.push(nearest(force, "a force")?);
@@ -70,14 +70,10 @@ impl Map<'_> {
             remarks: Vec::new(),
         };
         Ok(Figure {
-            title: self.title,
-            caption: caption(subject)?,
             note: self.note,
             axes: Some(layer.axes(subject)?),
-            panel,
             bar: Some(bar),
-            marks,
-            layout: Layout::default(),
+            ..Figure::new(self.title, caption(subject)?, panel, marks)
         })
     }
 

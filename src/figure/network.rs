@@ -1,18 +1,19 @@
 //! The contact forces as a network: the force chains of a pile.
 
+use std::collections::BTreeMap;
+
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
+use num_traits::Signed;
 
 use super::caption::{LIMIT, caption, counted, readable};
 use super::colour::{BLACK, GREY, PALE, Scale};
 use super::layer::Layer;
 use super::mark::{Mark, Point, circle, line, ring};
-use super::page::{Axes, Bar, Figure, Layout};
-use super::panel::{Bounds, Margins, Panel};
+use super::page::{Axes, Bar, Figure};
+use super::panel::{BAR, Panel};
 use super::response::middle;
 use super::subject::{Subject, below};
-use crate::lattice::{Dimension, Site};
-use crate::scalar::Ring;
+use crate::lattice::Site;
 use crate::shape::Selection;
 use crate::{ContactForce, Error};
 
@@ -30,10 +31,11 @@ struct Link {
 
 /// Spheres, and the contacts between them.
 struct Network {
-    spheres: Vec<(Site, Point)>,
+    /// To the right and upwards, in R.
+    spheres: BTreeMap<Site, Point>,
     links: Vec<Link>,
-    /// The lines below the bar.
-    remarks: Vec<String>,
+    /// How many of the contacts that were looked at pull.
+    pulling: usize,
     axes: Axes,
 }
 
@@ -68,56 +70,44 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     readable(&pile.spheres(), LIMIT_OF_ALL, "spheres", remedy)?;
     let discs = subject.is_of_discs();
     let across = usize::from(!discs);
-    let rows = rows(subject)?;
-    let mut spheres = Vec::new();
+    let plane = subject.rows(middle(pile, 0)?)?;
+    let half = BigRational::new(1.into(), 2.into());
+    let mut spheres = BTreeMap::new();
     let mut first = None;
     for row in pile.rows(Selection::All)? {
-        if !rows.contains(&(row.k, row.j)) {
+        let Some(site) = row.clone().into_iter().next() else {
+            continue;
+        };
+        let off = &plane - subject.rows(site)?;
+        if !discs && !(-&half..half.clone()).contains(&off) {
             continue;
         }
         for site in row {
             let place = subject.from(*first.get_or_insert(site), site)?;
-            spheres.push((site, [place[across], place[2]]));
+            spheres.insert(site, [place[across], place[2]]);
         }
     }
     readable(&spheres.len().into(), LIMIT, "spheres of a section", remedy)?;
-    let (mut links, mut pulling) = (Vec::new(), 0);
-    for contact in subject.contacts(Selection::All)? {
-        let contact = contact?;
-        pulling += usize::from(contact.force.is_negative());
-        let lower = below(pile, contact.site, contact.direction)?;
-        let ends = [contact.site, lower].map(|site| place(&spheres, site));
-        if let [Some(upper), Some(lower)] = ends {
-            links.push(link(subject, contact, [upper, lower])?);
-        }
-    }
-    let shown = links.iter().filter(|link| link.force < 0.0).count();
-    let mut remarks = Vec::new();
-    if pulling > 0 {
-        remarks.push(format!("{} pull,", counted(&pulling.into(), "contact")));
-        remarks.push(if shown == 0 {
-            "none of them here".into()
-        } else {
-            format!("{shown} of them here")
-        });
-    }
+    let place = |site: Site| Ok(spheres.get(&site).copied());
+    let (links, pulling) = links(subject, Selection::All, place)?;
     let origin = first.map_or(Ok([0.0; 3]), |first| subject.position(first))?;
     let unit = subject.length_unit();
     let name = if discs { "x" } else { "y" };
-    let network = Network {
-        remarks,
-        axes: Axes {
-            names: [format!("{name} in {unit}"), format!("z in {unit}")],
-            origin: [origin[across], origin[2]],
-            unit: subject.radius()?,
-        },
-        spheres,
-        links,
+    let axes = Axes {
+        names: [format!("{name} in {unit}"), format!("z in {unit}")],
+        origin: [origin[across], origin[2]],
+        unit: subject.radius()?,
     };
     let (title, sight) = if discs {
         ("Force network", "")
     } else {
         ("Force network in a vertical section", "; one row a layer")
+    };
+    let network = Network {
+        spheres,
+        links,
+        pulling,
+        axes,
     };
     network.figure(subject, title.into(), sight, true)
 }
@@ -151,30 +141,38 @@ pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
         let site = middle(pile, k)?;
         return Err(Error::OnFloor { site });
     }
-    let mut links = Vec::new();
-    for contact in subject.contacts(Selection::Layer(k))? {
-        let contact = contact?;
-        let lower = below(pile, contact.site, contact.direction)?;
-        let ends = [
-            layer.place(subject, contact.site)?,
-            layer.place(subject, lower)?,
-        ];
-        links.push(link(subject, contact, ends)?);
-    }
-    let pulling = links.iter().filter(|link| link.force < 0.0).count();
-    let remark = format!("{} pull", counted(&pulling.into(), "contact"));
+    let place = |site: Site| layer.place(subject, site).map(Some);
+    let (links, pulling) = links(subject, Selection::Layer(k), place)?;
     let network = Network {
         links,
-        remarks: if pulling > 0 {
-            vec![remark]
-        } else {
-            Vec::new()
-        },
+        pulling,
         axes: layer.axes(subject)?,
-        spheres: layer.spheres,
+        spheres: layer.spheres.into_iter().collect(),
     };
     let title = format!("Forces of layer {k} on the next");
     network.figure(subject, title, "; seen from above", false)
+}
+
+/// Returns the contacts of a part whose spheres both have a place, and how many of all of them pull.
+fn links(
+    subject: &Subject<'_>,
+    part: Selection,
+    place: impl Fn(Site) -> Result<Option<Point>, Error>,
+) -> Result<(Vec<Link>, usize), Error> {
+    let (mut links, mut pulling) = (Vec::new(), 0);
+    for contact in subject.contacts(part)? {
+        let contact = contact?;
+        pulling += usize::from(contact.force.is_negative());
+        let lower = below(subject.pile(), contact.site, contact.direction)?;
+        if let (Some(upper), Some(lower)) = (place(contact.site)?, place(lower)?) {
+            links.push(Link {
+                force: subject.force(&contact.force)?,
+                contact,
+                ends: [upper, lower],
+            });
+        }
+    }
+    Ok((links, pulling))
 }
 
 impl Network {
@@ -186,13 +184,12 @@ impl Network {
         floor: bool,
     ) -> Result<Figure, Error> {
         let ends = self.links.iter().flat_map(|link| link.ends);
-        let points = self.spheres.iter().map(|(_, at)| *at).chain(ends);
-        let bounds = Bounds::around(points, 1.3).at_least(10.0, 5.0);
-        let panel = Panel::new(bounds, Margins::BAR, 262.0);
+        let points = self.spheres.values().copied().chain(ends);
+        let panel = Panel::around(points, 1.3, [10.0, 5.0], BAR).lowest(262.0);
         let radius = panel.length(1.0);
         let mut marks = Vec::new();
         if floor {
-            let heights = self.spheres.iter().map(|(_, [_, v])| *v);
+            let heights = self.spheres.values().map(|[_, v]| *v);
             let [_, y] = panel.at([0.0, heights.fold(0.0, f64::min) - 1.0]);
             marks.push(line([panel.left, y], [panel.right(), y], BLACK, 1.5).class("floor"));
         }
@@ -216,24 +213,33 @@ impl Network {
                 .map(|link| link.mark(&panel, &scale, widest)),
         );
         let dot = (radius * 0.13).clamp(0.6, 4.0);
-        let dots = self.spheres.iter();
-        marks.extend(dots.map(|(_, at)| circle(panel.at(*at), dot).fill(BLACK)));
+        let dots = self.spheres.values();
+        marks.extend(dots.map(|at| circle(panel.at(*at), dot).fill(BLACK)));
         let bar = Bar {
             scale,
             name: "contact force",
             unit: subject.force_unit(),
-            remarks: self.remarks,
+            remarks: self.remarks(),
         };
+        let caption = format!("{}{sight}", caption(subject)?);
         Ok(Figure {
-            title,
-            caption: format!("{}{sight}", caption(subject)?),
             note: subject.note(),
-            panel,
             axes: Some(self.axes),
             bar: Some(bar),
-            marks,
-            layout: Layout::default(),
+            ..Figure::new(title, caption, panel, marks)
         })
+    }
+
+    /// Returns how many contacts pull, and how many of these are shown.
+    fn remarks(&self) -> Vec<String> {
+        let contacts = counted(&self.pulling.into(), "contact");
+        let shown = self.links.iter().filter(|link| link.force < 0.0).count();
+        match (self.pulling, shown) {
+            (0, _) => Vec::new(),
+            (_, 0) => vec![format!("{contacts} pull,"), "none of them here".into()],
+            (all, _) if all == shown => vec![format!("{contacts} pull")],
+            (..) => vec![format!("{contacts} pull,"), format!("{shown} of them here")],
+        }
     }
 }
 
@@ -253,54 +259,4 @@ impl Link {
         let mark = mark.set("data-direction", self.contact.direction.name());
         mark.valued("data-force", self.force)
     }
-}
-
-fn link(
-    subject: &Subject<'_>,
-    contact: ContactForce<BigRational>,
-    ends: [Point; 2],
-) -> Result<Link, Error> {
-    let force = subject.force(&contact.force)?;
-    Ok(Link {
-        contact,
-        force,
-        ends,
-    })
-}
-
-/// Returns where a sphere is, of a list in row order.
-fn place(spheres: &[(Site, Point)], site: Site) -> Option<Point> {
-    let found = spheres.binary_search_by_key(&site, |(site, _)| *site);
-    found
-        .ok()
-        .and_then(|found| spheres.get(found))
-        .map(|(_, at)| *at)
-}
-
-/// Returns (k, j) of the row of each layer that is nearest to the plane of the section, where one is at most half a row away.
-fn rows(subject: &Subject<'_>) -> Result<Vec<(i128, i128)>, Error> {
-    let pile = subject.pile();
-    if pile.dimension() == Dimension::Two {
-        return Ok((0..pile.layers()).map(|k| (k, 0)).collect());
-    }
-    let plane = subject.rows(middle(pile, 0)?)?;
-    let half = BigRational::new(1.into(), 2.into());
-    let mut rows = Vec::new();
-    for k in 0..pile.layers() {
-        let region = pile.shape().layer(k)?;
-        let Some((first, i)) = region.rows(k).next().map(|row| (row.j, row.i.start)) else {
-            continue;
-        };
-        let apart = &plane - subject.rows(Site { i, j: first, k })?;
-        let nearest = apart.round().to_integer().to_i128();
-        let Some(j) = nearest.and_then(|steps| first.checked_add(steps)) else {
-            continue;
-        };
-        let j = j.clamp(first, *region.y().end());
-        let off = apart - BigRational::from_i128(j - first);
-        if off.abs() <= half {
-            rows.push((k, j));
-        }
-    }
-    Ok(rows)
 }

@@ -82,6 +82,20 @@ pub(super) struct Bar {
 }
 
 impl Figure {
+    /// Returns a figure with neither note nor axes nor bar.
+    pub(super) fn new(title: String, caption: String, panel: Panel, marks: Vec<Mark>) -> Self {
+        Self {
+            title,
+            caption,
+            note: None,
+            panel,
+            axes: None,
+            bar: None,
+            marks,
+            layout: Layout::default(),
+        }
+    }
+
     /// Returns the figure in another layout.
     ///
     /// # Examples

@@ -8,67 +8,14 @@ pub(super) const WIDTH: f64 = 800.0;
 /// The greatest height of a panel, in pixels.
 const HIGHEST: f64 = 640.0;
 
-/// A box around points, u to the right and v upwards.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    least: Point,
-    most: Point,
-}
+/// The room to the left of a panel, to the right and below, in pixels.
+pub(super) type Margins = [f64; 3];
 
-impl Bounds {
-    /// Returns the box around discs of one radius; around the origin, if there is no disc.
-    pub(super) fn around(centres: impl IntoIterator<Item = Point>, radius: f64) -> Self {
-        let centres = centres.into_iter().map(|at| (at, at));
-        let ends = centres.reduce(|(least, most), (at, _)| {
-            (
-                [0, 1].map(|n| least[n].min(at[n])),
-                [0, 1].map(|n| most[n].max(at[n])),
-            )
-        });
-        let (least, most) = ends.unwrap_or_default();
-        Self {
-            least: least.map(|end| end - radius),
-            most: most.map(|end| end + radius),
-        }
-    }
+/// For axes on the left and below.
+pub(super) const AXES: Margins = [74.0, 30.0, 60.0];
 
-    /// Returns a box about the same middle that is at least so wide and high: few spheres are not drawn huge.
-    pub(super) fn at_least(self, width: f64, height: f64) -> Self {
-        let [u, v] = self.size();
-        let [u, v] = [width - u, height - v].map(|lacking| lacking.max(0.0) / 2.0);
-        Self {
-            least: [self.least[0] - u, self.least[1] - v],
-            most: [self.most[0] + u, self.most[1] + v],
-        }
-    }
-
-    fn size(&self) -> Point {
-        [0, 1].map(|n| self.most[n] - self.least[n])
-    }
-}
-
-/// The room around a panel, in pixels.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Margins {
-    pub(super) left: f64,
-    pub(super) right: f64,
-    pub(super) below: f64,
-}
-
-impl Margins {
-    /// For axes on the left and below.
-    pub(super) const AXES: Self = Self {
-        left: 74.0,
-        right: 30.0,
-        below: 60.0,
-    };
-    /// For these axes, and a bar of colours on the right.
-    pub(super) const BAR: Self = Self {
-        left: 74.0,
-        right: 142.0,
-        below: 60.0,
-    };
-}
+/// For these axes, and a bar of colours on the right.
+pub(super) const BAR: Margins = [74.0, 142.0, 60.0];
 
 /// A box on the page. The page begins at its upper edge, above which are the title and its like.
 #[derive(Clone, Copy, Debug)]
@@ -84,19 +31,40 @@ pub(super) struct Panel {
 }
 
 impl Panel {
-    /// Returns the box as large as fits the page, which is at least `lowest` pixels high.
-    pub(super) fn new(bounds: Bounds, margins: Margins, lowest: f64) -> Self {
-        let [width, height] = bounds.size();
-        let room = WIDTH - margins.left - margins.right;
-        let scale = (room / width).min(HIGHEST / height);
-        let size = [width * scale, height * scale];
+    /// Returns a box around discs of one radius, as large as fits the page.
+    ///
+    /// It is at least so wide and high, about the same middle: few spheres are not drawn huge.
+    pub(super) fn around(
+        centres: impl IntoIterator<Item = Point>,
+        radius: f64,
+        at_least: Point,
+        [left, right, below]: Margins,
+    ) -> Self {
+        let centres = centres.into_iter().map(|at| (at, at));
+        let ends = centres.reduce(|(least, most), (at, _)| {
+            let end = |n: usize| (least[n].min(at[n]), most[n].max(at[n]));
+            let (u, v) = (end(0), end(1));
+            ([u.0, v.0], [u.1, v.1])
+        });
+        let (least, most) = ends.unwrap_or_default();
+        let lengths = [0, 1].map(|n| (most[n] - least[n] + 2.0 * radius).max(at_least[n]));
+        let least = [0, 1].map(|n| (least[n] + most[n] - lengths[n]) / 2.0);
+        let room = WIDTH - left - right;
+        let scale = (room / lengths[0]).min(HIGHEST / lengths[1]);
+        let size = lengths.map(|length| length * scale);
         Self {
-            left: margins.left + (room - size[0]) / 2.0,
+            left: left + (room - size[0]) / 2.0,
             size,
-            least: bounds.least,
+            least,
             scale,
-            page: (size[1] + margins.below).max(lowest),
+            page: size[1] + below,
         }
+    }
+
+    /// Returns the same box on a page that goes down at least so far.
+    pub(super) fn lowest(self, page: f64) -> Self {
+        let page = self.page.max(page);
+        Self { page, ..self }
     }
 
     /// Returns where the right edge is on the page.

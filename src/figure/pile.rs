@@ -3,8 +3,8 @@
 use super::caption::{LIMIT, caption, readable};
 use super::colour::{BLACK, PALE};
 use super::mark::{Mark, circle, line, polygon, px};
-use super::page::{Figure, Layout};
-use super::panel::{Bounds, Margins, Panel};
+use super::page::Figure;
+use super::panel::Panel;
 use super::subject::Subject;
 use super::view::{Vector, View, moved, norm};
 use crate::Error;
@@ -72,13 +72,7 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
         [-1.0, 1.0].map(|side| [u + side * seen.magnification, v + side * seen.magnification])
     });
     let ground = floor.iter().map(|at| view.see(*at).at);
-    let bounds = Bounds::around(rims.chain(ground), 0.1);
-    let margins = Margins {
-        left: 96.0,
-        right: 30.0,
-        below: 20.0,
-    };
-    let panel = Panel::new(bounds.at_least(9.0, 6.0), margins, 0.0);
+    let panel = Panel::around(rims.chain(ground), 0.1, [9.0, 6.0], [96.0, 30.0, 20.0]);
     let on_page = |at: Vector| panel.at(view.see(at).at);
 
     let mut marks: Vec<Mark> = SHADES.map(|(id, stops)| shade(id, stops)).into();
@@ -111,16 +105,7 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
     } else {
         "Pile of spheres"
     };
-    Ok(Figure {
-        title: title.into(),
-        caption: caption(subject)?,
-        note: None,
-        panel,
-        axes: None,
-        bar: None,
-        marks,
-        layout: Layout::default(),
-    })
+    Ok(Figure::new(title.into(), caption(subject)?, panel, marks))
 }
 
 const UP: Vector = [0.0, 0.0, 1.0];

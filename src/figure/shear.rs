@@ -1,11 +1,11 @@
 //! The shear of a pile on the floor, as arrows: the paper's fig. 4.
 
 use super::caption::{LIMIT, caption};
-use super::colour::{BLUE, PALE};
+use super::colour::{BLUE, PALE, Scale};
 use super::layer::Layer;
 use super::mark::{Mark, Point, arrow, ring, text};
-use super::page::{Figure, Layout};
-use super::panel::{Margins, Panel};
+use super::page::Figure;
+use super::panel::AXES;
 use super::subject::{Subject, nearest};
 use super::ticks::{round_below, short};
 use crate::Error;
@@ -44,26 +44,16 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
         let nearest = |part| nearest(part, "a shear");
         forces.push([nearest(&force.shear_x)?, nearest(&force.shear_y)?]);
     }
-    // Arrows reach beyond the spheres.
-    let bounds = layer.bounds(layer.apart().max(1.2));
-    let margins = Margins {
-        below: 104.0,
-        ..Margins::AXES
-    };
-    let panel = Panel::new(bounds, margins, 0.0);
+    // Arrows reach beyond the spheres, and the key is below.
+    let [left, right, below] = AXES;
+    let margins = [left, right, below + 44.0];
+    let panel = layer.panel(layer.apart().max(1.2), margins);
     let greatest = forces.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
     // The longest reaches almost to the next sphere.
     let longest = panel.length(layer.apart()) * 0.94;
     let width = (longest * 0.055).clamp(0.4, 3.0);
-    let pixels = |force: f64| {
-        // Divided first: the least floats have a ratio too.
-        let part = force / greatest;
-        if part.is_finite() {
-            part * longest
-        } else {
-            0.0
-        }
-    };
+    let scale = Scale::around_zero([greatest]);
+    let pixels = |force: f64| scale.part(force) * longest;
     let radius = panel.length(1.0);
     let spheres = layer.spheres.iter();
     let mut marks: Vec<Mark> = spheres
@@ -97,14 +87,10 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
             marks.push(text([tip[0] + 12.0, y], 14.0, words).start());
         }
     }
+    let title = "Shear force of the pile on the floor".into();
     Ok(Figure {
-        title: "Shear force of the pile on the floor".into(),
-        caption: caption(subject)?,
         note: subject.note(),
         axes: Some(layer.axes(subject)?),
-        panel,
-        bar: None,
-        marks,
-        layout: Layout::default(),
+        ..Figure::new(title, caption(subject)?, panel, marks)
     })
 }

@@ -4,10 +4,10 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::caption::caption;
-use super::colour::{BLACK, DIM, GREY, ORANGE, PULL, PUSH};
+use super::colour::{BLACK, DIM, GREY, ORANGE, PULL, PUSH, Scale};
 use super::mark::{Mark, Point, arrow, circle, line, ring, text};
-use super::page::{Figure, Layout};
-use super::panel::{Bounds, Margins, Panel};
+use super::page::Figure;
+use super::panel::Panel;
 use super::pile::shade;
 use super::response::middle;
 use super::subject::{Subject, below, load};
@@ -32,10 +32,14 @@ const SMALL: f64 = 9.0;
 const TABLE: f64 = 40.0;
 const LEFT: f64 = 532.0;
 
+const UP: Vector = [0.0, 0.0, 1.0];
+const DOWN: Vector = [0.0, 0.0, -1.0];
+
 /// A force on a sphere.
 struct Force {
     /// `a`, `b`, `c` from below, `a′`, `b′`, `c′` from above, `w` for the weight, `p` for a load, `n` for the floor.
     name: &'static str,
+    origin: &'static str,
     /// Negative is pull.
     magnitude: f64,
     /// The unit vector along it.
@@ -101,13 +105,8 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
         View::new([0.0; 3], AZIMUTH, ELEVATION, f64::INFINITY)
     };
     let around = neighbours.iter().map(|centre| view.across(*centre));
-    let bounds = Bounds::around(around.chain([[0.0; 2]]), 1.1).at_least(6.4, 6.8);
-    let margins = Margins {
-        left: 20.0,
-        right: 290.0,
-        below: 24.0,
-    };
-    let panel = Panel::new(bounds, margins, 0.0);
+    let centres = around.chain([[0.0; 2]]);
+    let panel = Panel::around(centres, 1.1, [6.4, 6.8], [20.0, 290.0, 24.0]);
     let radius = panel.length(1.0);
     let place = |vector: Vector| panel.at(view.across(vector));
 
@@ -147,15 +146,10 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
     } else {
         format!("Forces on the sphere k = {k}, i = {i}, j = {j}")
     };
+    let title = title.replace('-', "−");
     Ok(Figure {
-        title: title.replace('-', "−"),
-        caption: caption(subject)?,
         note: subject.note(),
-        panel,
-        axes: None,
-        bar: None,
-        marks,
-        layout: Layout::default(),
+        ..Figure::new(title, caption(subject)?, panel, marks)
     })
 }
 
@@ -170,7 +164,7 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
         .zip(["a′", "b′", "c′"])
     {
         if let Some(upper) = pile.shape().above(site, direction) {
-            touching.push((name, force, upper));
+            touching.push((name, "from above", force, upper));
         }
     }
     let on_floor = site.k == pile.layers() - 1;
@@ -179,16 +173,17 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
         for (contact, name) in subject.contacts(Selection::One(site))?.zip(names) {
             let contact = contact?;
             let lower = below(pile, site, contact.direction)?;
-            touching.push((name, contact.force, lower));
+            touching.push((name, "from below", contact.force, lower));
         }
     }
     let (mut forces, mut neighbours) = (Vec::new(), Vec::new());
-    for (name, multiple, other) in touching {
+    for (name, origin, multiple, other) in touching {
         let apart = subject.from(site, other)?;
         neighbours.push(apart);
         let at = apart.map(|part| part / 2.0);
         forces.push(Force {
             name,
+            origin,
             magnitude: subject.force(&multiple)?,
             along: at.map(|part| -part),
             at,
@@ -198,16 +193,17 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
     if on_floor {
         forces.push(from_floor(subject.on_floor(site)?));
     }
+    let mut weights = vec![("w", "weight", pile.sphere_weight(site)?, 0.0)];
     let load = load(pile, site);
-    let weights = [("w", pile.sphere_weight(site)?, 0.0), ("p", load, 1.0)];
-    for (name, weight, height) in weights {
-        if name == "p" && weight.is_zero() {
-            continue;
-        }
+    if !load.is_zero() {
+        weights.push(("p", "load", load, 1.0));
+    }
+    for (name, origin, weight, height) in weights {
         forces.push(Force {
             name,
+            origin,
             magnitude: subject.weight(weight)?,
-            along: [0.0, 0.0, -1.0],
+            along: DOWN,
             at: [0.0, 0.0, height],
             multiple: None,
         });
@@ -217,39 +213,26 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
 
 /// Returns what the floor does to a bottom sphere: the opposite of what it feels, which is normal downwards.
 fn from_floor([x, y, normal]: Vector) -> Force {
-    // Divided first, for the greatest and the least of floats.
-    let greatest = [x, y, normal]
-        .iter()
-        .fold(0.0_f64, |most, part| most.max(part.abs()));
-    let part = if greatest > 0.0 {
-        [-x, -y, normal].map(|part| part / greatest)
-    } else {
-        [0.0, 0.0, 1.0]
-    };
-    let length = norm(part);
+    let magnitude = x.hypot(y).hypot(normal);
+    let along = [-x, -y, normal].map(|part| part / magnitude);
     Force {
         name: "n",
-        magnitude: greatest * length,
-        along: part.map(|part| part / length),
-        at: [0.0, 0.0, -1.0],
+        origin: "from the floor",
+        magnitude,
+        along: if magnitude > 0.0 { along } else { UP },
+        at: DOWN,
         multiple: None,
     }
 }
 
 /// Returns how long the arrows are, in R: all in one scale, in which the weight stays within the sphere.
 fn lengths(forces: &[Force]) -> Vec<f64> {
-    let magnitudes = forces.iter().map(|force| force.magnitude.abs());
-    let greatest = magnitudes.fold(0.0, f64::max);
-    let part = |force: &Force| {
-        let part = force.magnitude / greatest;
-        if part.is_finite() { part } else { 0.0 }
-    };
-    let weight = forces
-        .iter()
-        .find(|force| force.name == "w")
-        .map_or(0.0, part);
+    let scale = Scale::around_zero(forces.iter().map(|force| force.magnitude));
+    let weight = forces.iter().find(|force| force.name == "w");
+    let weight = weight.map_or(0.0, |weight| scale.part(weight.magnitude));
     let longest = LONGEST.min(WEIGHT / weight);
-    forces.iter().map(|force| part(force) * longest).collect()
+    let length = |force: &Force| scale.part(force.magnitude) * longest;
+    forces.iter().map(length).collect()
 }
 
 /// Returns the ends of an arrow: the weight begins in the centre, what pushes ends on the surface, and what pulls begins
@@ -312,7 +295,7 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mar
         y += 22.0;
         let name = text([LEFT, y], 14.0, force.name).bold().italic().start();
         marks.push(name.fill(colour(force)));
-        marks.push(text([words, y], 13.0, origin(force.name)).start());
+        marks.push(text([words, y], 13.0, force.origin).start());
         if let Some(multiple) = &force.multiple {
             let words = exact_or_short(multiple);
             marks.push(text([multiples, y], 14.0, words).end());
@@ -333,16 +316,6 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mar
         marks.push(text([LEFT, y], 13.0, words).fill(colour).start());
     }
     Ok(marks)
-}
-
-fn origin(name: &str) -> &'static str {
-    match name {
-        "w" => "weight",
-        "p" => "load",
-        "n" => "from the floor",
-        name if name.ends_with('′') => "from above",
-        _ => "from below",
-    }
 }
 
 fn colour(force: &Force) -> &'static str {
