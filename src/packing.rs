@@ -654,16 +654,6 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(centre)
     }
 
-    /// A vector in the symbolic basis, z as it is, times a rational unit.
-    #[cfg(feature = "plot")]
-    pub(crate) fn displacement(
-        &self,
-        vector: Vector<BigRational>,
-        unit: &BigRational,
-    ) -> [Surd; 3] {
-        on_basis(self.roots.lengths(), vector, unit)
-    }
-
     fn diameter(&self) -> BigRational {
         &self.radius + &self.radius
     }
