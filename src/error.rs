@@ -2,6 +2,7 @@
 
 mod culprit;
 mod display;
+mod short;
 
 pub use culprit::Culprit;
 
@@ -11,9 +12,9 @@ use alloc::string::String;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
+use crate::engine::{Method, Quantity};
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
-use crate::plan::{Method, Quantity};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -226,6 +227,15 @@ pub enum Error {
         /// What was expected, with an example.
         expected: &'static str,
     },
+    /// A long stacking with a character that does not belong there.
+    Misspelled {
+        /// The stacking, shortened.
+        text: String,
+        /// The place of the character, counted from 1.
+        position: usize,
+        /// The character, or `None` if the stacking ends too early.
+        found: Option<char>,
+    },
     /// A scene file that is no TOML.
     NotToml {
         /// The line, counted from 1.
@@ -303,7 +313,7 @@ impl Error {
         }
     }
 
-    /// A syntax error that quotes `text`, cut where it gets long.
+    /// A syntax error that quotes `text`, shortened if it is long.
     pub(crate) fn syntax(text: &str, expected: &'static str) -> Self {
         Self::Syntax {
             text: Self::quoted(text),
@@ -311,18 +321,9 @@ impl Error {
         }
     }
 
-    /// The text on one line, cut where it gets long.
+    /// The text on one line, shortened in the middle if it is long.
     pub(crate) fn quoted(text: &str) -> String {
-        const LONGEST: usize = 60;
-        let mut quoted: String = text
-            .chars()
-            .take(LONGEST)
-            .flat_map(char::escape_debug)
-            .collect();
-        if text.chars().nth(LONGEST).is_some() {
-            quoted.push('…');
-        }
-        quoted
+        short::quoted(text)
     }
 }
 

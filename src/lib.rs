@@ -19,16 +19,16 @@
 //! let site = Site { i: 1, j: 2, k: 5 };
 //!
 //! // In units of mg/(3 cosθ): two spheres above on the line, and itself.
-//! assert_eq!(pile.statics::<f64>().contact(site, Direction::Alpha)?, 3.0);
-//! assert_eq!(pile.statics::<f32>().contact(site, Direction::Alpha)?, 3.0);
-//! let exact = pile.statics::<BigRational>().contact(site, Direction::Alpha)?;
+//! assert_eq!(pile.forces::<f64>().contact(site, Direction::Alpha)?, 3.0);
+//! assert_eq!(pile.forces::<f32>().contact(site, Direction::Alpha)?, 3.0);
+//! let exact = pile.forces::<BigRational>().contact(site, Direction::Alpha)?;
 //! assert_eq!(exact.to_string(), "3");
-//! let fixed = pile.statics::<FixedRational<i64>>().contact(site, Direction::Alpha)?;
+//! let fixed = pile.forces::<FixedRational<i64>>().contact(site, Direction::Alpha)?;
 //! assert_eq!(fixed.parts(), Some((3, 1)));
 //!
 //! // What the scalar cannot hold is an error, never a wrong number.
 //! let pile = Pile::triangular(10_i128.pow(30))?;
-//! let refused = pile.statics::<FixedRational<i64>>().on_floor(Site { k: pile.layers() - 1, ..site });
+//! let refused = pile.forces::<FixedRational<i64>>().on_floor(Site { k: pile.layers() - 1, ..site });
 //! assert!(matches!(refused, Err(Error::Overflow { .. })));
 //! # Ok::<(), Error>(())
 //! ```
@@ -48,7 +48,7 @@
 //! numbers c·√n ([`scalar::Surd`]), which round to the nearest float.
 //!
 //! # Map
-//! Each room may use those above it, and [`Error`], which has a word for all of them. [`Pile`] names [`Statics`]
+//! Each room may use those above it, and [`Error`], which has a word for all of them. [`Pile`] names [`Forces`]
 //! to hand it out.
 //!
 //! | room | what lives there |
@@ -56,8 +56,8 @@
 //! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
 //! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
-//! | [`closed_form`], [`transfer`] | the paper's formulas and the step across a sign change, generic over the scalar |
-//! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
+//! | [`formula`] | the paper's equations, each once, under its printed number, and the step across a sign change |
+//! | [`Pile`], [`Forces`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
 //! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
 //! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
 //! | [`Packing`] | the same in SI, exactly |
@@ -66,7 +66,8 @@
 //! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
 //! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
 //! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
-//! | `export` | tables as csv, json and text; piles as files for LAMMPS, ParaView, YADE (feature `export`) |
+//! | `table` | tables as csv, json and text (feature `export`) |
+//! | `dem` | piles as files for LAMMPS, ParaView, YADE (feature `export`) |
 //! | `verify` | measured forces against the exact ones (feature `export`) |
 //! | `figure` | the paper's figures and more, as SVG (feature `plot`) |
 //!
@@ -99,26 +100,20 @@
 extern crate alloc;
 
 pub mod census;
-pub mod closed_form;
-mod error;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod export;
+pub mod dem;
+mod engine;
+mod error;
 #[cfg(feature = "plot")]
 #[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
 pub mod figure;
-mod fill;
+mod forces;
+pub mod formula;
 pub mod geometry;
 pub mod lattice;
-mod lines;
-mod load;
-mod meter;
 mod packing;
-mod parallel;
 mod pile;
-mod plan;
-mod query;
-mod reactions;
 pub mod scalar;
 pub mod scene;
 #[cfg(feature = "serde")]
@@ -127,23 +122,23 @@ pub mod serde;
 pub mod shape;
 pub mod stacking;
 mod standing;
-mod sweep;
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub mod table;
 pub mod theorem;
-pub mod transfer;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;
 
+pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
 pub use error::{Culprit, Error};
-pub use fill::Strengths;
-pub use meter::{Counters, Meter};
+pub use forces::{
+    Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
+    NumeratorLayer, NumeratorLayers,
+};
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;
-pub use plan::{Method, Plan, Quantity, Question};
-pub use query::{ContactForce, FloorForce, Statics};
-pub use reactions::BaseExtremes;
-pub use standing::{Standing, Verdict};
-pub use sweep::{ExactSweep, Sweep};
+pub use standing::{BaseExtremes, Standing, Verdict};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

@@ -120,7 +120,9 @@ impl Error {
             | Self::TooLarge { .. }
             | Self::TooManyRows { .. }
             | Self::TooManyMarks { .. } => Culprit::Layers,
-            Self::RunLength { .. } | Self::TooManyRuns { .. } => Culprit::Stacking,
+            Self::RunLength { .. } | Self::TooManyRuns { .. } | Self::Misspelled { .. } => {
+                Culprit::Stacking
+            }
             Self::SinPhi { .. } | Self::SinPhiOfDiscs | Self::NoSpacing { .. } => Culprit::SinPhi,
             Self::NegativeLoad { .. } => Culprit::Load,
             Self::Overlap { .. } | Self::TooFlat { .. } => Culprit::Spacing,

@@ -1,13 +1,31 @@
 //! What each error says: one line, with the value and the remedy.
 
+use alloc::string::ToString;
 use core::fmt;
 
+use super::short::numbers;
 use super::{Culprit, Error};
 use crate::geometry::{Bound, Spacing};
 use crate::lattice::{Dimension, MAX_LAYERS, Site};
 
+/// An error with its numbers at full length.
+struct Whole<'a>(&'a Error);
+
+impl fmt::Display for Whole<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt_whole(f)
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&numbers(&Whole(self).to_string()))
+    }
+}
+
+impl Error {
+    /// Errors of sites and layers.
+    fn fmt_whole(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Layers { given } => {
                 let digits = MAX_LAYERS.ilog10();
@@ -107,7 +125,7 @@ impl Error {
                 "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
             ),
             Self::NotStraight => f.write_str(
-                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Statics",
+                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Forces",
             ),
             Self::NoSuchMethod { method } => write!(
                 f,
@@ -177,6 +195,18 @@ impl Error {
                     f,
                     "the root of {given} is not real: the radicand must not be negative"
                 )
+            }
+            Self::Misspelled {
+                text,
+                position,
+                found,
+            } => {
+                write!(f, "the stacking '{text}' ")?;
+                match found {
+                    Some(found) => write!(f, "has {found:?} as character {position}")?,
+                    None => write!(f, "ends after character {}", position - 1)?,
+                }
+                f.write_str(": use one notation, such as ++-+, ABCBC, chh or (2,1,1)")
             }
             Self::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
             Self::TooManyRows {

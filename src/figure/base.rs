@@ -72,7 +72,7 @@ impl BaseMap {
             "bottom spheres",
             "use fewer layers",
         )?;
-        let forces = subject.packing().base(pile.rows(Selection::Base)?);
+        let forces = subject.packing().base(Selection::Base)?;
         let cells = forces.map(|force| {
             let force = force?;
             Ok(MapCell {

@@ -87,7 +87,7 @@ impl Network {
     ///
     /// # Errors
     /// [`Error::TooManyMarks`] for a pile of more than 200 000 spheres or a section of more than 20 000;
-    /// [`Error::Overflow`] for forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    /// [`Error::Overflow`] for forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -127,10 +127,7 @@ impl Network {
             "spheres of a section",
             remedy,
         )?;
-        let forces = subject
-            .packing()
-            .statics()
-            .contacts(pile.rows(Selection::All)?);
+        let forces = subject.packing().forces().contacts(Selection::All)?;
         let mut links = Vec::new();
         for contact in forces {
             let contact = contact?;
@@ -147,7 +144,7 @@ impl Network {
     ///
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::OnFloor`] for the bottom layer; [`Error::TooManyMarks`] for more than 20 000
-    /// spheres; [`Error::Overflow`] for forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    /// spheres; [`Error::Overflow`] for forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -183,9 +180,8 @@ impl Network {
             .iter()
             .map(|place| (place.site, place.at))
             .collect();
-        let rows = pile.rows(Selection::Layer(k))?;
         let mut links = Vec::new();
-        for contact in subject.packing().statics().contacts(rows) {
+        for contact in subject.packing().forces().contacts(Selection::Layer(k))? {
             let contact = contact?;
             let Some(upper) = place(&spheres, contact.site) else {
                 continue;

@@ -89,7 +89,7 @@ impl Response {
     ///
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::TooManyMarks`] for a layer of more than 20 000 spheres; [`Error::Overflow`] for
-    /// forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    /// forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -201,8 +201,7 @@ pub(super) fn middle(pile: &Pile, k: i128) -> Result<Site, Error> {
 }
 
 fn on_the_floor(subject: &Subject<'_>) -> Result<Vec<(Site, Surd)>, Error> {
-    let rows = subject.pile().rows(Selection::Base)?;
-    let forces = subject.packing().base(rows);
+    let forces = subject.packing().base(Selection::Base)?;
     forces
         .map(|force| force.map(|force| (force.site, force.normal)))
         .collect()
@@ -211,10 +210,10 @@ fn on_the_floor(subject: &Subject<'_>) -> Result<Vec<(Site, Surd)>, Error> {
 /// The vertical parts of what each sphere of a layer passes on, together: a contact force is f·mg/W along the vertical.
 fn handed_on(subject: &Subject<'_>, k: i128) -> Result<Vec<(Site, Surd)>, Error> {
     let packing = subject.packing();
-    let statics = packing.statics();
+    let statics = packing.forces();
     let unit = packing.sphere_weight() / statics.increment_sum()?;
     let mut forces: Vec<(Site, BigRational)> = Vec::new();
-    for contact in statics.contacts(subject.pile().rows(Selection::Layer(k))?) {
+    for contact in statics.contacts(Selection::Layer(k))? {
         let contact = contact?;
         match forces.last_mut() {
             Some((site, sum)) if *site == contact.site => *sum += contact.force,

@@ -85,7 +85,7 @@ impl Shear {
             "use fewer layers",
         )?;
         let mut arrows = Vec::new();
-        for force in subject.packing().base(pile.rows(Selection::Base)?) {
+        for force in subject.packing().base(Selection::Base)? {
             let force = force?;
             arrows.push(ShearArrow {
                 site: force.site,

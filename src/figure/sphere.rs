@@ -92,7 +92,7 @@ impl SphereForces {
     /// ```
     pub fn new(subject: &Subject<'_>, site: Site) -> Result<Self, Error> {
         let pile = subject.pile();
-        let (packing, statics) = (subject.packing(), subject.packing().statics());
+        let (packing, statics) = (subject.packing(), subject.packing().forces());
         let site = pile.shape().check(site)?;
         let mut neighbours = Vec::new();
         let mut forces = Vec::new();

@@ -166,7 +166,7 @@ impl<'p> Subject<'p> {
 
     /// Where a sphere is from another, in R: x and y the paper's, z up. As exact for sites 10³⁰ from the apex.
     pub(super) fn from(&self, origin: Site, site: Site) -> Result<[f64; 3], Error> {
-        let statics = self.packing.statics();
+        let statics = self.packing.forces();
         let apart = statics.position(site)? - &statics.position(origin)?;
         self.in_radii(Vector {
             z: -apart.z,
@@ -176,7 +176,7 @@ impl<'p> Subject<'p> {
 
     /// The unit vector from the sphere below `site` in a direction to `site`, z up.
     pub(super) fn contact(&self, site: Site, direction: Direction) -> Result<[f64; 3], Error> {
-        let along = self.packing.statics().contact_direction(site, direction)?;
+        let along = self.packing.forces().contact_direction(site, direction)?;
         // Centres are 2R apart.
         let half = BigRational::new(1.into(), 2.into());
         self.in_radii(

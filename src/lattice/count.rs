@@ -62,25 +62,6 @@ where
     ]
 }
 
-/// The binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
-///
-/// # Examples
-/// ```
-/// use cannonpile::lattice::count;
-///
-/// assert_eq!(count::binomial(&5.0, 2), 10.0);
-/// assert_eq!(count::binomial(&1.0, 2), 0.0);
-/// ```
-pub fn binomial<T: Algebra>(x: &T, n: u32) -> T {
-    let mut product = T::one();
-    for t in 0..n {
-        let divisor = NonZeroU32::MIN.saturating_add(t);
-        let factor = x.clone() - &T::from_i128(t.into());
-        product = (product * &factor).div_int(NonZeroI64::from(divisor));
-    }
-    product
-}
-
 /// The spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
 ///
 /// For d = 3 this is L(L+1)(L+2)/6 (THEORY §2). Domain: L ≥ 0.
@@ -139,25 +120,18 @@ pub fn contacts_of_strength<T: Algebra>(layers: &T, n: &T, d: u32) -> T {
     spheres_in_layer(&(shifted(layers, -1) - n), d)
 }
 
-/// How many spheres come before (i, j, k) in row order from the top; d is 2 (with j = 0) or 3.
-///
-/// Sphere numbers in tables are this plus one.
-///
-/// # Examples
-/// ```
-/// use cannonpile::lattice::count;
-///
-/// assert_eq!(count::before(&0.0, &0.0, &0.0, 3), 0.0);
-/// // Layer 2 begins after 1 + 3 spheres, its second row 3 later.
-/// assert_eq!(count::before(&1.0, &1.0, &2.0, 3), 8.0);
-/// ```
-pub fn before<T: Algebra>(i: &T, j: &T, k: &T, d: u32) -> T {
-    // Rows 0 … j−1 hold k+1, k, …: the triangle number of the layer less that of what is left.
-    let rows = spheres_in_layer(k, 3) - &spheres_in_layer(&(k.clone() - j), 3);
-    spheres(k, d) + &rows + i
-}
-
 /// `n + by`.
 fn shifted<T: Algebra>(n: &T, by: i128) -> T {
     n.clone() + &T::from_i128(by)
+}
+
+/// The binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
+fn binomial<T: Algebra>(x: &T, n: u32) -> T {
+    let mut product = T::one();
+    for t in 0..n {
+        let divisor = NonZeroU32::MIN.saturating_add(t);
+        let factor = x.clone() - &T::from_i128(t.into());
+        product = (product * &factor).div_int(NonZeroI64::from(divisor));
+    }
+    product
 }

@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use cannonpile::export::{FileFormat, NumberFormat, Table, Units, WriteError};
+use cannonpile::table::{FileFormat, NumberFormat, Table, Units, WriteError};
 use cannonpile::lattice::Site;
 use cannonpile::scene::{Scene, parse};
 use cannonpile::shape::Selection;

@@ -28,7 +28,7 @@ pub(crate) use verify::Verify;
 
 
 use cannonpile::Pile;
-use cannonpile::export::{Cell, Table};
+use cannonpile::table::{Cell, Table};
 use cannonpile::scalar::RealSign;
 use cannonpile::shape::Selection;
 

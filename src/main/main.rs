@@ -9,7 +9,7 @@ mod signals;
 use std::io;
 use std::process::ExitCode;
 
-use cannonpile::export::WriteError;
+use cannonpile::table::WriteError;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 

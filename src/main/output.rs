@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use cannonpile::export::{WriteError, write_aside};
+use cannonpile::table::{WriteError, write_aside};
 use cannonpile::{Culprit, Error};
 
 /// Why there is no answer.

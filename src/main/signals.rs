@@ -13,7 +13,7 @@ pub(crate) fn clean_up_after() {
     };
     std::thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
-            cannonpile::export::remove_unfinished();
+            cannonpile::table::remove_unfinished();
             std::process::exit(128 + signal);
         }
     });

@@ -7,10 +7,9 @@ use ::serde::de::Error as _;
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_rational::BigRational;
 
-use super::number;
 use crate::lattice::{Dimension, Region, Site};
-use crate::scene::Anchor;
-use crate::shape::Shape;
+use crate::scalar::serde::number;
+use crate::shape::Anchor;
 use crate::stacking::Stacking;
 use crate::{Culprit, Error, Pile};
 
@@ -48,7 +47,7 @@ impl Parts {
             dimension: pile.dimension(),
             sin_phi: pile.sin_phi().clone(),
             stacking: shape.stacking().clone(),
-            anchor: anchor(shape),
+            anchor: shape.anchor(),
             weightless: loading.is_weightless(),
             weights: loading.weights().map(on_sites).collect(),
             loads: loading.loads().map(on_sites).collect(),
@@ -88,7 +87,7 @@ impl Parts {
             Culprit::SinPhi
         } else if pile.shape().stacking() != &self.stacking {
             Culprit::Stacking
-        } else if anchor(pile.shape()) != self.anchor {
+        } else if pile.shape().anchor() != self.anchor {
             Culprit::Top
         } else {
             return Ok(pile);
@@ -98,14 +97,6 @@ impl Parts {
             Dimension::Three => Culprit::Stacking,
         };
         Err(Error::Excluded { given, beside })
-    }
-}
-
-/// What the pile is grown from.
-fn anchor(shape: &Shape) -> Anchor {
-    match shape.layer(0) {
-        Ok(top) if !shape.is_grown_from_base() => Anchor::Top(top),
-        _ => Anchor::Base(shape.base()),
     }
 }
 

@@ -89,7 +89,7 @@ fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
 fn paper_system(f: &Formulas) -> Vec<Step> {
     let s = symbol("s");
     let increments = (f.increments)(&s);
-    let [alpha, beta, gamma] = increments.per_line();
+    let [alpha, beta, gamma] = &increments;
     let horizontal = s.clone() * &(alpha.clone() + beta) - gamma;
     let vertical = alpha.clone() + beta + gamma;
     let weight = int(2) * &(int(1) + &s);
@@ -97,7 +97,7 @@ fn paper_system(f: &Formulas) -> Vec<Step> {
         Step::equal("along x: s(Δα+Δβ) − Δγ = 0", horizontal, P::zero()),
         Step::equal("along y: Δα − Δβ = 0", alpha.clone() - beta, P::zero()),
         Step::equal("along z: Δα+Δβ+Δγ = 2(1+s)", vertical, weight.clone()),
-        Step::equal("W = 2(1+s)", increments.sum().clone(), weight),
+        Step::equal("W = 2(1+s)", (f.weight)(&increments), weight),
     ])
 }
 
@@ -125,15 +125,11 @@ fn unit_directions(f: &Formulas) -> Vec<Step> {
 }
 
 fn equilibrium(f: &Formulas) -> Vec<Step> {
-    let Setting {
-        increments,
-        directions,
-        ..
-    } = Setting::isosceles(f);
-    let (here, weight) = (above(f), increments.sum());
-    let supports = Vector::combination(&(f.to_below)(&increments, &here), &directions);
-    let load = (f.force_on_floor)(&here, &increments, &directions, weight);
-    let left = (f.unbalanced)(&here, &increments, &directions, weight);
+    let (setting, here) = (Setting::isosceles(f), above(f));
+    let to_below = setting.to_below(f, setting.from_above(f, &here));
+    let supports = Vector::combination(&to_below, &setting.directions);
+    let load = setting.handed_on(f, &here);
+    let left = setting.unbalanced(f, &here);
     let mut steps = by_component("supports = −(from above + weight)", supports, -load);
     steps.extend(by_component(
         "what is left of all forces is 0",
@@ -144,7 +140,7 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
 }
 
 fn surface(f: &Formulas) -> Vec<Step> {
-    let increments = Setting::isosceles(f).increments;
+    let setting = Setting::isosceles(f);
     let [i, j, k] = ["i", "j", "k"].map(symbol);
     let zero = P::zero();
     let faces = [
@@ -156,7 +152,7 @@ fn surface(f: &Formulas) -> Vec<Step> {
         .into_iter()
         .enumerate()
         .map(|(line, (claim, (i, j, k)))| {
-            let forces = (f.from_above)(&increments, &(f.above)(i, j, k));
+            let forces = setting.from_above(f, &(f.above)(i, j, k));
             let force = forces.into_iter().nth(line).unwrap_or_else(P::one);
             Step::equal(
                 format!("no force from above along {claim}"),
@@ -168,9 +164,9 @@ fn surface(f: &Formulas) -> Vec<Step> {
 }
 
 fn action_reaction(f: &Formulas) -> Vec<Step> {
-    let increments = Setting::isosceles(f).increments;
+    let setting = Setting::isosceles(f);
     let [i, j, k] = ["i", "j", "k"].map(symbol);
-    let given = (f.to_below)(&increments, &above(f));
+    let given = setting.to_below(f, setting.from_above(f, &above(f)));
     Direction::ALL
         .into_iter()
         .zip(given)
@@ -178,7 +174,7 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
         .map(|(line, (direction, given))| {
             let [di, dj, dk] = (f.descent)(direction).map(int);
             let below = (f.above)(&(i.clone() + &di), &(j.clone() + &dj), &(k.clone() + &dk));
-            let received = (f.from_above)(&increments, &below).into_iter().nth(line);
+            let received = setting.from_above(f, &below).into_iter().nth(line);
             let claim = format!("{direction}: given above = received below");
             Step::equal(claim, given, received.unwrap_or_else(P::zero))
         })
@@ -186,17 +182,13 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
 }
 
 fn central_force(f: &Formulas) -> Vec<Step> {
-    let Setting {
-        increments,
-        directions,
-        ..
-    } = Setting::equilateral(f);
-    let here = above(f);
-    let force = (f.resultant_above)(&here, &increments, &directions);
+    let (setting, here) = (Setting::equilateral(f), above(f));
+    let directions = &setting.directions;
+    let force = (f.resultant)(&setting.from_above(f, &here), directions);
     by_component(
         "resultant from above = r/(2R)",
         force,
-        (f.position)(&here, &directions),
+        (f.position)(&here, directions),
     )
 }
 

@@ -10,6 +10,7 @@ use super::setting::{
 };
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
+use crate::lattice::Direction;
 use crate::scalar::Symbol;
 
 pub(super) const THEOREMS: &[Theorem] = &[
@@ -99,26 +100,15 @@ pub(super) const THEOREMS: &[Theorem] = &[
 
 /// The force on the floor at (i, j), in f₀.
 fn on_floor(f: &Formulas, setting: &Setting) -> Vector<P> {
-    let Setting {
-        increments,
-        directions,
-        ..
-    } = setting;
-    (f.force_on_floor)(&above_floor(f), increments, directions, increments.sum())
+    setting.handed_on(f, &above_floor(f))
 }
 
 fn base_normal(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
     let (l, j, s) = (symbol("L"), symbol("j"), symbol("s"));
     let claimed = int(2) * &(int(1) + &s) + &(l.clone() - &int(1) - &j) + &(int(2) * &s * &j);
-    let carried = (f.carried)(&setting.increments, &above_floor(f));
     let equilateral = on_floor(f, &Setting::equilateral(f)).z;
     Vec::from([
-        Step::equal(
-            "what a bottom sphere carries, in mg/W",
-            carried,
-            claimed.clone(),
-        ),
         Step::equal(
             "the normal force on the floor, in mg/W",
             on_floor(f, &setting).z,
@@ -164,7 +154,7 @@ fn weight(f: &Formulas) -> Vec<Step> {
     Vec::from([Step::equal(
         "ΣF_z = W·spheres, in mg/W",
         total,
-        spheres * setting.weight(),
+        spheres * &setting.weight,
     )])
 }
 
@@ -202,7 +192,7 @@ fn total_moment(f: &Formulas) -> Vec<Step> {
     let lever = |x: &P, at: &P| {
         (
             sum_over_base(&(force.z.clone() * at)),
-            sum_over_pile(x) * setting.weight(),
+            sum_over_pile(x) * &setting.weight,
         )
     };
     let (floor_x, weights_x) = lever(&sphere.x, &at.x);
@@ -229,7 +219,7 @@ fn second_moment(f: &Formulas) -> Vec<Step> {
     Vec::from([Step::equal(
         "ΣF_z r_b² = W·Σ(r_s² + (L−1−k)²), in mg/W·(2R sinθ)²",
         sum_over_base(&(normal * &setting.horizontal_square(&at))),
-        sum_over_pile(&spheres) * setting.weight(),
+        sum_over_pile(&spheres) * &setting.weight,
     )])
 }
 
@@ -261,16 +251,17 @@ fn shear_ratio(f: &Formulas) -> Vec<Step> {
             symbol("L") + &int(2),
         ),
     ]);
-    for line in 0..3 {
-        let (shear, normal) = (f.corner_shear_ratio)(&symbol("L"), &setting.increments, line);
-        let corner = ["α", "β", "γ"].get(line).copied().unwrap_or_default();
+    for (line, direction) in Direction::ALL.into_iter().enumerate() {
+        let mut corner = [P::zero(), P::zero(), P::zero()];
+        corner[line] = last.clone();
+        let there = setting.handed_on(f, &corner);
+        let claim = format!("|shear|² at the {direction} corner is (L−1)²");
+        let square = last.clone() * &last;
         steps.push(Step::equal(
-            format!("shear at the {corner} corner is L−1"),
-            shear,
-            last.clone(),
+            claim,
+            setting.horizontal_square(&there),
+            square,
         ));
-        let claim = format!("normal at the {corner} corner is L+2");
-        steps.push(Step::equal(claim, normal, last.clone() + &int(3)));
     }
     steps
 }

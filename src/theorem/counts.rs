@@ -34,11 +34,10 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "spheres",
-        statement: "A pile has L(L+1)(L+2)/6 spheres, (k+1)(k+2)/2 in layer k, and (i, j, k) is the number \
-                    before(i, j, k) of them in row order; by summing over the layers",
+        statement: "A pile has L(L+1)(L+2)/6 spheres, (k+1)(k+2)/2 in layer k; by summing over the layers",
         hypotheses: "L ≥ 1",
         method: ProofKind::Sum,
-        symbols: "L, i, j, k",
+        symbols: "L, k",
         derive: spheres,
     },
     Theorem {
@@ -106,59 +105,45 @@ fn counts(f: &Formulas) -> Vec<Step> {
     steps
 }
 
+/// The rotation of the site (i, j) of layer k.
+fn rotated([i, j]: [P; 2], k: &P) -> [P; 2] {
+    let image = k.clone() - &i - &j;
+    [j, image]
+}
+
 fn rotation(f: &Formulas) -> Vec<Step> {
-    let here = above(f);
-    let [n_alpha, n_beta, n_gamma] = &here;
-    let image = (f.rotate)(&here);
+    let k = symbol("k");
+    let site = || [symbol("i"), symbol("j")];
+    let [n_alpha, n_beta, n_gamma] = above(f);
+    let [i, j] = rotated(site(), &k);
+    let image = (f.above)(&i, &j, &k);
     let carried = [
         ("N_α of the image is N_β", n_beta),
         ("N_β of the image is N_γ", n_gamma),
         ("N_γ of the image is N_α", n_alpha),
     ];
+    let carried = carried.into_iter().zip(image);
     let mut steps: Vec<Step> = carried
-        .into_iter()
-        .zip(&image)
-        .map(|((claim, right), left)| Step::equal(claim, left.clone(), right.clone()))
+        .map(|((claim, right), left)| Step::equal(claim, left, right))
         .collect();
-    // The image as a site, (i, j) → (j, k−i−j), and its counts anew.
-    let k = symbol("k");
-    let [_, i, j] = &image;
-    let names = ["i → j", "j → k−i−j"];
-    let substitution = [
-        (i, symbol("j")),
-        (j, k.clone() - &symbol("i") - &symbol("j")),
-    ];
-    for (name, (left, right)) in names.into_iter().zip(substitution) {
-        steps.push(Step::equal(
-            format!("the substitution {name}"),
-            left.clone(),
-            right,
-        ));
-    }
-    let mut site = [symbol("i"), symbol("j")];
-    for _ in 0..3 {
-        let [i, j] = &site;
-        let [_, i, j] = (f.rotate)(&(f.above)(i, j, &k));
-        site = [i, j];
-    }
-    for (name, left) in ["i", "j"].into_iter().zip(site) {
-        steps.push(Step::equal(
-            format!("three times the rotation fixes {name}"),
+    let thrice = rotated(rotated(rotated(site(), &k), &k), &k);
+    let [i, j] = &thrice;
+    let names = ["N_α", "N_β", "N_γ"].into_iter();
+    let back = names.zip((f.above)(i, j, &k)).zip(above(f));
+    steps.extend(back.map(|((name, left), right)| {
+        Step::equal(
+            format!("three times the rotation leaves {name}"),
             left,
-            symbol(name),
-        ));
-    }
+            right,
+        )
+    }));
     steps
 }
 
 fn spheres(f: &Formulas) -> Vec<Step> {
-    let (l, [i, j, k]) = (symbol("L"), ["i", "j", "k"].map(symbol));
+    let (l, k) = (symbol("L"), symbol("k"));
     let one = P::one();
     let cubic = l.clone() * &(l.clone() + &one) * &(l.clone() + &int(2));
-    // Row order: the next in a row, the first of the next row, the first of the next layer.
-    let zero = P::zero();
-    let next = |i: &P, j: &P, k: &P| (f.before)(i, j, k, 3) + &P::one();
-    let end_of_row = k.clone() - &j;
     Vec::from([
         Step::equal(
             "Σ 1 over layer k is (k+1)(k+2)/2",
@@ -170,26 +155,6 @@ fn spheres(f: &Formulas) -> Vec<Step> {
             "six times that is L(L+1)(L+2)",
             (f.spheres)(&l, 3) * &int(6),
             cubic,
-        ),
-        Step::equal(
-            "none before the apex",
-            (f.before)(&zero, &zero, &zero, 3),
-            zero.clone(),
-        ),
-        Step::equal(
-            "one more along a row",
-            (f.before)(&(i.clone() + &one), &j, &k, 3),
-            next(&i, &j, &k),
-        ),
-        Step::equal(
-            "one more from row to row",
-            (f.before)(&zero, &(j.clone() + &one), &k, 3),
-            next(&end_of_row, &j, &k),
-        ),
-        Step::equal(
-            "one more from layer to layer",
-            (f.before)(&zero, &zero, &(k.clone() + &one), 3),
-            next(&zero, &k, &k),
         ),
     ])
 }

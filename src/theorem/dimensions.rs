@@ -7,7 +7,6 @@ use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, int, last_layer, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
-use crate::closed_form::Increments;
 use crate::scalar::Symbol;
 
 pub(super) const THEOREMS: &[Theorem] = &[
@@ -34,17 +33,12 @@ pub(super) const THEOREMS: &[Theorem] = &[
 ];
 
 fn discs(f: &Formulas) -> Vec<Step> {
-    let Setting {
-        increments,
-        directions,
-        ..
-    } = Setting::discs(f);
-    let weight = increments.sum();
+    let setting = Setting::discs(f);
     let (l, i, k) = (symbol("L"), symbol("i"), symbol("k"));
     let inside = (f.above)(&i, &P::zero(), &k);
     let floor = (f.above)(&i, &P::zero(), &last_layer());
-    let left = (f.unbalanced)(&inside, &increments, &directions, weight);
-    let force = (f.force_on_floor)(&floor, &increments, &directions, weight);
+    let left = setting.unbalanced(f, &inside);
+    let force = setting.handed_on(f, &floor);
     let over_base = |p: &P| p.sum(Symbol("i"), &P::zero(), &last_layer());
     let total = over_base(&force.z);
     let mut steps: Vec<Step> = ["x", "y", "z"]
@@ -92,7 +86,7 @@ fn in_dimension<const D: usize>(f: &Formulas, steps: &mut Vec<Step>) {
     let d = u32::try_from(D).unwrap_or(u32::MAX);
     let dimension = int(d.into());
     let (l, k) = (symbol("L"), symbol("k"));
-    let increments = Increments::<P, D>::regular();
+    let own: [P; D] = core::array::from_fn(|_| P::one());
     // The last count is what the others leave of L−1.
     let mut counts: [P; D] =
         core::array::from_fn(|m| symbol(COUNTS.get(m).copied().unwrap_or("n")));
@@ -102,20 +96,22 @@ fn in_dimension<const D: usize>(f: &Formulas, steps: &mut Vec<Step>) {
     }
     let normal = l.clone() + &(dimension.clone() - &int(1));
     let claim = |text: &str| format!("d = {d}: {text}");
+    let weight = (f.weight)(&own);
+    let above = counts
+        .iter()
+        .zip(&own)
+        .map(|(n, w)| (f.force)(n.clone(), w));
+    let carried = above.fold(weight, |sum, force| sum + &force);
     steps.push(Step::equal(
         claim("normal force, in mg/d, is L+d−1"),
-        increments.carried(&counts),
+        carried,
         normal.clone(),
     ));
-    let added = increments
-        .to_below(&counts)
-        .into_iter()
-        .zip(increments.from_above(&counts));
-    for (below, above) in added {
+    for (n, w) in counts.iter().zip(&own) {
         steps.push(Step::equal(
             claim("one increment more on each line"),
-            below - &above,
-            P::one(),
+            (f.passed_on)((f.force)(n.clone(), w), w),
+            (f.force)(n.clone() + &P::one(), w),
         ));
     }
     steps.push(Step::equal(

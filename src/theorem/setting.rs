@@ -3,7 +3,6 @@
 use num_traits::{One, Zero};
 
 use super::Formulas;
-use crate::closed_form::Increments;
 use crate::geometry::Vector;
 use crate::scalar::{Algebra, Polynomial, Ring, Symbol};
 
@@ -29,7 +28,9 @@ pub(super) fn half() -> P {
 pub(super) struct Setting {
     /// sin φ.
     pub(super) s: P,
-    pub(super) increments: Increments<P, 3>,
+    pub(super) increments: [P; 3],
+    /// W.
+    pub(super) weight: P,
     pub(super) directions: [Vector<P>; 3],
 }
 
@@ -53,16 +54,47 @@ impl Setting {
     }
 
     fn with_sin_phi(f: &Formulas, s: P) -> Self {
+        let increments = (f.increments)(&s);
         Self {
-            increments: (f.increments)(&s),
+            weight: (f.weight)(&increments),
+            increments,
             directions: (f.directions)(&s),
             s,
         }
     }
 
-    /// W.
-    pub(super) fn weight(&self) -> &P {
-        self.increments.sum()
+    /// The forces from above on a sphere with so many above it on its lines.
+    pub(super) fn from_above(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
+        let [w_a, w_b, w_c] = &self.increments;
+        [
+            (f.force)(a.clone(), w_a),
+            (f.force)(b.clone(), w_b),
+            (f.force)(c.clone(), w_c),
+        ]
+    }
+
+    /// What a sphere passes on of the forces from above.
+    pub(super) fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
+        let [w_a, w_b, w_c] = &self.increments;
+        let [a, b, c] = from_above;
+        [
+            (f.passed_on)(a, w_a),
+            (f.passed_on)(b, w_b),
+            (f.passed_on)(c, w_c),
+        ]
+    }
+
+    /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
+    pub(super) fn handed_on(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+        (f.handed_on)(&self.from_above(f, above), &self.directions, &self.weight)
+    }
+
+    /// What is left over of all forces on such a sphere.
+    pub(super) fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+        let from_above = self.from_above(f, above);
+        let to_below = self.to_below(f, from_above.clone());
+        let e = &self.directions;
+        (f.unbalanced)(&to_below, e, &from_above, e, &self.weight)
     }
 
     /// The squared horizontal length of a vector, over sin²θ: x² + 4(1−s²)·y².

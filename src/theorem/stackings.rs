@@ -7,10 +7,10 @@ use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, int, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
+use crate::formula::THREE;
 use crate::geometry::Vector;
 use crate::lattice::Direction;
 use crate::scalar::Algebra;
-use crate::transfer::THREE;
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
@@ -118,11 +118,11 @@ fn run(f: &Formulas) -> Vec<Step> {
     let (force, m) = (symbol("f"), symbol("m"));
     let increments = (f.increments)(&symbol("s"));
     let mut steps = Vec::new();
-    for (line, direction) in Direction::ALL.into_iter().enumerate() {
-        let after = |m: P| force.clone() + &(f.force)(&increments, m, line);
+    for (direction, w) in Direction::ALL.into_iter().zip(&increments) {
+        let after = |m: P| (f.passed_on)(force.clone(), &(f.force)(m, w));
         let claim = format!("base case along {direction}: f after no sphere");
         steps.push(Step::equal(claim, after(P::zero()), force.clone()));
-        let one_more = after(m.clone()) + &increments.per_line()[line];
+        let one_more = (f.passed_on)(after(m.clone()), w);
         let claim = format!("step along {direction}: an increment more after one sphere more");
         steps.push(Step::equal(claim, after(m.clone() + &P::one()), one_more));
     }
@@ -131,10 +131,16 @@ fn run(f: &Formulas) -> Vec<Step> {
 
 fn tripled(f: &Formulas) -> Vec<Step> {
     let g = ["g_1", "g_2", "g_3"].map(symbol);
-    let sides = (f.tripled_half_turn)(&g).into_iter().zip((f.half_turn)(&g));
-    sides
-        .map(|(left, turned)| Step::equal("3Gg", left, turned * &int(3)))
-        .collect()
+    let ways = [
+        ("2Σg − 3g", (f.tripled_half_turn)(&g)),
+        ("each once", (f.tripled_apart)(&g)),
+    ];
+    let mut steps = Vec::new();
+    for (claim, tripled) in ways {
+        let sides = tripled.into_iter().zip((f.half_turn)(&g));
+        steps.extend(sides.map(|(left, turned)| Step::equal(claim, left, turned * &int(3))));
+    }
+    steps
 }
 
 fn edge(f: &Formulas) -> Vec<Step> {
@@ -180,11 +186,7 @@ fn point_load(f: &Formulas) -> Vec<Step> {
     // A contact leads down against ê.
     let down: [Vector<P>; 3] = setting.directions.each_ref().map(|e| flat(e, -1));
     // What the loaded sphere adds to its lines, in the unit of the load: W = 3.
-    let thirds = setting
-        .increments
-        .per_line()
-        .clone()
-        .map(|w| w.div_int(THREE));
+    let thirds = setting.increments.clone().map(|w| w.div_int(THREE));
     let first = [
         ("Σv = 1", sum(&thirds, &|_| P::one()), P::one()),
         (

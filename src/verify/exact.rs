@@ -30,10 +30,10 @@ pub(super) fn contacts<'p>(
     numbering: &Numbering<'p>,
     with_vectors: bool,
 ) -> Result<impl Iterator<Item = Result<Exact, Refusal>>, Error> {
-    let rows = packing.pile().rows(Selection::All)?;
     let mut ids = Ids::new(numbering);
     let mut rounded = Rounded::new(packing, with_vectors);
-    Ok(packing.statics().contacts(rows).map(move |contact| {
+    let contacts = packing.forces().contacts(Selection::All)?;
+    Ok(contacts.map(move |contact| {
         let contact = contact?;
         let (site, direction) = (contact.site, contact.direction);
         let (force, vector) = rounded.of(contact)?;

@@ -6,8 +6,8 @@ use num_rational::BigRational;
 use serde_json::{Map, Value, json};
 
 use super::{Comparison, Difference, Extra};
-use crate::export::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 use crate::lattice::{Dimension, Site};
+use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 
 /// How many missing and how many extra contacts the text shows.
 const SHOWN: usize = 5;
@@ -21,7 +21,7 @@ const SHOWN: usize = 5;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::export::FileFormat;
+/// use cannonpile::table::FileFormat;
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::verify::{Comparison, Measured, Report};
 /// use cannonpile::{Packing, Pile};
@@ -48,7 +48,7 @@ impl<'c> Report<'c> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::FileFormat;
+    /// use cannonpile::table::FileFormat;
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::verify::{Comparison, Measured, Report};
     /// use cannonpile::{Packing, Pile};
@@ -76,7 +76,7 @@ impl<'c> Report<'c> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::export::FileFormat;
+    /// use cannonpile::table::FileFormat;
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::verify::{Comparison, Measured, Report};
     /// use cannonpile::{Packing, Pile};

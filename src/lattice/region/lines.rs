@@ -6,9 +6,9 @@ use super::Region;
 use crate::lattice::{Sign, count};
 
 impl Region {
-    /// How many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
+    /// Returns how many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
     ///
-    /// THEORY §3, "Lines". For + steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
+    /// For + steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
     /// N_γ = min(m, j−y₀, x₁−i, i+j−s₀), with the bounds of the layer of (i, j); for − steps the same under
     /// (i, j) → (−i, −j). Each argument grows by one per step down and vanishes at its surface. None outside the region.
     ///
@@ -38,8 +38,7 @@ impl Region {
         bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
-    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction: the same bounds, one row's
-    /// taken together.
+    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction.
     pub(crate) fn row_counts(&self, j: i128, sign: Sign, steps: i128) -> [Trapezoid; 3] {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let (rises, falls) = (x0.max(s0 - j), x1.min(s1 - j));

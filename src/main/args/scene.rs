@@ -23,16 +23,16 @@ pub(crate) struct SceneOptions {
     layers: Option<i128>,
     /// How layers follow one another: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); from the top, or from
     /// the base up with --base [default: fcc]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::stacking)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = str::parse::<Pattern>)]
     stacking: Option<Pattern>,
     /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region, conflicts_with = "base")]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "base")]
     top: Option<Region>,
     /// Grow up from this layer
-    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = parse::region)]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
     base: Option<Region>,
     /// 2 for discs, 3 for spheres [default: 3]
-    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = parse::dimension)]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = str::parse::<Dimension>)]
     dimension: Option<Dimension>,
     /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use cannonpile::export::WriteError;
+use cannonpile::table::WriteError;
 use clap::Args;
 use clap_complete::Shell;
 

@@ -1,6 +1,6 @@
 //! `explain`: how a question is answered, and what that takes.
 
-use cannonpile::export::{Explanation, NumberFormat, Table, WriteError};
+use cannonpile::table::{Explanation, NumberFormat, Table, WriteError};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile, Quantity};
 use clap::{Args, ValueEnum};

@@ -4,7 +4,8 @@ use std::io::{self, IsTerminal};
 use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
-use cannonpile::export::{NumberFormat, PileExport, PileFile, PileFormat, WriteError, Written, tables};
+use cannonpile::dem::{self, PileExport, PileFile, PileFormat, Written};
+use cannonpile::table::{NumberFormat, WriteError};
 use clap::{Args, ValueEnum};
 
 use super::{Command, note_if_it_falls};
@@ -95,7 +96,7 @@ impl Command for Export {
             error => error.into(),
         })?;
         write_to(self.list.as_deref(), |out| {
-            tables::files(&written).write(format.into(), NumberFormat::Exact, out)
+            dem::files(&written).write(format.into(), NumberFormat::Exact, out)
         })?;
         note_if_it_falls(&pile);
         tell_rate(&written, begun);

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use cannonpile::export::WriteError;
+use cannonpile::table::WriteError;
 use cannonpile::figure::{
     BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
 };

@@ -1,6 +1,6 @@
 //! `spheres`: the place, size and mass of each sphere.
 
-use cannonpile::export::tables;
+use cannonpile::table;
 use cannonpile::shape::Selection;
 use clap::Args;
 
@@ -28,7 +28,7 @@ impl Command for Spheres {
         self.output.format()?;
         let rows = spheres(&pile, selection)?;
         let progress = Progress::of_rows("places", rows.try_into().ok());
-        let table = tables::spheres(&scene.packing(&pile)?, selection)
+        let table = table::spheres(&scene.packing(&pile)?, selection)
             .map_err(|error| narrower(error, selection))?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;

@@ -1,7 +1,7 @@
 //! `summary`: the pile in one row.
 
 use cannonpile::Verdict;
-use cannonpile::export;
+use cannonpile::table;
 use clap::Args;
 
 use super::Command;
@@ -27,7 +27,7 @@ impl Command for Summary {
         // At the default spacing, where none is given: if that fits.
         let touching = pile.clearance().check(&scene.spacing()?).ok();
         let progress = Progress::begin("finding the extreme forces");
-        let summary = export::Summary::new(&units, touching)?;
+        let summary = table::Summary::new(&units, touching)?;
         let table = summary.table()?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;

@@ -1,0 +1,146 @@
+//! One entry of a table, and how it is shown.
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::Column;
+use crate::Error;
+use crate::scalar::{NearestFloat, Surd};
+
+/// One entry of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A count or an index, shown as it is in every number format.
+    Integer(BigInt),
+    /// An exact quantity, shown in the number format asked for.
+    Number(Surd),
+    /// A word.
+    Word(Cow<'static, str>),
+    /// Yes or no: 1 and 0, in json `true` and `false`.
+    Flag(bool),
+    /// Nothing to say: empty, in json `null`.
+    Missing,
+}
+
+impl From<i128> for Cell {
+    fn from(value: i128) -> Self {
+        Self::Integer(value.into())
+    }
+}
+
+impl From<BigRational> for Cell {
+    fn from(value: BigRational) -> Self {
+        Self::Number(value.into())
+    }
+}
+
+impl From<Surd> for Cell {
+    fn from(value: Surd) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<&'static str> for Cell {
+    fn from(value: &'static str) -> Self {
+        Self::Word(value.into())
+    }
+}
+
+impl Cell {
+    /// The text of the cell, or both ends if it is an interval; the column is named if the number does not fit.
+    pub(super) fn texts(
+        &self,
+        format: NumberFormat,
+        column: &Column,
+    ) -> Result<Vec<String>, Error> {
+        let text = match self {
+            Self::Number(x) if format == NumberFormat::Interval => {
+                return Ok(ends(x, column.name)?.into());
+            }
+            Self::Integer(n) => n.to_string(),
+            Self::Number(x) => format.show(x, column.name)?,
+            Self::Word(word) => word.to_string(),
+            Self::Flag(flag) => u8::from(*flag).to_string(),
+            Self::Missing => String::new(),
+        };
+        Ok(vec![text; column.heads(format).len()])
+    }
+}
+
+/// How exact quantities are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NumberFormat {
+    /// `4`, `7/3`, `7/3*sqrt(2)`.
+    Exact,
+    /// The nearest `f64`, with the fewest digits that read back the same (at most 17).
+    F64,
+    /// The nearest `f32`, with the fewest digits that read back the same (at most 9).
+    F32,
+    /// The greatest `f64` that is not greater and the least that is not less: two columns, `…_lo` and `…_hi`.
+    Interval,
+}
+
+impl NumberFormat {
+    /// A number as text; `quantity` is named if it does not fit.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] for a number beyond the floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::table::NumberFormat;
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(2.into()))?;
+    /// assert_eq!(NumberFormat::Exact.show(&root, "root")?, "sqrt(2)");
+    /// assert_eq!(NumberFormat::F64.show(&root, "root")?, "1.4142135623730951");
+    /// assert_eq!(NumberFormat::F32.show(&root, "root")?, "1.4142135");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn show(self, number: &Surd, quantity: &'static str) -> Result<String, Error> {
+        match self {
+            Self::Exact => Ok(number.to_string()),
+            Self::F64 => shortest::<f64>(number, quantity, "f64"),
+            Self::F32 => shortest::<f32>(number, quantity, "f32"),
+            Self::Interval => {
+                let [lower, upper] = ends(number, quantity)?;
+                Ok(format!("[{lower}, {upper}]"))
+            }
+        }
+    }
+}
+
+/// The `f64` on both sides of a number, or it twice where it is one, as the shortest texts that read back the same.
+fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
+    let overflow = Error::Overflow {
+        quantity,
+        scalar: "f64",
+    };
+    let float = number.nearest::<f64>().ok_or_else(|| overflow.clone())?;
+    let [lower, upper] = match number.partial_cmp(&float) {
+        Some(Ordering::Less) => [float.next_down(), float],
+        Some(Ordering::Greater) => [float, float.next_up()],
+        _ => [float, float],
+    };
+    if lower.is_finite() && upper.is_finite() {
+        Ok([lower, upper].map(|end| format!("{end:?}")))
+    } else {
+        Err(overflow)
+    }
+}
+
+/// The nearest float, as the shortest text that reads back the same: what `Debug` prints.
+fn shortest<F: NearestFloat + core::fmt::Debug>(
+    number: &Surd,
+    quantity: &'static str,
+    scalar: &'static str,
+) -> Result<String, Error> {
+    let float = number.nearest::<F>();
+    float
+        .map(|x| format!("{x:?}"))
+        .ok_or(Error::Overflow { quantity, scalar })
+}
