@@ -1,6 +1,6 @@
 //! `base`: the force of each bottom sphere on the floor.
 
-use cannonpile::table as tables;
+use cannonpile::table;
 use clap::Args;
 
 use super::{Command, Pulls};
@@ -30,7 +30,7 @@ impl Command for Base {
         let progress =
             Progress::of_rows("forces on the floor", pile.base_spheres().try_into().ok());
         let units = self.method.of(self.numbers.units(&scene, &pile)?)?;
-        let table = tables::base(&units, selection).map_err(|error| narrower(error, selection))?;
+        let table = table::base(&units, selection).map_err(|error| narrower(error, selection))?;
         let pulls = Pulls::in_column("normal");
         let table = pulls.watch(table);
         self.output

@@ -3,7 +3,7 @@
 use cannonpile::census::{self, Entry};
 use cannonpile::lattice::Region;
 use cannonpile::scene::parse;
-use cannonpile::table::{self as tables, Table};
+use cannonpile::table::{self, Table};
 use cannonpile::{Culprit, Error};
 use clap::Args;
 
@@ -19,12 +19,7 @@ pub(crate) struct Census {
     layers: i128,
     /// Every stacking of this base, carried as high as it goes: hexagon:P,Q, hexagon:N, triangle:N or
     /// region:x0..x1,y0..y1,s0..s1
-    #[arg(
-        long,
-        value_name = "SHAPE",
-        allow_hyphen_values = true,
-        conflicts_with = "layers"
-    )]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "layers")]
     base: Option<Region>,
     /// Only those that stand
     #[arg(long)]
@@ -44,13 +39,13 @@ impl Census {
                 remedy: Some("--standing").filter(|_| matches!(error, Error::TooManyRows { .. })),
                 ..error.into()
             })?;
-            return Ok(tables::census(entries));
+            return Ok(table::census(entries));
         };
         let entries = census::on_base(base).map_err(|error| Refused::of(Culprit::Base, error))?;
         let wanted = |entry: &Result<Entry, Error>| {
             !self.standing || entry.as_ref().map_or(true, Entry::stands)
         };
-        Ok(tables::census(entries.filter(wanted)))
+        Ok(table::census(entries.filter(wanted)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! `contacts`: the force of each contact between two spheres.
 
 use cannonpile::shape::Selection;
-use cannonpile::table as tables;
+use cannonpile::table;
 use cannonpile::{Culprit, Error};
 use clap::Args;
 
@@ -42,7 +42,7 @@ impl Command for Contacts {
         let progress = Progress::of_rows("contact forces", rows.try_into().ok());
         let units = self.method.of(self.numbers.units(&scene, &pile)?)?;
         let table =
-            tables::contacts(&units, selection).map_err(|error| narrower(error, selection))?;
+            table::contacts(&units, selection).map_err(|error| narrower(error, selection))?;
         let pulls = Pulls::in_column("force");
         let table = pulls.watch(table);
         self.output

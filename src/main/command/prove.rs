@@ -1,6 +1,6 @@
 //! `prove`: what is proved for every pile.
 
-use cannonpile::table::{self as tables, NumberFormat};
+use cannonpile::table::{self, NumberFormat};
 use cannonpile::theorem::{self, Listing};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -28,7 +28,7 @@ impl Command for Prove {
         let proved: Vec<_> = wanted.map(|theorem| (theorem, theorem.prove())).collect();
         let all_hold = proved.iter().all(|(_, proof)| proof.holds());
         if format != Format::Table {
-            let table = tables::theorems(proved.into_iter());
+            let table = table::theorems(proved.into_iter());
             self.output
                 .write_table(table, NumberFormat::Exact, &progress)?;
             return Ok(all_hold);

@@ -1,7 +1,7 @@
 //! `spheres`: the place, size and mass of each sphere.
 
 use cannonpile::shape::Selection;
-use cannonpile::table as tables;
+use cannonpile::table;
 use clap::Args;
 
 use super::{Command, note_if_it_falls};
@@ -28,7 +28,7 @@ impl Command for Spheres {
         self.output.format()?;
         let rows = spheres(&pile, selection)?;
         let progress = Progress::of_rows("places", rows.try_into().ok());
-        let table = tables::spheres(&scene.packing(&pile)?, selection)
+        let table = table::spheres(&scene.packing(&pile)?, selection)
             .map_err(|error| narrower(error, selection))?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;
