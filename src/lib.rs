@@ -19,16 +19,16 @@
 //! let site = Site { i: 1, j: 2, k: 5 };
 //!
 //! // In units of mg/(3 cosθ): two spheres above on the line, and itself.
-//! assert_eq!(pile.statics::<f64>().contact(site, Direction::Alpha)?, 3.0);
-//! assert_eq!(pile.statics::<f32>().contact(site, Direction::Alpha)?, 3.0);
-//! let exact = pile.statics::<BigRational>().contact(site, Direction::Alpha)?;
+//! assert_eq!(pile.forces::<f64>().contact(site, Direction::Alpha)?, 3.0);
+//! assert_eq!(pile.forces::<f32>().contact(site, Direction::Alpha)?, 3.0);
+//! let exact = pile.forces::<BigRational>().contact(site, Direction::Alpha)?;
 //! assert_eq!(exact.to_string(), "3");
-//! let fixed = pile.statics::<FixedRational<i64>>().contact(site, Direction::Alpha)?;
+//! let fixed = pile.forces::<FixedRational<i64>>().contact(site, Direction::Alpha)?;
 //! assert_eq!(fixed.parts(), Some((3, 1)));
 //!
 //! // What the scalar cannot hold is an error, never a wrong number.
 //! let pile = Pile::triangular(10_i128.pow(30))?;
-//! let refused = pile.statics::<FixedRational<i64>>().on_floor(Site { k: pile.layers() - 1, ..site });
+//! let refused = pile.forces::<FixedRational<i64>>().on_floor(Site { k: pile.layers() - 1, ..site });
 //! assert!(matches!(refused, Err(Error::Overflow { .. })));
 //! # Ok::<(), Error>(())
 //! ```
@@ -48,7 +48,7 @@
 //! numbers c·√n ([`scalar::Surd`]), which round to the nearest float.
 //!
 //! # Map
-//! Each room may use those above it, and [`Error`], which has a word for all of them. [`Pile`] names [`Statics`]
+//! Each room may use those above it, and [`Error`], which has a word for all of them. [`Pile`] names [`Forces`]
 //! to hand it out.
 //!
 //! | room | what lives there |
@@ -57,7 +57,7 @@
 //! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
 //! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
 //! | [`formula`] | the paper's equations, each once, under its printed number, and the step across a sign change |
-//! | [`Pile`], [`Statics`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
+//! | [`Pile`], [`Forces`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
 //! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
 //! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
 //! | [`Packing`] | the same in SI, exactly |
@@ -134,6 +134,7 @@ pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
 pub use error::{Culprit, Error};
 pub use forces::{
     Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
+    NumeratorLayer, NumeratorLayers,
 };
 pub use packing::{PackedContact, Packing};
 pub use pile::Pile;

@@ -117,7 +117,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let counters = Counters::default();
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
     /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
-    /// assert_eq!(packing.base(pile.rows(Selection::Base)?).count(), 55);
+    /// assert_eq!(packing.base(Selection::Base)?.count(), 55);
     /// // Of tan²θ and of 4cos²φ.
     /// assert_eq!(counters.roots(), 2);
     /// # Ok::<(), cannonpile::Error>(())

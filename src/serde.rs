@@ -11,7 +11,7 @@
 //! assert_eq!(serde_json::from_str::<Pile>(&text)?, pile);
 //!
 //! let forces: Result<Vec<ContactForce<BigRational>>, _> =
-//!     pile.statics().contacts(pile.rows(Selection::Layer(1))?).collect();
+//!     pile.forces().contacts(Selection::Layer(1))?.collect();
 //! let text = serde_json::to_string(&forces?[0])?;
 //! assert_eq!(text, r#"{"site":{"i":"0","j":"-1","k":"1"},"direction":"alpha","force":"2/3"}"#);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -36,7 +36,7 @@
 //! [`MOST_DIGITS`](crate::scalar::parse::MOST_DIGITS), which a sum of loads or the forces after thousands of changes of sign
 //! can have, and in JSON an `f32` or `f64` that is not finite, for which it has no word. Both are errors when they are read.
 //!
-//! Not data, and not here: what borrows a pile ([`Statics`](crate::Statics), [`Packing`](crate::Packing), sweeps),
+//! Not data, and not here: what borrows a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps),
 //! theorems and their polynomials, errors.
 //!
 //! [`number`] serves fields of your own: `#[serde(with = "cannonpile::serde::number")]`.

@@ -1,6 +1,7 @@
 //! Run time against error, for every method in every scalar.
 //!
-//! `cargo bench --all-features --bench work_precision` computes all contact forces of some piles in every way there is, prints a table, and
+//! `cargo bench --manifest-path benches/Cargo.toml --bench work_precision`
+//! computes all contact forces of some piles in every way there is, prints a table, and
 //! writes it as CSV and as a log–log chart, to `work_precision.csv` and `work_precision.svg` in the directory of targets or to
 //! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes to `smoke.csv` and `smoke.svg` there.
 //!

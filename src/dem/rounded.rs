@@ -110,7 +110,7 @@ pub(super) struct Touch {
 }
 
 /// The contacts of a pile with the numbers of their spheres, in the order of
-/// [`Statics::contacts`](crate::Statics::contacts).
+/// [`Forces::contacts`](crate::Forces::contacts).
 pub(super) struct Touches<'a, 'p> {
     numbering: &'a Numbering<'p>,
     directions: &'static [Direction],

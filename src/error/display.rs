@@ -125,7 +125,7 @@ impl Error {
                 "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
             ),
             Self::NotStraight => f.write_str(
-                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Statics",
+                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Forces",
             ),
             Self::NoSuchMethod { method } => write!(
                 f,

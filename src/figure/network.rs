@@ -87,7 +87,7 @@ impl Network {
     ///
     /// # Errors
     /// [`Error::TooManyMarks`] for a pile of more than 200 000 spheres or a section of more than 20 000;
-    /// [`Error::Overflow`] for forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    /// [`Error::Overflow`] for forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -144,7 +144,7 @@ impl Network {
     ///
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::OnFloor`] for the bottom layer; [`Error::TooManyMarks`] for more than 20 000
-    /// spheres; [`Error::Overflow`] for forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    /// spheres; [`Error::Overflow`] for forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```

@@ -89,7 +89,7 @@ impl Response {
     ///
     /// # Errors
     /// [`Error::LayerOutside`]; [`Error::TooManyMarks`] for a layer of more than 20 000 spheres; [`Error::Overflow`] for
-    /// forces beyond floats; those of [`Statics::contacts`](crate::Statics::contacts).
+    /// forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```

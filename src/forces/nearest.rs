@@ -5,7 +5,7 @@ use core::fmt;
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::layers::{Layer, Layers};
+use super::layers::{Layer, Layers, check_lengths, split_front};
 use crate::Error;
 use crate::engine::{Meter, Table};
 use crate::scalar::{NearestFloat, Surd};
@@ -169,13 +169,13 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         if let Some(table) = &self.table {
             return self.layers.fill_from_table(table, slices);
         }
-        super::layers::check_lengths(self.spheres()?, &slices)?;
+        check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
         while let Some(layer) = self.next_layer()? {
             if layer.is_floor() {
                 break;
             }
-            let front = super::layers::split_front(&mut rest, layer.spheres())?;
+            let front = split_front(&mut rest, layer.spheres())?;
             layer.fill(front)?;
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! The command line as a user meets it: what it prints, what it refuses, how it ends.
 
 mod completions;
+mod console;
 mod explain;
 mod export;
 mod plot;

@@ -69,18 +69,15 @@ fn sin_phi() {
 #[test]
 fn sites_and_layers_outside() {
     let pile = Pile::triangular(10).unwrap();
-    let statics = pile.statics::<BigRational>();
-    let error = statics.from_above(site(3, 4, 6)).unwrap_err();
+    let forces = pile.forces::<BigRational>();
+    let error = forces.from_above(site(3, 4, 6)).unwrap_err();
     assert!(matches!(error, Error::SiteOutside { .. }));
     says(
         &error,
         &["k=6", "i=3", "j=4", "0 <= k <= 9", "0 <= i <= k-j"],
     );
     let discs = Pile::discs(10).unwrap();
-    let error = discs
-        .statics::<f64>()
-        .from_above(site(0, 1, 6))
-        .unwrap_err();
+    let error = discs.forces::<f64>().from_above(site(0, 1, 6)).unwrap_err();
     says(&error, &["j=1", "0 <= i <= k", "j = 0"]);
     let error = pile.rows(Selection::Layer(10)).unwrap_err();
     assert!(matches!(error, Error::LayerOutside { .. }));
@@ -90,22 +87,22 @@ fn sites_and_layers_outside() {
 #[test]
 fn questions_to_the_wrong_sphere() {
     let pile = Pile::triangular(3).unwrap();
-    let statics = pile.statics::<BigRational>();
-    let below = |site| statics.contact(site, Direction::Alpha).unwrap_err();
+    let forces = pile.forces::<BigRational>();
+    let below = |site| forces.contact(site, Direction::Alpha).unwrap_err();
     let site = Site { i: 1, j: 0, k: 2 };
     assert_eq!(below(site), Error::OnFloor { site });
-    assert_eq!(statics.unbalanced(site), Err(Error::OnFloor { site }));
+    assert_eq!(forces.unbalanced(site), Err(Error::OnFloor { site }));
     says(
         &below(site),
         &["(1,0,2)", "floor", "ask for the force on the floor"],
     );
     let (site, floor) = (Site { i: 1, j: 0, k: 1 }, 2);
-    let error = statics.on_floor(site).unwrap_err();
+    let error = forces.on_floor(site).unwrap_err();
     assert_eq!(error, Error::NotOnFloor { site, floor });
     says(&error, &["(1,0,1)", "k = 2"]);
     let discs = Pile::discs(3).unwrap();
-    let (statics, direction) = (discs.statics::<f64>(), Direction::Gamma);
-    let error = statics.contact(Site::APEX, direction).unwrap_err();
+    let (forces, direction) = (discs.forces::<f64>(), Direction::Gamma);
+    let error = forces.contact(Site::APEX, direction).unwrap_err();
     assert_eq!(error, Error::NoSuchDirection { direction });
     says(&error, &["gamma", "alpha and beta"]);
 }
@@ -218,8 +215,8 @@ fn no_spacing() {
 #[test]
 fn overflow() {
     let pile = Pile::triangular(1000).unwrap();
-    let statics = pile.statics::<FixedRational<i8>>();
-    let error = statics
+    let forces = pile.forces::<FixedRational<i8>>();
+    let error = forces
         .contact(site(0, 0, 500), Direction::Alpha)
         .unwrap_err();
     assert!(matches!(error, Error::Overflow { .. }));

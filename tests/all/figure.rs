@@ -148,7 +148,7 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
         let document = Document::parse(&svg).unwrap();
         let cells = of_class(&document, "cell");
         assert_eq!(cells.len().to_string(), pile.base_spheres().to_string());
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let mut colours: Vec<(f64, String)> = Vec::new();
         for (cell, drawn) in map.cells.iter().zip(&cells) {
             assert_eq!(site(drawn), cell.site);
@@ -333,8 +333,9 @@ fn layers_show_every_contact_once() {
             }
             let network = network.unwrap();
             let contacts = pile
-                .statics::<BigRational>()
-                .contacts(pile.rows(Selection::Layer(k)).unwrap());
+                .forces::<BigRational>()
+                .contacts(Selection::Layer(k))
+                .unwrap();
             let exact: Vec<_> = contacts
                 .map(|c| c.map(|c| (c.site, c.direction)).unwrap())
                 .collect();

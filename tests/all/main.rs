@@ -107,3 +107,5 @@ mod figure;
 mod cli;
 
 mod error;
+
+mod house;

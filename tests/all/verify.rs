@@ -28,7 +28,7 @@ fn id(pile: &Pile, site: Site) -> u64 {
 /// What a perfect simulation would measure: each force alone, the nearest float, told of the upper sphere.
 fn perfect(packing: &Packing<'_>) -> Vec<Measured> {
     let pile = packing.pile();
-    let contacts = packing.contacts(pile.rows(Selection::All).unwrap());
+    let contacts = packing.contacts(Selection::All).unwrap();
     let measured = contacts.map(|contact| {
         let contact = contact.unwrap();
         let below = pile.shape().below(contact.site, contact.direction).unwrap();

@@ -176,7 +176,7 @@ impl Answers {
     /// Asks the library for every sphere and every contact.
     pub(crate) fn of(shape: &Shape, layers: i128) -> Self {
         let pile = shape.pile(layers);
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let mut answers = Self::none(shape, layers, statics.increment_sum().unwrap());
         for site in shape.sites(layers) {
             let sphere = Sphere {

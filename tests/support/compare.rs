@@ -1,7 +1,7 @@
 //! Every answer of the library beside that of the oracle. An error says where they part.
 
 use cannonpile::shape::Selection;
-use cannonpile::{ContactForce, FloorForce, Pile, Statics};
+use cannonpile::{ContactForce, FloorForce, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::Case;
@@ -35,7 +35,7 @@ fn text(error: &cannonpile::Error) -> String {
 
 /// Sphere by sphere, contact by contact: by lines.
 pub(crate) fn one_by_one(pile: &Pile, forces: &Forces) -> Outcome {
-    let statics: Statics<BigRational> = pile.statics();
+    let statics: cannonpile::Forces<BigRational> = pile.forces();
     for (at, expected) in &forces.above {
         let above = statics.from_above(site(*at)).map_err(|e| text(&e))?;
         same(&format!("above {at:?}"), &above, expected)?;
@@ -62,13 +62,12 @@ pub(crate) fn in_rows(pile: &Pile, forces: &Forces) -> Outcome {
 
 /// The contacts of a part of the pile.
 pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Forces) -> Outcome {
-    let rows = pile.rows(selection).map_err(|e| text(&e))?;
     let layers = match selection {
         Selection::Layer(k) => k..k + 1,
         _ => 0..pile.layers(),
     };
-    let statics: Statics<BigRational> = pile.statics();
-    let mut contacts = statics.contacts(rows);
+    let statics: cannonpile::Forces<BigRational> = pile.forces();
+    let mut contacts = statics.contacts(selection).map_err(|e| text(&e))?;
     let expected = forces.below.iter();
     for (at, expected) in expected.filter(|(at, _)| layers.contains(&at.0)) {
         for (m, expected) in expected.iter().enumerate() {
@@ -86,9 +85,8 @@ pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Force
 }
 
 fn base_in_rows(pile: &Pile, forces: &Forces) -> Outcome {
-    let statics: Statics<BigRational> = pile.statics();
-    let rows = pile.rows(Selection::Base).map_err(|e| text(&e))?;
-    let mut base = statics.base(rows);
+    let statics: cannonpile::Forces<BigRational> = pile.forces();
+    let mut base = statics.base(Selection::Base).map_err(|e| text(&e))?;
     for (at, expected) in &forces.floor {
         let force = base.next().ok_or("too few bottom spheres")?;
         let force = force.map_err(|e| text(&e))?;

@@ -12,11 +12,11 @@ use crate::scalar::Ring;
 /// (k, j) of the row of each layer that is nearest to the plane of the section, where one is at most half a row away.
 pub(super) fn rows(subject: &Subject<'_>) -> Result<Vec<(i128, i128)>, Error> {
     let pile = subject.pile();
-    let statics = subject.packing().forces();
+    let forces = subject.packing().forces();
     if pile.dimension() == Dimension::Two {
         return Ok((0..pile.layers()).map(|k| (k, 0)).collect());
     }
-    let plane = statics.position(middle(pile, 0)?)?.x;
+    let plane = forces.position(middle(pile, 0)?)?.x;
     let [a, _, c] = pile.directions::<BigRational>();
     let step = a.x - &c.x;
     let half = BigRational::new(1.into(), 2.into());
@@ -29,7 +29,7 @@ pub(super) fn rows(subject: &Subject<'_>) -> Result<Vec<(i128, i128)>, Error> {
             j: first,
             k,
         };
-        let apart = (&plane - statics.position(site)?.x) / &step;
+        let apart = (&plane - forces.position(site)?.x) / &step;
         let nearest = apart.round().to_integer().to_i128();
         let Some(j) = nearest.and_then(|steps| first.checked_add(steps)) else {
             continue;

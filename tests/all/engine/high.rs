@@ -91,7 +91,7 @@ fn grows_evenly(high: &High, small: &BTreeMap<i128, Forces>, way: Way) -> bool {
     assert_eq!(foretold(SMALL[2]), third, "{} {:?}", high.head, way.start);
     for t in [40, HIGH] {
         let (pile, at) = (high.pile(way.steps * t), site(way.at(high, t)));
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let floor = statics.on_floor(at).unwrap();
         let floor = [floor.normal, floor.shear_x, floor.shear_y];
         let answers = [statics.from_above(at).unwrap(), floor].concat();
@@ -168,7 +168,7 @@ fn a_straight_pile_of_a_nonillion_layers_upon_one_as_high() {
     let (upper, lower) = (HIGH, HIGH / 10);
     let pile = Pile::under(Region::SITE, format!("({upper},{lower})").parse().unwrap()).unwrap();
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     let big = |n: i128| BigRational::from_integer(n.into());
     let passed_on = |i: i128, j: i128, m: usize| {
         let g = [upper - i - j, i, j];
@@ -194,14 +194,14 @@ fn a_straight_pile_of_a_nonillion_layers_upon_one_as_high() {
 #[test]
 fn rows_longer_than_one_tree_are_those_of_single_spheres() {
     let pile = Pile::under(Region::SITE, format!("(2,1,{HIGH})").parse().unwrap()).unwrap();
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);
-    for force in statics.base(pile.rows(Selection::Base).unwrap()).take(2500) {
+    for force in statics.base(Selection::Base).unwrap().take(2500) {
         let force = force.unwrap();
         assert_eq!(statics.on_floor(force.site), Ok(force));
     }
-    let rows = pile.rows(Selection::Layer(HIGH / 2)).unwrap();
-    for contact in statics.contacts(rows).take(3 * 2500) {
+    let contacts = statics.contacts(Selection::Layer(HIGH / 2)).unwrap();
+    for contact in contacts.take(3 * 2500) {
         let contact = contact.unwrap();
         assert_eq!(
             statics.contact(contact.site, contact.direction),

@@ -89,20 +89,20 @@ fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
     let counters = Counters::default();
     // Wide enough for the isosceles one, narrow enough for changes of sign.
     let spacing = Spacing::new(ratio(3, 2)).unwrap();
-    let (mut statics, packing) = (pile.statics::<BigRational>(), Packing::new(pile, &spacing));
+    let (mut statics, packing) = (pile.forces::<BigRational>(), Packing::new(pile, &spacing));
     let mut packing = packing.unwrap();
     if let Some(method) = question.method {
         (statics, packing) = (statics.by(method)?, packing.by(method)?);
     }
     let (statics, packing) = (statics.metered(&counters), packing.metered(&counters));
-    let rows = pile.rows(question.part)?;
+    let part = question.part;
     match question.quantity {
-        Quantity::ContactMultiples => drop(all(statics.contacts(rows))?),
-        Quantity::ContactMagnitudes => drop(all(packing.magnitudes(rows))?),
-        Quantity::ContactVectors => drop(all(packing.contacts(rows))?),
-        Quantity::FloorMultiples => drop(all(statics.base(rows))?),
-        Quantity::FloorForces => drop(all(packing.base(rows))?),
-        Quantity::Positions => drop(all(rows.flatten().map(|site| packing.position(site)))?),
+        Quantity::ContactMultiples => drop(all(statics.contacts(part)?)?),
+        Quantity::ContactMagnitudes => drop(all(packing.magnitudes(part)?)?),
+        Quantity::ContactVectors => drop(all(packing.contacts(part)?)?),
+        Quantity::FloorMultiples => drop(all(statics.base(part)?)?),
+        Quantity::FloorForces => drop(all(packing.base(part)?)?),
+        Quantity::Positions => drop(all(packing.positions(part)?)?),
         other => panic!("{other} is not asked here"),
     }
     Ok(counters)
@@ -113,12 +113,11 @@ fn all<A>(answers: impl Iterator<Item = Result<A, Error>>) -> Result<Vec<A>, Err
 }
 
 /// What a plan promises, and what is counted.
-fn promises(plan: &Plan, counters: &Counters) -> [(&'static str, BigUint, u64); 4] {
+fn promises(plan: &Plan, counters: &Counters) -> [(&'static str, BigUint, u64); 3] {
     [
         ("visited", plan.visited.clone(), counters.visited()),
         ("turned", plan.turned.clone(), counters.turned()),
         ("passes", plan.passes.clone(), counters.passes()),
-        ("roots", plan.roots.into(), counters.roots()),
     ]
 }
 
@@ -159,12 +158,12 @@ fn nothing_takes_more_than_planned() {
 #[test]
 fn all_methods_agree() {
     for pile in piles() {
-        let exact = pile.statics::<BigRational>();
+        let exact = pile.forces::<BigRational>();
         for part in parts(&pile) {
             let contacts = |method: Option<Method>| -> Option<Vec<_>> {
                 let statics = exact.clone();
                 let statics = method.map_or(Ok(statics.clone()), |m| statics.by(m)).ok()?;
-                Some(all(statics.contacts(pile.rows(part).unwrap())).unwrap())
+                Some(all(statics.contacts(part).unwrap()).unwrap())
             };
             let cheapest = contacts(None).unwrap();
             let unfit = unfit(&pile);
@@ -183,48 +182,49 @@ fn all_methods_agree() {
             }
         }
         for method in METHODS.into_iter().filter(|m| Some(*m) != unfit(&pile)) {
-            let base = |statics: cannonpile::Statics<'_, BigRational>| {
-                all(statics.base(pile.rows(Selection::Base).unwrap())).unwrap()
+            let base = |statics: cannonpile::Forces<'_, BigRational>| {
+                all(statics.base(Selection::Base).unwrap()).unwrap()
             };
             assert_eq!(base(exact.clone().by(method).unwrap()), base(exact.clone()));
         }
     }
 }
 
-/// All that a sweep writes, layer after layer.
-fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
-    let mut sweep = pile.sweep::<T>().unwrap();
-    let mut forces = Vec::new();
-    for k in 0..pile.layers() - 1 {
-        sweep.advance(k).unwrap();
-        assert_eq!(sweep.layer(), k);
-        let n = sweep.spheres().unwrap();
+/// All that is filled, layer after layer, and the bound on the errors of the last.
+fn filled<T: Algebra>(pile: &Pile) -> (Vec<[T; 3]>, Option<BigRational>) {
+    let mut layers = pile.forces::<T>().layers(Selection::All).unwrap();
+    let (mut forces, mut bound) = (Vec::new(), None);
+    while let Some(layer) = layers.next_layer().unwrap() {
+        if layer.is_floor() {
+            break;
+        }
+        let n = layer.spheres();
         let [mut a, mut b, mut c] = [(); 3].map(|()| vec![T::from_rational(&ratio(77, 1)); n]);
-        sweep.fill([&mut a, &mut b, &mut c]).unwrap();
-        let layer = a.into_iter().zip(b).zip(c);
-        forces.extend(layer.map(|((a, b), c)| [a, b, c]));
+        layer.fill([&mut a, &mut b, &mut c]).unwrap();
+        bound = layer.error_bound();
+        forces.extend(a.into_iter().zip(b).zip(c).map(|((a, b), c)| [a, b, c]));
     }
-    forces
+    (forces, bound)
 }
 
 #[test]
-fn a_sweep_writes_the_forces() {
+fn layers_are_filled_with_the_forces() {
     for pile in spheres() {
-        let statics = pile.statics::<BigRational>();
-        let rows = pile.rows(Selection::All).unwrap().off_the_floor();
-        let per_sphere = pile.dimension().directions().len();
-        let contacts = all(statics.contacts(rows.clone())).unwrap();
-        let exact: Vec<&[_]> = contacts.chunks(per_sphere).collect();
-
-        let swept_exactly = swept::<BigRational>(&pile);
-        let bounds = swept::<Interval>(&pile);
-        assert_eq!(swept_exactly.len(), exact.len());
-        let mut engine = pile.exact_sweep().unwrap();
-        for ((contacts, swept), bounds) in exact.iter().zip(&swept_exactly).zip(&bounds) {
+        let forces = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+        let contacts = all(forces.contacts(Selection::All).unwrap()).unwrap();
+        let exact: Vec<&[_]> = contacts.chunks(3).collect();
+        let (filled_exactly, _) = filled::<BigRational>(&pile);
+        let (bounds, _) = filled::<Interval>(&pile);
+        assert_eq!(filled_exactly.len(), exact.len());
+        let mut layers = pile.forces::<BigRational>().layers(Selection::All).unwrap();
+        let mut layer = layers.next_layer().unwrap().unwrap();
+        for ((contacts, filled), bounds) in exact.iter().zip(&filled_exactly).zip(&bounds) {
             let site = contacts[0].site;
-            engine.advance(site.k).unwrap();
-            assert_eq!(engine.passed_on(site).unwrap(), *swept);
-            for ((contact, force), bound) in contacts.iter().zip(swept).zip(bounds) {
+            while layer.k() < site.k {
+                layer = layers.next_layer().unwrap().unwrap();
+            }
+            assert_eq!(layer.to_below(site).unwrap(), *filled);
+            for ((contact, force), bound) in contacts.iter().zip(filled).zip(bounds) {
                 assert_eq!(contact.force, *force, "{site:?}");
                 let enclosure = bound.enclosure().unwrap();
                 assert!(enclosure.contains(force), "{site:?}");
@@ -233,22 +233,19 @@ fn a_sweep_writes_the_forces() {
     }
 }
 
-/// The worst error of a sweep that stops at each layer, and the bound on it.
+/// The worst error of layers that are all stopped at, and the bound on it.
 fn error_and_bound<F: Algebra>(
     pile: &Pile,
     exact: &[[BigRational; 3]],
     value: fn(F) -> Option<BigRational>,
 ) -> [BigRational; 2] {
-    let forces = swept::<F>(pile).into_iter().flatten();
+    let (forces, bound) = filled::<F>(pile);
+    let forces = forces.into_iter().flatten();
     let errors = forces.zip(exact.iter().flatten()).map(|(force, exact)| {
         let error = value(force).unwrap() - exact;
         error.abs()
     });
-    let mut sweep = pile.sweep::<F>().unwrap();
-    for k in 0..pile.layers() - 1 {
-        sweep.advance(k).unwrap();
-    }
-    [errors.max().unwrap(), sweep.error_bound().unwrap()]
+    [errors.max().unwrap(), bound.unwrap()]
 }
 
 #[test]
@@ -260,7 +257,7 @@ fn floats_stay_within_their_bound() {
         .with_load(Site { i: 1, j: 1, k: 3 }, ratio(1_000_001, 3))
         .unwrap();
     for pile in spheres().skip(1).chain([hcp, uneven]) {
-        let exact = swept::<BigRational>(&pile);
+        let (exact, _) = filled::<BigRational>(&pile);
         let greatest = exact.iter().flatten().max().unwrap();
         let [single, bound] = error_and_bound::<f32>(&pile, &exact, BigRational::from_float);
         assert!(single <= bound, "{single} > {bound}");
@@ -273,36 +270,56 @@ fn floats_stay_within_their_bound() {
 }
 
 #[test]
-fn a_sweep_says_what_it_does_not_do() {
+fn layers_say_what_they_do_not_do() {
     let pile = under(Region::SITE, "+-+");
-    let mut sweep = pile.sweep::<f64>().unwrap();
-    assert!(matches!(sweep.advance(4), Err(Error::LayerOutside { .. })));
-    let elsewhere = |layer, at| Err(Error::SweepElsewhere { layer, at, last: 2 });
-    assert_eq!(sweep.advance(3), elsewhere(3, 0));
-    sweep.advance(2).unwrap();
-    assert_eq!(sweep.advance(1), elsewhere(1, 2));
-    let refused = sweep.fill([&mut [], &mut [], &mut []]);
-    let needed = sweep.spheres().unwrap();
+    let forces = pile.forces::<f64>();
+    let refused = forces.layers(Selection::Layer(4)).err();
+    assert!(matches!(refused, Some(Error::LayerOutside { .. })));
+    let mut layers = forces.layers(Selection::Layer(2)).unwrap();
+    let layer = layers.next_layer().unwrap().unwrap();
+    let refused = layer.fill([&mut [], &mut [], &mut []]);
+    let needed = layer.spheres();
     assert_eq!(refused, Err(Error::Length { needed, given: 0 }));
+    let elsewhere = layer.to_below(Site::APEX);
+    assert!(matches!(
+        elsewhere,
+        Err(Error::SweepElsewhere {
+            layer: 0,
+            at: 2,
+            ..
+        })
+    ));
+    assert!(matches!(
+        layer.on_floor(Site { i: 0, j: 0, k: 2 }),
+        Err(Error::NotOnFloor { .. })
+    ));
+    assert!(layers.next_layer().unwrap().is_none());
+
     let discs = Pile::discs(4).unwrap();
     let method = Method::Sweep;
+    let by_sweep = discs.forces::<f64>().by(method);
+    assert_eq!(by_sweep.err(), Some(Error::NoSuchMethod { method }));
+    // Discs have two contacts below each.
+    let (forces, _) = filled::<f64>(&discs);
     assert_eq!(
-        discs.sweep::<f64>().err(),
-        Some(Error::NoSuchMethod { method })
+        forces[..3],
+        [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 0.0]]
     );
+
     let one = Pile::triangular(1).unwrap();
-    let alone = one.sweep::<f64>().unwrap();
-    let refused = alone.fill([&mut [0.0], &mut [0.0], &mut [0.0]]);
-    assert_eq!(refused, Err(Error::OnFloor { site: Site::APEX }));
-    let below = one.exact_sweep().unwrap().passed_on(Site::APEX);
-    assert_eq!(below, Err(Error::OnFloor { site: Site::APEX }));
+    let mut alone = one.forces::<f64>().layers(Selection::All).unwrap();
+    let floor = alone.next_layer().unwrap().unwrap();
+    let on_floor = Err(Error::OnFloor { site: Site::APEX });
+    assert_eq!(floor.fill([&mut [0.0], &mut [0.0], &mut [0.0]]), on_floor);
+    assert_eq!(floor.to_below(Site::APEX).map(|_| ()), on_floor);
+    assert_eq!(floor.on_floor(Site::APEX).unwrap().normal, 1.0);
 }
 
 #[test]
 fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     let pile = Pile::triangular(1_000_000).unwrap();
     let counters = Counters::default();
-    let statics = pile.statics::<f64>().metered(&counters);
+    let statics = pile.forces::<f64>().metered(&counters);
     let site = Site {
         i: 123_456,
         j: 7,
@@ -314,53 +331,30 @@ fn one_contact_of_a_million_layers_visits_no_other_sphere() {
 }
 
 #[test]
-fn roots_are_taken_once_and_only_where_needed() {
-    let pile = Pile::triangular(12).unwrap();
-    let counters = Counters::default();
-    let spacing = Spacing::new(ratio(6, 5)).unwrap();
-    let packing = Packing::new(&pile, &spacing).unwrap().metered(&counters);
-    assert_eq!(counters.roots(), 0);
-    let base = || all(packing.base(pile.rows(Selection::Base).unwrap())).unwrap();
-    base();
-    assert_eq!(counters.roots(), 2);
-    base();
-    packing.on_floor(Site { i: 1, j: 1, k: 11 }).unwrap();
-    assert_eq!(counters.roots(), 2);
-    all(packing.contacts(pile.rows(Selection::All).unwrap())).unwrap();
-    assert_eq!(counters.roots(), 5);
-    // Multiples need none, and a straight stacking no transfer.
-    let counters = Counters::default();
-    let statics = pile.statics::<BigRational>().metered(&counters);
-    all(statics.contacts(pile.rows(Selection::All).unwrap())).unwrap();
-    assert_eq!(
-        (counters.roots(), counters.turned(), counters.passes()),
-        (0, 0, 0)
-    );
-}
-
-/// Layers wide enough to be swept in several bands, each on a thread of its own where there are threads.
-#[test]
 fn wide_layers_are_swept_in_bands() {
     let top = Region::hexagon(70, 60).unwrap();
     let pile = under(top, "+-++-")
         .with_load(Site { i: 3, j: -5, k: 1 }, ratio(22, 7))
         .unwrap();
-    let lines = pile.statics::<BigRational>().by(Method::Tree).unwrap();
-    let mut floats = pile.sweep::<f64>().unwrap();
-    let mut exact = pile.exact_sweep().unwrap();
-    floats.advance(1).unwrap();
-    for k in [2, 4] {
-        floats.advance(k).unwrap();
-        exact.advance(k).unwrap();
-        let n = floats.spheres().unwrap();
+    let lines = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+    for k in [1, 2, 4] {
+        let mut floats = pile.forces::<f64>().layers(Selection::Layer(k)).unwrap();
+        let floats = floats.next_layer().unwrap().unwrap();
+        let mut exact = pile
+            .forces::<BigRational>()
+            .layers(Selection::Layer(k))
+            .unwrap();
+        let exact = exact.next_layer().unwrap().unwrap();
+        let n = floats.spheres();
         assert!(n > 10_000);
         let mut forces = [(); 3].map(|()| vec![0.0; n]);
-        let [a, b, c] = forces.each_mut().map(Vec::as_mut_slice);
-        floats.fill([a, b, c]).unwrap();
+        floats
+            .fill(forces.each_mut().map(Vec::as_mut_slice))
+            .unwrap();
         let bound = floats.error_bound().unwrap();
         let sites = pile.rows(Selection::Layer(k)).unwrap().flatten();
         for (place, site) in sites.enumerate().step_by(101) {
-            let passed_on = exact.passed_on(site).unwrap();
+            let passed_on = exact.to_below(site).unwrap();
             for (direction, force) in Direction::ALL.into_iter().zip(passed_on) {
                 assert_eq!(lines.contact(site, direction).unwrap(), force, "{site}");
                 let float = forces[direction.index()][place];
@@ -376,19 +370,17 @@ fn wide_layers_are_swept_in_bands() {
 fn large_piles_are_filled_in_parts() {
     let layers = 90;
     let pile = Pile::triangular(layers).unwrap();
-    let strengths = cannonpile::Strengths::<i32>::multiples(&pile).unwrap();
-    let n = strengths.spheres().unwrap();
+    let layers = || pile.forces::<BigRational>().layers(Selection::All).unwrap();
+    let numerators = layers().numerators::<i32>().unwrap();
+    let n = numerators.spheres().unwrap();
     assert!(n > 1 << 16);
     let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0; n]);
-    strengths.fill([&mut a, &mut b, &mut c]).unwrap();
-    let mut interleaved = vec![[0; 3]; n];
-    strengths.fill_interleaved(&mut interleaved).unwrap();
+    assert_eq!(numerators.fill([&mut a, &mut b, &mut c]), Ok(1.into()));
     let sites = pile.rows(Selection::All).unwrap().off_the_floor().flatten();
     for (place, Site { i, j, k }) in sites.enumerate() {
         // The paper's counts, and the sphere itself.
         let counts = [k - i - j + 1, i + 1, j + 1];
         assert_eq!([a[place], b[place], c[place]].map(i128::from), counts);
-        assert_eq!(interleaved[place].map(i128::from), counts);
     }
 }
 
@@ -396,12 +388,12 @@ fn large_piles_are_filled_in_parts() {
 #[test]
 fn what_overflows_in_a_sweep_is_an_error() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(50).unwrap()).unwrap();
-    let mut sweep = pile.sweep::<Pair<f64, FixedRational<i64>>>().unwrap();
-    sweep.advance(48).unwrap();
-    let n = sweep.spheres().unwrap();
+    let forces = pile.forces::<Pair<f64, FixedRational<i64>>>();
+    let layers = forces.layers(Selection::Layer(48)).unwrap();
+    let n = layers.spheres().unwrap();
     let mut forces = [(); 3].map(|()| vec![Pair::from_rational(&ratio(0, 1)); n]);
-    let [a, b, c] = forces.each_mut().map(Vec::as_mut_slice);
-    assert!(matches!(sweep.fill([a, b, c]), Err(Error::Overflow { .. })));
+    let filled = layers.fill(forces.each_mut().map(Vec::as_mut_slice));
+    assert!(matches!(filled, Err(Error::Overflow { .. })));
 }
 
 /// One sphere below more changes of sign than a tree may have nodes: the plan says a sweep, and so it is, asked for in
@@ -418,9 +410,8 @@ fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
     let plan = pile.plan(Selection::One(site)).unwrap();
     assert_eq!(plan.method, Method::Sweep);
     let counters = Counters::default();
-    let statics = pile.statics::<f64>().metered(&counters);
-    let rows = pile.rows(Selection::One(site)).unwrap();
-    let forces = all(statics.contacts(rows)).unwrap();
+    let statics = pile.forces::<f64>().metered(&counters);
+    let forces = all(statics.contacts(Selection::One(site)).unwrap()).unwrap();
     assert_eq!(forces.len(), 3);
     for (name, most, counted) in promises(&plan, &counters) {
         assert!(BigUint::from(counted) <= most, "{counted} {name}");
@@ -443,24 +434,20 @@ fn wide_numbers_are_swept_limb_by_limb() {
         ..Selection::All.into()
     };
     assert!(pile.plan(by_sweep).unwrap().planes > 12);
-    let mut plain = pile.sweep::<BigRational>().unwrap();
+    let trees = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+    // One after the other, and each in one go, so that passes wait for each other.
+    let mut in_turn = pile.forces::<BigRational>().layers(Selection::All).unwrap();
     for k in 0..pile.layers() - 1 {
-        plain.advance(k).unwrap();
-        let mut forces = [(); 3].map(|()| vec![BigRational::default(); plain.spheres().unwrap()]);
-        plain
-            .fill(forces.each_mut().map(Vec::as_mut_slice))
+        let next = in_turn.next_layer().unwrap().unwrap();
+        let mut at_once = pile
+            .forces::<BigRational>()
+            .layers(Selection::Layer(k))
             .unwrap();
-        // In one go, so that passes wait for each other.
-        let mut engine = pile.exact_sweep().unwrap();
-        engine.advance(k).unwrap();
-        for (place, site) in pile
-            .rows(Selection::Layer(k))
-            .unwrap()
-            .flatten()
-            .enumerate()
-        {
-            let expected = forces.each_ref().map(|forces| forces[place].clone());
-            assert_eq!(engine.passed_on(site).unwrap(), expected, "{site}");
+        let at_once = at_once.next_layer().unwrap().unwrap();
+        for site in pile.rows(Selection::Layer(k)).unwrap().flatten() {
+            let expected = trees.to_below(site).unwrap();
+            assert_eq!(next.to_below(site).unwrap(), expected, "{site}");
+            assert_eq!(at_once.to_below(site).unwrap(), expected, "{site}");
         }
     }
 }
@@ -470,16 +457,24 @@ fn wide_numbers_are_swept_limb_by_limb() {
 fn numbers_grow_limb_by_limb() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(160).unwrap()).unwrap();
     let last = pile.layers() - 2;
-    let mut straight_down = pile.exact_sweep().unwrap();
-    straight_down.advance(last).unwrap();
-    let mut in_steps = pile.exact_sweep().unwrap();
-    for k in [1, 2, 9, 11, 40, 41, 43, 90, 131, last] {
-        in_steps.advance(k).unwrap();
-    }
+    let forces = pile.forces::<BigRational>();
+    let mut straight_down = forces.layers(Selection::Layer(last)).unwrap();
+    let straight_down = straight_down.next_layer().unwrap().unwrap();
+    let mut in_steps = forces.layers(Selection::All).unwrap();
+    let in_steps = loop {
+        let layer = in_steps.next_layer().unwrap().unwrap();
+        if [1, 2, 9, 11, 40, 41, 43, 90, 131].contains(&layer.k()) {
+            let [[i, j], ..] = pile.shape().layer(layer.k()).unwrap().corners();
+            layer.to_below(Site { i, j, k: layer.k() }).unwrap();
+        }
+        if layer.k() == last {
+            break layer;
+        }
+    };
     let mut sum = BigRational::default();
     for site in pile.rows(Selection::Layer(last)).unwrap().flatten() {
-        let forces = straight_down.passed_on(site).unwrap();
-        assert_eq!(in_steps.passed_on(site).unwrap(), forces, "{site}");
+        let forces = straight_down.to_below(site).unwrap();
+        assert_eq!(in_steps.to_below(site).unwrap(), forces, "{site}");
         sum += forces.into_iter().sum::<BigRational>();
     }
     // f cosθ of each contact together carry all layers above: f is in mg/(3 cosθ).

@@ -110,8 +110,8 @@ fn what_weighs_less_does_not_make_up_for_a_load() {
 /// The sweep of the whole pile beside brute force; the tree for one contact of many.
 fn is_brute_force(case: &Case, selection: Selection) {
     let (passed, d) = (brute::all(&case.naive), brute::denominator(&case.naive));
-    let statics = case.pile.statics::<BigRational>();
-    let contacts = statics.contacts(case.pile.rows(selection).unwrap());
+    let statics = case.pile.forces::<BigRational>();
+    let contacts = statics.contacts(selection).unwrap();
     for (n, contact) in contacts.enumerate() {
         let contact = contact.unwrap();
         let Site { i, j, k } = contact.site;
@@ -127,7 +127,7 @@ fn is_brute_force(case: &Case, selection: Selection) {
     let front = &passed.last().expect("a step").below;
     let weight = brute::numerator(&case.naive, &d);
     let unit = pow(BigInt::from(3), front.changes);
-    let base = statics.base(case.pile.rows(Selection::Base).unwrap());
+    let base = statics.base(Selection::Base).unwrap();
     for force in base {
         let force = force.unwrap();
         let Site { i, j, k } = force.site;
@@ -237,7 +237,7 @@ fn layer_by_layer_from_any_layer_on() {
     let forces = case.naive.forces();
     for (at, forces) in &forces.below {
         for (m, force) in forces.iter().enumerate() {
-            let one = case.pile.statics::<BigRational>();
+            let one = case.pile.forces::<BigRational>();
             let one = one.contact(crate::support::oracles::naive::site(*at), direction(m));
             assert_eq!(one.as_ref(), Ok(force));
         }

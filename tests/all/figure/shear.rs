@@ -79,7 +79,7 @@ fn arrows_of_any_pile_are_the_exact_forces() {
     for pile in piles() {
         let subject = subject(&pile);
         let shear = Shear::new(&subject).unwrap();
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let cos2 = BigRational::from_integer(1.into()) - pile.sin_phi() * pile.sin_phi();
         let across = Surd::sqrt(cos2 * BigRational::from_integer(4.into())).unwrap();
         for arrow in &shear.arrows {

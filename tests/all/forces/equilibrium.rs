@@ -54,10 +54,10 @@ fn the_library_finds_nothing_unbalanced() {
         .chain(Shape::isosceles().map(|shape| (shape, 12)))
     {
         let pile = shape.pile(layers);
-        let statics = pile.statics::<BigRational>();
+        let forces = pile.forces::<BigRational>();
         for site in shape.sites(layers - 1) {
             assert_eq!(
-                statics.unbalanced(site),
+                forces.unbalanced(site),
                 Ok(Vector::zero()),
                 "{shape:?} {site}"
             );

@@ -4,7 +4,7 @@
 //! lattice vectors are √3·2R sinθ long and at 60° to each other, so (p, q) is √((p² + pq + q²)/3)·2R sinθ from the axis.
 //! Heights are n·2R cosθ over the base, and (n·2R cosθ)² tan²θ = n² in the unit (2R sinθ)².
 
-use cannonpile::Statics;
+use cannonpile::Forces;
 use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -17,9 +17,8 @@ use crate::support::oracles::naive::{Naive, Place, ratio};
 pub(crate) type Base = Vec<(Place, [BigRational; 3])>;
 
 pub(crate) fn base(case: &Case) -> Base {
-    let rows = case.pile.rows(Selection::Base).unwrap();
-    let statics: Statics<BigRational> = case.pile.statics();
-    let forces = statics.base(rows).map(|force| {
+    let statics: Forces<BigRational> = case.pile.forces();
+    let forces = statics.base(Selection::Base).unwrap().map(|force| {
         let force = force.unwrap();
         let place = (force.site.k, force.site.j, force.site.i);
         (place, [force.normal, force.shear_x, force.shear_y])

@@ -3,7 +3,7 @@
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{ContactForce, FloorForce, Pile, Statics};
+use cannonpile::{ContactForce, FloorForce, Forces, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::{Bounds, Random, all_signs, repeated, stacking};
@@ -18,12 +18,18 @@ struct Answers {
 
 impl Answers {
     fn of(pile: &Pile) -> Self {
-        let statics: Statics<BigRational> = pile.statics();
-        let all = pile.rows(Selection::All).unwrap();
-        let base = pile.rows(Selection::Base).unwrap();
+        let statics: Forces<BigRational> = pile.forces();
         Self {
-            contacts: statics.contacts(all).map(Result::unwrap).collect(),
-            floor: statics.base(base).map(Result::unwrap).collect(),
+            contacts: statics
+                .contacts(Selection::All)
+                .unwrap()
+                .map(Result::unwrap)
+                .collect(),
+            floor: statics
+                .base(Selection::Base)
+                .unwrap()
+                .map(Result::unwrap)
+                .collect(),
         }
     }
 

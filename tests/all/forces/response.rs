@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use cannonpile::Statics;
+use cannonpile::Forces;
 use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -23,8 +23,8 @@ fn loaded(signs: &str) -> Case {
 }
 
 fn response(case: &Case) -> Response {
-    let statics: Statics<BigRational> = case.pile.statics();
-    let contacts = statics.contacts(case.pile.rows(Selection::All).unwrap());
+    let statics: Forces<BigRational> = case.pile.forces();
+    let contacts = statics.contacts(Selection::All).unwrap();
     let mut response = vec![Vec::new(); case.naive.signs.len()];
     for contact in contacts {
         let contact = contact.unwrap();

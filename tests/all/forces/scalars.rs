@@ -1,9 +1,9 @@
 //! Other scalars than `BigRational`, against the oracle: rounded ones within a bound that follows from their
 //! precision, enclosing ones around it, bounded ones equal to it or refused.
 
+use cannonpile::Error;
 use cannonpile::scalar::{Algebra, DoubleDouble, FixedRational, Interval, Polynomial};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, Statics};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -13,10 +13,9 @@ use crate::support::oracles::naive::{Forces, direction, ratio, site};
 
 /// Every answer of a pile in one scalar with the true value, one by one and in rows.
 fn answers<T: Algebra>(case: &Case, forces: &Forces) -> Vec<(Result<T, Error>, BigRational)> {
-    let (pile, statics) = (&case.pile, case.pile.statics::<T>());
+    let statics = case.pile.forces::<T>();
     let mut answers = Vec::new();
-    let rows = pile.rows(Selection::All).unwrap();
-    let mut contacts = statics.contacts(rows);
+    let mut contacts = statics.contacts(Selection::All).unwrap();
     for (at, expected) in &forces.below {
         for (m, expected) in expected.iter().enumerate() {
             let one = statics.contact(site(*at), direction(m));
@@ -25,7 +24,7 @@ fn answers<T: Algebra>(case: &Case, forces: &Forces) -> Vec<(Result<T, Error>, B
             answers.push((in_rows.map(|contact| contact.force), expected.clone()));
         }
     }
-    let mut base = statics.base(pile.rows(Selection::Base).unwrap());
+    let mut base = statics.base(Selection::Base).unwrap();
     for (at, expected) in &forces.floor {
         let one = statics.on_floor(site(*at));
         for force in [one, base.next().expect("a bottom sphere")] {
@@ -161,6 +160,6 @@ fn fixed_rationals_are_equal_or_refused() {
 #[test]
 fn the_statics_are_of_the_pile_that_was_asked() {
     let case = Case::under(&Bounds::triangle(2), "+-");
-    let statics: Statics<f64> = case.pile.statics();
+    let statics: cannonpile::Forces<f64> = case.pile.forces();
     assert_eq!(statics.pile(), &case.pile);
 }

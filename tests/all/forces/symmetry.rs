@@ -40,7 +40,7 @@ fn isosceles_piles_have_the_mirror_and_no_other() {
 fn an_isosceles_base_is_felt_in_the_magnitudes() {
     let statics = |shape: &Shape| {
         let pile = shape.pile(2);
-        Direction::ALL.map(|direction| pile.statics().contact(Site::APEX, direction))
+        Direction::ALL.map(|direction| pile.forces().contact(Site::APEX, direction))
     };
     let [alpha, beta, gamma] = statics(&Shape::Spheres(ratio(2, 5)));
     assert_eq!(alpha, beta);

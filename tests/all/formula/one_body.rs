@@ -227,7 +227,7 @@ fn polynomials_take_the_exact_value() {
 
 /// All that can be asked of a pile.
 fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
-    let statics = pile.statics::<T>();
+    let statics = pile.forces::<T>();
     let mut all = vec![statics.increment_sum()?];
     for direction in Direction::ALL {
         all.extend(statics.direction(direction)?.into_array());
@@ -244,7 +244,7 @@ fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
             }
         }
     }
-    for force in statics.base(pile.rows(Selection::Base)?) {
+    for force in statics.base(Selection::Base)? {
         let force = force?;
         all.extend([force.normal, force.shear_x, force.shear_y]);
     }

@@ -148,7 +148,7 @@ fn forces_point_from_centre_to_centre() {
             for direction in shape.directions() {
                 let force = packing.contact(site, *direction).unwrap();
                 let multiple = pile
-                    .statics::<BigRational>()
+                    .forces::<BigRational>()
                     .contact(site, *direction)
                     .unwrap();
                 assert_eq!(force, packing.unit_force().scaled(&multiple));
@@ -183,7 +183,7 @@ fn forces_on_the_floor_in_newtons() {
             .into_iter()
             .filter(|site| site.k == LAYERS - 1)
         {
-            let multiple = pile.statics::<BigRational>().on_floor(site).unwrap();
+            let multiple = pile.forces::<BigRational>().on_floor(site).unwrap();
             let force = packing.on_floor(site).unwrap();
             assert_eq!(force.normal, Surd::from(&multiple.normal * &weight));
             assert_eq!(force.shear_x, tan.scaled(&(&multiple.shear_x * &weight)));

@@ -1,6 +1,6 @@
 //! Forces as vectors and positions: of any stacking, from where the oracle has the spheres.
 
-use cannonpile::Statics;
+use cannonpile::Forces;
 use cannonpile::geometry::Vector;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -28,7 +28,7 @@ fn way(naive: &Naive, from: Place, to: Place) -> Vector<BigRational> {
 
 fn agrees(case: &Case) {
     let (naive, forces) = (&case.naive, case.naive.forces());
-    let statics: Statics<BigRational> = case.pile.statics();
+    let statics: Forces<BigRational> = case.pile.forces();
     let first = naive.places().next().expect("a sphere");
     let origin = statics.position(site(first)).unwrap();
     for at in naive.places() {
@@ -78,7 +78,7 @@ fn of_random_piles_with_loads() {
 #[test]
 fn under_one_sphere_positions_are_from_it() {
     let case = Case::under(&Bounds::SITE, "+-++-");
-    let apex = case.pile.statics::<BigRational>().position(site((0, 0, 0)));
+    let apex = case.pile.forces::<BigRational>().position(site((0, 0, 0)));
     assert_eq!(apex, Ok(Vector::zero()));
 }
 

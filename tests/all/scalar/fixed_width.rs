@@ -5,7 +5,7 @@ use core::num::NonZeroI64;
 use crate::support::answers::{Shape, ratio};
 use cannonpile::lattice::{Direction, MAX_LAYERS, Site};
 use cannonpile::scalar::{Algebra, FixedInteger, FixedRational, RealEmbeddable, RealSign, Ring};
-use cannonpile::{Error, Pile, Statics};
+use cannonpile::{Error, Forces, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
@@ -13,21 +13,21 @@ use num_rational::BigRational;
 type Answer<T> = Result<Vec<T>, Error>;
 
 /// All that can be asked about a sphere.
-fn answers<T: Algebra>(statics: &Statics<T>, site: Site) -> Vec<Answer<T>> {
+fn answers<T: Algebra>(forces: &Forces<T>, site: Site) -> Vec<Answer<T>> {
     let mut answers = vec![
-        statics.increment_sum().map(|w| vec![w]),
-        statics.from_above(site).map(Vec::from),
-        statics.resultant_above(site).map(|v| v.into_array().into()),
-        statics.position(site).map(|v| v.into_array().into()),
-        statics.unbalanced(site).map(|v| v.into_array().into()),
-        statics
+        forces.increment_sum().map(|w| vec![w]),
+        forces.from_above(site).map(Vec::from),
+        forces.resultant_above(site).map(|v| v.into_array().into()),
+        forces.position(site).map(|v| v.into_array().into()),
+        forces.unbalanced(site).map(|v| v.into_array().into()),
+        forces
             .on_floor(site)
             .map(|f| vec![f.normal, f.shear_x, f.shear_y]),
     ];
     for direction in Direction::ALL {
-        answers.push(statics.direction(direction).map(|v| v.into_array().into()));
-        answers.push(statics.contact(site, direction).map(|f| vec![f]));
-        let vector = statics.contact_vector(site, direction);
+        answers.push(forces.direction(direction).map(|v| v.into_array().into()));
+        answers.push(forces.contact(site, direction).map(|f| vec![f]));
+        let vector = forces.contact_vector(site, direction);
         answers.push(vector.map(|v| v.into_array().into()));
     }
     answers
@@ -43,7 +43,7 @@ struct Tally {
 impl Tally {
     /// Compares the answers of one width with the exact ones.
     fn count<I: FixedInteger>(&mut self, pile: &Pile, site: Site, exact: &[Answer<BigRational>]) {
-        let fixed = answers::<FixedRational<I>>(&pile.statics(), site);
+        let fixed = answers::<FixedRational<I>>(&pile.forces(), site);
         assert_eq!(fixed.len(), exact.len());
         for (fixed, exact) in fixed.into_iter().zip(exact) {
             let fixed = fixed.map(|numbers| numbers.iter().map(big).collect());
@@ -66,7 +66,7 @@ fn big<I: FixedInteger>(fixed: &FixedRational<I>) -> BigRational {
 
 /// Compares all widths, from 8 to 128 bits, at one sphere.
 fn compare(pile: &Pile, site: Site, tallies: &mut [Tally; 5]) {
-    let exact = answers(&pile.statics(), site);
+    let exact = answers(&pile.forces(), site);
     let [bits8, bits16, bits32, bits64, bits128] = tallies;
     bits8.count::<i8>(pile, site, &exact);
     bits16.count::<i16>(pile, site, &exact);
@@ -143,7 +143,7 @@ fn eight_bits_up_to_their_limit() {
                 j: 0,
                 k: layers - 1,
             };
-            tally.count::<i8>(&pile, site, &answers(&pile.statics(), site));
+            tally.count::<i8>(&pile, site, &answers(&pile.forces(), site));
         }
     }
     assert!(tally.held > 0 && tally.overflowed > 0, "{tally:?}");

@@ -289,7 +289,7 @@ fn an_overflow_is_a_parting() {
 
 /// Asks everything of a pile in a pair of scalars, and gives each answer with its exact one.
 fn answers<B: Field + RealEmbeddable>(pile: &Pile) -> Vec<(Pair<Q, B>, Q)> {
-    let (pairs, exact) = (pile.statics::<Pair<Q, B>>(), pile.statics::<Q>());
+    let (pairs, exact) = (pile.forces::<Pair<Q, B>>(), pile.forces::<Q>());
     let mut all = vec![(
         pairs.increment_sum().expect("W"),
         exact.increment_sum().expect("W"),
@@ -315,12 +315,14 @@ fn answers<B: Field + RealEmbeddable>(pile: &Pile) -> Vec<(Pair<Q, B>, Q)> {
     for direction in Direction::ALL {
         ask!(direction(direction).into_array());
     }
-    let rows = || pile.rows(Selection::All).expect("rows");
-    for (pair, number) in pairs.contacts(rows()).zip(exact.contacts(rows())) {
+    let part = Selection::All;
+    let contacts = pairs.contacts(part).expect("a plan");
+    for (pair, number) in contacts.zip(exact.contacts(part).expect("a plan")) {
         all.push((pair.expect("a force").force, number.expect("a force").force));
     }
-    let rows = || pile.rows(Selection::Base).expect("rows");
-    for (pair, number) in pairs.base(rows()).zip(exact.base(rows())) {
+    let part = Selection::Base;
+    let base = pairs.base(part).expect("a plan");
+    for (pair, number) in base.zip(exact.base(part).expect("a plan")) {
         let (pair, number) = (pair.expect("a force"), number.expect("a force"));
         all.push((pair.normal, number.normal));
         all.push((pair.shear_x, number.shear_x));
@@ -367,7 +369,7 @@ fn statics_in_a_wrong_scalar_part() {
     }
     let site = Site { i: 1, j: 0, k: 2 };
     let force = pile
-        .statics::<Pair<Q, Planted<IMAGE>>>()
+        .forces::<Pair<Q, Planted<IMAGE>>>()
         .contact(site, Direction::Gamma);
     assert_eq!(parted(&force.expect("a force")), Some("a value"));
 }

@@ -7,7 +7,7 @@ use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Dimension, Direction, Site};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, FloorForce, Pile, Statics};
+use cannonpile::{Error, FloorForce, Forces, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -15,23 +15,23 @@ use super::{Checked, demand, in_lowest_terms, same};
 use crate::generators::number::ratio;
 use crate::generators::pile;
 
-type Exact<'p> = Statics<'p, BigRational>;
+type Exact<'p> = Forces<'p, BigRational>;
 
 /// One sphere of any pile, and all its contacts.
 pub(crate) fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
-    sphere(&pile.statics(), site)
+    sphere(&pile.forces(), site)
 }
 
 /// Every sphere of a small pile, and the totals over the base.
 pub(crate) fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::small_pile(u)?;
-    let statics = pile.statics();
+    let statics = pile.forces();
     for site in pile.shape().sites() {
         sphere(&statics, site)?;
     }
-    let base: Result<Vec<_>, _> = statics.base(pile.rows(Selection::Base)?).collect();
+    let base: Result<Vec<_>, _> = statics.base(Selection::Base)?.collect();
     bears_the_weight(&base?, &BigRational::from_integer(pile.spheres().into()))
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn small_pile(u: &mut Unstructured<'_>) -> Checked {
 pub(crate) fn on_floor(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::bottom_site(u, &pile)?;
-    let force = pile.statics().on_floor(site)?;
+    let force = pile.forces().on_floor(site)?;
     same("the normal force", &force.normal, &normal(&pile, site))?;
     if pile.dimension() == Dimension::Three && pile.is_regular() {
         let [along_x, along_y] = equilateral_shear(&pile, site);
@@ -178,7 +178,7 @@ mod planted {
     #[test]
     fn a_force_off_by_a_trace_is_caught() {
         let pile = tall();
-        let forces = forces_on(&pile.statics(), SITE).unwrap();
+        let forces = forces_on(&pile.forces(), SITE).unwrap();
         assert_eq!(forces.len(), 7, "weight, three supports, three above");
         for component in 0..3 {
             let mut wrong = forces.clone();
@@ -198,7 +198,7 @@ mod planted {
     #[test]
     fn a_contact_mistaken_for_its_neighbour_is_caught() {
         let pile = tall();
-        let statics = pile.statics();
+        let statics = pile.forces();
         let below = pile.shape().below(SITE, Direction::Beta).unwrap();
         let seen = on_lower(&statics, SITE, below, Direction::Beta).unwrap();
         for (direction, same) in [(Direction::Beta, true), (Direction::Alpha, false)] {
@@ -221,10 +221,7 @@ mod planted {
     #[test]
     fn a_base_that_bears_too_little_is_caught() {
         let pile = Pile::triangular(4).unwrap();
-        let base: Result<Vec<_>, _> = pile
-            .statics()
-            .base(pile.rows(Selection::Base).unwrap())
-            .collect();
+        let base: Result<Vec<_>, _> = pile.forces().base(Selection::Base).unwrap().collect();
         let (base, weight) = (base.unwrap(), ratio(20, 1));
         assert!(bears_the_weight(&base, &weight).is_ok());
         assert!(bears_the_weight(&base[1..], &weight).is_err());
@@ -242,7 +239,7 @@ mod planted {
             k: pile.layers() - 1,
             ..SITE
         };
-        let force = pile.statics::<BigRational>().on_floor(site).unwrap();
+        let force = pile.forces::<BigRational>().on_floor(site).unwrap();
         assert!(same("normal", &force.normal, &normal(&pile, site)).is_ok());
         assert!(same("normal", &force.normal, &normal(&taller.unwrap(), site)).is_err());
     }

@@ -27,7 +27,7 @@ pub(crate) fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let s = BigRational::new(u.int_in_range(1..=d - 1)?.into(), d.into());
     let pile = Pile::isosceles(layers, s)?;
     let site = pile::site(u, &pile)?;
-    let narrow = pile.statics::<FixedRational<i128>>();
+    let narrow = pile.forces::<FixedRational<i128>>();
     narrow.resultant_above(site)?;
     if site.k == layers - 1 {
         narrow.on_floor(site)?;
@@ -72,8 +72,8 @@ fn is_symmetric((numer, denom): (i8, i8)) -> Checked {
 /// All that can be asked about one sphere.
 fn every_answer<I: FixedInteger>(pile: &Pile, site: Site) -> Checked {
     let (narrow, exact) = (
-        pile.statics::<FixedRational<I>>(),
-        pile.statics::<BigRational>(),
+        pile.forces::<FixedRational<I>>(),
+        pile.forces::<BigRational>(),
     );
     right_or_overflow(narrow.from_above(site), &exact.from_above(site)?)?;
     right_or_overflow(

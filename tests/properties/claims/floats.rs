@@ -29,7 +29,7 @@ use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{Algebra, NearestFloat, RealEmbeddable, Ring};
-use cannonpile::{Error, Pile, Statics};
+use cannonpile::{Error, Forces, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -63,7 +63,7 @@ pub(crate) fn any_pile(u: &mut Unstructured<'_>) -> Checked {
 
 /// All that can be asked about one sphere.
 fn every_answer<F: Float>(pile: &Pile, site: Site) -> Checked {
-    let (rounded, exact) = (pile.statics::<F>(), pile.statics::<BigRational>());
+    let (rounded, exact) = (pile.forces::<F>(), pile.forces::<BigRational>());
     let bound = Bound::of::<F>(pile);
     let above = exact.from_above(site)?;
     for (got, want) in rounded.from_above(site)?.iter().zip(&above) {
@@ -112,8 +112,8 @@ fn every_answer<F: Float>(pile: &Pile, site: Site) -> Checked {
 
 fn on_floor<F: Float>(
     bound: &Bound,
-    rounded: &Statics<'_, F>,
-    exact: &Statics<'_, BigRational>,
+    rounded: &Forces<'_, F>,
+    exact: &Forces<'_, BigRational>,
     site: Site,
 ) -> Checked {
     let (got, want) = (rounded.on_floor(site)?, exact.on_floor(site)?);
@@ -131,7 +131,7 @@ fn counts(site: Site) -> [BigRational; 3] {
 
 /// Σ |c_m ê_m| for c_m ≥ 0, by component.
 fn magnitudes(
-    statics: &Statics<'_, BigRational>,
+    statics: &Forces<'_, BigRational>,
     coefficients: &[BigRational; 3],
 ) -> Result<Vector<BigRational>, Error> {
     let mut sum = Vector::zero();
@@ -204,8 +204,8 @@ mod planted {
             k: 10_i128.pow(29),
         };
         let bound = Bound::of::<f64>(&pile);
-        let got: f64 = pile.statics().contact(site, Direction::Alpha).unwrap();
-        let want = pile.statics().contact(site, Direction::Alpha).unwrap();
+        let got: f64 = pile.forces().contact(site, Direction::Alpha).unwrap();
+        let want = pile.forces().contact(site, Direction::Alpha).unwrap();
         assert!(bound.holds("force", &got, &want, &want).is_ok());
         let nearest = f64::nearest_to_rational(&want).unwrap();
         for towards in [f64::next_up, f64::next_down] {
@@ -224,8 +224,8 @@ mod planted {
             j: 0,
             k: (1 << 40) - 1,
         };
-        let single = pile.statics::<f32>().on_floor(site).unwrap().normal;
-        let want = pile.statics::<BigRational>().on_floor(site).unwrap().normal;
+        let single = pile.forces::<f32>().on_floor(site).unwrap().normal;
+        let want = pile.forces::<BigRational>().on_floor(site).unwrap().normal;
         let holds = |bound: Bound| {
             bound
                 .holds("normal", &f64::from(single), &want, &want)

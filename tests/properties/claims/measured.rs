@@ -200,7 +200,7 @@ fn perfect(packing: &Packing<'_>) -> Option<Vec<Measured>> {
             .ok()
             .map(|n| n + 1)
     };
-    let contacts = packing.contacts(pile.rows(Selection::All).ok()?);
+    let contacts = packing.contacts(Selection::All).ok()?;
     let measured = contacts.map(|contact| {
         let contact = contact.ok()?;
         let below = pile.shape().below(contact.site, contact.direction)?;

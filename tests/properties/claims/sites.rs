@@ -24,15 +24,15 @@ pub(crate) fn anywhere(u: &mut Unstructured<'_>) -> Checked {
             k: number::machine_integer(u)?,
         }
     };
-    let statics = pile.statics::<BigRational>();
+    let forces = pile.forces::<BigRational>();
     let outside = |refused: Option<Error>| matches!(refused, Some(Error::SiteOutside { .. }));
     let direction = pile::direction(u, &pile)?;
     let refusals = [
         outside(pile.shape().check(site).err()),
-        outside(statics.from_above(site).err()),
-        outside(statics.contact(site, direction).err()),
-        outside(statics.position(site).err()),
-        outside(statics.on_floor(site).err()),
+        outside(forces.from_above(site).err()),
+        outside(forces.contact(site, direction).err()),
+        outside(forces.position(site).err()),
+        outside(forces.on_floor(site).err()),
         outside(pile.rows(Selection::One(site)).err()),
     ];
     has_or_refuses(&pile, site, &refusals)

@@ -2,7 +2,8 @@
 
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{RealSign, Surd};
-use cannonpile::{Error, Packing, Strengths};
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Packing};
 
 use super::piles::{self, Measure};
 use super::random::Random;
@@ -180,26 +181,27 @@ fn filled_as<F: Float>(
     exact: &[Surd],
     tally: &mut Tally,
 ) -> Result<(), Error> {
-    let strengths = match Strengths::<F>::nearest(packing) {
+    let k = packing.pile().layers() - 2;
+    let mut layers = match packing.layers::<F>(Selection::Layer(k)) {
         Err(Error::Overflow { .. }) => {
             // Then one force is beyond the floats, and so is the greatest.
             let greatest = exact.iter().max().into_iter();
             greatest.for_each(|exact| tally.meet_float(None::<F>, exact));
             return Ok(());
         }
-        strengths => strengths?,
+        layers => layers?,
     };
-    let k = usize::try_from(packing.pile().layers() - 2).unwrap_or(0);
-    let mut rounded = Vec::new();
-    for j in 0..=k {
-        let mut row = [(); 3].map(|()| vec![F::zero(); k - j + 1]);
-        let [alpha, beta, gamma] = row.each_mut().map(Vec::as_mut_slice);
-        strengths.fill_row(k as i128, j as i128, [alpha, beta, gamma])?;
-        let [alpha, _, gamma] = row;
-        if j == 0 {
-            rounded = alpha;
-        }
-        rounded.push(gamma[0]);
+    let layer = layers.next_layer()?.expect("the layer asked for");
+    let mut forces = [(); 3].map(|()| vec![F::zero(); layer.spheres()]);
+    layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
+    let [alpha, _, gamma] = forces;
+    let row = usize::try_from(k + 1).unwrap_or(0);
+    let mut rounded = alpha[..row].to_vec();
+    // The first sphere of each row.
+    let mut first = 0;
+    for length in (1..=row).rev() {
+        rounded.push(gamma[first]);
+        first += length;
     }
     for (got, exact) in rounded.into_iter().zip(exact) {
         tally.meet_float(Some(got), exact);

@@ -27,14 +27,18 @@ impl Deep {
     pub(crate) fn new() -> Self {
         let case = cases::alternating(40, 1000);
         let k = case.pile.layers() - 2;
-        let mut engine = case.pile.exact_sweep().expect("room");
-        engine.advance(k).expect("a layer");
+        let mut layers = case
+            .pile
+            .forces::<BigRational>()
+            .layers(Selection::Layer(k))
+            .expect("room");
+        let layer = layers.next_layer().expect("room").expect("a layer");
         let sites = case.pile.rows(Selection::Layer(k)).expect("a layer");
         let sample: Sample = sites
             .flatten()
             .enumerate()
             .step_by(997)
-            .map(|(place, site)| (place, engine.passed_on(site).expect("forces")))
+            .map(|(place, site)| (place, layer.to_below(site).expect("forces")))
             .collect();
         let forces = sample.iter().flat_map(|(_, forces)| forces);
         let greatest = forces.map(Signed::abs).max().expect("a force");
@@ -87,13 +91,16 @@ impl Deep {
 
 /// The forces of the layer above the floor, by direction.
 fn lowest_contacts<T: Algebra>(pile: &Pile) -> [Vec<T>; 3] {
-    let mut sweep = pile.sweep::<T>().expect("room");
-    sweep.advance(pile.layers() - 2).expect("a layer");
-    let spheres = sweep.spheres().expect("few");
+    let k = pile.layers() - 2;
+    let layers = pile
+        .forces::<T>()
+        .layers(Selection::Layer(k))
+        .expect("room");
     let nothing = T::from_rational(&BigRational::default());
-    let mut forces = [(); 3].map(|()| vec![nothing.clone(); spheres]);
-    let slices = forces.each_mut().map(Vec::as_mut_slice);
-    sweep.fill(slices).expect("forces");
+    let mut forces = [(); 3].map(|()| vec![nothing.clone(); layers.spheres().expect("few")]);
+    layers
+        .fill(forces.each_mut().map(Vec::as_mut_slice))
+        .expect("forces");
     forces
 }
 

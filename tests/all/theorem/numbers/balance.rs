@@ -28,7 +28,7 @@ fn increments_solve_the_papers_system() {
     let proof = prove("paper-system");
     for s in sines() {
         let pile = Pile::isosceles(2, s.clone()).expect("a pile");
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         let [alpha, beta, gamma] = Direction::ALL
             .map(|direction| statics.contact(Site::APEX, direction).expect("a contact"));
         let at = [("s", s.clone())];
@@ -64,7 +64,7 @@ fn distances_are_those_between_positions() {
             ];
             let square = value(&proof, "the Gram form", &values);
             assert_eq!(square, squared_distance(&n, &s, &sin2));
-            let Vector { x, y, z } = pile.statics::<Q>().position(site).expect("a position");
+            let Vector { x, y, z } = pile.forces::<Q>().position(site).expect("a position");
             let across = int(4) * (int(1) - &s * &s);
             let horizontal = &x * &x + across * &y * &y;
             assert_eq!(square, horizontal * &sin2 + &z * &z * (int(1) - &sin2));
@@ -77,7 +77,7 @@ fn distances_are_those_between_positions() {
 fn supports_bear_what_lies_above() {
     let proof = prove("equilibrium");
     every_sphere(|pile, site, values| {
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         if site.k == pile.layers() - 1 {
             return;
         }
@@ -109,7 +109,7 @@ fn supports_bear_what_lies_above() {
 fn surfaces_receive_nothing_and_others_what_is_given() {
     let (surface, reaction) = (prove("surface"), prove("action-reaction"));
     every_sphere(|pile, site, values| {
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         let received = statics.from_above(site).expect("forces");
         for (direction, received) in Direction::ALL.into_iter().zip(received) {
             if let Some(above) = pile.shape().above(site, direction) {
@@ -130,7 +130,7 @@ fn surfaces_receive_nothing_and_others_what_is_given() {
 fn resultants_are_positions() {
     let proof = prove("central-force");
     for pile in equilateral_piles(8) {
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         for site in pile.shape().sites() {
             let force = statics.resultant_above(site).expect("a force");
             let of_theorem =

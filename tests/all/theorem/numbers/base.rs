@@ -21,7 +21,7 @@ struct Bottom {
 }
 
 fn base(pile: &Pile) -> Vec<Bottom> {
-    let statics = pile.statics::<Q>();
+    let statics = pile.forces::<Q>();
     let weight = statics.increment_sum().expect("W");
     let of_force = |force: FloorForce<Q>| {
         let at = statics.position(force.site).expect("a position");
@@ -40,7 +40,7 @@ fn base(pile: &Pile) -> Vec<Bottom> {
             values,
         }
     };
-    let forces = statics.base(pile.rows(Selection::Base).expect("rows"));
+    let forces = statics.base(Selection::Base).expect("rows");
     forces
         .map(|force| of_force(force.expect("a force")))
         .collect()
@@ -57,7 +57,7 @@ fn over(base: &[Bottom], term: impl Fn(&Bottom) -> Q) -> Q {
 
 /// Σ over all spheres, times their weight W.
 fn weighed(pile: &Pile, term: impl Fn(Site, Q, Q) -> Q) -> Q {
-    let statics = pile.statics::<Q>();
+    let statics = pile.forces::<Q>();
     let of_sphere = |site| {
         let at = statics.position(site).expect("a position");
         term(site, at.x, at.y)

@@ -79,9 +79,9 @@ fn contacts_are_counted_by_strength() {
     let (contacts, strengths) = (prove("contacts"), prove("strengths"));
     for pile in equilateral_piles(LAYERS) {
         let l = ("L", int(pile.layers()));
-        let statics = pile.statics::<Q>();
+        let forces = pile.forces::<Q>();
         let mut by_strength: BTreeMap<(Direction, Q), Q> = BTreeMap::new();
-        for contact in statics.contacts(pile.rows(Selection::All).expect("rows")) {
+        for contact in forces.contacts(Selection::All).expect("rows") {
             let contact = contact.expect("a force");
             *by_strength
                 .entry((contact.direction, contact.force))

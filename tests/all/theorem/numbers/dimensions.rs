@@ -13,10 +13,10 @@ fn discs_on_the_floor() {
     let proof = prove("discs");
     for layers in 1..=12 {
         let pile = Pile::discs(layers).expect("a pile");
-        let statics = pile.statics::<Q>();
+        let statics = pile.forces::<Q>();
         let l = ("L", int(layers));
         let (mut total, mut sideways) = (Q::zero(), Q::zero());
-        for force in statics.base(pile.rows(Selection::Base).expect("rows")) {
+        for force in statics.base(Selection::Base).expect("rows") {
             let FloorForce {
                 site,
                 normal,
