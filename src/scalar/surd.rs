@@ -98,6 +98,9 @@ impl Surd {
     ///
     /// let root = Surd::sqrt(BigRational::new(4.into(), 9.into()))?;
     /// assert_eq!(root.to_rational().unwrap().to_string(), "2/3");
+    /// // The square of a denominator comes out whatever its primes are.
+    /// let root = Surd::sqrt(BigRational::new(2.into(), (1_000_003_i64 * 1_000_003).into()))?;
+    /// assert_eq!(root.to_string(), "1/1000003*sqrt(2)");
     /// assert!(Surd::sqrt(BigRational::from_integer((-1).into())).is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
