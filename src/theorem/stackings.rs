@@ -59,12 +59,12 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "edge",
-        statement: "On each edge of a layer where lines of one direction do not begin, i+j = s₀, i = x₁ or j = y₁ under + \
-                    steps, spheres receive nothing along the other two. So if the first sphere of such an edge in a run \
-                    of m steps passes on f along it, the last sphere receives f + m − 1 along it and nothing else. If \
-                    the sign changes there, it passes on 1 − (f+m−1)/3 along it, a third of 4 − f − m: of −(1+f+p) if \
-                    m = 5+p. So (in words) no run of five steps or more, after which the sign changes, stands; an \
-                    identity",
+        statement: "Under + steps spheres on the edge i+j = s₀ of a layer receive nothing along β and γ, those on i = x₁ \
+                    nothing along γ and α, those on j = y₁ nothing along α and β, and under − steps those on the edges \
+                    opposite. The third line stays on the edge (theorem region-counts): so if its first sphere in a run \
+                    of m steps passes on f, the last receives f + m − 1 along it and nothing else. If the sign changes \
+                    there, it passes on 1 − (f+m−1)/3 along it, a third of 4 − f − m: of −(1+f+p) if m = 5+p. So (in \
+                    words) no run of five steps or more, after which the sign changes, stands; an identity",
         hypotheses: "f ≥ 0, m ≥ 1, p ≥ 0, weights of mg",
         method: ProofKind::Identity,
         symbols: "f, i, j, m, p, x_0, x_1, y_0, y_1, s_0, s_1",
@@ -191,6 +191,9 @@ fn run(f: &Formulas) -> Vec<Step> {
             after(m.clone() + &P::one()),
             (f.passed_on)(after(m.clone()), w),
         ));
+        let claim = format!("along {direction}: f + m w after m spheres");
+        let sum = force.clone() + &(m.clone() * w);
+        steps.push(Step::equal(claim, after(m.clone()), sum));
         let claim = format!("along {direction}: e before m spheres, or after");
         let before = (f.passed_on)(
             (f.passed_on)(force.clone(), &extra),

@@ -19,13 +19,15 @@ pub(super) fn faults() -> Vec<Fault> {
             [if k.is_zero() { P::one() } else { a }, b, c]
         } => ["counts"];
         "every sphere is above itself": above = |i, j, k| (RIGHT.above)(i, j, k).map(|n| n + &P::one())
-            => ["counts", "rotation", "strengths", "surface", "base-normal", "weight", "total-moment",
-                "second-moment", "shear-ratio", "discs"];
+            => ["counts", "strengths", "surface", "central-force", "base-normal", "weight", "total-moment",
+                "second-moment", "shear-ratio", "discs", "region-counts"];
         "α for β": above = |i, j, k| swapped(&(RIGHT.above)(i, j, k))
-            => ["counts", "rotation", "surface", "action-reaction", "shear", "discs"];
+            => ["counts", "rotation", "surface", "action-reaction", "central-force", "shear", "shear-on-axis", "discs",
+                "region-counts"];
         "k for k−i−j": above = |i, j, k| [k.clone(), i.clone(), j.clone()]
-            => ["counts", "rotation", "surface", "base-normal", "uniform-base", "weight", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-ratio", "discs"];
+            => ["counts", "rotation", "surface", "central-force", "base-normal", "uniform-base", "weight", "shear",
+                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
+                "region-counts"];
 
         "β goes down along j, γ along i": descent = |sign, direction| {
             let [di, dj] = sign.descent(direction);
@@ -48,7 +50,7 @@ pub(super) fn faults() -> Vec<Fault> {
             => ["counts", "action-reaction", "region-counts"];
 
         "no spheres on the floor": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
-            => ["spheres", "weight", "discs", "dimensions"];
+            => ["spheres", "contacts", "weight", "discs", "dimensions"];
         "square pyramids in four dimensions": spheres = |l, d| {
             let right = (RIGHT.spheres)(l, d);
             if d == 4 { right + &(RIGHT.spheres)(&one_less(l), d) } else { right }
@@ -82,15 +84,15 @@ pub(super) fn faults() -> Vec<Fault> {
         "lines of α and β for each other": bounds_above = |i, j, lower, upper, m, sign| {
             let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             [beta, alpha, gamma]
-        } => ["region-counts"];
+        } => ["region-counts", "edge"];
         "a surface one site too far out": bounds_above = |i, j, lower, upper, m, sign| {
             let wider = upper.each_ref().map(|bound| bound.clone() + &P::one());
             (RIGHT.bounds_above)(i, j, lower, &wider, m, sign)
-        } => ["region-counts"];
+        } => ["region-counts", "edge"];
         "a surface one site too far in": bounds_above = |i, j, lower, upper, m, sign| {
             let narrower = lower.each_ref().map(|bound| bound.clone() + &P::one());
             (RIGHT.bounds_above)(i, j, &narrower, upper, m, sign)
-        } => ["region-counts"];
+        } => ["region-counts", "edge"];
         "every sphere twice": bounds_above = |i, j, lower, upper, m, sign| {
             (RIGHT.bounds_above)(i, j, lower, upper, m, sign).map(|of_line| of_line.each_ref().map(twice))
         } => ["region-counts"];
