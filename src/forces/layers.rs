@@ -385,7 +385,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     /// Returns the forces of a sphere of this layer to the spheres below, by direction, in f₀; zero along γ for discs.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::SweepElsewhere`] for a sphere of another layer; [`Error::OnFloor`];
+    /// [`Error::SiteOutside`]; [`Error::OtherLayer`] for a sphere of another layer; [`Error::OnFloor`];
     /// [`Error::Overflow`].
     ///
     /// # Examples
@@ -607,10 +607,9 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         if site.k == self.k {
             Ok(())
         } else {
-            Err(Error::SweepElsewhere {
+            Err(Error::OtherLayer {
                 layer: site.k,
                 at: self.k,
-                last: self.k,
             })
         }
     }

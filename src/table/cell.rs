@@ -32,7 +32,7 @@ pub enum Cell {
 
 /// A number and its text.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Shown {
+pub struct Shown {
     pub(super) text: String,
     /// The exact number, where it is summed.
     pub(super) exact: Option<Surd>,

@@ -212,7 +212,7 @@ impl<'p> Explanation<'p> {
     ///
     /// let counters = Counters::default();
     /// let pile = Pile::triangular(10)?;
-    /// pile.statics::<f64>().metered(&counters).contact(Site::APEX, Direction::Alpha)?;
+    /// pile.forces::<f64>().metered(&counters).contact(Site::APEX, Direction::Alpha)?;
     /// let mut csv = Vec::new();
     /// Explanation::counted(&counters).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
     /// // One sphere visited, and nothing else.

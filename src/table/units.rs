@@ -118,7 +118,7 @@ impl Units<'_> {
     /// The same, found by this method.
     ///
     /// # Errors
-    /// As for [`Statics::by`](crate::Statics::by).
+    /// As for [`Forces::by`](crate::Forces::by).
     ///
     /// # Examples
     /// ```

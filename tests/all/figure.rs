@@ -16,7 +16,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use roxmltree::{Document, Node};
 
-use crate::answers::ratio;
+use crate::support::answers::ratio;
 
 fn spacing() -> Spacing {
     Spacing::new(ratio(6, 5)).unwrap()
@@ -183,7 +183,7 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
         assert_eq!(cells.len().to_string(), pile.base_spheres().to_string());
         let sites = pile.rows(Selection::Base).unwrap().flatten();
         assert!(cells.iter().map(site).eq(sites));
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let mut colours: Vec<(f64, String)> = Vec::new();
         for cell in &cells {
             let normal = statics.on_floor(site(cell)).unwrap().normal;
@@ -343,8 +343,8 @@ fn layers_show_every_contact_once() {
             let svg = network.unwrap().to_string();
             let document = Document::parse(&svg).unwrap();
             let links = links(&document);
-            let rows = pile.rows(Selection::Layer(k)).unwrap();
-            let contacts = pile.statics::<BigRational>().contacts(rows);
+            let part = Selection::Layer(k);
+            let contacts = pile.forces::<BigRational>().contacts(part).unwrap();
             let exact: BTreeSet<_> = contacts
                 .map(|c| c.map(|c| (c.site, c.direction)).unwrap())
                 .collect();
@@ -453,7 +453,7 @@ fn forces_on_a_sphere_are_in_balance() {
             pile.with_load(first, ratio(5, 3)).unwrap()
         };
         let subject = subject(&pile);
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         for site in pile.shape().sites() {
             let svg = figure::sphere(&subject, site).unwrap().to_string();
             let forces = arrows(&svg);
@@ -473,7 +473,7 @@ fn forces_on_a_sphere_are_in_balance() {
             if site.k == pile.layers() - 1 {
                 acting += acts(&statics.on_floor(site).unwrap().normal);
             } else {
-                let below = statics.contacts(pile.rows(Selection::One(site)).unwrap());
+                let below = statics.contacts(Selection::One(site)).unwrap();
                 acting += below
                     .map(|contact| acts(&contact.unwrap().force))
                     .sum::<usize>();
@@ -544,8 +544,8 @@ fn what_pulls_is_seen_and_said() {
                 .contains(">This pile does not stand without further contacts: below layer k = 4")
         );
     }
-    let statics = pile.statics::<BigRational>();
-    let all = statics.contacts(pile.rows(Selection::All).unwrap());
+    let statics = pile.forces::<BigRational>();
+    let all = statics.contacts(Selection::All).unwrap();
     let zero = BigRational::zero();
     let pulling = all
         .filter(|contact| contact.as_ref().unwrap().force < zero)

@@ -99,7 +99,7 @@ fn arrows_of_any_pile_are_the_exact_forces() {
         let forces = forces(&document);
         let sites = pile.rows(Selection::Base).unwrap().flatten();
         assert!(forces.iter().map(|(site, _)| *site).eq(sites));
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let cos2 = BigRational::from_integer(1.into()) - pile.sin_phi() * pile.sin_phi();
         let across = Surd::sqrt(cos2 * BigRational::from_integer(4.into())).unwrap();
         for (site, force) in &forces {

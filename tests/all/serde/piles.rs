@@ -116,7 +116,7 @@ fn no_invalid_pile_comes_in() {
             text(2, "0", "+-", site, "[]"),
             "stacking has no meaning beside dimension 2",
         ),
-        (text(2, "0", "++", base, "[]"), "anchor"),
+        (text(2, "0", "++", base, "[]"), "no meaning beside"),
         (text(3, "1/2", "++", base, &load(3, "1")), "no layer 3"),
         (
             text(3, "1/2", "++", base, &load(2, "-1")),
