@@ -147,7 +147,7 @@ fn exact_contacts<'p>(units: &Units<'p>, rows: Rows<'p>) -> RowIter<'p> {
     }
 }
 
-/// The same rows with floats: each distinct number is rounded and written out once.
+/// The contacts with floats: each distinct number is rounded and written out once.
 fn rounded_contacts<'p>(units: &Units<'p>, rows: Rows<'p>, numbers: NumberFormat) -> RowIter<'p> {
     let pile = units.pile();
     let force_cell = move |force: &Surd| Cell::shown(force, numbers, "force", true);
