@@ -127,7 +127,7 @@ fn totals(columns: &[Column], sums: &[Sum], numbers: NumberFormat) -> Line {
         let cell = match &sum.0 {
             // A sum beyond the floats is shown exactly: its rows are out already, and right.
             Some(sum) if !fits(sum, numbers) => Cell::Word(sum.to_string().into()),
-            Some(sum) => Cell::Number(sum.clone()),
+            Some(sum) => sum.clone().into(),
             None => word.into(),
         };
         // Whether it fits has been found out.

@@ -51,9 +51,13 @@ pub fn remove_unfinished() {
     unfinished.closed = true;
     // Files stand after the folders that were made for them.
     for path in unfinished.paths.drain(..).rev() {
-        // What cannot be removed stays; there is nobody to report it to.
-        let _ = fs::remove_file(&path).or_else(|_| fs::remove_dir(&path));
+        remove(&path);
     }
+}
+
+fn remove(path: &Path) {
+    // What cannot be removed stays, as a folder with something in it: there is nobody to report it to.
+    let _ = fs::remove_file(path).or_else(|_| fs::remove_dir(path));
 }
 
 /// A path that is unfinished until this is dropped.
@@ -70,6 +74,11 @@ impl Pending {
         }
         unfinished.paths.push(path.to_owned());
         Ok(Self(path.to_owned()))
+    }
+
+    /// Removes what is there.
+    pub(crate) fn remove(&self) {
+        remove(&self.0);
     }
 
     /// Does what completes the path, unless it has been removed.
