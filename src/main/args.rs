@@ -6,10 +6,10 @@ use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use cannonpile::table::{FileFormat, NumberFormat, Table, Units, WriteError};
 use cannonpile::lattice::Site;
 use cannonpile::scene::{Scene, parse};
 use cannonpile::shape::Selection;
+use cannonpile::table::{FileFormat, NumberFormat, Table, Units, WriteError};
 use cannonpile::{Culprit, Error, Method, Pile};
 use clap::{Args, ValueEnum};
 use num_bigint::BigUint;

@@ -26,11 +26,10 @@ pub(crate) use spheres::Spheres;
 pub(crate) use summary::Summary;
 pub(crate) use verify::Verify;
 
-
 use cannonpile::Pile;
-use cannonpile::table::{Cell, Table};
 use cannonpile::scalar::RealSign;
 use cannonpile::shape::Selection;
+use cannonpile::table::{Cell, Table};
 
 use crate::args::{SceneOptions, target};
 use crate::output::{Failure, complain};

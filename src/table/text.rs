@@ -12,6 +12,9 @@ use crate::scalar::Surd;
 /// How many rows are aligned together: a page is all that is held in memory.
 const PAGE: usize = 4096;
 
+/// The same of a table of which nothing is known before its rows are made: each of them may take long.
+const SHORT_PAGE: usize = 256;
+
 pub(super) fn write(
     table: Table<'_>,
     numbers: NumberFormat,
@@ -62,9 +65,11 @@ fn write_rows(
     let mut page = vec![heads, units];
     let mut widths = first_widths(&columns, &table.extremes, numbers)?;
     let mut count = BigUint::zero();
+    let unknown = table.extremes.is_empty() && table.bounds.is_empty();
+    let page_length = if unknown { SHORT_PAGE } else { PAGE };
     loop {
-        let rows: Vec<Row> = table.rows.by_ref().take(PAGE).collect();
-        let last = rows.len() < PAGE;
+        let rows: Vec<Row> = table.rows.by_ref().take(page_length).collect();
+        let last = rows.len() < page_length;
         for row in rows {
             let row = row?;
             for (sum, cell) in sums.iter_mut().zip(&row) {

@@ -135,7 +135,8 @@ impl SceneOptions {
     /// Returns the option, or where it is in the file.
     fn place(&self, culprit: Culprit) -> String {
         let option = culprit.name();
-        self.line_of(option).unwrap_or_else(|| format!("--{option}"))
+        self.line_of(option)
+            .unwrap_or_else(|| format!("--{option}"))
     }
 
     /// Returns where the file gives an option that the line does not.
@@ -192,9 +193,9 @@ fn farthest_from_one(scene: &Scene) -> Culprit {
         (Culprit::Gravity, &scene.gravity),
         (Culprit::Mass, &scene.mass),
     ];
-    let sizes = loads.chain(sizes).filter(|(culprit, size)| {
-        *culprit != Culprit::Radius || 3 * distance(size) >= FLOATS
-    });
+    let sizes = loads
+        .chain(sizes)
+        .filter(|(culprit, size)| *culprit != Culprit::Radius || 3 * distance(size) >= FLOATS);
     let farthest = sizes.max_by_key(|(_, size)| distance(size));
     farthest.map_or(Culprit::Mass, |(culprit, _)| culprit)
 }

@@ -1,9 +1,9 @@
 //! `census`: which stackings stand.
 
 use cannonpile::census::{self, Entry};
-use cannonpile::table::{self, Table};
 use cannonpile::lattice::Region;
 use cannonpile::scene::parse;
+use cannonpile::table::{self, Table};
 use cannonpile::{Culprit, Error};
 use clap::Args;
 
@@ -12,7 +12,17 @@ use crate::args::{Number, Output};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Of mirror images one is listed. Beginnings that fail are listed where they first do, with the contact that would have to
+pull. With them a census of L layers has 11(L − 5) + 6 rows, and takes a time that grows like L³.
+
+Examples:
+  cannonpile census --layers 6
+  cannonpile census --layers 1000000 --standing
+  cannonpile census --base hexagon:3 --output census.csv";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Census {
     /// Number of layers, 1 to 10^36
     #[arg(long, value_name = "L", default_value = "10", allow_hyphen_values = true, value_parser = parse::layers)]
@@ -41,8 +51,7 @@ impl Census {
             })?;
             return Ok(table::census(entries));
         };
-        let entries =
-            census::on_base(base).map_err(|error| Refused::of(Culprit::Base, error))?;
+        let entries = census::on_base(base).map_err(|error| Refused::of(Culprit::Base, error))?;
         let wanted = |entry: &Result<Entry, Error>| {
             !self.standing || entry.as_ref().map_or(true, Entry::stands)
         };

@@ -13,7 +13,16 @@ use crate::args::{Format, SceneOptions, agreed, target};
 use crate::output::{Failure, complain, write_to};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. Files are written aside, and renamed
+when all are complete.
+
+Examples:
+  cannonpile export pile --to lammps --layers 10 --spacing 1.2
+  cannonpile export pile --to csv,vtp --layers 40 --list files.csv";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Export {
     /// The folder, made if it is not there; other files in it stay as they are
     #[arg(value_name = "DIR")]
@@ -85,7 +94,12 @@ impl Command for Export {
         let files = PileExport::new(&packing)?;
         let formats = self.formats();
         self.keep_apart(&formats)?;
-        let format = agreed("list-format", self.list_format, "list", self.list.as_deref())?;
+        let format = agreed(
+            "list-format",
+            self.list_format,
+            "list",
+            self.list.as_deref(),
+        )?;
         self.check_room(&files, &formats)?;
         let begun = Instant::now();
         let progress = Progress::of_rows("files", Some(rows(&files, &formats)));

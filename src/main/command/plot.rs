@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use cannonpile::table::WriteError;
 use cannonpile::figure::{
     BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
 };
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::table::WriteError;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
 
@@ -16,8 +16,17 @@ use crate::args::{SceneOptions, UnitSystem, one, target};
 use crate::output::{Failure, Refused, write_to};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+z points down in figures, as in the paper.
+
+Examples:
+  cannonpile plot shear --output shear.svg
+  cannonpile plot network --stacking hcp --layers 12 --output network.svg
+  cannonpile plot response --stacking hcp --top hexagon:5 --layers 6 --output response.svg";
+
 /// A kind of figure.
 #[derive(Subcommand)]
+#[command(after_help = HELP)]
 pub(crate) enum Plot {
     /// The pile in perspective, of four layers unless the scene says how many
     Pile(Of),
