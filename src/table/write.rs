@@ -54,7 +54,13 @@ impl Table<'_> {
             (FileFormat::Json, _) => json::write(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Record) => text::write_record(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Rows(noun)) => {
-                text::write_rows(columns, rows, noun, numbers, out)
+                // Where the number of rows is not known, each of them may take long.
+                let page = if self.count.is_some() {
+                    text::PAGE
+                } else {
+                    text::SHORT_PAGE
+                };
+                text::write_rows(columns, (rows, page), noun, numbers, out)
             }
             (FileFormat::Csv, _) => {
                 let mut csv = csv::Writer::from_writer(out);
