@@ -72,7 +72,7 @@ fn main() -> Result<(), Error> {
     // A validated pile is asked in the same scalars, and answers in mg.
     let pile = Pile::isosceles(10, numbers[3].clone())?;
     let site = Site { i: 4, j: 1, k: 9 };
-    let normal = pile.statics::<BigRational>().on_floor(site)?.normal;
+    let normal = pile.forces::<BigRational>().on_floor(site)?.normal;
     println!("\nOn the floor of 10 layers, sphere (4, 1) presses with {normal} mg.");
     assert_eq!(normal, exact / ratio(8, 3));
     Ok(())

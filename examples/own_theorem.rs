@@ -62,9 +62,7 @@ fn main() -> Result<(), Error> {
     println!("   L   sum of squares");
     for layers in 1..=12 {
         let pile = Pile::triangular(layers)?;
-        let contacts = pile
-            .statics::<BigRational>()
-            .contacts(pile.rows(Selection::All)?);
+        let contacts = pile.forces::<BigRational>().contacts(Selection::All)?;
         let sum = contacts
             .map(|contact| contact.map(|c| &c.force * &c.force))
             .sum::<Result<BigRational, _>>()?;

@@ -9,6 +9,7 @@ mod contacts;
 mod ends;
 mod layers;
 mod nearest;
+mod numerators;
 mod terms;
 mod walk;
 
@@ -17,6 +18,7 @@ pub use contacts::{ContactForce, Contacts};
 pub use layers::{Layer, Layers};
 pub(crate) use nearest::Units;
 pub use nearest::{NearestLayer, NearestLayers};
+pub use numerators::{NumeratorLayer, NumeratorLayers};
 
 use crate::engine::{
     Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact, nodes,
@@ -276,7 +278,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
 
     /// The forces from the spheres above on `site`, by direction, in f₀; zero where there is none.
     ///
-    /// Paper, eq. (forces2): (k−i−j, i, j)·f₀ on an equilateral base.
+    /// Paper, (10): (k−i−j, i, j)·f₀ on an equilateral base.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::Overflow`] if the scalar cannot hold the answer.
@@ -513,8 +515,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// Returns the forces to the spheres below.
     fn passed_on(&self, site: Site) -> Result<Received<T>, Error> {
         self.check_off_the_floor(site)?;
-        let above = self.received(site, Wanted::All)?;
-        Ok(self.terms.lines.to_below(site, above, self.meter))
+        self.terms.passed_on(site, self.method, self.meter)
     }
 
     /// Errors unless the pile has the site and it rests on spheres.
@@ -566,7 +567,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
 
     /// The sum of the forces from above on `site`, in f₀ and the symbolic basis.
     ///
-    /// On an equilateral base it is the central force mg/(6R cosθ)·r (THEORY §2).
+    /// On an equilateral base it is the central force mg/(6R cosθ)·r, see [`paper`](crate::paper#closed-form).
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::Overflow`].

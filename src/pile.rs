@@ -31,7 +31,7 @@ use crate::stacking::Stacking;
 ///
 /// // 10³⁰ layers cost what 10 do.
 /// let pile = Pile::triangular(10_i128.pow(30))?;
-/// let statics = pile.statics::<BigRational>();
+/// let statics = pile.forces::<BigRational>();
 /// let force = statics.on_floor(Site { i: 5, j: 7, k: pile.layers() - 1 })?;
 /// assert_eq!(force.normal.to_string(), "333333333333333333333333333334");
 /// # Ok::<(), cannonpile::Error>(())
@@ -118,7 +118,7 @@ impl Pile {
     /// let pile = Pile::under(Region::SITE, Stacking::hcp(4)?)?;
     /// // In the third layer of HCP a sphere stands straight under the apex.
     /// let below = Site { i: 0, j: 0, k: 2 };
-    /// let forces = pile.statics::<BigRational>().from_above(below)?;
+    /// let forces = pile.forces::<BigRational>().from_above(below)?;
     /// assert_eq!(forces.map(|force| force.to_string()), ["2/3"; 3]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -167,7 +167,7 @@ impl Pile {
     ///
     /// let pile = Pile::triangular(10)?.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
     /// // A third of 3 mg on each support.
-    /// assert_eq!(pile.statics::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
+    /// assert_eq!(pile.forces::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_load(mut self, site: Site, load: BigRational) -> Result<Self, Error> {
@@ -206,7 +206,7 @@ impl Pile {
     /// let pile = Pile::triangular(10)?.weightless();
     /// let pile = pile.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
     /// // One of three contacts of 1/3 at each depth; what lies off its line feels nothing.
-    /// let statics = pile.statics::<f64>();
+    /// let statics = pile.forces::<f64>();
     /// assert_eq!(statics.contact(Site { i: 0, j: 0, k: 5 }, Direction::Alpha)?, 1.0);
     /// assert_eq!(statics.contact(Site { i: 1, j: 1, k: 5 }, Direction::Alpha)?, 0.0);
     /// # Ok::<(), cannonpile::Error>(())

@@ -2,7 +2,7 @@
 //!
 //! # Width
 //! After d changes of sign every force is an integer over D·3^d, D the common denominator of weights and loads
-//! (THEORY §3). A change of sign triples the half-turn, 3G g = 2Σg − 3g, and no division is left. Let layer κ have n_κ
+//! ([`paper`](crate::paper#transfer)). A change of sign triples the half-turn, 3G g = 2Σg − 3g, and no division is left. Let layer κ have n_κ
 //! spheres of weight u and loads e, in mg. G is orthogonal, and so is the way from layer to layer, so in ℓ² over a
 //! layer ‖f‖ ≤ ‖g‖ + √3·‖w‖, and over K layers of N spheres in all, by Cauchy–Schwarz,
 //!

@@ -1,6 +1,6 @@
 //! What the lines of contacts of a pile add up to, run by run: the methods *closed* and *tree*.
 //!
-//! Within a run of steps of one sign a line just counts up (THEORY §3, "Lines"): a sphere m layers into a run receives
+//! Within a run of steps of one sign a line just counts up, see [`paper`](crate::paper#lines): a sphere m layers into a run receives
 //! along a line the increments of the N spheres above it on the line, N ≤ m by
 //! [`Region::spheres_above`](crate::lattice::Region::spheres_above). If N < m the line begins at a surface, with
 //! nothing. If N = m it begins at the change of sign, with what the sphere there passes on across it, which needs the

@@ -55,13 +55,13 @@ impl fmt::Display for Method {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
-    /// The forces to the spheres below, in f₀: [`Statics::contacts`](crate::Statics::contacts).
+    /// The forces to the spheres below, in f₀: [`Forces::contacts`](crate::Forces::contacts).
     ContactMultiples,
     /// Their magnitudes in SI: [`Packing::magnitudes`](crate::Packing::magnitudes).
     ContactMagnitudes,
     /// The same with their vectors and the contact points: [`Packing::contacts`](crate::Packing::contacts).
     ContactVectors,
-    /// The forces on the floor, in mg and mg·tanθ: [`Statics::base`](crate::Statics::base).
+    /// The forces on the floor, in mg and mg·tanθ: [`Forces::base`](crate::Forces::base).
     FloorMultiples,
     /// The same in SI: [`Packing::base`](crate::Packing::base).
     FloorForces,

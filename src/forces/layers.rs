@@ -11,8 +11,7 @@ use super::terms::Terms;
 use super::{FloorForce, Forces};
 use crate::Error;
 use crate::engine::{
-    Cells, Descent, Meter, Method, Plan, Planes, Quantity, Table, Wanted, exact_sweep, plain_sweep,
-    received,
+    Cells, Descent, Meter, Method, Plan, Planes, Quantity, Table, exact_sweep, plain_sweep,
 };
 use crate::error::bug;
 use crate::formula::{half_turn, passed_on};
@@ -283,6 +282,54 @@ impl<'p, T: Algebra> Way<'p, T> {
     }
 }
 
+impl<M: Meter> Layers<'_, BigRational, M> {
+    /// Returns the denominator of forces below so many changes of sign.
+    pub(super) fn denominator(&self, changes: usize) -> BigInt {
+        self.terms.lines.scale(changes)
+    }
+
+    /// Returns the denominator of the forces below the lowest layer that is still to come and not on the floor.
+    pub(super) fn lowest_denominator(&self) -> BigInt {
+        let run = self.shape().stretch_to(self.above_the_floor().end);
+        self.denominator(run.map_or(0, |run| run.index))
+    }
+}
+
+impl<M: Meter> Layer<'_, '_, BigRational, M> {
+    /// Returns the denominator of the forces below the layer.
+    pub(super) fn denominator(&self) -> BigInt {
+        let run = self.shape().stretch_to(self.k + 1);
+        self.layers.denominator(run.map_or(0, |run| run.index))
+    }
+
+    /// Writes what becomes of the numerators of the forces below each sphere.
+    pub(super) fn fill_numerators<V>(
+        &self,
+        slices: [&mut [V]; 3],
+        value: impl Fn([BigInt; 3]) -> Result<[V; 3], Error>,
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres, &slices)?;
+        if self.is_floor() {
+            return Err(Error::OnFloor { site: self.first() });
+        }
+        let [alpha, beta, gamma] = slices;
+        let out = alpha.iter_mut().zip(beta).zip(gamma);
+        for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
+            let Layers {
+                terms, meter, way, ..
+            } = self.layers;
+            let passed_on = match way {
+                Way::Exact(_, sweep) => sweep.passed_on(site, *meter)?,
+                Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
+                Way::Table(_) => terms.passed_on(site, None, *meter)?,
+                Way::Single(method) => terms.passed_on(site, *method, *meter)?,
+            };
+            [*a, *b, *c] = value(passed_on.forces)?;
+        }
+        Ok(())
+    }
+}
+
 impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
     /// Returns the number of the layer, counted from 0 at the top.
     ///
@@ -338,7 +385,7 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
     /// Returns the forces of a sphere of this layer to the spheres below, by direction, in f₀; zero along γ for discs.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::SweepElsewhere`] for a sphere of another layer; [`Error::OnFloor`];
+    /// [`Error::SiteOutside`]; [`Error::OtherLayer`] for a sphere of another layer; [`Error::OnFloor`];
     /// [`Error::Overflow`].
     ///
     /// # Examples
@@ -395,15 +442,8 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
                 let force = terms.floor(site, &sweep.received(site)?)?;
                 Ok(force.map(|component| T::from_rational(&component)))
             }
-            Way::Table(_) => {
-                let pile = (&terms.lines, &terms.system);
-                terms.floor(site, &received(pile, (site, Wanted::All), None, *meter)?)
-            }
-            Way::Single(method) => {
-                let pile = (&terms.lines, &terms.system);
-                let above = received(pile, (site, Wanted::All), *method, *meter)?;
-                terms.floor(site, &above)
-            }
+            Way::Table(_) => terms.floor(site, &terms.received(site, None, *meter)?),
+            Way::Single(method) => terms.floor(site, &terms.received(site, *method, *meter)?),
         }
     }
 
@@ -594,10 +634,9 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
         if site.k == self.k {
             Ok(())
         } else {
-            Err(Error::SweepElsewhere {
+            Err(Error::OtherLayer {
                 layer: site.k,
                 at: self.k,
-                last: self.k,
             })
         }
     }
@@ -607,18 +646,16 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
         let Layers {
             terms, meter, way, ..
         } = self.layers;
-        let above = match way {
-            Way::Plain(sweep) => return terms.contacts(sweep.passed_on(site, *meter)?),
+        let passed_on = match way {
+            Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
             Way::Exact(terms, sweep) => {
                 let forces = terms.contacts(sweep.passed_on(site, *meter)?)?;
                 return Ok(forces.map(|force| T::from_rational(&force)));
             }
-            Way::Table(_) => None,
-            Way::Single(method) => *method,
+            Way::Table(_) => terms.passed_on(site, None, *meter)?,
+            Way::Single(method) => terms.passed_on(site, *method, *meter)?,
         };
-        let pile = (&terms.lines, &terms.system);
-        let above = received(pile, (site, Wanted::All), above, *meter)?;
-        terms.contacts(terms.lines.to_below(site, above, *meter))
+        terms.contacts(passed_on)
     }
 
     /// Fills slices from the cells of a sweep, row by row.

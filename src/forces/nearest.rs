@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
 use super::FloorForce;
-use super::layers::{Layer, Layers};
+use super::layers::{Layer, Layers, check_lengths, split_front};
 use super::terms::Terms;
 use crate::Error;
 use crate::engine::{Descent, Meter, Planes, Readout, Table, Unit};
@@ -176,13 +176,13 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         if let Some(table) = &self.table {
             return self.layers.fill_from_table(table, slices);
         }
-        super::layers::check_lengths(self.spheres()?, &slices)?;
+        check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
         while let Some(layer) = self.next_layer()? {
             if layer.is_floor() {
                 break;
             }
-            let front = super::layers::split_front(&mut rest, layer.spheres())?;
+            let front = split_front(&mut rest, layer.spheres())?;
             layer.fill(front)?;
         }
         Ok(())
@@ -376,14 +376,14 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
         slices: [&mut [F]; 3],
         extra: impl Fn(Site) -> Result<[F; 3], Error>,
     ) -> Result<(), Error> {
-        super::layers::check_lengths(self.spheres(), &slices)?;
+        check_lengths(self.spheres(), &slices)?;
         let [a, b, c] = slices;
         let mut rest = [&mut *a, &mut *b, &mut *c];
         let mut defined = true;
         for row in self.layer.region.rows(self.k()) {
             let spheres = (row.i.end - row.i.start).to_usize();
             let spheres = spheres.ok_or_else(|| bug("a row of a sweep fits in memory"))?;
-            let front = super::layers::split_front(&mut rest, spheres)?;
+            let front = split_front(&mut rest, spheres)?;
             defined &= sweep.nearest_row(&row, readout, front)?;
         }
         if !defined {

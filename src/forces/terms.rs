@@ -2,7 +2,7 @@
 
 use super::FloorForce;
 use crate::Error;
-use crate::engine::{Lines, Received};
+use crate::engine::{Lines, Meter, Method, Received, Wanted, received};
 use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, Site};
@@ -48,6 +48,28 @@ impl<'p, T: Algebra> Terms<'p, T> {
     pub(super) fn increment_sum(&self) -> Result<T, Error> {
         let sum = self.increment_sum.clone();
         edge("the sum of increments", sum, &self.sum_scale)
+    }
+
+    /// Returns the forces from above on a sphere.
+    pub(super) fn received(
+        &self,
+        site: Site,
+        method: Option<Method>,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        let system = (&self.lines, &self.system);
+        received(system, (site, Wanted::All), method, meter)
+    }
+
+    /// Returns the forces of a sphere that is not on the floor to the spheres below.
+    pub(super) fn passed_on(
+        &self,
+        site: Site,
+        method: Option<Method>,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        let above = self.received(site, method, meter)?;
+        Ok(self.lines.to_below(site, above, meter))
     }
 
     /// Returns contact forces in f₀.

@@ -1,0 +1,41 @@
+//! A whole pile as files: for spreadsheets, LAMMPS, ParaView, YADE.
+//!
+//! A [`PileExport`] writes them; a [`NumberedPile`] is what they have in common: the numbers of the spheres, and the
+//! contacts between them with their forces as floats.
+//!
+//! # Units
+//! All files are in SI: lengths in m, masses in kg, forces in N, z up. `columns.csv`, written with the csv files, says
+//! so of each of their columns.
+//!
+//! # Examples
+//! ```
+//! use cannonpile::dem::{PileExport, PileFormat};
+//! use cannonpile::geometry::Spacing;
+//! use cannonpile::{Packing, Pile};
+//! use num_rational::BigRational;
+//!
+//! let pile = Pile::triangular(10)?;
+//! let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+//! let folder = tempfile::tempdir()?;
+//! let written = PileExport::new(&packing)?.write(&[PileFormat::Csv], folder.path(), &mut |_| {})?;
+//! let names: Vec<_> = written.iter().map(|written| written.file.name()).collect();
+//! assert_eq!(names, ["spheres.csv", "contacts.csv", "base.csv", "columns.csv"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod csv;
+mod export;
+mod file;
+mod folder;
+mod lammps;
+mod numbered;
+mod polydata;
+mod springs;
+mod template;
+mod vtp;
+mod weights;
+mod yade;
+
+pub use export::PileExport;
+pub use file::{PileFile, PileFormat, Written, files};
+pub use numbered::{NumberedContact, NumberedPile};

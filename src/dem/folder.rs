@@ -1,0 +1,80 @@
+//! Several files that are all there, or none.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::table::{Aside, Pending, WriteError, remove_leftovers};
+
+/// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
+///
+/// `write` is called once for each file, in their order.
+pub(super) fn write_all<'f>(
+    folder: &Path,
+    files: impl Iterator<Item = &'f PathBuf>,
+    mut write: impl FnMut(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<Vec<u64>, WriteError> {
+    let mut new = New::default();
+    new.folder(folder).map_err(|error| of(folder, error))?;
+    remove_leftovers(folder);
+    let mut written = Vec::new();
+    for path in files {
+        let aside = Aside::write(path, |out| write(out)).map_err(|error| match error {
+            WriteError::Io(error) => of(path, error),
+            answer => answer,
+        })?;
+        written.push((path, aside));
+    }
+    // Not one of them is there yet; a folder of the same name, or the like, is found out here.
+    let mut bytes = Vec::new();
+    for (path, aside) in written {
+        let kept = new.expect(aside.target()).and_then(|()| aside.keep());
+        bytes.push(kept.map_err(|error| of(path, error))?);
+    }
+    new.0.clear();
+    Ok(bytes)
+}
+
+fn of(path: &Path, error: io::Error) -> WriteError {
+    let path = path.to_owned();
+    WriteError::File { path, error }
+}
+
+/// Folders and files that were not there before, in the order in which they are made, removed again unless all are
+/// kept.
+#[derive(Default)]
+struct New(Vec<Pending>);
+
+impl New {
+    /// Makes a folder, and those that it is in.
+    fn folder(&mut self, folder: &Path) -> io::Result<()> {
+        // What is there and is no folder would be said to exist already.
+        if folder.exists() && !folder.is_dir() {
+            return Err(io::ErrorKind::NotADirectory.into());
+        }
+        let missing = folder
+            .ancestors()
+            .take_while(|path| *path != Path::new("") && !path.exists());
+        let missing: Vec<&Path> = missing.collect();
+        for path in missing.into_iter().rev() {
+            self.expect(path)?;
+        }
+        fs::create_dir_all(folder)
+    }
+
+    /// A path that is made next.
+    fn expect(&mut self, path: &Path) -> io::Result<()> {
+        if fs::symlink_metadata(path).is_err() {
+            self.0.push(Pending::new(path)?);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for New {
+    fn drop(&mut self) {
+        for pending in self.0.iter().rev() {
+            pending.remove();
+        }
+    }
+}

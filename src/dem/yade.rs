@@ -1,0 +1,66 @@
+//! `spheres.txt` and `pile.py` for YADE.
+
+use std::io::Write;
+
+use super::numbered::NumberedPile;
+use super::springs::{Springs, density};
+use super::template::fill;
+use super::weights::{burdens, inertias, normal};
+use crate::lattice::Dimension;
+use crate::table::WriteError;
+
+/// Writes what `ymport.text` reads: `x y z r`, a sphere a line.
+pub(super) fn write_spheres(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+    row: &mut dyn FnMut(),
+) -> Result<(), WriteError> {
+    let radius = normal(pile.packing().radius(), "radius")?;
+    let mut centres = pile.centres();
+    for site in pile.sites()? {
+        let [x, y, z] = centres.centre(site)?;
+        writeln!(out, "{x:?} {y:?} {z:?} {radius:?}")?;
+        row();
+    }
+    Ok(())
+}
+
+/// Writes a script that lets the pile relax, and writes the forces of the last state.
+pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
+    let springs = Springs::of(pile)?;
+    let loads = burdens(pile)?.into_iter();
+    let loads = by_id(loads.map(|burden| (burden.id, burden.force)));
+    let mut masses = Vec::new();
+    for (site, mass) in inertias(pile)? {
+        masses.push((pile.numbering().id(site)?, mass));
+    }
+    // Rotations do nothing without friction.
+    let blocked = match pile.pile().dimension() {
+        Dimension::Two => "yXYZ",
+        Dimension::Three => "XYZ",
+    };
+    let number = |x: f64| format!("{x:?}");
+    let script = fill(
+        include_str!("pile.py"),
+        &[
+            ("first", pile.numbering().first_on_floor().to_string()),
+            ("stiffness", number(springs.stiffness)),
+            ("radius", number(springs.radius)),
+            ("rest", number(2.0 * springs.rest())),
+            ("most_steps", springs.most_steps.to_string()),
+            ("loads", loads),
+            ("masses", by_id(masses.into_iter())),
+            ("density", number(density(springs.mass, springs.radius)?)),
+            ("blocked", blocked.to_owned()),
+            ("gravity", number(springs.gravity)),
+            ("timestep", number(springs.timestep)),
+        ],
+    );
+    Ok(out.write_all(script.as_bytes())?)
+}
+
+/// A dictionary of Python.
+fn by_id(numbers: impl Iterator<Item = (u64, f64)>) -> String {
+    let entries = numbers.map(|(id, number)| format!("    {id}: {number:?},\n"));
+    format!("{{\n{}}}", entries.collect::<String>())
+}

@@ -1,0 +1,200 @@
+//! One entry of a table, and how it is shown.
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::rc::Rc;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::line::Line;
+use crate::Error;
+use crate::scalar::{NearestFloat, Surd};
+
+/// One entry of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A count, in all number formats alike.
+    Integer(BigInt),
+    /// An index, in all number formats alike.
+    Index(i128),
+    /// An exact quantity, shown in the number format asked for.
+    Number(Box<Surd>),
+    /// A quantity that many rows share, as its text in the number format asked for.
+    Shown(Rc<Shown>),
+    /// A word.
+    Word(Cow<'static, str>),
+    /// Yes or no: 1 and 0, in json `true` and `false`.
+    Flag(bool),
+    /// Nothing to say: empty, in json `null`.
+    Missing,
+}
+
+/// A number and its text.
+#[derive(Debug, PartialEq)]
+pub struct Shown {
+    pub(super) text: String,
+    /// The exact number, where it is summed.
+    pub(super) exact: Option<Surd>,
+}
+
+impl From<i128> for Cell {
+    fn from(value: i128) -> Self {
+        Self::Index(value)
+    }
+}
+
+impl From<BigRational> for Cell {
+    fn from(value: BigRational) -> Self {
+        Surd::from(value).into()
+    }
+}
+
+impl From<Surd> for Cell {
+    fn from(value: Surd) -> Self {
+        Self::Number(value.into())
+    }
+}
+
+impl From<&Rc<Shown>> for Cell {
+    fn from(shown: &Rc<Shown>) -> Self {
+        Self::Shown(Rc::clone(shown))
+    }
+}
+
+impl From<&'static str> for Cell {
+    fn from(value: &'static str) -> Self {
+        Self::Word(value.into())
+    }
+}
+
+impl Shown {
+    /// A number as its text in a format of one column; `quantity` is named if it does not fit.
+    pub(super) fn new(
+        number: &Surd,
+        numbers: NumberFormat,
+        quantity: &'static str,
+        summed: bool,
+    ) -> Result<Rc<Self>, Error> {
+        let text = numbers.show(number, quantity)?;
+        let exact = summed.then(|| number.clone());
+        Ok(Rc::new(Self { text, exact }))
+    }
+}
+
+impl Cell {
+    /// The exact number, for a sum.
+    pub(super) fn exact(&self) -> Option<&Surd> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Shown(shown) => shown.exact.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// Adds the text of the cell to a line, so often as its column has heads, or both ends of a number if it is shown
+    /// as an interval; `column` is named if the number does not fit.
+    pub(super) fn show(
+        &self,
+        numbers: NumberFormat,
+        column: &'static str,
+        heads: usize,
+        line: &mut Line,
+    ) -> Result<(), Error> {
+        if let (Self::Number(x), NumberFormat::Interval) = (self, numbers) {
+            ends(x, column)?.iter().for_each(|end| line.push_str(end));
+            return Ok(());
+        }
+        for _ in 0..heads {
+            match self {
+                Self::Integer(n) => line.push(n),
+                Self::Index(n) => match i64::try_from(*n) {
+                    // Written faster.
+                    Ok(n) => line.push(n),
+                    Err(_) => line.push(n),
+                },
+                Self::Number(x) => line.push_str(&numbers.show(x, column)?),
+                Self::Shown(shown) => line.push_str(&shown.text),
+                Self::Word(word) => line.push_str(word),
+                Self::Flag(flag) => line.push_str(if *flag { "1" } else { "0" }),
+                Self::Missing => line.push_str(""),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How exact quantities are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NumberFormat {
+    /// `4`, `7/3`, `7/3*sqrt(2)`.
+    Exact,
+    /// The nearest `f64`, with the fewest digits that read back the same (at most 17).
+    F64,
+    /// The nearest `f32`, with the fewest digits that read back the same (at most 9).
+    F32,
+    /// The greatest `f64` that is not greater and the least that is not less: two columns, `…_lo` and `…_hi`.
+    Interval,
+}
+
+impl NumberFormat {
+    /// A number as text; `quantity` is named if it does not fit.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] for a number beyond the floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::table::NumberFormat;
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(2.into()))?;
+    /// assert_eq!(NumberFormat::Exact.show(&root, "root")?, "sqrt(2)");
+    /// assert_eq!(NumberFormat::F64.show(&root, "root")?, "1.4142135623730951");
+    /// assert_eq!(NumberFormat::F32.show(&root, "root")?, "1.4142135");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn show(self, number: &Surd, quantity: &'static str) -> Result<String, Error> {
+        match self {
+            Self::Exact => Ok(number.to_string()),
+            Self::F64 => shortest::<f64>(number, quantity, "f64"),
+            Self::F32 => shortest::<f32>(number, quantity, "f32"),
+            Self::Interval => {
+                let [lower, upper] = ends(number, quantity)?;
+                Ok(format!("[{lower}, {upper}]"))
+            }
+        }
+    }
+}
+
+/// The `f64` on both sides of a number, or it twice where it is one, as the shortest texts that read back the same.
+fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
+    let overflow = Error::Overflow {
+        quantity,
+        scalar: "f64",
+    };
+    let float = number.nearest::<f64>().ok_or_else(|| overflow.clone())?;
+    let [lower, upper] = match number.partial_cmp(&float) {
+        Some(Ordering::Less) => [float.next_down(), float],
+        Some(Ordering::Greater) => [float, float.next_up()],
+        _ => [float, float],
+    };
+    if lower.is_finite() && upper.is_finite() {
+        Ok([lower, upper].map(|end| format!("{end:?}")))
+    } else {
+        Err(overflow)
+    }
+}
+
+/// The nearest float, as the shortest text that reads back the same: what `Debug` prints.
+fn shortest<F: NearestFloat + core::fmt::Debug>(
+    number: &Surd,
+    quantity: &'static str,
+    scalar: &'static str,
+) -> Result<String, Error> {
+    let float = number.nearest::<F>();
+    float
+        .map(|x| format!("{x:?}"))
+        .ok_or(Error::Overflow { quantity, scalar })
+}

@@ -1,0 +1,228 @@
+//! A pile in one row.
+
+use num_bigint::BigUint;
+use num_rational::BigRational;
+
+use super::cell::Cell;
+use super::rows::{Column, Table};
+use super::units::Units;
+use crate::geometry::Apart;
+use crate::lattice::Dimension;
+use crate::scalar::Surd;
+use crate::shape::Selection;
+use crate::stacking::Stacking;
+use crate::{BaseExtremes, ContactForce, Error, Pile, Standing, Verdict};
+
+/// What there is to say of a pile in one row, and whether it stands.
+///
+/// # Examples
+/// ```
+/// use cannonpile::table::{FileFormat, NumberFormat, Summary, Units};
+/// use cannonpile::{Pile, Verdict};
+///
+/// let pile = Pile::triangular(10)?;
+/// let summary = Summary::new(&Units::of_pile(&pile), None)?;
+/// assert_eq!(summary.verdict(), Some(Verdict::Yes));
+/// let mut text = Vec::new();
+/// summary.table()?.write(FileFormat::Text, NumberFormat::Exact, &mut text)?;
+/// let text = String::from_utf8(text)?;
+/// assert!(text.starts_with("layers           10\nstacking         fcc\nspheres          220\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Summary<'p> {
+    units: Units<'p>,
+    touching: Option<Vec<Apart>>,
+    standing: Standing,
+    /// Empty for a base too large to look at every sphere.
+    base: Option<BaseExtremes>,
+}
+
+impl<'p> Summary<'p> {
+    /// Sums up the pile of `units`; `touching` is what touches besides the contacts at the spacing in question,
+    /// if there is one, and nothing if there is none.
+    ///
+    /// # Errors
+    /// Those of [`Pile::standing`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::table::{Summary, Units};
+    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::{Pile, Verdict};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let units = Units::of_pile(&pile);
+    /// assert_eq!(Summary::new(&units, Some(Vec::new()))?.verdict(), Some(Verdict::No));
+    /// // Where spheres two layers apart touch, they may take the part of a pull.
+    /// let touching = vec![Apart { layers: 2 }];
+    /// assert_eq!(Summary::new(&units, Some(touching))?.verdict(), Some(Verdict::Undetermined));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn new(units: &Units<'p>, touching: Option<Vec<Apart>>) -> Result<Self, Error> {
+        let pile = units.pile();
+        let base = match pile.base_extremes() {
+            Err(Error::TooLarge { .. }) => None,
+            base => Some(base?),
+        };
+        Ok(Self {
+            units: units.clone(),
+            touching,
+            standing: pile.standing()?,
+            base,
+        })
+    }
+
+    /// Whether the pile stands; `None` for spheres without weight, of which it is not asked.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::table::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?.weightless();
+    /// assert_eq!(Summary::new(&Units::of_pile(&pile), None)?.verdict(), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn verdict(&self) -> Option<Verdict> {
+        let asked = !self.units.pile().is_weightless();
+        let touching = self.touching.as_deref().unwrap_or_default();
+        asked.then(|| self.standing.verdict(touching))
+    }
+
+    /// One row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres, normal_min,
+    /// normal_max, max_shear_ratio, touching, plan`.
+    ///
+    /// The weight is that of all spheres with their loads.
+    ///
+    /// # Errors
+    /// Those of the forces are handed on.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::table::{FileFormat, NumberFormat, Summary, Units};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let mut csv = Vec::new();
+    /// let table = Summary::new(&Units::of_pile(&pile), None)?.table()?;
+    /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+    /// // It does not stand: a contact would have to pull.
+    /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn table(&self) -> Result<Table<'static>, Error> {
+        let (units, pile) = (&self.units, self.units.pile());
+        let (mass, tan) = match units {
+            Units::Pile(_) => (None, None),
+            Units::Si(packing) => (
+                Some(packing.sphere_weight()),
+                Some(packing.inclination().tan()),
+            ),
+        };
+        let in_units = |force: &BigRational| -> Cell {
+            mass.as_ref()
+                .map_or_else(|| force.clone(), |mass| force * mass)
+                .into()
+        };
+        let of_base = |value: fn(&BaseExtremes) -> &BigRational| {
+            self.base
+                .as_ref()
+                .map_or(Cell::Missing, |base| in_units(value(base)))
+        };
+        let ratio = self.base.as_ref().map(|base| match &tan {
+            None => base.max_shear_ratio.clone(),
+            Some(tan) => tan.clone() * &base.max_shear_ratio,
+        });
+        let ratio_unit = if tan.is_none() { "tanθ" } else { "" };
+        let least = self.standing.least.as_ref();
+        let least = least.map(|contact| self.least(contact)).transpose()?;
+        let plan = match pile.plan(Selection::Base) {
+            // Its base cannot be answered whole.
+            Err(Error::TooLarge { .. }) => Cell::Missing,
+            plan => Cell::Word(plan?.method.to_string().into()),
+        };
+        let plain = |name, cell: Cell| (Column::plain(name), cell);
+        let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
+        let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
+        let word = |word: String| Cell::Word(word.into());
+        let stands = self.verdict().map(|verdict| verdict.name().into());
+        let touching = self.touching.as_deref().map(describe);
+        let entries = [
+            plain("layers", pile.layers().into()),
+            plain("stacking", word(stacking(pile))),
+            count("spheres", pile.spheres()),
+            count("contacts", pile.contacts()),
+            measured("weight", units.normal(), in_units(&pile.weight())),
+            plain("stands", stands.unwrap_or(Cell::Missing)),
+            measured(
+                "min_contact",
+                units.force(),
+                least.map_or(Cell::Missing, Cell::from),
+            ),
+            count("base_spheres", pile.base_spheres()),
+            measured(
+                "normal_min",
+                units.normal(),
+                of_base(|base| &base.normal_min),
+            ),
+            measured(
+                "normal_max",
+                units.normal(),
+                of_base(|base| &base.normal_max),
+            ),
+            measured(
+                "max_shear_ratio",
+                ratio_unit,
+                ratio.map_or(Cell::Missing, Cell::from),
+            ),
+            plain("touching", touching.unwrap_or(Cell::Missing)),
+            plain("plan", plan),
+        ];
+        Ok(Table::record(entries.into()))
+    }
+
+    fn least(&self, contact: &ContactForce<BigRational>) -> Result<Surd, Error> {
+        match &self.units {
+            Units::Pile(_) => Ok(contact.force.clone().into()),
+            Units::Si(packing) => packing.contact(contact.site, contact.direction),
+        }
+    }
+}
+
+/// The name of a pile's stacking, or its steps.
+fn stacking(pile: &Pile) -> String {
+    if pile.dimension() == Dimension::Two {
+        return "discs".into();
+    }
+    let read = as_read(pile);
+    read.name().map_or_else(|| read.to_string(), Into::into)
+}
+
+/// The steps of a pile.
+pub(super) fn steps(pile: &Pile) -> String {
+    as_read(pile).to_string()
+}
+
+/// The stacking in the order in which it is written: from the base up, if the pile was grown so.
+fn as_read(pile: &Pile) -> Stacking {
+    let stacking = pile.shape().stacking();
+    if pile.shape().is_grown_from_base() {
+        stacking.reversed()
+    } else {
+        stacking.clone()
+    }
+}
+
+/// `none`, `in one layer and 3 layers apart`.
+fn describe(touching: &[Apart]) -> Cell {
+    let words: Vec<String> = touching.iter().map(ToString::to_string).collect();
+    if words.is_empty() {
+        "none".into()
+    } else {
+        Cell::Word(words.join(" and ").into())
+    }
+}

@@ -1,0 +1,172 @@
+//! A table for people: aligned, units in the head, sums below.
+
+use std::io::Write;
+
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+use super::cell::{Cell, NumberFormat};
+use super::error::WriteError;
+use super::line::Line;
+use super::rows::{Column, RowIter, show};
+use crate::Error;
+use crate::scalar::Surd;
+
+/// How many rows are aligned together: a page is all that is held in memory.
+pub(super) const PAGE: usize = 4096;
+
+/// How many rows are aligned together where nothing is known of them before they are made.
+pub(super) const SHORT_PAGE: usize = 256;
+
+/// Writes a line a column: name, value, unit.
+pub(super) fn write_record(
+    columns: &[Column],
+    rows: RowIter<'_>,
+    numbers: NumberFormat,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let [heads, units] = heads(columns, numbers);
+    let width = heads.fields().map(str::len).max().unwrap_or(0);
+    let mut line = Line::default();
+    for row in rows {
+        show(columns, &row?, numbers, &mut line)?;
+        for ((head, unit), text) in heads.fields().zip(units.fields()).zip(line.fields()) {
+            let (text, unit) = if text.is_empty() {
+                ("-", "")
+            } else {
+                (text, unit)
+            };
+            let line = format!("{head:width$}  {text} {unit}");
+            writeln!(out, "{}", line.trim_end())?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a line a row, in columns as wide as their widest entry so far.
+pub(super) fn write_rows(
+    columns: &[Column],
+    (mut rows, page_length): (RowIter<'_>, usize),
+    noun: &str,
+    numbers: NumberFormat,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let mut sums: Vec<Sum> = columns.iter().map(Sum::of).collect();
+    let has_sums = columns.iter().any(|column| column.summed);
+    let [heads, units] = heads(columns, numbers);
+    let mut bracketed = Line::default();
+    for unit in units.fields() {
+        match unit {
+            "" => bracketed.push_str(""),
+            unit => bracketed.push(format_args!("[{unit}]")),
+        }
+    }
+    let mut page = vec![heads, bracketed];
+    let mut widths = vec![0; units.fields().count()];
+    // The word stands below on the last page only.
+    if let (Some(first), true) = (widths.first_mut(), has_sums) {
+        *first = "total".len();
+    }
+    let mut count = BigUint::zero();
+    loop {
+        let mut taken = 0;
+        for row in rows.by_ref().take(page_length) {
+            let row = row?;
+            sums.iter_mut()
+                .zip(&row)
+                .for_each(|(sum, cell)| sum.add(cell));
+            let mut line = Line::default();
+            show(columns, &row, numbers, &mut line)?;
+            page.push(line);
+            taken += 1;
+        }
+        count += taken;
+        let last = taken < page_length;
+        let totals = (last && has_sums).then(|| totals(columns, &sums, numbers));
+        for line in page.iter().chain(&totals) {
+            for (width, text) in widths.iter_mut().zip(line.fields()) {
+                *width = text.chars().count().max(*width);
+            }
+        }
+        for line in page.drain(..) {
+            write_line(out, &line, &widths)?;
+        }
+        if !last {
+            continue;
+        }
+        if let Some(totals) = totals {
+            let gaps = 2 * widths.len().saturating_sub(1);
+            writeln!(out, "{}", "-".repeat(widths.iter().sum::<usize>() + gaps))?;
+            write_line(out, &totals, &widths)?;
+        }
+        let noun = if count == BigUint::from(1_u32) {
+            noun.trim_end_matches('s')
+        } else {
+            noun
+        };
+        return Ok(writeln!(out, "{count} {noun}")?);
+    }
+}
+
+/// The headers, and their units.
+fn heads(columns: &[Column], numbers: NumberFormat) -> [Line; 2] {
+    let mut lines = [Line::default(), Line::default()];
+    let [heads, units] = &mut lines;
+    for column in columns {
+        for head in column.heads(numbers) {
+            heads.push_str(&head);
+            units.push_str(column.unit);
+        }
+    }
+    lines
+}
+
+/// The sums below, after the word `total`.
+fn totals(columns: &[Column], sums: &[Sum], numbers: NumberFormat) -> Line {
+    let mut line = Line::default();
+    for (n, (column, sum)) in columns.iter().zip(sums).enumerate() {
+        let places = column.places(numbers);
+        let word = if n == 0 { "total" } else { "" };
+        let cell = match &sum.0 {
+            // A sum beyond the floats is shown exactly: its rows are out already, and right.
+            Some(sum) if !fits(sum, numbers) => Cell::Word(sum.to_string().into()),
+            Some(sum) => sum.clone().into(),
+            None => word.into(),
+        };
+        // Whether it fits has been found out.
+        let _ = cell.show(numbers, column.name, places, &mut line);
+    }
+    line
+}
+
+fn fits(sum: &Surd, numbers: NumberFormat) -> bool {
+    let shown: Result<_, Error> = numbers.show(sum, "sum");
+    shown.is_ok()
+}
+
+fn write_line(out: &mut dyn Write, line: &Line, widths: &[usize]) -> Result<(), WriteError> {
+    let mut padded = String::new();
+    for (text, width) in line.fields().zip(widths) {
+        let gap = width.saturating_sub(text.chars().count());
+        padded.extend(core::iter::repeat_n(' ', gap));
+        padded.push_str(text);
+        padded.push_str("  ");
+    }
+    Ok(writeln!(out, "{}", padded.trim_end())?)
+}
+
+/// The exact sum of a column whose numbers are multiples of one root; none of a column that has no sum, or once two
+/// roots have met.
+struct Sum(Option<Surd>);
+
+impl Sum {
+    fn of(column: &Column) -> Self {
+        Self(column.summed.then(Surd::zero))
+    }
+
+    fn add(&mut self, cell: &Cell) {
+        if let (Some(sum), Some(number)) = (&self.0, cell.exact()) {
+            self.0 = sum.checked_add(number);
+        }
+    }
+}
