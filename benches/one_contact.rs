@@ -1,6 +1,7 @@
 //! One contact and one base sphere cost the same in a pile of 10 layers and of 10³⁶.
 //!
-//! `cargo bench --bench one_contact` prints nanoseconds and, last, lines `ratio NAME VALUE`; with
+//! `cargo bench --manifest-path benches/Cargo.toml --bench one_contact`
+//! prints nanoseconds and, last, lines `ratio NAME VALUE`; with
 //! `-- --smoke` it only checks the answers and that the bench runs.
 
 use std::env;

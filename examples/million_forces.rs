@@ -3,7 +3,6 @@
 
 use std::time::Instant;
 
-use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region};
 use cannonpile::scalar::Surd;
 use cannonpile::scene::parse;
@@ -20,7 +19,7 @@ fn main() -> Result<(), Error> {
 fn straight() -> Result<(), Error> {
     let pile = Pile::triangular(126)?;
     // Steel balls of 1 cm, on the moon.
-    let packing = Packing::new(&pile, &Spacing::new(parse::rational("1.2")?)?)?
+    let packing = Packing::new(&pile, &"1.2".parse()?)?
         .with_radius(parse::rational("0.01")?)?
         .with_mass(parse::rational("0.033")?)?
         .with_gravity(parse::rational("1.62")?)?;

@@ -36,7 +36,7 @@ use crate::Error;
 /// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);
 
-/// A direction of contacts, named as in the paper's eq. (1).
+/// A direction of contacts, named as in the paper, (1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// α, along ê_a.
@@ -51,7 +51,7 @@ impl Direction {
     /// α, β, γ: the order of every array indexed by direction.
     pub const ALL: [Self; 3] = [Self::Alpha, Self::Beta, Self::Gamma];
 
-    /// 0, 1, 2 for α, β, γ.
+    /// Returns 0, 1, 2 for α, β, γ.
     ///
     /// # Examples
     /// ```
@@ -68,7 +68,7 @@ impl Direction {
         }
     }
 
-    /// The step (Δi, Δj, Δk) from a sphere to the one below it in this direction.
+    /// Returns the step (Δi, Δj, Δk) from a sphere to the one below it in this direction.
     ///
     /// # Examples
     /// ```
@@ -85,7 +85,7 @@ impl Direction {
         }
     }
 
-    /// `alpha`, `beta`, `gamma`: the name in tables and on the command line.
+    /// Returns `alpha`, `beta` or `gamma`, the name in tables and on the command line.
     ///
     /// # Examples
     /// ```
@@ -148,7 +148,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// 2 or 3, which is also the number of contacts below each sphere.
+    /// Returns 2 or 3, which is also the number of contacts below each sphere.
     ///
     /// # Examples
     /// ```
@@ -164,7 +164,7 @@ impl Dimension {
         }
     }
 
-    /// The directions of contacts, in order.
+    /// Returns the directions of contacts, in order.
     ///
     /// # Examples
     /// ```
@@ -228,7 +228,7 @@ impl TryFrom<u32> for Dimension {
 
 /// A place (i, j, k) for a sphere, k counted from the top.
 ///
-/// Any three integers make a site; whether a pile has it is for [`Shape::contains`] to say. Sites
+/// Any three integers make a site. [`Shape::contains`](crate::shape::Shape::contains) says whether a pile has it. Sites
 /// are ordered as tables print them: by layer, row, place in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
@@ -252,8 +252,8 @@ impl Site {
     /// The sphere on top of a pile, (0, 0, 0).
     pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
 
-    /// The site `steps` further down in `direction` under steps of one sign, up for a negative number; `None` past
-    /// `i128`.
+    /// Returns the site `steps` further down in `direction` under steps of one sign, up for a negative number; `None`
+    /// past `i128`.
     pub(crate) fn step(self, sign: Sign, direction: Direction, steps: i128) -> Option<Self> {
         let [di, dj] = sign.descent(direction).map(|d| d * steps);
         Some(Self {
@@ -277,7 +277,7 @@ impl PartialOrd for Site {
 }
 
 impl fmt::Display for Site {
-    /// `(i,j,k)`.
+    /// Prints `(i,j,k)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "({},{},{})", self.i, self.j, self.k)
     }

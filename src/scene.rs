@@ -109,7 +109,7 @@ impl Default for Scene {
 const LAYERS: i128 = 10;
 
 impl Scene {
-    /// The pile, checked; with the spacing, if one is given.
+    /// Returns the pile, checked, also with the spacing if one is given.
     ///
     /// # Errors
     /// Those of [`Pile`]'s constructors, loads and [`Clearance::check`](crate::geometry::Clearance::check);
@@ -186,7 +186,7 @@ impl Scene {
         }
     }
 
-    /// That radius, mass and gravity are positive, whether they will be used or not.
+    /// Checks that radius, mass and gravity are positive, whether they will be used or not.
     ///
     /// # Errors
     /// [`Error::NotPositive`].
@@ -216,7 +216,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The spacing: the one given, or 6/5. Whether it fits the pile is not checked here.
+    /// Returns the spacing that is given, or 6/5. Whether it fits the pile is not checked here.
     ///
     /// # Errors
     /// [`Error::NotPositive`].
@@ -233,7 +233,7 @@ impl Scene {
         Spacing::new(self.spacing.clone().unwrap_or_else(default))
     }
 
-    /// The pile with the sizes and weights of the scene.
+    /// Returns the pile with the sizes and weights of the scene.
     ///
     /// # Errors
     /// Those of [`Packing::new`], and [`Error::NotPositive`].

@@ -21,7 +21,7 @@ use crate::stacking::{Pattern, Run, Stacking};
 /// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
 ///
 /// A shape is grown down from a top layer, each layer all supports of the one above (dilation), or up from a base,
-/// each layer all sites whose three supports are there (erosion). THEORY §3. One sphere on top and all + is the
+/// each layer all sites whose three supports are there (erosion). One sphere on top and all + is the
 /// paper's pile, [`pyramid`](Self::pyramid).
 ///
 /// What it holds grows with the changes of sign, not with the layers.
@@ -98,7 +98,8 @@ impl Anchor {
 }
 
 impl Shape {
-    /// The sites of a straight pile under one sphere: triangles of 1, 3, 6, … spheres, or rows of 1, 2, 3, … discs.
+    /// Returns the shape of a straight pile under one sphere: triangles of 1, 3, 6, … spheres, or rows of 1, 2, 3, …
+    /// discs.
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`].
@@ -118,7 +119,7 @@ impl Shape {
         Ok(Self::new(dimension, stacking, Anchor::Top(Region::SITE)))
     }
 
-    /// The sites grown down from `top`: each layer all supports of the layer above.
+    /// Returns the shape grown down from `top`: each layer consists of all supports of the layer above.
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] if a layer leaves ±10³⁶.
@@ -142,8 +143,8 @@ impl Shape {
         Ok(shape)
     }
 
-    /// The sites grown up from `base`: each layer all sites whose three supports are there. The stacking is read
-    /// from the top, as everywhere in the library.
+    /// Returns the shape grown up from `base`: each layer consists of all sites whose three supports are there. The
+    /// stacking is read from the top, as everywhere in the library.
     ///
     /// Spheres below may be left with nothing on them.
     ///
@@ -217,7 +218,7 @@ impl Shape {
         layers - kept
     }
 
-    /// The number L of layers.
+    /// Returns the number L of layers.
     ///
     /// # Examples
     /// ```
@@ -233,7 +234,7 @@ impl Shape {
         self.whole.plus + self.whole.minus + 1
     }
 
-    /// Discs or spheres.
+    /// Returns whether the pile is of discs or of spheres.
     ///
     /// # Examples
     /// ```
@@ -249,7 +250,7 @@ impl Shape {
         self.dimension
     }
 
-    /// How layers follow one another, from the top.
+    /// Returns how layers follow one another, from the top.
     ///
     /// # Examples
     /// ```
@@ -265,7 +266,7 @@ impl Shape {
         &self.stacking
     }
 
-    /// Whether this is a straight pile of + steps under one sphere, or of discs.
+    /// Returns whether this is a straight pile of + steps under one sphere, or of discs.
     ///
     /// # Examples
     /// ```
@@ -281,7 +282,7 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.whole.minus == 0
     }
 
-    /// Whether this is the paper's pile or its mirror image, or of discs.
+    /// Returns whether this is the paper's pile or its mirror image, or of discs.
     pub(crate) fn is_straight_under_one_sphere(&self) -> bool {
         self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
     }
@@ -318,7 +319,7 @@ impl Shape {
         matches!(self.anchor, Anchor::Base(_))
     }
 
-    /// The sites of layer k, counted from the top.
+    /// Returns the sites of layer k, counted from the top.
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
@@ -340,7 +341,7 @@ impl Shape {
         })
     }
 
-    /// The layer on the floor.
+    /// Returns the layer on the floor.
     ///
     /// # Examples
     /// ```
@@ -382,7 +383,7 @@ impl Shape {
         }
     }
 
-    /// How many spheres lie above a site of layer k on each of its lines, within the run down to there.
+    /// Returns how many spheres lie above a site of layer k on each of its lines, within the run down to there.
     #[inline]
     pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
@@ -391,7 +392,7 @@ impl Shape {
         })
     }
 
-    /// The same along row j of layer k.
+    /// The counts of [`spheres_above`](Self::spheres_above) along row j of layer k.
     pub(crate) fn row_counts(&self, run: &Stretch, k: i128, j: i128) -> [Trapezoid; 3] {
         let nothing = Trapezoid {
             cap: 0,
@@ -404,7 +405,7 @@ impl Shape {
         })
     }
 
-    /// Whether the pile has this site.
+    /// Returns whether the pile has this site.
     ///
     /// # Examples
     /// ```
@@ -423,7 +424,7 @@ impl Shape {
         region.is_some_and(|region| region.contains(site.i, site.j))
     }
 
-    /// The site itself, if the pile has it.
+    /// Checks that the pile has this site, and returns it.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::LayerOutside`] if a pile of another shape than the paper's has no such layer.
@@ -458,7 +459,7 @@ impl Shape {
         })
     }
 
-    /// The support of `site` in a direction; none on the floor, and none in a direction that discs lack.
+    /// Returns the support of `site` in a direction; none on the floor, and none in a direction that discs lack.
     ///
     /// # Examples
     /// ```
@@ -476,7 +477,7 @@ impl Shape {
         self.neighbour(site, direction, self.sign_below(site.k)?, 1)
     }
 
-    /// The sphere that `site` supports in a direction; none at a surface.
+    /// Returns the sphere that `site` supports in a direction; none at a surface.
     ///
     /// # Examples
     /// ```
@@ -501,7 +502,7 @@ impl Shape {
         self.contains(to).then_some(to)
     }
 
-    /// The rows of a part of the pile, from the top.
+    /// Returns the rows of a part of the pile, from the top.
     ///
     /// # Errors
     /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
@@ -519,7 +520,7 @@ impl Shape {
         Rows::new(self, selection)
     }
 
-    /// Every site, layer by layer from the top, row by row.
+    /// Returns every site, layer by layer from the top, row by row.
     ///
     /// # Examples
     /// ```
@@ -535,7 +536,7 @@ impl Shape {
         Rows::of_layers(self, 0..self.layers()).flatten()
     }
 
-    /// The greatest number of layers that a pattern, read from the base up, carries a base to.
+    /// Returns the greatest number of layers that a pattern, read from the base up, carries a base to.
     pub(crate) fn greatest_height(base: Region, pattern: &Pattern) -> Result<i128, Error> {
         // Each step takes at least one off each width, and none gets below 0.
         let [x, y, s] = base.widths();

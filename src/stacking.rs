@@ -1,6 +1,6 @@
 //! How layers follow one another: Hägg signs, kept as runs, and the notations of the field.
 //!
-//! From one layer to the next a pile steps with a Hägg sign (THEORY §3): under + the sphere (i, j) rests on
+//! From one layer to the next a pile steps with a Hägg sign: under + the sphere (i, j) rests on
 //! (i, j), (i+1, j), (i, j+1) of the layer below, under − on (i, j), (i−1, j), (i, j−1). All + is the paper's
 //! FCC-like pile, alternating signs are HCP, ++−− repeated is DHCP. The same sequence is written as
 //!
@@ -74,7 +74,7 @@ pub struct Stacking {
 }
 
 impl Stacking {
-    /// One layer: no step.
+    /// Returns the stacking of one layer, which has no step.
     ///
     /// # Examples
     /// ```
@@ -90,7 +90,7 @@ impl Stacking {
         }
     }
 
-    /// The stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
+    /// Returns the stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
     ///
     /// # Errors
     /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers, [`Error::TooManyRuns`] beyond
@@ -139,7 +139,7 @@ impl Stacking {
         Ok(stacking)
     }
 
-    /// The stacking with these signs from the top.
+    /// Returns the stacking with these signs from the top.
     ///
     /// # Errors
     /// As for [`from_runs`](Self::from_runs).
@@ -157,7 +157,7 @@ impl Stacking {
         Self::from_runs(signs.into_iter().map(|sign| Run { sign, steps: 1 }))
     }
 
-    /// All +: the paper's FCC-like pile.
+    /// Returns the stacking of + steps only, the paper's FCC-like pile.
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶.
@@ -173,7 +173,7 @@ impl Stacking {
         Self::periodic(layers, 0)
     }
 
-    /// + − + − …: hexagonal close packing.
+    /// Returns the stacking + − + − …, hexagonal close packing.
     ///
     /// # Errors
     /// [`Error::Layers`], and [`Error::TooManyRuns`] beyond a million changes of sign.
@@ -189,7 +189,7 @@ impl Stacking {
         Self::periodic(layers, 1)
     }
 
-    /// + + − − …: double hexagonal close packing.
+    /// Returns the stacking + + − − …, double hexagonal close packing.
     ///
     /// # Errors
     /// As for [`hcp`](Self::hcp).
@@ -215,21 +215,19 @@ impl Stacking {
         }
         let steps = layers - 1;
         let length = if length == 0 { steps.max(1) } else { length };
-        let runs = usize::try_from(steps / length + i128::from(steps % length > 0));
-        if !runs.is_ok_and(|runs| runs <= MAX_RUNS) {
-            return Err(Error::TooManyRuns { limit: MAX_RUNS });
-        }
-        // Not more than there are runs.
-        let whole = usize::try_from(steps / length).unwrap_or(MAX_RUNS);
+        let (whole, rest) = (steps / length, steps % length);
+        let whole = usize::try_from(whole).ok();
+        let whole = whole.filter(|whole| whole.saturating_add(usize::from(rest > 0)) <= MAX_RUNS);
+        let whole = whole.ok_or(Error::TooManyRuns { limit: MAX_RUNS })?;
         let mut lengths = alloc::vec![length; whole];
-        lengths.extend(Some(steps % length).filter(|rest| *rest > 0));
+        lengths.extend(Some(rest).filter(|rest| *rest > 0));
         Ok(Self {
             first: Sign::Plus,
             lengths,
         })
     }
 
-    /// The number L of layers, one more than there are steps.
+    /// Returns the number L of layers, one more than there are steps.
     ///
     /// # Examples
     /// ```
@@ -244,7 +242,7 @@ impl Stacking {
         self.lengths.iter().sum::<i128>() + 1
     }
 
-    /// The number d of sign changes.
+    /// Returns the number d of sign changes.
     ///
     /// # Examples
     /// ```
@@ -258,7 +256,7 @@ impl Stacking {
         self.lengths.len().saturating_sub(1)
     }
 
-    /// Whether no sign changes.
+    /// Returns whether no sign changes.
     ///
     /// # Examples
     /// ```
@@ -272,7 +270,7 @@ impl Stacking {
         self.changes() == 0
     }
 
-    /// The runs, from the top.
+    /// Returns the runs, from the top.
     ///
     /// # Examples
     /// ```
@@ -291,7 +289,7 @@ impl Stacking {
         })
     }
 
-    /// The signs, from the top, one a step.
+    /// Returns the signs from the top, one for each step.
     ///
     /// As many as there are steps: of 10¹⁵ layers, ask for [`runs`](Self::runs).
     ///
@@ -309,7 +307,8 @@ impl Stacking {
             .flat_map(|run| (0..run.steps).map(move |_| run.sign))
     }
 
-    /// `fcc`, `hcp` or `dhcp`, if the steps begin so and go on so; a stacking of two layers or one is `fcc`.
+    /// Returns the name of the pattern that the steps follow from the first on: `fcc`, `hcp` or `dhcp`. One layer and
+    /// two layers are `fcc`.
     ///
     /// # Examples
     /// ```
@@ -340,7 +339,7 @@ impl Stacking {
         }
     }
 
-    /// The stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
+    /// Returns the stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
     ///
     /// # Examples
     /// ```
@@ -363,7 +362,7 @@ impl Stacking {
         }
     }
 
-    /// The same steps read from the other end.
+    /// Returns the stacking with its steps in opposite order, as read from the other end.
     ///
     /// # Examples
     /// ```
@@ -408,7 +407,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// The layers of a stacking that is spelled out.
+    /// Returns the number of layers, if the stacking is spelled out.
     ///
     /// # Examples
     /// ```
@@ -426,7 +425,7 @@ impl Pattern {
         }
     }
 
-    /// The stacking of so many layers.
+    /// Returns the stacking of this many layers.
     ///
     /// # Errors
     /// [`Error::Layers`]; [`Error::TooManyRuns`]; [`Error::LayersOfStacking`] if it is spelled out and has another

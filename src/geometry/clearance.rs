@@ -1,6 +1,6 @@
 //! Which spacings leave room for the spheres.
 //!
-//! # What has to be looked at
+//! # Which pairs of spheres decide
 //! Two spheres of a pile of L layers differ by n = (n_a, n_b, n_c) if both the positive and the negative
 //! parts of n sum to at most L−1. They overlap if the form [`squared_distance`] is below 1 at n. With
 //! σ = sin²θ it is m² + σ(h(n) − m²), linear in σ, where m = n_a+n_b+n_c counts the layers between them
@@ -66,7 +66,7 @@ pub struct Apart {
 }
 
 impl fmt::Display for Apart {
-    /// `in one layer`, `3 layers apart`.
+    /// Prints `in one layer`, `3 layers apart`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.layers {
             0 => f.write_str("in one layer"),
@@ -81,21 +81,18 @@ type Touch = (BigRational, Apart);
 
 /// The spacings a pile allows: those at which no two of its spheres overlap.
 ///
-/// Made by [`Pile::clearance`](crate::Pile::clearance). THEORY §2, "No overlap". On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the bounds
-/// further spheres touch.
+/// [`Pile::clearance`](crate::Pile::clearance) makes it. On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the
+/// bounds further spheres touch.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::geometry::Spacing;
-/// use num_rational::BigRational;
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
 /// let clearance = Pile::triangular(10)?.clearance();
-/// assert!(clearance.check(&Spacing::new(ratio(163, 100))?).is_ok());
-/// assert!(clearance.check(&Spacing::new(ratio(164, 100))?).is_err());
+/// assert!(clearance.check(&"1.63".parse()?).is_ok());
+/// assert!(clearance.check(&"1.64".parse()?).is_err());
 /// // a = R is the FCC stack: horizontal neighbours touch.
-/// let touching = clearance.check(&Spacing::new(ratio(1, 1))?)?;
+/// let touching = clearance.check(&"1".parse()?)?;
 /// assert_eq!(touching[0].to_string(), "in one layer");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -111,7 +108,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
+    /// Returns the bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
     pub(crate) fn new(shape: &Shape, s: &BigRational) -> Self {
         if shape.is_pyramid() {
             Self::of_pyramid(shape, s)
@@ -144,7 +141,7 @@ impl Clearance {
         let lines = pyramid.dimension().directions().len();
         let flat = square_per_sin2(pyramid.dimension());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for n in candidates() {
+        for (layers, n) in candidates() {
             if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
                 continue;
             }
@@ -156,10 +153,7 @@ impl Clearance {
             }
             // at_zero + σ·slope ≥ 1
             let sin2 = (BigRational::one() - at_zero) / &slope;
-            let layers: i128 = n.iter().sum();
-            let apart = Apart {
-                layers: u8::try_from(layers).unwrap_or(u8::MAX),
-            };
+            let apart = Apart { layers };
             if slope.is_positive() {
                 lower.push((sin2 * &flat, apart));
             } else if sin2 < BigRational::one() {
@@ -176,7 +170,7 @@ impl Clearance {
         }
     }
 
-    /// The least allowed spacing, or `None` where the pile sets no lower bound (one sphere).
+    /// Returns the least allowed spacing, or `None` for one sphere, which sets no lower bound.
     ///
     /// # Examples
     /// ```
@@ -193,8 +187,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// The greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers
-    /// on an equilateral base).
+    /// Returns the greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers on an
+    /// equilateral base).
     ///
     /// # Examples
     /// ```
@@ -211,8 +205,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// Decides exactly whether the spheres have room, and tells which ones touch beside the contacts
-    /// α, β, γ: none in general, some at the bounds.
+    /// Checks, exactly, that the spheres have room. Returns which of them touch, other than at the contacts α, β, γ:
+    /// none in general, some at the bounds.
     ///
     /// # Errors
     /// [`Error::NoSpacing`] if no spacing at all fits this sin φ, [`Error::Overlap`] with the allowed
@@ -220,14 +214,12 @@ impl Clearance {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::{Apart, Spacing};
+    /// use cannonpile::geometry::Apart;
     /// use cannonpile::{Error, Pile};
-    /// use num_rational::BigRational;
     ///
     /// let clearance = Pile::triangular(10)?.clearance();
-    /// let most = Spacing::from_square(BigRational::new(8.into(), 3.into()))?;
-    /// assert_eq!(clearance.check(&most)?, [Apart { layers: 3 }]);
-    /// let wide = Spacing::from_square(BigRational::new(17.into(), 6.into()))?;
+    /// assert_eq!(clearance.check(&"2/3*sqrt(6)".parse()?)?, [Apart { layers: 3 }]);
+    /// let wide = "sqrt(17/6)".parse()?;
     /// assert!(matches!(clearance.check(&wide), Err(Error::Overlap { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -268,15 +260,15 @@ impl Clearance {
     }
 }
 
-/// The differences that may overlap (module documentation), one of each ±n.
-fn candidates() -> impl Iterator<Item = [i128; 3]> {
-    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]];
-    let stacked = (1..=3).flat_map(|m| {
+/// The differences that may overlap (module documentation), one of each ±n, with the layers between.
+fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
+    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));
+    let stacked = (1..=3_u8).flat_map(|m| {
         (-1..=4).flat_map(move |t: i128| {
             (-1..=1)
                 .filter(move |d| (t + d) % 2 == 0)
                 .map(move |d| t.midpoint(d))
-                .map(move |a| [a, t - a, m - t])
+                .map(move |a| (m, [a, t - a, i128::from(m) - t]))
         })
     });
     neighbours.into_iter().chain(stacked)

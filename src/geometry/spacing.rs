@@ -32,7 +32,7 @@ pub struct Spacing {
 }
 
 impl Spacing {
-    /// The spacing a/R.
+    /// Returns the spacing a/R.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
@@ -61,7 +61,7 @@ impl Spacing {
         }
     }
 
-    /// The spacing √q.
+    /// Returns the spacing √q.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless q is positive.
@@ -89,7 +89,7 @@ impl Spacing {
         }
     }
 
-    /// q = (a/R)².
+    /// Returns q = (a/R)².
     ///
     /// # Examples
     /// ```
@@ -105,7 +105,7 @@ impl Spacing {
         &self.square
     }
 
-    /// a/R itself.
+    /// Returns a/R.
     ///
     /// # Examples
     /// ```
@@ -119,8 +119,7 @@ impl Spacing {
     /// ```
     #[must_use]
     pub fn ratio(&self) -> Surd {
-        // A square is not negative.
-        Surd::sqrt(self.square.clone()).unwrap_or_else(|_| Surd::zero())
+        Surd::root_of(self.square.clone())
     }
 
     /// a/R in millionths, rounded down, and whether that is exact.

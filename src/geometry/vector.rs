@@ -27,7 +27,7 @@ pub struct Vector<T> {
 }
 
 impl<T: Ring> Vector<T> {
-    /// The zero vector.
+    /// Returns the zero vector.
     ///
     /// # Examples
     /// ```
@@ -46,7 +46,7 @@ impl<T: Ring> Vector<T> {
         }
     }
 
-    /// The vector times a number.
+    /// Returns the vector times a number.
     ///
     /// # Examples
     /// ```
@@ -60,8 +60,8 @@ impl<T: Ring> Vector<T> {
         self.map(|c| c * factor)
     }
 
-    /// The vector after a half-turn about the vertical, (−x, −y, z): how directions of contacts differ between + and
-    /// − steps.
+    /// Returns the vector after a half-turn about the vertical, (−x, −y, z). Directions of contacts under − steps are
+    /// those under + steps, turned so.
     ///
     /// # Examples
     /// ```
@@ -79,7 +79,7 @@ impl<T: Ring> Vector<T> {
         }
     }
 
-    /// Σ c_m v_m.
+    /// Returns the sum Σ c_m v_m.
     ///
     /// # Examples
     /// ```
@@ -96,7 +96,7 @@ impl<T: Ring> Vector<T> {
             .fold(Self::zero(), |sum, (c, v)| sum + &v.clone().scaled(c))
     }
 
-    /// The Cartesian components, for a basis given in numbers: (x·b₀, y·b₁, z·b₂).
+    /// Returns the Cartesian components, for a basis given in numbers: (x·b₀, y·b₁, z·b₂).
     ///
     /// # Examples
     /// ```
@@ -114,7 +114,7 @@ impl<T: Ring> Vector<T> {
 }
 
 impl<T> Vector<T> {
-    /// The vector with `f` applied to each component.
+    /// Returns the vector with `f` applied to each component.
     ///
     /// # Examples
     /// ```
@@ -129,7 +129,7 @@ impl<T> Vector<T> {
         Vector { x, y, z }
     }
 
-    /// [x, y, z].
+    /// Returns the components [x, y, z].
     ///
     /// # Examples
     /// ```

@@ -24,7 +24,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// The step (Δi, Δj) to the support in a direction.
+    /// Returns the step (Δi, Δj) to the support in a direction.
     ///
     /// # Examples
     /// ```
@@ -41,7 +41,7 @@ impl Sign {
         }
     }
 
-    /// `+` or `-`.
+    /// Returns `+` or `-`.
     ///
     /// # Examples
     /// ```

@@ -360,7 +360,7 @@ impl<'de> Deserialize<'de> for DoubleDouble {
         let Parts { high, low } = Parts::deserialize(deserializer)?;
         Self::from_parts(high.0, low.0).ok_or_else(|| {
             D::Error::custom(format!(
-                "{:?} is too great beside {:?}: at most half a unit in the last place",
+                "{:?} is too great a low part for {:?}: at most half a unit in the last place",
                 low.0, high.0
             ))
         })

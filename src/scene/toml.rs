@@ -94,7 +94,7 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
-    /// The scene.
+    /// Returns the scene.
     ///
     /// # Examples
     /// ```
@@ -108,7 +108,7 @@ impl SceneFile {
         &self.scene
     }
 
-    /// The line of a key, counted from 1, if the file has it.
+    /// Returns the line of a key, counted from 1, if the file has it.
     ///
     /// # Examples
     /// ```
@@ -142,7 +142,7 @@ impl FromStr for SceneFile {
 }
 
 impl Scene {
-    /// The scene that a TOML file describes; its keys are those of [`SceneFile`].
+    /// Returns the scene that a TOML file describes; its keys are those of [`SceneFile`].
     ///
     /// Each value is checked for itself; whether they go together shows when a [`Pile`](crate::Pile) is asked for.
     ///

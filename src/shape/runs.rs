@@ -11,7 +11,7 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// These steps, and some more of one sign.
+    /// Returns these steps and some more of one sign.
     pub(super) fn and(mut self, sign: Sign, steps: i128) -> Self {
         match sign {
             Sign::Plus => self.plus += steps,
@@ -47,7 +47,7 @@ impl Shape {
             .checked_sub(1)
     }
 
-    /// The steps from the top to layer k.
+    /// Returns the steps from the top to layer k.
     #[inline]
     pub(super) fn steps_to(&self, k: i128) -> Steps {
         match self.stretch_to(k) {
@@ -56,14 +56,14 @@ impl Shape {
         }
     }
 
-    /// The number of + steps from the top to layer k less that of − steps: where site (0, 0) of layer k lies, in units
-    /// of −ê_a.
+    /// Returns the number of + steps from the top to layer k less that of − steps: where site (0, 0) of layer k lies,
+    /// in units of −ê_a.
     pub(crate) fn shift(&self, k: i128) -> i128 {
         let Steps { plus, minus } = self.steps_to(k);
         plus - minus
     }
 
-    /// The [`shift`](Self::shift) from the site under which x = y = 0.
+    /// Returns the [`shift`](Self::shift) from the site under which x = y = 0.
     pub(crate) fn shift_from_origin(&self, k: i128) -> i128 {
         match self.anchor {
             Anchor::Top(_) => self.shift(k),
@@ -71,19 +71,19 @@ impl Shape {
         }
     }
 
-    /// The run whose steps lead down to layer k; none for the top.
+    /// Returns the run whose steps lead down to layer k; none for the top.
     #[inline]
     pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
         self.stretch(self.run_to(k)?)
     }
 
-    /// The run after this many changes of sign.
+    /// Returns the run after this many changes of sign.
     #[inline]
     pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
         self.stretches.get(index).copied()
     }
 
-    /// The sign of the step down from layer k; none from the floor.
+    /// Returns the sign of the step down from layer k; none from the floor.
     ///
     /// # Examples
     /// ```

@@ -3,8 +3,9 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::rows::Layout;
-use super::{Cell, Column, Table, Units};
+use super::cell::Cell;
+use super::rows::{Column, Table};
+use super::units::Units;
 use crate::geometry::Apart;
 use crate::lattice::Dimension;
 use crate::scalar::Surd;
@@ -113,7 +114,7 @@ impl<'p> Summary<'p> {
     /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn table(&self) -> Result<Table<'p>, Error> {
+    pub fn table(&self) -> Result<Table<'static>, Error> {
         let (units, pile) = (&self.units, self.units.pile());
         let (mass, tan) = match units {
             Units::Pile(_) => (None, None),
@@ -190,14 +191,7 @@ impl<'p> Summary<'p> {
             ),
             (Column::plain("plan"), plan),
         ];
-        let (columns, row): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
-        Ok(Table {
-            columns,
-            layout: Layout::Record,
-            extremes: vec![Ok(row.clone())],
-            bounds: Vec::new(),
-            rows: Box::new(core::iter::once(Ok(row))),
-        })
+        Ok(Table::record(entries.into()))
     }
 
     fn least(&self, contact: &ContactForce<BigRational>) -> Result<Surd, Error> {

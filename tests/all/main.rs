@@ -46,6 +46,7 @@ mod geometry {
 
 mod formula {
     mod one_body;
+    mod what_answers;
 }
 
 mod engine {

@@ -251,34 +251,39 @@ fn answers() {
     let region = Region::hexagon(2, 2).unwrap();
     let pile = Pile::under(region, "+-++-".parse().unwrap()).unwrap();
     let statics = pile.forces::<BigRational>();
-    let rows = || pile.rows(Selection::All).unwrap();
-    let forces: Vec<ContactForce<BigRational>> =
-        statics.contacts(rows()).collect::<Result<_, _>>().unwrap();
+    let forces: Vec<ContactForce<BigRational>> = statics
+        .contacts(Selection::All)
+        .unwrap()
+        .collect::<Result<_, _>>()
+        .unwrap();
     back(&forces);
     let floats = pile.forces::<f64>();
     back(
         &floats
-            .contacts(rows())
+            .contacts(Selection::All)
+            .unwrap()
             .collect::<Result<Vec<ContactForce<f64>>, _>>()
             .unwrap()[0],
     );
-    let base = || pile.rows(Selection::Base).unwrap();
     back(
         &statics
-            .base(base())
+            .base(Selection::Base)
+            .unwrap()
             .collect::<Result<Vec<FloorForce<BigRational>>, _>>()
             .unwrap(),
     );
     let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5)).unwrap()).unwrap();
     back(
         &packing
-            .contacts(rows())
+            .contacts(Selection::All)
+            .unwrap()
             .collect::<Result<Vec<PackedContact>, _>>()
             .unwrap(),
     );
     back(
         &packing
-            .base(base())
+            .base(Selection::Base)
+            .unwrap()
             .collect::<Result<Vec<FloorForce<Surd>>, _>>()
             .unwrap(),
     );
@@ -305,7 +310,11 @@ fn answers() {
     let plan: Plan = pile.plan(question).unwrap();
     back(&plan);
     let counters = Counters::default();
-    let _ = packing.metered(&counters).contacts(rows()).count();
+    let _ = packing
+        .metered(&counters)
+        .contacts(Selection::All)
+        .unwrap()
+        .count();
     assert!(counters.rows() > 0);
     back(&counters);
     assert_eq!(back(&Apart { layers: 2 }), r#"{"layers":2}"#);

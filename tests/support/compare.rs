@@ -62,13 +62,12 @@ pub(crate) fn in_rows(pile: &Pile, forces: &Forces) -> Outcome {
 
 /// The contacts of a part of the pile.
 pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Forces) -> Outcome {
-    let rows = pile.rows(selection).map_err(|e| text(&e))?;
     let layers = match selection {
         Selection::Layer(k) => k..k + 1,
         _ => 0..pile.layers(),
     };
     let statics: cannonpile::Forces<BigRational> = pile.forces();
-    let mut contacts = statics.contacts(rows);
+    let mut contacts = statics.contacts(selection).map_err(|e| text(&e))?;
     let expected = forces.below.iter();
     for (at, expected) in expected.filter(|(at, _)| layers.contains(&at.0)) {
         for (m, expected) in expected.iter().enumerate() {
@@ -87,8 +86,7 @@ pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Force
 
 fn base_in_rows(pile: &Pile, forces: &Forces) -> Outcome {
     let statics: cannonpile::Forces<BigRational> = pile.forces();
-    let rows = pile.rows(Selection::Base).map_err(|e| text(&e))?;
-    let mut base = statics.base(rows);
+    let mut base = statics.base(Selection::Base).map_err(|e| text(&e))?;
     for (at, expected) in &forces.floor {
         let force = base.next().ok_or("too few bottom spheres")?;
         let force = force.map_err(|e| text(&e))?;

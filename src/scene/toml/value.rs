@@ -147,7 +147,7 @@ pub(super) fn not_toml(file: &str, error: &::toml::de::Error) -> Error {
     Error::NotToml { line, reason }
 }
 
-/// A character as it is, or escaped if it would break the line.
+/// A character, escaped if it would break the line.
 fn printable(c: char) -> impl Iterator<Item = char> {
     let escaped = c.is_control().then(|| c.escape_debug());
     let plain = (!c.is_control()).then_some(c);

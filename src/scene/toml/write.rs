@@ -13,7 +13,8 @@ use crate::scene::parse::At;
 use crate::scene::{Anchor, Scene};
 
 impl Scene {
-    /// The scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads the same scene back.
+    /// Returns the scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads it back as it
+    /// was.
     ///
     /// What is left to its default is left out; sizes and weights are always there. Every scene is read back that
     /// was itself read, by the parsers of texts or of files; of others, those whose numbers have a length that

@@ -24,12 +24,6 @@ fn every_kind_is_a_figure_on_stdout() {
             assert!(roxmltree::Document::parse(&svg).is_ok(), "{kind} {scene}");
         }
     }
-    let svg = stdout("plot work-precision benches/work_precision/results.csv");
-    // The chart that README shows is the one of its table.
-    assert_eq!(
-        svg,
-        include_str!("../../../benches/work_precision/chart.svg")
-    );
 }
 
 #[test]
@@ -100,8 +94,8 @@ fn refusals_name_the_option() {
         ("base --load 0,0,0=1e400", "--load"),
         ("base --units si --radius 1e400", "--radius"),
         ("base --units si --mass 1e400", "--mass"),
-        ("work-precision missing.csv", "missing.csv"),
-        ("work-precision Cargo.toml", "Cargo.toml"),
+        ("shear --width 0", "--width"),
+        ("work-precision", "work-precision"),
         ("shear --format csv", "--format"),
         ("cake", "cake"),
         ("", "subcommand"),
@@ -127,6 +121,15 @@ fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
 }
 
 #[test]
+fn the_page_can_be_wide_and_without_a_title() {
+    let whole = stdout("plot shear");
+    assert_eq!(whole, stdout("plot shear --width 800"));
+    assert!(whole.contains("width=\"800\"") && whole.contains("font-weight=\"bold\""));
+    let bare = stdout("plot shear --width 1200 --no-title");
+    assert!(bare.contains("width=\"1200\"") && !bare.contains("font-weight=\"bold\""));
+}
+
+#[test]
 fn the_figures_of_readme_are_those_of_the_commands() {
     for (command, figure) in [
         (
@@ -142,7 +145,7 @@ fn the_figures_of_readme_are_those_of_the_commands() {
             include_str!("../../../examples/figures/response.svg"),
         ),
     ] {
-        assert!(stdout(command) == figure, "draw it anew: {command}");
+        assert!(stdout(command) == figure, "draw it again: {command}");
         assert!(
             include_str!("../../../README.md").contains(command),
             "{command}"

@@ -200,8 +200,8 @@ fn rows_longer_than_one_tree_are_those_of_single_spheres() {
         let force = force.unwrap();
         assert_eq!(statics.on_floor(force.site), Ok(force));
     }
-    let rows = pile.rows(Selection::Layer(HIGH / 2)).unwrap();
-    for contact in statics.contacts(rows).take(3 * 2500) {
+    let contacts = statics.contacts(Selection::Layer(HIGH / 2)).unwrap();
+    for contact in contacts.take(3 * 2500) {
         let contact = contact.unwrap();
         assert_eq!(
             statics.contact(contact.site, contact.direction),

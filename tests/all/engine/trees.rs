@@ -95,8 +95,10 @@ fn where_a_tree_would_be_too_large_a_sweep_answers() {
     ));
     let forces = pile.forces::<f64>();
     let one = forces.contact(middle, Direction::Alpha).unwrap();
-    let rows = pile.rows(Selection::Layer(398)).unwrap();
-    let mut contacts = forces.contacts(rows).map(Result::unwrap);
+    let mut contacts = forces
+        .contacts(Selection::Layer(398))
+        .unwrap()
+        .map(Result::unwrap);
     let in_rows = contacts.find(|c| (c.site, c.direction) == (middle, Direction::Alpha));
     assert_eq!(in_rows.map(|contact| contact.force), Some(one));
 }

@@ -1,9 +1,8 @@
 //! What the documentation promises at the edges: of other piles' rows, single layers, straight piles of − steps.
 
+use cannonpile::Pile;
 use cannonpile::lattice::Region;
-use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{ContactForce, Error, Forces, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::{repeated, stacking};
@@ -11,29 +10,6 @@ use crate::support::oracles::naive::ratio;
 
 fn under_one_sphere(signs: &str) -> Pile {
     Pile::under(Region::SITE, stacking(signs)).unwrap()
-}
-
-#[test]
-fn a_bottom_sphere_has_no_contact_in_the_rows_of_a_higher_pile() {
-    for (signs, more) in [
-        ("+++++", "+++++++"),
-        ("+-+-+", "+-+-+-+"),
-        ("+-+-+", "+-+-+++"),
-    ] {
-        let (pile, higher) = (under_one_sphere(signs), under_one_sphere(more));
-        let forces: Forces<BigRational> = pile.forces();
-        let contacts = |pile| {
-            let rows = Pile::rows(pile, Selection::All).unwrap();
-            forces
-                .contacts(rows)
-                .collect::<Vec<Result<ContactForce<_>, Error>>>()
-        };
-        let (own, found) = (contacts(&pile), contacts(&higher));
-        assert_eq!(found[..own.len()], own);
-        assert!(found[own.len()..].iter().all(Result::is_err), "{signs}");
-        let bottom = higher.rows(Selection::Base).unwrap();
-        assert!(forces.base(bottom).all(|force| force.is_err()));
-    }
 }
 
 #[test]

@@ -71,8 +71,11 @@ fn piles() -> Vec<Pile> {
 /// The extremes over every bottom sphere.
 fn over_all(pile: &Pile) -> [BigRational; 3] {
     let statics = pile.forces::<BigRational>();
-    let rows = pile.rows(Selection::Base).unwrap();
-    let forces: Vec<_> = statics.base(rows).map(Result::unwrap).collect();
+    let forces: Vec<_> = statics
+        .base(Selection::Base)
+        .unwrap()
+        .map(Result::unwrap)
+        .collect();
     let normals = || forces.iter().map(|force| force.normal.clone());
     let loaded = forces.iter().filter(|force| !force.normal.is_zero());
     let ratios = loaded.map(|force| {

@@ -17,9 +17,8 @@ use crate::support::oracles::naive::{Naive, Place, ratio};
 pub(crate) type Base = Vec<(Place, [BigRational; 3])>;
 
 pub(crate) fn base(case: &Case) -> Base {
-    let rows = case.pile.rows(Selection::Base).unwrap();
     let statics: Forces<BigRational> = case.pile.forces();
-    let forces = statics.base(rows).map(|force| {
+    let forces = statics.base(Selection::Base).unwrap().map(|force| {
         let force = force.unwrap();
         let place = (force.site.k, force.site.j, force.site.i);
         (place, [force.normal, force.shear_x, force.shear_y])

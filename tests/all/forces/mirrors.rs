@@ -19,11 +19,17 @@ struct Answers {
 impl Answers {
     fn of(pile: &Pile) -> Self {
         let statics: Forces<BigRational> = pile.forces();
-        let all = pile.rows(Selection::All).unwrap();
-        let base = pile.rows(Selection::Base).unwrap();
         Self {
-            contacts: statics.contacts(all).map(Result::unwrap).collect(),
-            floor: statics.base(base).map(Result::unwrap).collect(),
+            contacts: statics
+                .contacts(Selection::All)
+                .unwrap()
+                .map(Result::unwrap)
+                .collect(),
+            floor: statics
+                .base(Selection::Base)
+                .unwrap()
+                .map(Result::unwrap)
+                .collect(),
         }
     }
 

@@ -1,8 +1,8 @@
-//! Parts of a pile in rows: begun in the middle, of one sphere, of another pile; and piles of discs and on isosceles
+//! Parts of a pile: of one sphere, of a pile equal to another; and piles of discs and on isosceles
 //! bases with loads.
 
 use cannonpile::lattice::{Region, Site};
-use cannonpile::shape::{Rows, Selection};
+use cannonpile::shape::Selection;
 use cannonpile::{ContactForce, Error, Forces, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -10,35 +10,13 @@ use num_traits::Zero;
 use crate::support::cases::{Random, stacking};
 use crate::support::oracles::naive::ratio;
 
-fn contacts<'p>(
-    statics: &Forces<'p, BigRational>,
-    rows: Rows<'p>,
+fn contacts(
+    statics: &Forces<'_, BigRational>,
+    part: Selection,
 ) -> Vec<Result<ContactForce<BigRational>, Error>> {
-    statics.contacts(rows).collect()
-}
-
-#[test]
-fn rows_may_have_been_walked_before_they_are_asked_for() {
-    for signs in ["+-+--+", "++++++", "-+-+-+"] {
-        let pile = Pile::under(Region::triangle(2).unwrap(), stacking(signs)).unwrap();
-        let statics = pile.forces();
-        let all = contacts(&statics, pile.rows(Selection::All).unwrap());
-        let rows = pile.rows(Selection::All).unwrap().count();
-        for walked in 0..=rows {
-            let mut left = pile.rows(Selection::All).unwrap();
-            let before: usize = left
-                .by_ref()
-                .take(walked)
-                .map(|row| row.into_iter().count())
-                .sum();
-            let rest = contacts(&statics, left);
-            assert_eq!(rest.as_slice(), &all[(3 * before).min(all.len())..]);
-        }
-        let mut base = pile.rows(Selection::Base).unwrap();
-        let row = base.next().unwrap().into_iter().count();
-        let rest: Vec<_> = statics.base(base).map(Result::unwrap).collect();
-        let whole = statics.base(Selection::Base).unwrap().map(Result::unwrap);
-        assert_eq!(rest, whole.skip(row).collect::<Vec<_>>());
+    match statics.contacts(part) {
+        Ok(contacts) => contacts.collect(),
+        Err(error) => vec![Err(error)],
     }
 }
 
@@ -47,11 +25,10 @@ fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
     let pile = Pile::under(Region::SITE, stacking("+-+-+-")).unwrap();
     let statics: Forces<BigRational> = pile.forces();
     for site in pile.shape().sites() {
-        let rows = || pile.rows(Selection::One(site)).unwrap();
-        let own = contacts(&statics, rows());
+        let own = contacts(&statics, Selection::One(site));
         if site.k == 6 {
             assert!(own.is_empty());
-            let floor: Vec<_> = statics.base(rows()).collect();
+            let floor: Vec<_> = statics.base(Selection::One(site)).unwrap().collect();
             assert_eq!(floor, [statics.on_floor(site)]);
         } else {
             let forces = own.into_iter().map(|contact| contact.unwrap());
@@ -62,23 +39,19 @@ fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
 }
 
 #[test]
-fn the_rows_of_another_pile_are_looked_up_in_this_one() {
-    let pile = Pile::under(Region::SITE, stacking("+-+-+")).unwrap();
-    let loaded = pile.clone().with_load(Site::APEX, ratio(3, 1)).unwrap();
-    let statics: Forces<BigRational> = pile.forces();
-    let own = contacts(&statics, pile.rows(Selection::All).unwrap());
-    assert_eq!(
-        contacts(&statics, loaded.rows(Selection::All).unwrap()),
-        own
-    );
-    let base: Vec<_> = statics.base(Selection::Base).unwrap().collect();
-    let looked_up: Vec<_> = statics.base(Selection::Base).unwrap().collect();
-    assert_eq!(looked_up, base);
-    // A straight pile whose base is not this one's.
-    let straight = Pile::triangular(4).unwrap();
-    let statics = straight.forces::<BigRational>();
-    let bottom = pile.rows(Selection::Base).unwrap();
-    assert!(statics.base(bottom).all(|force| force.is_err()));
+fn a_pile_equal_to_another_is_the_same_pile() {
+    let pile = Pile::under(Region::SITE, stacking("+-+-+-+-+-")).unwrap();
+    let twin = pile.clone();
+    for part in [Selection::All, Selection::Layer(7)] {
+        let [own, other] = [&pile, &twin].map(|pile| pile.forces::<BigRational>());
+        let [own, other] = [own, other].map(|forces| forces.contacts(part).unwrap());
+        // By the same method, too.
+        assert_eq!(own.plan(), other.plan());
+        assert!(own.eq(other));
+    }
+    let low = Pile::triangular(4).unwrap();
+    let refused = low.forces::<BigRational>().base(Selection::Layer(2)).err();
+    assert!(matches!(refused, Some(Error::NotOnFloor { .. })));
 }
 
 /// Straight piles with another increment in each direction: what a sphere adds goes down its three lines, and nowhere else.
@@ -105,8 +78,8 @@ fn loads_on_isosceles_piles_and_on_discs() {
             let (at, load) = (sites[random.below(sites.len())], random.rational());
             let loaded = pile.clone().with_load(at, load.clone()).unwrap();
             let statics = loaded.forces::<BigRational>();
-            let pairs = contacts(&bare, pile.rows(Selection::All).unwrap()).into_iter();
-            let pairs = pairs.zip(contacts(&statics, loaded.rows(Selection::All).unwrap()));
+            let pairs = contacts(&bare, Selection::All).into_iter();
+            let pairs = pairs.zip(contacts(&statics, Selection::All));
             for (without, with) in pairs {
                 let (without, with) = (without.unwrap(), with.unwrap());
                 let (site, n) = (with.site, with.site.k - at.k);
@@ -130,7 +103,7 @@ fn loads_on_isosceles_piles_and_on_discs() {
 
 /// The least force is the least of all contacts, the first of them.
 fn is_least(pile: &Pile) {
-    let all = contacts(&pile.forces(), pile.rows(Selection::All).unwrap());
+    let all = contacts(&pile.forces(), Selection::All);
     let mut least: Option<ContactForce<BigRational>> = None;
     for contact in all.into_iter().map(Result::unwrap) {
         if least

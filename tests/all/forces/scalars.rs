@@ -13,10 +13,9 @@ use crate::support::oracles::naive::{Forces, direction, ratio, site};
 
 /// Every answer of a pile in one scalar with the true value, one by one and in rows.
 fn answers<T: Algebra>(case: &Case, forces: &Forces) -> Vec<(Result<T, Error>, BigRational)> {
-    let (pile, statics) = (&case.pile, case.pile.forces::<T>());
+    let statics = case.pile.forces::<T>();
     let mut answers = Vec::new();
-    let rows = pile.rows(Selection::All).unwrap();
-    let mut contacts = statics.contacts(rows);
+    let mut contacts = statics.contacts(Selection::All).unwrap();
     for (at, expected) in &forces.below {
         for (m, expected) in expected.iter().enumerate() {
             let one = statics.contact(site(*at), direction(m));

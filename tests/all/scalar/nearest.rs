@@ -64,9 +64,10 @@ fn nearest_of_random_numbers() {
 /// √(m²), by way of factors whose squares are too great to be found one by one: a product is rational where
 /// its value is.
 fn root_of_square(m: &BigRational) -> Surd {
-    // 1009 is the first prime whose square is not looked for.
-    let hidden = Surd::sqrt(ratio(1009 * 1009 * 2, 1)).unwrap();
-    let product = hidden * &Surd::sqrt(ratio(2, 1)).unwrap();
+    // 1009 is the first prime whose square is not looked for, and no square is what it leaves here.
+    let hidden = Surd::sqrt(ratio(1009 * 1009 * 2 * 1013, 1)).unwrap();
+    let product = hidden * &Surd::sqrt(ratio(2 * 1013, 1)).unwrap();
+    let product = product.scaled(&ratio(1, 1013));
     assert_eq!(product.to_rational(), Some(ratio(2 * 1009, 1)));
     product.scaled(&(m * ratio(1, 2 * 1009)))
 }

@@ -315,12 +315,14 @@ fn answers<B: Field + RealEmbeddable>(pile: &Pile) -> Vec<(Pair<Q, B>, Q)> {
     for direction in Direction::ALL {
         ask!(direction(direction).into_array());
     }
-    let rows = || pile.rows(Selection::All).expect("rows");
-    for (pair, number) in pairs.contacts(rows()).zip(exact.contacts(rows())) {
+    let part = Selection::All;
+    let contacts = pairs.contacts(part).expect("a plan");
+    for (pair, number) in contacts.zip(exact.contacts(part).expect("a plan")) {
         all.push((pair.expect("a force").force, number.expect("a force").force));
     }
-    let rows = || pile.rows(Selection::Base).expect("rows");
-    for (pair, number) in pairs.base(rows()).zip(exact.base(rows())) {
+    let part = Selection::Base;
+    let base = pairs.base(part).expect("a plan");
+    for (pair, number) in base.zip(exact.base(part).expect("a plan")) {
         let (pair, number) = (pair.expect("a force"), number.expect("a force"));
         all.push((pair.normal, number.normal));
         all.push((pair.shear_x, number.shear_x));

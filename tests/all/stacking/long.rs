@@ -74,8 +74,9 @@ fn texts_that_are_too_long_are_refused() {
     assert_eq!(stacking.layers(), 4_000_002);
     let signs = "+".repeat(LONGEST + 1);
     let shown = format!(
-        "'{}…' is not a stacking of at most 4000000 characters",
-        "+".repeat(60)
+        "'{}…[4000001 characters]…{}' is not a stacking of at most 4000000 characters",
+        "+".repeat(30),
+        "+".repeat(12)
     );
     refused(&signs, &shown);
 }

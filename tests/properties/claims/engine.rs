@@ -38,17 +38,16 @@ pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checke
     })?;
     let (contacts, floor) = (contacts_of(&balance), floor_of(&balance));
     let statics = pile.forces();
-    // Its rows are another pile's: no layer is swept for them.
+    // A pile equal to another is the same pile: nothing depends on which of them is asked.
     let twin = pile.clone();
-    for asked in [&pile, &twin] {
-        let [all, base] = [asked.rows(Selection::All)?, asked.rows(Selection::Base)?];
-        let swept: Result<Contacts, Error> = statics.contacts(all).collect();
+    for statics in [pile.forces(), twin.forces()] {
+        let swept: Result<Contacts, Error> = statics.contacts(Selection::All)?.collect();
         agree(&swept?, &contacts)?;
-        let swept: Result<Floor, Error> = statics.base(base).collect();
+        let swept: Result<Floor, Error> = statics.base(Selection::Base)?.collect();
         same("the base", &swept?, &floor)?;
     }
     of_one_layer(&statics, k, &contacts)?;
-    begun_already(&statics, given, &contacts)?;
+    filled(&statics, i128::try_from(given).unwrap_or(0), &contacts)?;
     // A tree for every sphere would be slow where there are many.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
@@ -101,23 +100,29 @@ fn agree(got: &Contacts, want: &Contacts) -> Checked {
 }
 
 fn of_one_layer(statics: &Exact<'_>, k: i128, contacts: &Contacts) -> Checked {
-    let rows = statics.pile().rows(Selection::Layer(k))?;
-    let swept: Result<Contacts, Error> = statics.contacts(rows).collect();
+    let swept: Result<Contacts, Error> = statics.contacts(Selection::Layer(k))?.collect();
     let here = contacts.iter().filter(|contact| contact.site.k == k);
     agree(&swept?, &here.cloned().collect())
 }
 
-/// Rows of which some have been given away.
-fn begun_already(statics: &Exact<'_>, given: usize, contacts: &Contacts) -> Checked {
-    let mut rows = statics.pile().rows(Selection::All)?;
-    let spheres: i128 = rows
-        .by_ref()
-        .take(given)
-        .map(|row| row.i.end - row.i.start)
-        .sum();
-    let swept: Result<Contacts, Error> = statics.contacts(rows).collect();
-    let before = usize::try_from(3 * spheres).unwrap_or_default();
-    agree(&swept?, &contacts.iter().skip(before).cloned().collect())
+/// Layers filled into slices, from one in the middle of the pile on.
+fn filled(statics: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
+    let mut layers = statics.layers(Selection::All)?;
+    while let Some(layer) = layers.next_layer()? {
+        if layer.is_floor() || layer.k() < from {
+            continue;
+        }
+        let mut forces = [(); 3].map(|()| vec![BigRational::zero(); layer.spheres()]);
+        layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
+        let here = contacts
+            .iter()
+            .filter(|contact| contact.site.k == layer.k());
+        for (n, contact) in here.enumerate() {
+            let force = &forces[contact.direction.index()][n / 3];
+            same("a force in a slice", force, &contact.force)?;
+        }
+    }
+    Ok(())
 }
 
 /// What the library says of one sphere, by the lines above it.
@@ -140,8 +145,7 @@ fn one_sphere(statics: &Exact<'_>, site: Site, balance: &Balance) -> Checked {
     for (direction, force) in Direction::ALL.into_iter().zip(forces) {
         same("a force", &statics.contact(site, direction)?, force)?;
     }
-    let rows = statics.pile().rows(Selection::One(site))?;
-    let one: Result<Contacts, Error> = statics.contacts(rows).collect();
+    let one: Result<Contacts, Error> = statics.contacts(Selection::One(site))?.collect();
     let one = one?.into_iter().map(|contact| contact.force);
     demand(one.eq(forces.iter().cloned()), || {
         format!("the rows of {site} give others")

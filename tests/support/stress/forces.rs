@@ -2,7 +2,7 @@
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Algebra;
-use cannonpile::shape::{Rows, Selection};
+use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 
 /// Three numbers about a sphere.
@@ -87,9 +87,10 @@ impl<T: Algebra> Forces<T> {
 
     fn swept(pile: &Pile) -> Result<Self, Error> {
         let statics = pile.forces::<T>();
-        let (rows, stride) = middle_row(pile, Selection::Layer(pile.layers() - 2))?;
+        let part = Selection::Layer(pile.layers() - 2);
+        let (before, stride) = middle_row(pile, part)?;
         let mut contacts = Vec::new();
-        let mut below = statics.contacts(rows);
+        let mut below = statics.contacts(part)?.skip(3 * before);
         for n in 0..SAMPLE * stride {
             let (Some(a), Some(b), Some(c)) = (below.next(), below.next(), below.next()) else {
                 break;
@@ -102,8 +103,9 @@ impl<T: Algebra> Forces<T> {
                 });
             }
         }
-        let (rows, stride) = middle_row(pile, Selection::Base)?;
-        let on_floor = statics.base(rows).step_by(stride).take(SAMPLE);
+        let (before, stride) = middle_row(pile, Selection::Base)?;
+        let on_floor = statics.base(Selection::Base)?.skip(before);
+        let on_floor = on_floor.step_by(stride).take(SAMPLE);
         let on_floor = on_floor.map(|force| {
             let force = force?;
             Ok(OfSphere {
@@ -116,7 +118,7 @@ impl<T: Algebra> Forces<T> {
     }
 
     fn with_positions(
-        statics: &Forces<'_, T>,
+        statics: &cannonpile::Forces<'_, T>,
         contacts: Vec<OfSphere<T>>,
         floor: Vec<OfSphere<T>>,
     ) -> Result<Self, Error> {
@@ -134,19 +136,15 @@ impl<T: Algebra> Forces<T> {
     }
 }
 
-/// The rows of a layer from the middle one on, and every how many spheres of that one is looked at. To be written as a
-/// fraction costs each exact number more than the sweep.
-fn middle_row(pile: &Pile, layer: Selection) -> Result<(Rows<'_>, usize), Error> {
-    let lengths: Vec<i128> = pile
+/// How many spheres of a layer lie before its middle row, and how far apart to look in that row.
+fn middle_row(pile: &Pile, layer: Selection) -> Result<(usize, usize), Error> {
+    let lengths: Vec<usize> = pile
         .rows(layer)?
-        .map(|row| row.i.end - row.i.start)
+        .map(|row| usize::try_from(row.i.end - row.i.start).unwrap_or(0))
         .collect();
     let middle = lengths.len() / 2;
     let length = lengths.get(middle).copied().unwrap_or(0);
-    let mut rows = pile.rows(layer)?;
-    rows.by_ref().take(middle).for_each(drop);
-    let stride = usize::try_from(length).unwrap_or(0) / SAMPLE + 1;
-    Ok((rows, stride))
+    Ok((lengths[..middle].iter().sum(), length / SAMPLE + 1))
 }
 
 /// Corners, the middles between them, and some places between.

@@ -1,5 +1,6 @@
 //! Forces between spheres that are wrong.
 
+use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
 
@@ -50,6 +51,8 @@ pub(super) fn faults() -> Vec<Fault> {
         "weightless spheres": unbalanced = |to_below, below, from_above, above, _| {
             (RIGHT.unbalanced)(to_below, below, from_above, above, &P::zero())
         } => ["equilibrium", "discs"];
+
+        "always zero": unbalanced = |_, _, _, _, _| Vector::zero() => ["paper-system"];
 
         "each once, with its own added": tripled_apart = |g| {
             (RIGHT.tripled_apart)(g).map(|x| x + &g[0])

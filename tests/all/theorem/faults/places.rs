@@ -47,6 +47,11 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.disc_directions)().map(|e| Vector { y: P::one(), ..e })
         } => ["discs"];
 
+        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load"];
+        "upside down": turned_about_z = |v| -v
+            => ["equilibrium", "change-of-sign"];
+        "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load"];
+
         "above the apex": position = |above, directions| -(RIGHT.position)(above, directions)
             => ["central-force", "shear-on-axis"];
         "from a corner": position = moved!(|at| x = at.x + &P::one())
