@@ -55,7 +55,7 @@ impl Table<'_> {
             (FileFormat::Text, Layout::Record) => text::write_record(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Rows(noun)) => {
                 // Where the number of rows is not known, each of them may take long.
-                let page = if self.count.is_some() {
+                let page = if self.row_count().is_some() {
                     text::PAGE
                 } else {
                     text::SHORT_PAGE
