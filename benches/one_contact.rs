@@ -1,6 +1,7 @@
 //! One contact and one base sphere cost the same in a pile of 10 layers and of 10³⁶.
 //!
-//! `cargo bench --bench one_contact` prints nanoseconds and, last, lines `ratio NAME VALUE`; with
+//! `cargo bench --manifest-path benches/Cargo.toml --bench one_contact`
+//! prints nanoseconds and, last, lines `ratio NAME VALUE`; with
 //! `-- --smoke` it only checks the answers and that the bench runs.
 
 use std::env;
@@ -51,7 +52,7 @@ type Timer = fn(&Pile) -> Duration;
 const CALLS: u32 = 2000;
 
 fn time_contact<T: Algebra>(pile: &Pile) -> Duration {
-    let statics = pile.statics::<T>();
+    let forces = pile.forces::<T>();
     let k = pile.layers() / 2;
     let site = Site {
         i: k / 4,
@@ -61,18 +62,18 @@ fn time_contact<T: Algebra>(pile: &Pile) -> Duration {
     // Site (1, 1, 5) of the small pile: three spheres above on the line, and itself.
     let want = T::from_i128(k - site.i - site.j + 1);
     assert_eq!(
-        statics.contact(site, Direction::Alpha).expect("a contact"),
+        forces.contact(site, Direction::Alpha).expect("a contact"),
         want
     );
     let start = Instant::now();
     for _ in 0..CALLS {
-        black_box(statics.contact(black_box(site), Direction::Alpha)).expect("a contact");
+        black_box(forces.contact(black_box(site), Direction::Alpha)).expect("a contact");
     }
     start.elapsed() / CALLS
 }
 
 fn time_floor<T: Field>(pile: &Pile) -> Duration {
-    let statics = pile.statics::<T>();
+    let forces = pile.forces::<T>();
     let site = Site {
         i: 1,
         j: 2,
@@ -81,7 +82,7 @@ fn time_floor<T: Field>(pile: &Pile) -> Duration {
     let third = 3.try_into().expect("not zero");
     let want = T::from_i128(pile.layers() + 2).div_int(third);
     // In floats L + 2 and the sum of the counts may round apart.
-    let normal = statics.on_floor(site).expect("a base sphere").normal;
+    let normal = forces.on_floor(site).expect("a base sphere").normal;
     let off = (normal.clone() - &want)
         .checked_div(&want)
         .expect("not zero");
@@ -91,7 +92,7 @@ fn time_floor<T: Field>(pile: &Pile) -> Duration {
     );
     let start = Instant::now();
     for _ in 0..CALLS {
-        black_box(statics.on_floor(black_box(site))).expect("a base sphere");
+        black_box(forces.on_floor(black_box(site))).expect("a base sphere");
     }
     start.elapsed() / CALLS
 }

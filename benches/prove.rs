@@ -1,6 +1,7 @@
 //! How long it takes to prove every theorem, for every pile at once.
 //!
-//! `cargo bench --bench prove` asserts that all theorems hold and prints milliseconds; with `-- --smoke` it
+//! `cargo bench --manifest-path benches/Cargo.toml --bench prove`
+//! asserts that all theorems hold and prints milliseconds; with `-- --smoke` it
 //! proves each once.
 
 use std::env;

@@ -1,31 +1,28 @@
 //! Is every float the nearest one? Ten million random and adversarial values of each quantity.
 //!
-//! `cargo bench --bench rounding` rounds roots, rationals and every physical quantity of piles of all kinds to `f64` and
+//! `cargo bench --manifest-path benches/Cargo.toml --bench rounding`
+//! rounds roots, rationals and every physical quantity of piles of all kinds to `f64` and
 //! `f32`, and has each float judged in integers, by the squares of the points halfway to its neighbours. It prints how
 //! many values were judged, how many roundings were wrong, how many of them the screen left to integers, and nanoseconds a value, of which making it and judging it are
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
 //!
-//! With `-- --stress` it measures the tables of `tests/stress` instead, that of a thousand changes of sign in every scalar,
+//! With `-- --stress` it measures the tables of `tests/support/stress` instead, that of a thousand changes of sign in every scalar,
 //! which takes some minutes.
 
-#[path = "../tests/judge/mod.rs"]
-mod judge;
-#[path = "../tests/rounding/mod.rs"]
-mod rounding;
-#[path = "../tests/stress/mod.rs"]
-mod stress;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
 use std::env;
 use std::time::Instant;
 
-use rounding::numbers;
-use rounding::quantities::Quantity;
-use rounding::random::Random;
-use rounding::tally::Tally;
-use stress::cases;
-use stress::deep::Deep;
-use stress::table::{self, Answers};
+use support::rounding::numbers;
+use support::rounding::quantities::Quantity;
+use support::rounding::random::Random;
+use support::rounding::tally::Tally;
+use support::stress::cases;
+use support::stress::deep::Deep;
+use support::stress::table::{self, Answers};
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();

@@ -1,6 +1,7 @@
 //! Intervals and double-doubles against exact arithmetic, on millions of operands, and what they cost.
 //!
-//! `cargo bench --bench scalars` tries each operation on two million pairs, asserts that every interval holds
+//! `cargo bench --manifest-path benches/Cargo.toml --bench scalars`
+//! tries each operation on two million pairs, asserts that every interval holds
 //! the exact result and is at most a float wider than it must be, and that every double-double is within
 //! 2^−100 of it. It prints the worst cases, nanoseconds, and lines `ratio NAME VALUE` over `f64`; with
 //! `-- --smoke` it tries some thousands.

@@ -3,8 +3,6 @@
 
 use std::error::Error;
 
-use cannonpile::geometry::Spacing;
-use cannonpile::scene::parse;
 use cannonpile::verify::{Comparison, Measured};
 use cannonpile::{Packing, Pile};
 
@@ -13,7 +11,7 @@ type Vector = [f64; 3];
 fn main() -> Result<(), Box<dyn Error>> {
     // R = m = g = 1: the default sizes of a packing.
     let pile = Pile::triangular(3)?;
-    let packing = Packing::new(&pile, &Spacing::new(parse::rational("1.2")?)?)?;
+    let packing = Packing::new(&pile, &"1.2".parse()?)?;
     // Spheres are numbered from 1, those on the floor last.
     let mobile = usize::try_from(pile.numbering()?.first_on_floor() - 1)?;
     let mut errors = Vec::new();

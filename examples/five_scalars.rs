@@ -4,7 +4,10 @@
 //! The formula is written once, over `Ring`; the scalar decides what its answer is worth.
 //! Run it with `cargo run --example five_scalars`.
 
-use cannonpile::closed_form::Increments;
+use core::array;
+
+use cannonpile::formula::{force, handed_on, increments, weight};
+use cannonpile::geometry::directions;
 use cannonpile::lattice::{Site, count};
 use cannonpile::scalar::{
     Algebra, DoubleDouble, FixedRational, Interval, Polynomial, RealEmbeddable, Symbol,
@@ -16,7 +19,9 @@ use num_traits::Signed;
 /// What sphere (i, j) of layer k presses on the layer below with, its own weight included, in mg/(2(1+s)): s = sin φ
 /// says how slender the base triangles are.
 fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
-    Increments::isosceles(&s).carried(&count::above(&i, &j, &k))
+    let (above, own) = (count::above(&i, &j, &k), increments(&s));
+    let received = array::from_fn(|line| force(above[line].clone(), &own[line]));
+    handed_on(&received, &directions(&s), &weight(&own)).z
 }
 
 /// The same for numbers, whatever they are in the scalar.
@@ -67,7 +72,7 @@ fn main() -> Result<(), Error> {
     // A validated pile is asked in the same scalars, and answers in mg.
     let pile = Pile::isosceles(10, numbers[3].clone())?;
     let site = Site { i: 4, j: 1, k: 9 };
-    let normal = pile.statics::<BigRational>().on_floor(site)?.normal;
+    let normal = pile.forces::<BigRational>().on_floor(site)?.normal;
     println!("\nOn the floor of 10 layers, sphere (4, 1) presses with {normal} mg.");
     assert_eq!(normal, exact / ratio(8, 3));
     Ok(())

@@ -4,15 +4,20 @@
 //! symbols, squared, and summed over the pile: what comes out holds for every number of layers. No case is tried, and
 //! nothing is fitted. Run it with `cargo run --example own_theorem`.
 
-use cannonpile::closed_form::Increments;
+use core::num::NonZeroI64;
+
+use cannonpile::formula::{force, increments, passed_on};
 use cannonpile::lattice::count;
-use cannonpile::scalar::{Polynomial, Ring, Symbol};
+use cannonpile::scalar::{Algebra, Polynomial, Ring, Symbol};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 type P = Polynomial;
+
+/// sin φ is 1/2 on an equilateral base.
+const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 
 fn symbol(name: &'static str) -> P {
     Symbol(name).into()
@@ -21,11 +26,11 @@ fn symbol(name: &'static str) -> P {
 /// Σ f² over the contacts of L layers, in f₀² = (mg/(3 cosθ))².
 fn energy() -> P {
     let [i, j, k, layers] = ["i", "j", "k", "L"].map(symbol);
-    let above = count::above(&i, &j, &k);
-    let forces = Increments::<P, 3>::regular().to_below(&above);
-    let squares = forces
-        .into_iter()
-        .fold(P::zero(), |sum, f| sum + &(f.clone() * &f));
+    let half = P::one().div_int(TWO);
+    let lines = count::above(&i, &j, &k).into_iter().zip(increments(&half));
+    // A sphere with n others above it on a line receives n increments along it, and passes one more on.
+    let forces = lines.map(|(n, own)| passed_on(force(n, &own), &own));
+    let squares = forces.fold(P::zero(), |sum, f| sum + &(f.clone() * &f));
     // The sites of layer k are 0 ≤ j ≤ k, 0 ≤ i ≤ k − j; those of layer L − 1 have the floor below.
     let zero = P::zero();
     let row = squares.sum(Symbol("i"), &zero, &(k.clone() - &j));
@@ -57,9 +62,7 @@ fn main() -> Result<(), Error> {
     println!("   L   sum of squares");
     for layers in 1..=12 {
         let pile = Pile::triangular(layers)?;
-        let contacts = pile
-            .statics::<BigRational>()
-            .contacts(pile.rows(Selection::All)?);
+        let contacts = pile.forces::<BigRational>().contacts(Selection::All)?;
         let sum = contacts
             .map(|contact| contact.map(|c| &c.force * &c.force))
             .sum::<Result<BigRational, _>>()?;

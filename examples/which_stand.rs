@@ -4,7 +4,7 @@
 //! changes. Run it with `cargo run --example which_stand`.
 
 use cannonpile::lattice::Region;
-use cannonpile::stacking::Stacking;
+use cannonpile::stacking::{Notation, Stacking};
 use cannonpile::{Error, Pile, Verdict, census};
 
 fn main() -> Result<(), Error> {
@@ -16,7 +16,10 @@ fn main() -> Result<(), Error> {
     println!("  {:10}{:12}least contact force", "Hägg", "Zhdanov");
     for entry in &standing {
         let stacking = entry.pile.shape().stacking();
-        let (hagg, zhdanov) = (stacking.hagg().to_string(), stacking.zhdanov().to_string());
+        let (hagg, zhdanov) = (
+            stacking.in_notation(Notation::Hagg).to_string(),
+            stacking.in_notation(Notation::Zhdanov).to_string(),
+        );
         let least = entry
             .standing
             .least

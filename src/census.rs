@@ -90,7 +90,7 @@ impl Entry {
 /// use cannonpile::census;
 ///
 /// let standing: Result<Vec<_>, _> = census::under_one_sphere(6, false)?.collect();
-/// let stackings: Vec<_> = standing?.iter().map(|e| e.pile.shape().stacking().hagg().to_string()).collect();
+/// let stackings: Vec<_> = standing?.iter().map(|e| e.pile.shape().stacking().to_string()).collect();
 /// assert_eq!(
 ///     stackings,
 ///     [

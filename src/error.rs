@@ -1,6 +1,10 @@
 //! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
 
+mod culprit;
 mod display;
+mod short;
+
+pub use culprit::Culprit;
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -8,9 +12,9 @@ use alloc::string::String;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
+use crate::engine::{Method, Quantity};
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
-use crate::plan::{Method, Quantity};
 
 /// Why a pile, a site, a geometry or a number was refused.
 ///
@@ -121,33 +125,22 @@ pub enum Error {
         /// The value asked for.
         given: Box<BigRational>,
     },
-    /// A pile whose forces do not follow the paper's closed form.
-    NotStraight,
     /// A method that does not apply: closed forms are of straight stackings, sweeps of spheres and not of discs.
     NoSuchMethod {
         /// The method asked for.
         method: Method,
     },
-    /// A layer that a sweep is not at, or does not lead to any more.
-    SweepElsewhere {
-        /// The layer asked for.
+    /// A sphere that is not of the layer asked.
+    OtherLayer {
+        /// The layer of the sphere.
         layer: i128,
-        /// The layer that the sweep is at.
+        /// The layer that was asked.
         at: i128,
-        /// The last layer that it leads to.
-        last: i128,
     },
     /// A quantity in SI of a pile that has no size and no weight.
     NeedsUnits {
         /// The quantity asked for.
         quantity: Quantity,
-    },
-    /// A row that has no spheres with others below them.
-    NoSuchRow {
-        /// The layer asked for.
-        k: i128,
-        /// The row asked for.
-        j: i128,
     },
     /// A slice that does not have one place for each force.
     Length {
@@ -159,9 +152,9 @@ pub enum Error {
     /// Two options of a scene that exclude each other.
     Excluded {
         /// The one.
-        given: &'static str,
+        given: Culprit,
         /// The other.
-        beside: &'static str,
+        beside: Culprit,
     },
     /// An answer that would take more memory than is sensible.
     TooLarge {
@@ -177,7 +170,7 @@ pub enum Error {
     /// A length, mass, gravity or spacing that is not positive.
     NotPositive {
         /// What it is.
-        quantity: &'static str,
+        quantity: Culprit,
         /// The value asked for.
         given: BigRational,
     },
@@ -222,6 +215,15 @@ pub enum Error {
         text: String,
         /// What was expected, with an example.
         expected: &'static str,
+    },
+    /// A long stacking with a character that does not belong there.
+    Misspelled {
+        /// The stacking, shortened.
+        text: String,
+        /// The place of the character, counted from 1.
+        position: usize,
+        /// The character, or `None` if the stacking ends too early.
+        found: Option<char>,
     },
     /// A scene file that is no TOML.
     NotToml {
@@ -270,6 +272,21 @@ pub enum Error {
         /// The narrower question.
         remedy: &'static str,
     },
+    /// Something that cannot be, by the named invariant: a fault of this library and of no input.
+    Bug {
+        /// What was to hold, and does not.
+        invariant: &'static str,
+    },
+}
+
+/// Returns the error for a case that `invariant` rules out; where debug assertions are on, it panics instead.
+///
+/// It stands where a default would be a wrong answer: `value.ok_or_else(|| bug("a bottom sphere rests on the floor"))?`.
+#[cold]
+#[track_caller]
+pub(crate) fn bug(invariant: &'static str) -> Error {
+    debug_assert!(false, "broken invariant: {invariant}");
+    Error::Bug { invariant }
 }
 
 impl Error {
@@ -285,7 +302,7 @@ impl Error {
         }
     }
 
-    /// A syntax error that quotes `text`, cut where it gets long.
+    /// A syntax error that quotes `text`, shortened if it is long.
     pub(crate) fn syntax(text: &str, expected: &'static str) -> Self {
         Self::Syntax {
             text: Self::quoted(text),
@@ -293,18 +310,9 @@ impl Error {
         }
     }
 
-    /// The text on one line, cut where it gets long.
+    /// The text on one line, shortened in the middle if it is long.
     pub(crate) fn quoted(text: &str) -> String {
-        const LONGEST: usize = 60;
-        let mut quoted: String = text
-            .chars()
-            .take(LONGEST)
-            .flat_map(char::escape_debug)
-            .collect();
-        if text.chars().nth(LONGEST).is_some() {
-            quoted.push('…');
-        }
-        quoted
+        short::quoted(text)
     }
 }
 

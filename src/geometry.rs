@@ -1,7 +1,7 @@
 //! Angles, directions, overlap, positions.
 //!
 //! The paper's basis: x and y horizontal, z **down**. A contact leans by θ from the vertical, and the
-//! unit vectors along the contacts point from the lower sphere to the upper one (eq. 1):
+//! unit vectors along the contacts point from the lower sphere to the upper one (paper, (1)):
 //!
 //! ê_a = (sinθ sinφ, sinθ cosφ, −cosθ), ê_b = (sinθ sinφ, −sinθ cosφ, −cosθ), ê_c = (−sinθ, 0, −cosθ).
 //!
@@ -28,9 +28,9 @@ use crate::Error;
 use crate::lattice::Dimension;
 use crate::scalar::{Algebra, Ring, Surd};
 
-/// ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
+/// Returns the contact directions ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
-/// Paper, eq. (1). `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. Exact in exact
+/// Paper, (1). `s` is sin φ: ½ for the equilateral base, 0 < s < 1 in general. Exact in exact
 /// scalars.
 ///
 /// # Examples
@@ -64,8 +64,8 @@ pub fn directions<T: Algebra>(s: &T) -> [Vector<T>; 3] {
     ]
 }
 
-/// The contact directions of a pile of discs, in the basis (sinθ, 2sinθ, cosθ): ê_a = (1, 0, −1) and
-/// ê_b = (−1, 0, −1).
+/// Returns the contact directions of a pile of discs, in the basis (sinθ, 2sinθ, cosθ): ê_a = (1, 0, −1) and ê_b = (−1,
+/// 0, −1).
 ///
 /// The plane of the discs is x–z. It is the pile of spheres with s = 0, whose γ contacts carry
 /// nothing, turned by a quarter about z; ê_c = (0, ½, −1) completes the three and is not used.
@@ -100,10 +100,10 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
     ]
 }
 
-/// The position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
+/// Returns the position of a sphere from the apex, in 2R and the symbolic basis: −(N_α ê_a + N_β ê_b + N_γ ê_c).
 ///
 /// `above` are the counts of spheres above it on its lines ([`count::above`](crate::lattice::count::above)).
-/// THEORY §1: r = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. Exact in exact scalars.
+/// So r = −2R[(k−i−j) ê_a + i ê_b + j ê_c]. Exact in exact scalars.
 ///
 /// # Examples
 /// ```
@@ -117,11 +117,10 @@ pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<
     -Vector::combination(above, directions)
 }
 
-/// The squared distance of two sphere centres over 4R², for centres n_a ê_a + n_b ê_b + n_c ê_c apart
-/// (in 2R).
+/// Returns the squared distance of two sphere centres over 4R², for centres n_a ê_a + n_b ê_b + n_c ê_c apart (in 2R).
 ///
 /// With the Gram matrix ê·ê = 1, ê_a·ê_b = cos²θ + (2s²−1) sin²θ,
-/// ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ (THEORY §2). s = 0 and n_c = 0 give discs. Two spheres overlap
+/// ê_a·ê_c = ê_b·ê_c = cos²θ − s sin²θ. s = 0 and n_c = 0 give discs. Two spheres overlap
 /// if it is below 1 and touch if it is 1. Exact in exact scalars.
 ///
 /// # Examples
@@ -149,13 +148,11 @@ pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
 /// ```
 /// use cannonpile::geometry::{Inclination, Spacing};
 /// use cannonpile::lattice::Dimension;
-/// use num_rational::BigRational;
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-/// let spacing = Spacing::new(ratio(6, 5))?;
+/// let spacing: Spacing = "6/5".parse()?;
 /// let angle = Inclination::new(&spacing, Dimension::Three)?;
-/// assert_eq!(angle.sin2(), &ratio(12, 25));
-/// assert_eq!(angle.tan2(), ratio(12, 13));
+/// assert_eq!(angle.sin2().to_string(), "12/25");
+/// assert_eq!(angle.tan2().to_string(), "12/13");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -164,7 +161,7 @@ pub struct Inclination {
 }
 
 impl Inclination {
-    /// sin²θ = q(d−1)/(2d), with q = (a/R)².
+    /// Returns the inclination at this spacing: sin²θ = q(d−1)/(2d), with q = (a/R)² and the dimension d.
     ///
     /// # Errors
     /// [`Error::TooFlat`] if sin²θ ≥ 1: a sphere would fall between those below.
@@ -193,19 +190,17 @@ impl Inclination {
         }
     }
 
-    /// sin²θ, between 0 and 1.
+    /// Returns sin²θ, between 0 and 1.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let spacing = Spacing::new(ratio(6, 5))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// // A third of q for spheres, and a quarter for discs.
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.sin2(), &ratio(12, 25));
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Two)?.sin2(), &ratio(9, 25));
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.sin2().to_string(), "12/25");
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Two)?.sin2().to_string(), "9/25");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -213,17 +208,15 @@ impl Inclination {
         &self.sin2
     }
 
-    /// cos²θ = 1 − sin²θ, positive.
+    /// Returns cos²θ = 1 − sin²θ, which is positive.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let spacing = Spacing::new(ratio(6, 5))?;
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.cos2(), ratio(13, 25));
+    /// let spacing: Spacing = "6/5".parse()?;
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.cos2().to_string(), "13/25");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -231,17 +224,15 @@ impl Inclination {
         BigRational::one() - &self.sin2
     }
 
-    /// tan²θ = sin²θ / cos²θ.
+    /// Returns tan²θ = sin²θ / cos²θ.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let spacing = Spacing::new(ratio(6, 5))?;
-    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.tan2(), ratio(12, 13));
+    /// let spacing: Spacing = "6/5".parse()?;
+    /// assert_eq!(Inclination::new(&spacing, Dimension::Three)?.tan2().to_string(), "12/13");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -249,58 +240,55 @@ impl Inclination {
         &self.sin2 / self.cos2()
     }
 
-    /// sinθ, exactly.
+    /// Returns sinθ, exactly.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// let angle = Inclination::new(&spacing, Dimension::Three)?;
     /// assert_eq!(angle.sin().to_string(), "2/5*sqrt(3)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
     pub fn sin(&self) -> Surd {
-        root(self.sin2.clone())
+        Surd::root_of(self.sin2.clone())
     }
 
-    /// cosθ, exactly.
+    /// Returns cosθ, exactly.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// let angle = Inclination::new(&spacing, Dimension::Three)?;
     /// assert_eq!(angle.cos().to_string(), "1/5*sqrt(13)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
     pub fn cos(&self) -> Surd {
-        root(self.cos2())
+        Surd::root_of(self.cos2())
     }
 
-    /// tanθ, exactly.
+    /// Returns tanθ, exactly.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::geometry::{Inclination, Spacing};
     /// use cannonpile::lattice::Dimension;
-    /// use num_rational::BigRational;
     ///
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let spacing: Spacing = "6/5".parse()?;
     /// let angle = Inclination::new(&spacing, Dimension::Three)?;
     /// assert_eq!(angle.tan().to_string(), "2/13*sqrt(39)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
     pub fn tan(&self) -> Surd {
-        root(self.tan2())
+        Surd::root_of(self.tan2())
     }
 }
 
@@ -310,12 +298,6 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
         Dimension::Two => 4,
         Dimension::Three => 3,
     })
-}
-
-/// √r of a rational known to be positive.
-fn root(r: BigRational) -> Surd {
-    // The fallback is for a negative radicand, which the callers exclude.
-    Surd::sqrt(r).unwrap_or_else(|_| Surd::zero())
 }
 
 // Unwrapped by the compiler: zero would not build.

@@ -27,12 +27,16 @@ pub use row::{Row, Sites};
 pub use sign::Sign;
 pub use symmetry::Symmetry;
 
+use alloc::string::ToString;
 use core::fmt;
+use core::str::FromStr;
+
+use crate::Error;
 
 /// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);
 
-/// A direction of contacts, named as in the paper's eq. (1).
+/// A direction of contacts, named as in the paper, (1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// α, along ê_a.
@@ -47,7 +51,7 @@ impl Direction {
     /// α, β, γ: the order of every array indexed by direction.
     pub const ALL: [Self; 3] = [Self::Alpha, Self::Beta, Self::Gamma];
 
-    /// 0, 1, 2 for α, β, γ.
+    /// Returns 0, 1, 2 for α, β, γ.
     ///
     /// # Examples
     /// ```
@@ -64,7 +68,7 @@ impl Direction {
         }
     }
 
-    /// The step (Δi, Δj, Δk) from a sphere to the one below it in this direction.
+    /// Returns the step (Δi, Δj, Δk) from a sphere to the one below it in this direction.
     ///
     /// # Examples
     /// ```
@@ -81,7 +85,7 @@ impl Direction {
         }
     }
 
-    /// `alpha`, `beta`, `gamma`: the name in tables and on the command line.
+    /// Returns `alpha`, `beta` or `gamma`, the name in tables and on the command line.
     ///
     /// # Examples
     /// ```
@@ -105,8 +109,37 @@ impl fmt::Display for Direction {
     }
 }
 
+impl FromStr for Direction {
+    type Err = Error;
+
+    /// Reads a direction by its [`name`](Self::name).
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// assert_eq!("gamma".parse::<Direction>()?, Direction::Gamma);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|found| found.name() == text);
+        found.ok_or_else(|| Error::syntax(text, "a direction: alpha, beta or gamma"))
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Direction);
+
 /// The number of dimensions a pile lives in: discs in the plane, or spheres in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(into = "u32", try_from = "u32")
+)]
 pub enum Dimension {
     /// A pile of discs: each stands on two, α and β.
     Two,
@@ -115,7 +148,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// 2 or 3, which is also the number of contacts below each sphere.
+    /// Returns 2 or 3, which is also the number of contacts below each sphere.
     ///
     /// # Examples
     /// ```
@@ -131,7 +164,7 @@ impl Dimension {
         }
     }
 
-    /// The directions of contacts, in order.
+    /// Returns the directions of contacts, in order.
     ///
     /// # Examples
     /// ```
@@ -148,17 +181,70 @@ impl Dimension {
     }
 }
 
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.number().fmt(f)
+    }
+}
+
+impl FromStr for Dimension {
+    type Err = Error;
+
+    /// Reads a dimension: `2` or `3`.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Dimension;
+    ///
+    /// assert_eq!("2".parse::<Dimension>()?, Dimension::Two);
+    /// assert!("4".parse::<Dimension>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "2" => Ok(Self::Two),
+            "3" => Ok(Self::Three),
+            _ => Err(Error::syntax(text, "a dimension: 2 (discs) or 3 (spheres)")),
+        }
+    }
+}
+
+impl From<Dimension> for u32 {
+    fn from(dimension: Dimension) -> Self {
+        dimension.number()
+    }
+}
+
+impl TryFrom<u32> for Dimension {
+    type Error = Error;
+
+    fn try_from(number: u32) -> Result<Self, Error> {
+        number.to_string().parse()
+    }
+}
+
 /// A place (i, j, k) for a sphere, k counted from the top.
 ///
-/// Any three integers make a site; whether a pile has it is for [`Shape::contains`] to say. Sites
+/// Any three integers make a site. [`Shape::contains`](crate::shape::Shape::contains) says whether a pile has it. Sites
 /// are ordered as tables print them: by layer, row, place in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Site {
     /// The place within the row.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub i: i128,
     /// The row within the layer.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub j: i128,
     /// The layer, 0 at the top.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub k: i128,
 }
 
@@ -166,8 +252,8 @@ impl Site {
     /// The sphere on top of a pile, (0, 0, 0).
     pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
 
-    /// The site `steps` further down in `direction` under steps of one sign, up for a negative number; `None` past
-    /// `i128`.
+    /// Returns the site `steps` further down in `direction` under steps of one sign, up for a negative number; `None`
+    /// past `i128`.
     pub(crate) fn step(self, sign: Sign, direction: Direction, steps: i128) -> Option<Self> {
         let [di, dj] = sign.descent(direction).map(|d| d * steps);
         Some(Self {
@@ -191,7 +277,7 @@ impl PartialOrd for Site {
 }
 
 impl fmt::Display for Site {
-    /// `(i,j,k)`.
+    /// Prints `(i,j,k)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "({},{},{})", self.i, self.j, self.k)
     }

@@ -1,6 +1,5 @@
 //! A pile with a size and a weight: exact answers in SI.
 
-mod roots;
 mod rows;
 
 pub use rows::PackedContact;
@@ -10,13 +9,11 @@ use alloc::vec::Vec;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
+use crate::engine::{Meter, Method};
 use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
-use crate::meter::Meter;
 use crate::scalar::{Ring, Surd};
-use crate::{Error, FloorForce, Method, Pile, Statics};
-
-use roots::{Once, Roots};
+use crate::{Culprit, Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
 ///
@@ -51,7 +48,7 @@ use roots::{Once, Roots};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Packing<'p, M = ()> {
-    statics: Statics<'p, BigRational, M>,
+    forces: Forces<'p, BigRational, M>,
     inclination: Inclination,
     touching: Vec<Apart>,
     roots: Roots,
@@ -62,8 +59,8 @@ pub struct Packing<'p, M = ()> {
     gravity: BigRational,
     /// mg/W, kept because every force has it as a factor.
     weight_per_sum: BigRational,
-    /// f₀, once it is asked for.
-    unit_force: Once,
+    /// f₀.
+    unit_force: Surd,
 }
 
 impl<'p> Packing<'p> {
@@ -87,15 +84,17 @@ impl<'p> Packing<'p> {
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
         let inclination = Inclination::new(spacing, pile.dimension())?;
-        let statics = pile.statics::<BigRational>();
-        let increment_sum = statics.increment_sum()?;
+        let forces = pile.forces::<BigRational>();
+        let increment_sum = forces.increment_sum()?;
+        let weight_per_sum = increment_sum.recip();
+        let roots = Roots::new(&inclination, pile.sin_phi())?;
         Ok(Self {
-            weight_per_sum: increment_sum.recip(),
-            unit_force: Once::default(),
+            unit_force: roots.secant.scaled(&weight_per_sum),
+            weight_per_sum,
             increment_sum,
-            statics,
+            forces,
             touching,
-            roots: Roots::new(&inclination, pile.sin_phi()),
+            roots,
             inclination,
             radius: BigRational::one(),
             mass: BigRational::one(),
@@ -118,7 +117,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let counters = Counters::default();
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
     /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
-    /// assert_eq!(packing.base(pile.rows(Selection::Base)?).count(), 55);
+    /// assert_eq!(packing.base(Selection::Base)?.count(), 55);
     /// // Of tan²θ and of 4cos²φ.
     /// assert_eq!(counters.roots(), 2);
     /// # Ok::<(), cannonpile::Error>(())
@@ -126,7 +125,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     #[must_use]
     pub fn metered<N: Meter>(self, meter: N) -> Packing<'p, N> {
         Packing {
-            statics: self.statics.metered(meter),
+            forces: self.forces.metered(meter),
             inclination: self.inclination,
             touching: self.touching,
             roots: self.roots,
@@ -142,7 +141,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// The same by this method, whether it is the cheapest or not: for comparison.
     ///
     /// # Errors
-    /// As for [`Statics::by`].
+    /// As for [`Forces::by`].
     ///
     /// # Examples
     /// ```
@@ -160,8 +159,8 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn by(self, method: Method) -> Result<Self, Error> {
-        let statics = self.statics.by(method)?;
-        Ok(Self { statics, ..self })
+        let forces = self.forces.by(method)?;
+        Ok(Self { forces, ..self })
     }
 
     /// The same packing with spheres of this radius.
@@ -184,7 +183,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_radius(self, radius: BigRational) -> Result<Self, Error> {
-        let radius = positive("radius", radius)?;
+        let radius = positive(Culprit::Radius, radius)?;
         Ok(Self { radius, ..self })
     }
 
@@ -207,7 +206,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
-        let mass = positive("mass", mass)?;
+        let mass = positive(Culprit::Mass, mass)?;
         Ok(Self { mass, ..self }.weighed())
     }
 
@@ -230,7 +229,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
-        let gravity = positive("gravity", gravity)?;
+        let gravity = positive(Culprit::Gravity, gravity)?;
         Ok(Self { gravity, ..self }.weighed())
     }
 
@@ -250,7 +249,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     #[must_use]
     pub fn method(&self) -> Option<Method> {
-        self.statics.method()
+        self.forces.method()
     }
 
     /// The forces in pile units, exactly.
@@ -265,13 +264,13 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let pile = Pile::triangular(10)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let (site, along) = (Site { i: 1, j: 2, k: 5 }, Direction::Alpha);
-    /// let multiple = packing.statics().contact(site, along)?;
+    /// let multiple = packing.forces().contact(site, along)?;
     /// assert_eq!(packing.unit_force().scaled(&multiple), packing.contact(site, along)?);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn statics(&self) -> &Statics<'p, BigRational, M> {
-        &self.statics
+    pub fn forces(&self) -> &Forces<'p, BigRational, M> {
+        &self.forces
     }
 
     /// The pile that is packed.
@@ -289,7 +288,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     #[must_use]
     pub fn pile(&self) -> &'p Pile {
-        self.statics.pile()
+        self.forces.pile()
     }
 
     /// The radius R.
@@ -451,11 +450,11 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     #[must_use]
     pub fn unit_force(&self) -> Surd {
-        self.unit().clone()
+        self.unit_force.clone()
     }
 
     /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
-    /// a sphere sum to this times its position from the apex (THEORY §2). In general f₀/(2R), and a
+    /// a sphere sum to this times its position from the apex ([`paper`](crate::paper#closed-form)). In general f₀/(2R), and a
     /// central force only where all directions are alike.
     ///
     /// # Examples
@@ -472,13 +471,13 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     #[must_use]
     pub fn central_constant(&self) -> Surd {
-        self.unit().scaled(&self.diameter().recip())
+        self.unit_force.scaled(&self.diameter().recip())
     }
 
     /// The magnitude of the contact force between `site` and the sphere below it.
     ///
     /// # Errors
-    /// As for [`Statics::contact`].
+    /// As for [`Forces::contact`].
     ///
     /// # Examples
     /// ```
@@ -495,13 +494,13 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact(&self, site: Site, direction: Direction) -> Result<Surd, Error> {
-        Ok(self.magnitude(&self.statics.contact(site, direction)?))
+        Ok(self.magnitude(&self.forces.contact(site, direction)?))
     }
 
     /// The same force as a vector (x, y, z up), on the upper sphere.
     ///
     /// # Errors
-    /// As for [`Statics::contact`].
+    /// As for [`Forces::contact`].
     ///
     /// # Examples
     /// ```
@@ -517,14 +516,14 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
-        let multiple = self.statics.contact(site, direction)?;
+        let multiple = self.forces.contact(site, direction)?;
         self.vector(site, direction, &multiple)
     }
 
     /// Where `site` touches the sphere below it: halfway between the centres.
     ///
     /// # Errors
-    /// As for [`Statics::contact`].
+    /// As for [`Forces::contact`].
     ///
     /// # Examples
     /// ```
@@ -541,10 +540,10 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
-        let lean = upwards(self.statics.contact_direction(site, direction)?);
+        let lean = upwards(self.forces.contact_direction(site, direction)?);
         let half = BigRational::new((-1).into(), 2.into());
         let point = self.centre(site)? + &lean.scaled(&half);
-        Ok(on_basis(self.lengths(), point, &self.diameter()))
+        Ok(on_basis(self.roots.lengths(), point, &self.diameter()))
     }
 
     /// The centre of a sphere.
@@ -568,7 +567,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     pub fn position(&self, site: Site) -> Result<[Surd; 3], Error> {
         Ok(on_basis(
-            self.lengths(),
+            self.roots.lengths(),
             self.centre(site)?,
             &self.diameter(),
         ))
@@ -577,7 +576,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// The force of a bottom sphere on the floor: normal downwards, shear along x and y.
     ///
     /// # Errors
-    /// As for [`Statics::on_floor`].
+    /// As for [`Forces::on_floor`].
     ///
     /// # Examples
     /// ```
@@ -594,18 +593,35 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<Surd>, Error> {
-        Ok(self.floor_force(self.statics.on_floor(site)?))
+        Ok(self.floor_force(self.forces.on_floor(site)?))
     }
 
-    /// A force on the floor, from pile units.
-    fn floor_force(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
+    /// Returns a force on the floor in SI, from its multiples of mg and mg·tanθ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let site = Site { i: 0, j: 0, k: 9 };
+    /// let multiples = packing.forces().on_floor(site)?;
+    /// assert_eq!(packing.floor_force(multiples), packing.on_floor(site)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn floor_force(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
         let site = force.site;
         let force = Vector {
             x: force.shear_x,
             y: force.shear_y,
             z: force.normal,
         };
-        let [shear_x, shear_y, normal] = on_basis(self.forces(), force, &self.sphere_weight());
+        let [shear_x, shear_y, normal] =
+            on_basis(self.roots.forces(), force, &self.sphere_weight());
         FloorForce {
             site,
             normal,
@@ -616,7 +632,7 @@ impl<'p, M: Meter> Packing<'p, M> {
 
     /// A contact force, from its multiple of f₀.
     pub(crate) fn magnitude(&self, multiple: &BigRational) -> Surd {
-        self.unit().scaled(multiple)
+        self.unit_force.scaled(multiple)
     }
 
     /// A contact force as a vector on the upper sphere, from its multiple of f₀.
@@ -626,48 +642,64 @@ impl<'p, M: Meter> Packing<'p, M> {
         direction: Direction,
         multiple: &BigRational,
     ) -> Result<[Surd; 3], Error> {
-        let along = upwards(self.statics.contact_direction(site, direction)?);
+        let along = upwards(self.forces.contact_direction(site, direction)?);
         let unit = multiple * &self.weight_per_sum;
-        Ok(on_basis(self.forces(), along, &unit))
+        Ok(on_basis(self.roots.forces(), along, &unit))
     }
 
     /// The centre of a sphere, in 2R and the symbolic basis, z up from the bottom layer.
     fn centre(&self, site: Site) -> Result<Vector<BigRational>, Error> {
-        let mut centre = upwards(self.statics.position(site)?);
+        let mut centre = upwards(self.forces.position(site)?);
         centre.z += BigRational::from_i128(self.pile().layers() - 1);
         Ok(centre)
-    }
-
-    /// A vector in the symbolic basis, z as it is, times a rational unit.
-    #[cfg(feature = "plot")]
-    pub(crate) fn displacement(
-        &self,
-        vector: Vector<BigRational>,
-        unit: &BigRational,
-    ) -> [Surd; 3] {
-        on_basis(self.lengths(), vector, unit)
     }
 
     fn diameter(&self) -> BigRational {
         &self.radius + &self.radius
     }
 
-    /// f₀.
-    fn unit(&self) -> &Surd {
-        self.unit_force
-            .get(|| self.secant().scaled(&self.weight_per_sum))
-    }
-
-    /// With the units of force that mass and gravity make.
+    /// The packing with the weights that its mass and gravity make.
     fn weighed(mut self) -> Self {
         self.weight_per_sum = self.sphere_weight() / &self.increment_sum;
-        self.unit_force = Once::default();
+        self.unit_force = self.roots.secant.scaled(&self.weight_per_sum);
         self
     }
 }
 
+/// What geometry brings into answers, besides rational factors.
+#[derive(Clone, Debug)]
+struct Roots {
+    /// 1/cosθ.
+    secant: Surd,
+    /// (sinθ, 2cosφ·sinθ, cosθ): the symbolic basis.
+    lengths: [Surd; 3],
+    /// (tanθ, 2cosφ·tanθ, 1): the symbolic basis over cosθ.
+    forces: [Surd; 3],
+}
+
+impl Roots {
+    fn new(inclination: &Inclination, sin_phi: &BigRational) -> Result<Self, Error> {
+        let cos2_phi = BigRational::one() - sin_phi * sin_phi;
+        let across = Surd::sqrt(BigRational::from_i128(4) * cos2_phi)?;
+        let (sin, tan) = (inclination.sin(), inclination.tan());
+        Ok(Self {
+            secant: Surd::sqrt(inclination.cos2().recip())?,
+            lengths: [sin.clone(), sin * &across, inclination.cos()],
+            forces: [tan.clone(), tan * &across, BigRational::one().into()],
+        })
+    }
+
+    fn lengths(&self) -> [&Surd; 3] {
+        self.lengths.each_ref()
+    }
+
+    fn forces(&self) -> [&Surd; 3] {
+        self.forces.each_ref()
+    }
+}
+
 /// `value`, if it is positive.
-fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
+fn positive(quantity: Culprit, value: BigRational) -> Result<BigRational, Error> {
     if value.is_positive() {
         Ok(value)
     } else {

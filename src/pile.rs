@@ -1,15 +1,19 @@
 //! A pile that exists only validated.
 
+mod loading;
+mod system;
+
+pub(crate) use loading::Loading;
+pub(crate) use system::System;
+
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::Error;
-use crate::closed_form::Increments;
+use crate::formula;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, Region, Site, count};
-use crate::load::Loading;
-use crate::query::Statics;
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Numbering, Rows, Selection, Shape};
 use crate::stacking::Stacking;
@@ -27,7 +31,7 @@ use crate::stacking::Stacking;
 ///
 /// // 10³⁰ layers cost what 10 do.
 /// let pile = Pile::triangular(10_i128.pow(30))?;
-/// let statics = pile.statics::<BigRational>();
+/// let statics = pile.forces::<BigRational>();
 /// let force = statics.on_floor(Site { i: 5, j: 7, k: pile.layers() - 1 })?;
 /// assert_eq!(force.normal.to_string(), "333333333333333333333333333334");
 /// # Ok::<(), cannonpile::Error>(())
@@ -114,7 +118,7 @@ impl Pile {
     /// let pile = Pile::under(Region::SITE, Stacking::hcp(4)?)?;
     /// // In the third layer of HCP a sphere stands straight under the apex.
     /// let below = Site { i: 0, j: 0, k: 2 };
-    /// let forces = pile.statics::<BigRational>().from_above(below)?;
+    /// let forces = pile.forces::<BigRational>().from_above(below)?;
     /// assert_eq!(forces.map(|force| force.to_string()), ["2/3"; 3]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -163,7 +167,7 @@ impl Pile {
     ///
     /// let pile = Pile::triangular(10)?.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
     /// // A third of 3 mg on each support.
-    /// assert_eq!(pile.statics::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
+    /// assert_eq!(pile.forces::<f64>().contact(Site::APEX, Direction::Alpha)?, 3.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_load(mut self, site: Site, load: BigRational) -> Result<Self, Error> {
@@ -202,7 +206,7 @@ impl Pile {
     /// let pile = Pile::triangular(10)?.weightless();
     /// let pile = pile.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
     /// // One of three contacts of 1/3 at each depth; what lies off its line feels nothing.
-    /// let statics = pile.statics::<f64>();
+    /// let statics = pile.forces::<f64>();
     /// assert_eq!(statics.contact(Site { i: 0, j: 0, k: 5 }, Direction::Alpha)?, 1.0);
     /// assert_eq!(statics.contact(Site { i: 1, j: 1, k: 5 }, Direction::Alpha)?, 0.0);
     /// # Ok::<(), cannonpile::Error>(())
@@ -467,59 +471,101 @@ impl Pile {
         self.shape.numbering()
     }
 
-    /// The forces, in the scalar `T`.
+    /// Returns ê_a, ê_b, ê_c in the symbolic basis, from the lower sphere to the upper one, under a + step; under a −
+    /// step their horizontal parts change sign.
+    ///
+    /// Paper, (1): [`directions`] of sin φ, [`disc_directions`] of discs.
     ///
     /// # Examples
-    /// One pile in two scalars:
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::lattice::{Direction, Site};
     /// use num_rational::BigRational;
     ///
-    /// let pile = Pile::triangular(10)?;
-    /// let site = Site { i: 1, j: 2, k: 5 };
-    /// let exact: BigRational = pile.statics().contact(site, Direction::Alpha)?;
-    /// let float: f64 = pile.statics().contact(site, Direction::Alpha)?;
-    /// assert_eq!((exact.to_string().as_str(), float), ("3", 3.0));
+    /// let [_, _, c] = Pile::triangular(10)?.directions::<BigRational>();
+    /// assert_eq!(c.into_array().map(|x| x.to_string()), ["-1", "0", "-1"]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn statics<T: Algebra>(&self) -> Statics<'_, T> {
-        Statics::new(self)
+    pub fn directions<T: Algebra>(&self) -> [Vector<T>; 3] {
+        match self.dimension() {
+            Dimension::Two => disc_directions(),
+            Dimension::Three => directions(&T::from_rational(&self.sin_phi)),
+        }
+    }
+
+    /// Returns the spheres that carry a load of their own, with the load, in mg.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
+    /// let loads: Vec<_> = pile.loads().map(|(site, load)| (site, load.to_string())).collect();
+    /// assert_eq!(loads, [(Site::APEX, "2".to_string())]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
+        self.loading.loads()
+    }
+
+    /// Returns the spheres that were given another weight than mg, with the weight, in mg; none once the pile is
+    /// [`weightless`](Self::weightless).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?.with_weight(Site::APEX, BigRational::from_integer(5.into()))?;
+    /// assert_eq!(pile.weights().count(), 1);
+    /// assert_eq!(pile.weightless().weights().count(), 0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
+        let weights = (!self.loading.is_weightless()).then(|| self.loading.weights());
+        weights.into_iter().flatten()
+    }
+
+    /// Returns the load on a sphere, in mg: 0 on most.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.load(Site::APEX)?.to_string(), "0");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn load(&self, site: Site) -> Result<BigRational, Error> {
+        Ok(self.loading.load(self.shape.check(site)?))
     }
 
     pub(crate) fn loading(&self) -> &Loading {
         &self.loading
     }
 
-    /// A straight pile under one sphere whose spheres all weigh mg: the one that the paper solved, of any sin φ.
-    pub(crate) fn is_paper_pile(&self) -> bool {
-        self.shape.is_straight_under_one_sphere() && self.is_straight_and_even()
-    }
-
-    /// A straight pile whose spheres all weigh mg, on any region.
-    pub(crate) fn is_straight_and_even(&self) -> bool {
-        let loading = &self.loading;
-        self.shape.stacking().is_straight()
-            && !loading.is_weightless()
-            && loading.extras().next().is_none()
-    }
-
-    /// What a sphere of this pile adds to its lines.
-    pub(crate) fn increments<T: Algebra>(&self) -> Increments<T, 3> {
-        Increments::isosceles(&T::from_rational(&self.sin_phi))
-    }
-
-    /// ê_a, ê_b, ê_c in the symbolic basis.
-    pub(crate) fn directions<T: Algebra>(&self) -> [Vector<T>; 3] {
-        match self.dimension() {
-            Dimension::Two => disc_directions(),
-            Dimension::Three => directions(&T::from_rational(&self.sin_phi)),
+    /// Returns what an engine needs to know of the pile.
+    pub(crate) fn system(&self) -> System<'_> {
+        System {
+            shape: &self.shape,
+            increments: formula::increments(&self.sin_phi),
+            directions: self.directions(),
+            loading: &self.loading,
         }
+    }
+
+    /// Whether it is the paper's pile: straight, under one sphere, every sphere of weight mg.
+    pub(crate) fn is_paper_pile(&self) -> bool {
+        self.shape.is_straight_under_one_sphere() && self.system().is_even()
     }
 }
 
-/// sin φ of an equilateral base.
 fn half() -> BigRational {
     BigRational::new(1.into(), 2.into())
 }

@@ -34,9 +34,12 @@ mod interval;
 pub mod laws;
 mod nearest;
 mod pair;
+pub mod parse;
 mod polynomial;
 mod rational;
 mod screen;
+#[cfg(feature = "serde")]
+pub(crate) mod serde;
 mod surd;
 
 pub use double_double::DoubleDouble;
@@ -272,10 +275,17 @@ pub enum RealSign {
 
 /// Rational bounds of a value: `lower ≤ x ≤ upper`.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Enclosure {
     /// The greatest lower bound that is known.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub lower: BigRational,
     /// The least upper bound that is known.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub upper: BigRational,
 }
 

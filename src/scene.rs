@@ -1,8 +1,6 @@
 //! A scene: the options that describe a pile and its spheres, the parsers of their values, and files of them.
 
 pub mod parse;
-#[cfg(any(feature = "serde", feature = "toml"))]
-pub(crate) mod text;
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
 mod toml;
@@ -16,9 +14,11 @@ use crate::geometry::Spacing;
 use crate::lattice::{Dimension, Region};
 use crate::shape::Shape;
 use crate::stacking::Pattern;
-use crate::{Error, Packing, Pile};
+use crate::{Culprit, Error, Packing, Pile};
 
 use parse::At;
+
+pub use crate::shape::Anchor;
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
 pub use toml::SceneFile;
@@ -36,63 +36,54 @@ pub use toml::SceneFile;
 /// assert!(scene.packing(&pile)?.touching().is_empty());
 ///
 /// // As high as the base carries.
-/// let anchor = Some(Anchor::Base(parse::region("hexagon:3")?));
+/// let anchor = Some(Anchor::Base("hexagon:3".parse()?));
 /// let scene = Scene { anchor, stacking: Some(Pattern::Hcp), ..Scene::default() };
 /// assert_eq!(scene.pile()?.layers(), 5);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(rename_all = "kebab-case", default, deny_unknown_fields)
+)]
 pub struct Scene {
     /// The number of layers: by default 10, those of a stacking that is spelled out, or as many as a base carries.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub layers: Option<i128>,
     /// Discs or spheres (spheres).
     pub dimension: Dimension,
     /// sin φ (½); none for discs and for piles of a stacking, top or base of one's own.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub sin_phi: Option<BigRational>,
     /// How layers follow one another (all +): from the top, or from the base up if the pile is grown from its base.
     pub stacking: Option<Pattern>,
     /// The layer that the pile is grown from (one sphere on top).
     pub anchor: Option<Anchor>,
     /// Vertical loads on spheres, in mg.
+    #[cfg_attr(feature = "serde", serde(with = "loads"))]
     pub loads: Vec<(At, BigRational)>,
     /// Whether the spheres weigh nothing, so that only the loads act.
     pub weightless: bool,
     /// a/R. One that is given is always checked, the default 6/5 only where geometry is used.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub spacing: Option<BigRational>,
     /// The radius R (1).
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub radius: BigRational,
     /// The mass m of a sphere (1).
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub mass: BigRational,
     /// The gravity g (1).
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub gravity: BigRational,
 }
 
-/// The layer that a pile is grown from.
-///
-/// # Examples
-/// ```
-/// use cannonpile::scene::{Anchor, Scene, parse};
-///
-/// let top = Anchor::Top(parse::region("hexagon:2")?);
-/// let scene = Scene { anchor: Some(top), layers: Some(2), ..Scene::default() };
-/// assert_eq!(scene.pile()?.base_spheres(), 12_u32.into());
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// Downwards from its top.
-    Top(Region),
-    /// Upwards from its base.
-    Base(Region),
-}
-
-impl Anchor {
-    /// The option that says so: `top` or `base`.
-    const fn name(&self) -> &'static str {
-        match self {
-            Self::Top(_) => "top",
-            Self::Base(_) => "base",
-        }
+/// Returns which input says where a pile is grown from: the top or the base.
+const fn culprit_of(anchor: &Anchor) -> Culprit {
+    match anchor {
+        Anchor::Top(_) => Culprit::Top,
+        Anchor::Base(_) => Culprit::Base,
     }
 }
 
@@ -118,7 +109,7 @@ impl Default for Scene {
 const LAYERS: i128 = 10;
 
 impl Scene {
-    /// The pile, checked; with the spacing, if one is given.
+    /// Returns the pile, checked, also with the spacing if one is given.
     ///
     /// # Errors
     /// Those of [`Pile`]'s constructors, loads and [`Clearance::check`](crate::geometry::Clearance::check);
@@ -155,19 +146,19 @@ impl Scene {
     fn unloaded(&self) -> Result<Pile, Error> {
         let layers = self.layers.unwrap_or(LAYERS);
         let stacked = match (&self.anchor, &self.stacking) {
-            (Some(anchor), _) => Some(anchor.name()),
-            (None, Some(_)) => Some("stacking"),
+            (Some(anchor), _) => Some(culprit_of(anchor)),
+            (None, Some(_)) => Some(Culprit::Stacking),
             (None, None) => None,
         };
         match (self.dimension, &self.sin_phi, stacked) {
             (Dimension::Two, Some(_), _) => Err(Error::SinPhiOfDiscs),
             (Dimension::Two, None, Some(given)) => Err(Error::Excluded {
                 given,
-                beside: "dimension 2",
+                beside: Culprit::Dimension,
             }),
             (Dimension::Two, None, None) => Pile::discs(layers),
             (Dimension::Three, Some(_), Some(beside)) => Err(Error::Excluded {
-                given: "sin-phi",
+                given: Culprit::SinPhi,
                 beside,
             }),
             (Dimension::Three, Some(s), None) => Pile::isosceles(layers, s.clone()),
@@ -195,7 +186,7 @@ impl Scene {
         }
     }
 
-    /// That radius, mass and gravity are positive, whether they will be used or not.
+    /// Checks that radius, mass and gravity are positive, whether they will be used or not.
     ///
     /// # Errors
     /// [`Error::NotPositive`].
@@ -211,9 +202,9 @@ impl Scene {
     /// ```
     pub fn check_sizes(&self) -> Result<(), Error> {
         for (quantity, value) in [
-            ("radius", &self.radius),
-            ("mass", &self.mass),
-            ("gravity", &self.gravity),
+            (Culprit::Radius, &self.radius),
+            (Culprit::Mass, &self.mass),
+            (Culprit::Gravity, &self.gravity),
         ] {
             if !value.is_positive() {
                 return Err(Error::NotPositive {
@@ -225,7 +216,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The spacing: the one given, or 6/5. Whether it fits the pile is not checked here.
+    /// Returns the spacing that is given, or 6/5. Whether it fits the pile is not checked here.
     ///
     /// # Errors
     /// [`Error::NotPositive`].
@@ -242,7 +233,7 @@ impl Scene {
         Spacing::new(self.spacing.clone().unwrap_or_else(default))
     }
 
-    /// The pile with the sizes and weights of the scene.
+    /// Returns the pile with the sizes and weights of the scene.
     ///
     /// # Errors
     /// Those of [`Packing::new`], and [`Error::NotPositive`].
@@ -263,5 +254,44 @@ impl Scene {
             .with_radius(self.radius.clone())?
             .with_mass(self.mass.clone())?
             .with_gravity(self.gravity.clone())
+    }
+}
+
+/// Loads as records `{"at": …, "weight": …}`.
+#[cfg(feature = "serde")]
+mod loads {
+    use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::{At, BigRational, Vec};
+    use crate::scalar::serde::number;
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(rename = "Load", deny_unknown_fields)]
+    struct Load {
+        at: At,
+        #[serde(with = "number")]
+        weight: BigRational,
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        loads: &[(At, BigRational)],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(
+            loads
+                .iter()
+                .cloned()
+                .map(|(at, weight)| Load { at, weight }),
+        )
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<(At, BigRational)>, D::Error> {
+        let loads: Vec<Load> = Deserialize::deserialize(deserializer)?;
+        Ok(loads
+            .into_iter()
+            .map(|load| (load.at, load.weight))
+            .collect())
     }
 }

@@ -8,8 +8,8 @@ mod runs;
 pub use numbering::Numbering;
 pub use rows::{Rows, Selection};
 
+use runs::Steps;
 pub(crate) use runs::Stretch;
-use runs::{Descent, Start};
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -21,7 +21,7 @@ use crate::stacking::{Pattern, Run, Stacking};
 /// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
 ///
 /// A shape is grown down from a top layer, each layer all supports of the one above (dilation), or up from a base,
-/// each layer all sites whose three supports are there (erosion). THEORY §3. One sphere on top and all + is the
+/// each layer all sites whose three supports are there (erosion). One sphere on top and all + is the
 /// paper's pile, [`pyramid`](Self::pyramid).
 ///
 /// What it holds grows with the changes of sign, not with the layers.
@@ -46,22 +46,60 @@ use crate::stacking::{Pattern, Run, Stacking};
 pub struct Shape {
     dimension: Dimension,
     stacking: Stacking,
-    /// Where each run of the stacking begins.
-    starts: Vec<Start>,
+    /// The runs of the stacking, from the top.
+    stretches: Vec<Stretch>,
     /// All steps together.
-    whole: Descent,
+    whole: Steps,
     anchor: Anchor,
 }
 
-/// The layer that all others are grown from.
+/// The layer that all others of a pile are grown from.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Region;
+/// use cannonpile::shape::Anchor;
+///
+/// let pile = Pile::on(Region::triangle(4)?, "++".parse()?)?;
+/// assert_eq!(pile.shape().anchor(), Anchor::Base(Region::triangle(4)?));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Anchor {
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
+pub enum Anchor {
+    /// Downwards from its top.
     Top(Region),
+    /// Upwards from its base.
     Base(Region),
 }
 
+impl Anchor {
+    /// Returns `top` or `base`, the option of the command line and the key of scene files.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Anchor;
+    ///
+    /// assert_eq!(Anchor::Top(Region::SITE).name(), "top");
+    /// ```
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Top(_) => "top",
+            Self::Base(_) => "base",
+        }
+    }
+}
+
 impl Shape {
-    /// The sites of a straight pile under one sphere: triangles of 1, 3, 6, … spheres, or rows of 1, 2, 3, … discs.
+    /// Returns the shape of a straight pile under one sphere: triangles of 1, 3, 6, … spheres, or rows of 1, 2, 3, …
+    /// discs.
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`].
@@ -81,7 +119,7 @@ impl Shape {
         Ok(Self::new(dimension, stacking, Anchor::Top(Region::SITE)))
     }
 
-    /// The sites grown down from `top`: each layer all supports of the layer above.
+    /// Returns the shape grown down from `top`: each layer consists of all supports of the layer above.
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] if a layer leaves ±10³⁶.
@@ -99,14 +137,14 @@ impl Shape {
     /// ```
     pub fn under(top: Region, stacking: Stacking) -> Result<Self, Error> {
         let shape = Self::new(Dimension::Three, stacking, Anchor::Top(top));
-        let Descent { plus, minus } = shape.whole;
+        let Steps { plus, minus } = shape.whole;
         top.dilated_by(Sign::Plus, plus)?
             .dilated_by(Sign::Minus, minus)?;
         Ok(shape)
     }
 
-    /// The sites grown up from `base`: each layer all sites whose three supports are there. The stacking is read
-    /// from the top, as everywhere in the library.
+    /// Returns the shape grown up from `base`: each layer consists of all sites whose three supports are there. The
+    /// stacking is read from the top, as everywhere in the library.
     ///
     /// Spheres below may be left with nothing on them.
     ///
@@ -139,22 +177,24 @@ impl Shape {
     }
 
     fn new(dimension: Dimension, stacking: Stacking, anchor: Anchor) -> Self {
-        let (mut layer, mut descent) = (0, Descent::default());
-        let mut starts = Vec::with_capacity(stacking.runs().len());
-        for Run { sign, steps } in stacking.runs() {
-            starts.push(Start {
-                layer,
+        let (mut from, mut above) = (0, Steps::default());
+        let stretch = |(index, Run { sign, steps }): (usize, Run)| {
+            let stretch = Stretch {
+                index,
                 sign,
-                descent,
-            });
-            layer += steps;
-            descent = descent.further(sign, steps);
-        }
+                from,
+                to: from + steps,
+                above,
+            };
+            (from, above) = (stretch.to, above.and(sign, steps));
+            stretch
+        };
+        let stretches = stacking.runs().enumerate().map(stretch).collect();
         Self {
             dimension,
             stacking,
-            starts,
-            whole: descent,
+            stretches,
+            whole: above,
             anchor,
         }
     }
@@ -178,7 +218,7 @@ impl Shape {
         layers - kept
     }
 
-    /// The number L of layers.
+    /// Returns the number L of layers.
     ///
     /// # Examples
     /// ```
@@ -194,7 +234,7 @@ impl Shape {
         self.whole.plus + self.whole.minus + 1
     }
 
-    /// Discs or spheres.
+    /// Returns whether the pile is of discs or of spheres.
     ///
     /// # Examples
     /// ```
@@ -210,7 +250,7 @@ impl Shape {
         self.dimension
     }
 
-    /// How layers follow one another, from the top.
+    /// Returns how layers follow one another, from the top.
     ///
     /// # Examples
     /// ```
@@ -226,7 +266,7 @@ impl Shape {
         &self.stacking
     }
 
-    /// Whether this is a straight pile of + steps under one sphere, or of discs.
+    /// Returns whether this is a straight pile of + steps under one sphere, or of discs.
     ///
     /// # Examples
     /// ```
@@ -242,12 +282,28 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.whole.minus == 0
     }
 
-    /// Whether this is the paper's pile or its mirror image, or of discs.
+    /// Returns whether this is the paper's pile or its mirror image, or of discs.
     pub(crate) fn is_straight_under_one_sphere(&self) -> bool {
         self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
     }
 
-    /// Whether the pile was grown up from its base.
+    /// Returns the layer that the others are grown from.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Region};
+    /// use cannonpile::shape::{Anchor, Shape};
+    ///
+    /// let shape = Shape::pyramid(10, Dimension::Three)?;
+    /// assert_eq!(shape.anchor(), Anchor::Top(Region::SITE));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn anchor(&self) -> Anchor {
+        self.anchor
+    }
+
+    /// Returns whether the pile was grown up from its base.
     ///
     /// # Examples
     /// ```
@@ -263,7 +319,7 @@ impl Shape {
         matches!(self.anchor, Anchor::Base(_))
     }
 
-    /// The sites of layer k, counted from the top.
+    /// Returns the sites of layer k, counted from the top.
     ///
     /// # Errors
     /// [`Error::LayerOutside`].
@@ -285,7 +341,7 @@ impl Shape {
         })
     }
 
-    /// The layer on the floor.
+    /// Returns the layer on the floor.
     ///
     /// # Examples
     /// ```
@@ -320,14 +376,14 @@ impl Shape {
         if !(0..self.layers()).contains(&k) {
             return None;
         }
-        let Descent { plus, minus } = self.descent(k);
+        let Steps { plus, minus } = self.steps_to(k);
         match self.anchor {
             Anchor::Top(top) => Some(top.grown(plus, minus)),
             Anchor::Base(base) => base.shrunk(self.whole.plus - plus, self.whole.minus - minus),
         }
     }
 
-    /// How many spheres lie above a site of layer k on each of its lines, within the run down to there.
+    /// Returns how many spheres lie above a site of layer k on each of its lines, within the run down to there.
     #[inline]
     pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
@@ -336,7 +392,7 @@ impl Shape {
         })
     }
 
-    /// The same along row j of layer k.
+    /// The counts of [`spheres_above`](Self::spheres_above) along row j of layer k.
     pub(crate) fn row_counts(&self, run: &Stretch, k: i128, j: i128) -> [Trapezoid; 3] {
         let nothing = Trapezoid {
             cap: 0,
@@ -349,7 +405,7 @@ impl Shape {
         })
     }
 
-    /// Whether the pile has this site.
+    /// Returns whether the pile has this site.
     ///
     /// # Examples
     /// ```
@@ -368,7 +424,7 @@ impl Shape {
         region.is_some_and(|region| region.contains(site.i, site.j))
     }
 
-    /// The site itself, if the pile has it.
+    /// Checks that the pile has this site, and returns it.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::LayerOutside`] if a pile of another shape than the paper's has no such layer.
@@ -403,7 +459,7 @@ impl Shape {
         })
     }
 
-    /// The support of `site` in a direction; none on the floor, and none in a direction that discs lack.
+    /// Returns the support of `site` in a direction; none on the floor, and none in a direction that discs lack.
     ///
     /// # Examples
     /// ```
@@ -421,7 +477,7 @@ impl Shape {
         self.neighbour(site, direction, self.sign_below(site.k)?, 1)
     }
 
-    /// The sphere that `site` supports in a direction; none at a surface.
+    /// Returns the sphere that `site` supports in a direction; none at a surface.
     ///
     /// # Examples
     /// ```
@@ -446,7 +502,7 @@ impl Shape {
         self.contains(to).then_some(to)
     }
 
-    /// The rows of a part of the pile, from the top.
+    /// Returns the rows of a part of the pile, from the top.
     ///
     /// # Errors
     /// [`Error::SiteOutside`] or [`Error::LayerOutside`] if the selection names what is not there.
@@ -464,7 +520,7 @@ impl Shape {
         Rows::new(self, selection)
     }
 
-    /// Every site, layer by layer from the top, row by row.
+    /// Returns every site, layer by layer from the top, row by row.
     ///
     /// # Examples
     /// ```
@@ -480,7 +536,7 @@ impl Shape {
         Rows::of_layers(self, 0..self.layers()).flatten()
     }
 
-    /// The greatest number of layers that a pattern, read from the base up, carries a base to.
+    /// Returns the greatest number of layers that a pattern, read from the base up, carries a base to.
     pub(crate) fn greatest_height(base: Region, pattern: &Pattern) -> Result<i128, Error> {
         // Each step takes at least one off each width, and none gets below 0.
         let [x, y, s] = base.widths();

@@ -1,6 +1,6 @@
 //! How layers follow one another: Hägg signs, kept as runs, and the notations of the field.
 //!
-//! From one layer to the next a pile steps with a Hägg sign (THEORY §3): under + the sphere (i, j) rests on
+//! From one layer to the next a pile steps with a Hägg sign: under + the sphere (i, j) rests on
 //! (i, j), (i+1, j), (i, j+1) of the layer below, under − on (i, j), (i−1, j), (i, j−1). All + is the paper's
 //! FCC-like pile, alternating signs are HCP, ++−− repeated is DHCP. The same sequence is written as
 //!
@@ -15,9 +15,11 @@
 
 mod notation;
 
-pub use notation::{Abc, Hagg, Jagodzinski, Zhdanov};
+pub use notation::Notation;
 
 use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
 
 use crate::Error;
 use crate::lattice::{MAX_LAYERS, Sign};
@@ -35,10 +37,16 @@ use crate::lattice::{MAX_LAYERS, Sign};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Run {
     /// Their sign.
     pub sign: Sign,
     /// How many, at least 1.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub steps: i128,
 }
 
@@ -49,13 +57,13 @@ pub struct Run {
 /// # Examples
 /// ```
 /// use cannonpile::lattice::Sign;
-/// use cannonpile::stacking::Stacking;
+/// use cannonpile::stacking::{Notation, Stacking};
 ///
 /// let stacking: Stacking = "++-+".parse()?;
 /// assert_eq!((stacking.layers(), stacking.changes()), (5, 2));
-/// assert_eq!(stacking.abc().to_string(), "ABCBC");
-/// assert_eq!(stacking.zhdanov().to_string(), "(2,1,1)");
-/// assert_eq!(stacking.mirrored().hagg().to_string(), "--+-");
+/// assert_eq!(stacking.in_notation(Notation::Abc).to_string(), "ABCBC");
+/// assert_eq!(stacking.in_notation(Notation::Zhdanov).to_string(), "(2,1,1)");
+/// assert_eq!(stacking.mirrored().in_notation(Notation::Hagg).to_string(), "--+-");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -66,7 +74,7 @@ pub struct Stacking {
 }
 
 impl Stacking {
-    /// One layer: no step.
+    /// Returns the stacking of one layer, which has no step.
     ///
     /// # Examples
     /// ```
@@ -82,7 +90,7 @@ impl Stacking {
         }
     }
 
-    /// The stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
+    /// Returns the stacking with these runs from the top; runs of the same sign are joined, empty ones left out.
     ///
     /// # Errors
     /// [`Error::RunLength`] for a negative length, [`Error::Layers`] beyond 10³⁶ layers, [`Error::TooManyRuns`] beyond
@@ -91,10 +99,10 @@ impl Stacking {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Sign;
-    /// use cannonpile::stacking::{Run, Stacking};
+    /// use cannonpile::stacking::{Notation, Run, Stacking};
     ///
     /// let runs = [(Sign::Plus, 2), (Sign::Plus, 1), (Sign::Minus, 5)].map(|(sign, steps)| Run { sign, steps });
-    /// assert_eq!(Stacking::from_runs(runs)?.zhdanov().to_string(), "(3,5)");
+    /// assert_eq!(Stacking::from_runs(runs)?.in_notation(Notation::Zhdanov).to_string(), "(3,5)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_runs(runs: impl IntoIterator<Item = Run>) -> Result<Self, Error> {
@@ -131,7 +139,7 @@ impl Stacking {
         Ok(stacking)
     }
 
-    /// The stacking with these signs from the top.
+    /// Returns the stacking with these signs from the top.
     ///
     /// # Errors
     /// As for [`from_runs`](Self::from_runs).
@@ -139,58 +147,58 @@ impl Stacking {
     /// # Examples
     /// ```
     /// use cannonpile::lattice::Sign;
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking = Stacking::from_signs([Sign::Minus, Sign::Plus])?;
-    /// assert_eq!(stacking.hagg().to_string(), "-+");
+    /// assert_eq!(stacking.in_notation(Notation::Hagg).to_string(), "-+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn from_signs(signs: impl IntoIterator<Item = Sign>) -> Result<Self, Error> {
         Self::from_runs(signs.into_iter().map(|sign| Run { sign, steps: 1 }))
     }
 
-    /// All +: the paper's FCC-like pile.
+    /// Returns the stacking of + steps only, the paper's FCC-like pile.
     ///
     /// # Errors
     /// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::fcc(4)?.hagg().to_string(), "+++");
+    /// assert_eq!(Stacking::fcc(4)?.in_notation(Notation::Hagg).to_string(), "+++");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fcc(layers: i128) -> Result<Self, Error> {
         Self::periodic(layers, 0)
     }
 
-    /// + − + − …: hexagonal close packing.
+    /// Returns the stacking + − + − …, hexagonal close packing.
     ///
     /// # Errors
     /// [`Error::Layers`], and [`Error::TooManyRuns`] beyond a million changes of sign.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::hcp(4)?.hagg().to_string(), "+-+");
+    /// assert_eq!(Stacking::hcp(4)?.in_notation(Notation::Hagg).to_string(), "+-+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn hcp(layers: i128) -> Result<Self, Error> {
         Self::periodic(layers, 1)
     }
 
-    /// + + − − …: double hexagonal close packing.
+    /// Returns the stacking + + − − …, double hexagonal close packing.
     ///
     /// # Errors
     /// As for [`hcp`](Self::hcp).
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!(Stacking::dhcp(4)?.hagg().to_string(), "++-");
+    /// assert_eq!(Stacking::dhcp(4)?.in_notation(Notation::Hagg).to_string(), "++-");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn dhcp(layers: i128) -> Result<Self, Error> {
@@ -207,21 +215,19 @@ impl Stacking {
         }
         let steps = layers - 1;
         let length = if length == 0 { steps.max(1) } else { length };
-        let runs = usize::try_from(steps / length + i128::from(steps % length > 0));
-        if !runs.is_ok_and(|runs| runs <= MAX_RUNS) {
-            return Err(Error::TooManyRuns { limit: MAX_RUNS });
-        }
-        // Not more than there are runs.
-        let whole = usize::try_from(steps / length).unwrap_or(MAX_RUNS);
+        let (whole, rest) = (steps / length, steps % length);
+        let whole = usize::try_from(whole).ok();
+        let whole = whole.filter(|whole| whole.saturating_add(usize::from(rest > 0)) <= MAX_RUNS);
+        let whole = whole.ok_or(Error::TooManyRuns { limit: MAX_RUNS })?;
         let mut lengths = alloc::vec![length; whole];
-        lengths.extend(Some(steps % length).filter(|rest| *rest > 0));
+        lengths.extend(Some(rest).filter(|rest| *rest > 0));
         Ok(Self {
             first: Sign::Plus,
             lengths,
         })
     }
 
-    /// The number L of layers, one more than there are steps.
+    /// Returns the number L of layers, one more than there are steps.
     ///
     /// # Examples
     /// ```
@@ -236,7 +242,7 @@ impl Stacking {
         self.lengths.iter().sum::<i128>() + 1
     }
 
-    /// The number d of sign changes.
+    /// Returns the number d of sign changes.
     ///
     /// # Examples
     /// ```
@@ -250,7 +256,7 @@ impl Stacking {
         self.lengths.len().saturating_sub(1)
     }
 
-    /// Whether no sign changes.
+    /// Returns whether no sign changes.
     ///
     /// # Examples
     /// ```
@@ -264,7 +270,7 @@ impl Stacking {
         self.changes() == 0
     }
 
-    /// The runs, from the top.
+    /// Returns the runs, from the top.
     ///
     /// # Examples
     /// ```
@@ -283,7 +289,7 @@ impl Stacking {
         })
     }
 
-    /// The signs, from the top, one a step.
+    /// Returns the signs from the top, one for each step.
     ///
     /// As many as there are steps: of 10¹⁵ layers, ask for [`runs`](Self::runs).
     ///
@@ -301,7 +307,8 @@ impl Stacking {
             .flat_map(|run| (0..run.steps).map(move |_| run.sign))
     }
 
-    /// `fcc`, `hcp` or `dhcp`, if the steps begin so and go on so; a stacking of two layers or one is `fcc`.
+    /// Returns the name of the pattern that the steps follow from the first on: `fcc`, `hcp` or `dhcp`. One layer and
+    /// two layers are `fcc`.
     ///
     /// # Examples
     /// ```
@@ -332,14 +339,14 @@ impl Stacking {
         }
     }
 
-    /// The stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
+    /// Returns the stacking with every sign reversed: the mirror image (i, j) → (−i, −j).
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking: Stacking = "++-".parse()?;
-    /// assert_eq!(stacking.mirrored().hagg().to_string(), "--+");
+    /// assert_eq!(stacking.mirrored().in_notation(Notation::Hagg).to_string(), "--+");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -355,14 +362,14 @@ impl Stacking {
         }
     }
 
-    /// The same steps read from the other end.
+    /// Returns the stacking with its steps in opposite order, as read from the other end.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
     /// let stacking: Stacking = "++-".parse()?;
-    /// assert_eq!(stacking.reversed().hagg().to_string(), "-++");
+    /// assert_eq!(stacking.reversed().in_notation(Notation::Hagg).to_string(), "-++");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -400,7 +407,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// The layers of a stacking that is spelled out.
+    /// Returns the number of layers, if the stacking is spelled out.
     ///
     /// # Examples
     /// ```
@@ -418,7 +425,7 @@ impl Pattern {
         }
     }
 
-    /// The stacking of so many layers.
+    /// Returns the stacking of this many layers.
     ///
     /// # Errors
     /// [`Error::Layers`]; [`Error::TooManyRuns`]; [`Error::LayersOfStacking`] if it is spelled out and has another
@@ -449,5 +456,47 @@ impl Pattern {
     }
 }
 
+impl fmt::Display for Pattern {
+    /// Prints what [`FromStr`] reads: a name, or the stacking.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fcc => f.write_str("fcc"),
+            Self::Hcp => f.write_str("hcp"),
+            Self::Dhcp => f.write_str("dhcp"),
+            Self::Spelled(stacking) => stacking.fmt(f),
+        }
+    }
+}
+
+impl FromStr for Pattern {
+    type Err = Error;
+
+    /// Reads `fcc`, `hcp`, `dhcp`, or a stacking that is spelled out in one of the four notations.
+    ///
+    /// # Errors
+    /// Those of [`Stacking`]'s.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// assert_eq!("hcp".parse::<Pattern>()?, Pattern::Hcp);
+    /// assert_eq!("ABCB".parse::<Pattern>()?, Pattern::Spelled("++-".parse()?));
+    /// assert!("bcc".parse::<Pattern>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Ok(match text {
+            "fcc" => Self::Fcc,
+            "hcp" => Self::Hcp,
+            "dhcp" => Self::Dhcp,
+            _ => Self::Spelled(text.parse()?),
+        })
+    }
+}
+
 /// The most runs a stacking is made of.
 pub const MAX_RUNS: usize = 1_000_000;
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Stacking, Pattern);

@@ -1,12 +1,16 @@
 //! Which piles stand.
 //!
 //! Spheres push, they do not pull. Where α, β and γ are the only contacts, the forces are unique: one that is negative
-//! means that no frictionless equilibrium exists, and the pile cannot stand (THEORY §3, "Tension"). A force of zero
+//! means that no frictionless equilibrium exists, and the pile cannot stand ([`paper`](crate::paper#tension)). A force of zero
 //! stands. Where further spheres touch (q = 1, q = 9/4 with a change of sign, q = 8/3 without), forces that are nowhere
 //! negative still prove that it stands, and a negative one proves nothing.
 //!
 //! Within a run a line only grows, since no weight is negative. So the least force is where a line begins: at a
 //! surface, or at a change of sign; and only the layers where the sign changes need a look.
+
+mod base;
+
+pub use base::BaseExtremes;
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -16,12 +20,15 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use crate::engine::{
+    Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, exact_sweep, trees_are_cheaper,
+};
+use crate::error::bug;
+use crate::formula;
 use crate::geometry::Apart;
 use crate::lattice::{Direction, Site};
-use crate::lines::{Lines, Wanted};
-use crate::plan::trees_are_cheaper;
+use crate::pile::System;
 use crate::shape::{Selection, Shape};
-use crate::sweep::{Descent, Grid, MAX_NUMBERS, Planes};
 use crate::{ContactForce, Error, Pile};
 
 /// Whether a pile stands.
@@ -164,7 +171,7 @@ impl Pile {
         let changes = self.changes();
         let sites = changes.iter().filter_map(|k| self.shape().layer(*k).ok());
         let sites = sites.map(|region| region.sites()).sum::<BigUint>();
-        let planes = self.size_of_sweep(self.layers() - 1).planes;
+        let planes = self.system().size_of_sweep(self.layers() - 1).planes;
         let whole = sites * planes * 3_u32 <= BigUint::from(MOST_WORK);
         let mut standing = self.standing_until(!whole)?;
         if !whole && standing.first_failure.is_some() {
@@ -229,13 +236,17 @@ impl Pile {
 
     /// The least forces where lines begin at a surface: of ordinary spheres, and of all others.
     fn at_surfaces(&self) -> Vec<ContactForce<BigRational>> {
-        let (shape, loading) = (self.shape(), self.loading());
+        let System {
+            shape,
+            loading,
+            increments,
+            ..
+        } = self.system();
         let floor = shape.layers() - 1;
-        let increments = self.increments::<BigRational>();
         let contact = |site, direction: Direction| ContactForce {
             site,
             direction,
-            force: loading.total(site) * &increments.per_line()[direction.index()],
+            force: formula::force(loading.total(site), &increments[direction.index()]),
         };
         let special: BTreeSet<Site> = loading.extras().map(|(site, _)| site).collect();
         let directions = self.dimension().directions();
@@ -272,17 +283,16 @@ impl Pile {
         let Some(last) = layers.last() else {
             return Ok(Vec::new());
         };
-        let lines = Lines::<BigRational>::new(self);
-        let ends = layers
-            .iter()
-            .map(|k| lines.most_ends_of_pieces(*k))
-            .sum::<BigUint>();
-        let sites = layers.iter().filter_map(|k| shape.layer(*k).ok());
-        let sites = sites.map(|region| region.sites()).sum::<BigUint>();
+        let system = self.system();
+        let lines = Lines::<BigRational>::new(&system);
+        let (mut ends, mut sites) = (BigUint::zero(), BigUint::zero());
+        for k in layers {
+            ends += lines.most_ends_of_pieces(*k)?;
+            sites += shape.layer(*k)?.sites();
+        }
         // One layer more, so that the last change is behind.
-        let size = self.size_of_sweep(last + 1);
-        let grid = Grid::new(shape, last + 1, size.planes);
-        if trees_are_cheaper(&ends, &sites) || grid.is_err() {
+        let planes = system.size_of_sweep(last + 1).planes;
+        if trees_are_cheaper(&ends, &sites) || Grid::numbers(shape, last + 1, planes).is_err() {
             if ends > BigUint::from(MAX_NUMBERS) {
                 return Err(Error::TooLarge {
                     quantity: "the verdict on this pile",
@@ -293,29 +303,29 @@ impl Pile {
             }
             return layers.iter().map(|k| least_at_ends(&lines, *k)).collect();
         }
-        let grid = grid?;
-        let layer = Planes::new(&grid, self.bound_of_sweep(last + 1));
-        let mut sweep = Descent::new(lines, grid, layer);
-        let least = layers.iter().filter_map(|k| {
-            sweep.advance(*k, ());
-            sweep.least_passed_on()
+        let mut sweep = exact_sweep(&lines, &system, last + 1)?;
+        let least = layers.iter().map(|k| {
+            sweep.advance(*k, ())?;
+            least_passed_on(&mut sweep, &lines)
         });
-        Ok(least.collect())
+        least.collect()
     }
 }
 
-/// The least force below a layer where the sign changes, among the spheres between which the forces are linear.
+/// Returns the least force below a layer where the sign changes, among the spheres between which the forces are linear.
 fn least_at_ends(
     lines: &Lines<'_, BigRational>,
     k: i128,
 ) -> Result<ContactForce<BigRational>, Error> {
     let mut least: Option<(BigInt, Site, Direction)> = None;
     let mut denominator = BigInt::one();
-    for (_, row) in lines.ends_of_pieces(k) {
+    for (_, row) in lines.ends_of_pieces(k)? {
         let above = lines.forces_above(k, &row, Wanted::All)?;
-        for ([i, j], above_it) in row.into_iter().zip(above.forces) {
+        let changes = above.changes;
+        for ([i, j], forces) in row.into_iter().zip(above.forces) {
             let site = Site { i, j, k };
-            let (forces, changes) = lines.to_below(site, above_it, above.changes, ());
+            let Received { forces, changes } =
+                lines.to_below(site, Received { forces, changes }, ());
             denominator = lines.scale(changes);
             for (force, direction) in forces.into_iter().zip(Direction::ALL) {
                 if least.as_ref().is_none_or(|(least, ..)| force < *least) {
@@ -324,8 +334,8 @@ fn least_at_ends(
             }
         }
     }
-    // A layer has a sphere.
-    let (force, site, direction) = least.unwrap_or((BigInt::zero(), Site::APEX, Direction::Alpha));
+    let least = least.ok_or_else(|| bug("a layer has a sphere"))?;
+    let (force, site, direction) = least;
     Ok(ContactForce {
         site,
         direction,
@@ -333,22 +343,23 @@ fn least_at_ends(
     })
 }
 
-impl Descent<'_, BigRational, Planes> {
-    /// The least force below the layer it is at, where the sign has just changed.
-    fn least_passed_on(&mut self) -> Option<ContactForce<BigRational>> {
-        let changes = self.pass()?.run.index + 1;
-        self.settle();
-        let least = self.least()?;
-        let [i, j] = least.place;
-        // A change of sign is only where all directions are alike.
-        let [own, ..] = self.lines().increments_after(changes);
-        let force: BigInt = least.numerator + own;
-        Some(ContactForce {
-            site: Site { i, j, k: self.k() },
-            direction: least.direction,
-            force: BigRational::new(force, self.lines().scale(changes)),
-        })
-    }
+/// Returns the least force below the layer that a sweep is at, where the sign has just changed.
+fn least_passed_on(
+    sweep: &mut Descent<'_, BigRational, Planes>,
+    lines: &Lines<'_, BigRational>,
+) -> Result<ContactForce<BigRational>, Error> {
+    sweep.add_extras_here();
+    let (least, k) = (sweep.least()?, sweep.k());
+    let changes = sweep.turned_already();
+    let [i, j] = least.place;
+    // A change of sign is only where all directions are alike.
+    let [own, ..] = lines.increments_after(changes);
+    let force = formula::passed_on(least.numerator, &own);
+    Ok(ContactForce {
+        site: Site { i, j, k },
+        direction: least.direction,
+        force: BigRational::new(force, lines.scale(changes)),
+    })
 }
 
 /// Whether the line below a site in a direction begins with it: at the top, or at a surface within a run.

@@ -50,8 +50,8 @@ mod unfinished;
 mod units;
 mod write;
 
-pub(crate) use cell::Cell;
 pub use cell::NumberFormat;
+pub use cell::{Cell, Shown};
 pub(crate) use distinct::{Forces, Places};
 pub use error::WriteError;
 pub use explain::Explanation;

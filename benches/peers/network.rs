@@ -30,11 +30,11 @@ impl Network {
         let sites: Vec<Site> = pile.shape().sites().collect();
         let numbered = sites.iter().copied().enumerate();
         let numbers: HashMap<Site, usize> = numbered.map(|(number, site)| (site, number)).collect();
-        let statics = pile.statics::<f64>();
+        let forces = pile.forces::<f64>();
         let basis = basis(pile);
 
         let positions = sites.iter().map(|&site| {
-            let position = statics.position(site).expect("a site of the pile");
+            let position = forces.position(site).expect("a site of the pile");
             position.on(&basis).map(|x| 2.0 * x)
         });
         let weights = sites.iter().map(|&site| {
@@ -53,7 +53,7 @@ impl Network {
             let layer = || pile.rows(Selection::Layer(k)).expect("a layer").flatten();
             let site = layer().next().expect("a sphere");
             let here = Direction::ALL.map(|direction| {
-                let upwards = statics
+                let upwards = forces
                     .contact_direction(site, direction)
                     .expect("a contact");
                 upwards.on(&basis).map(|x| -x)

@@ -25,7 +25,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let fill = over_memset(&pile, &strengths, 1.5, extent.pairs, nearest);
     results.push(("fill_f64_over_memset".into(), fill));
 
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     let strengths = Strengths::<i64>::multiples(&pile).expect("integers");
     let multiple = |site, direction| {
         let force = statics.contact(site, direction).expect("a contact");

@@ -22,16 +22,16 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     }
     let layers = [extent.size(100, 8), extent.size(400, 16)];
     let base = exponent(extent, layers, |pile| {
-        let statics = pile.statics::<f64>();
-        let forces = statics.base(pile.rows(Selection::Base).expect("a base"));
+        let statics = pile.forces::<f64>();
+        let forces = statics.base(Selection::Base).expect("a base");
         let normal = (f64::from_i128(pile.layers()) + 2.0) / 3.0;
         forces.for_each(|force| assert!((force.expect("a force").normal - normal).abs() < 1e-9));
     });
     results.push(("base_time_exponent".into(), base));
     let layers = [extent.size(50, 8), extent.size(200, 16)];
     let whole = exponent(extent, layers, |pile| {
-        let statics = pile.statics::<f64>();
-        let contacts = statics.contacts(pile.rows(Selection::All).expect("rows"));
+        let statics = pile.forces::<f64>();
+        let contacts = statics.contacts(Selection::All).expect("rows");
         let sum: f64 = contacts
             .map(|contact| contact.expect("a force").force)
             .sum();
@@ -48,7 +48,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 
 fn one_contact(extent: Extent, layers: i128) -> f64 {
     let pile = Pile::triangular(layers).expect("a pile");
-    let statics = pile.statics::<f64>();
+    let statics = pile.forces::<f64>();
     let repeats = if extent.smoke { 1 } else { 1_000_000 };
     let site = Site {
         i: layers / 5,
@@ -85,7 +85,7 @@ fn runs(extent: Extent) -> f64 {
     });
     let [small, large] = &piles;
     let ask = |pile: &Pile| {
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         // In the middle, below all changes.
         let region = pile.shape().layer(pile.layers() - 2).expect("a layer");
         let [x, y] = [region.x(), region.y()].map(|range| range.start().midpoint(*range.end()));

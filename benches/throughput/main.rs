@@ -1,7 +1,8 @@
 //! How fast forces are found, against what they are worth comparing with: filling the same memory, plain floats, plain
 //! rationals, a sparse solver.
 //!
-//! `cargo bench --all-features --bench throughput` prints, last, lines `ratio NAME VALUE`: medians of pairs that are
+//! `cargo bench --manifest-path benches/Cargo.toml --bench throughput`
+//! prints, last, lines `ratio NAME VALUE`: medians of pairs that are
 //! measured in turn in one run. With `-- --smoke` it only checks the answers, on small piles. Every answer is compared
 //! with one that was found another way.
 

@@ -78,7 +78,7 @@ fn over_memset(pile: &Pile, pairs: usize) -> f64 {
             time
         },
     );
-    let exact = pile.statics::<BigRational>();
+    let exact = pile.forces::<BigRational>();
     let layer = pile.layers() - 2;
     let last = pile.rows(Selection::Layer(layer)).expect("a layer");
     let first = spheres - last.sites().to_usize().expect("few");
@@ -137,7 +137,7 @@ fn check_engine(pile: &Pile) {
     let layer = pile.layers() - 2;
     let mut engine = pile.exact_sweep().expect("room");
     engine.advance(layer).expect("a layer");
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     let sites: Vec<Site> = pile
         .rows(Selection::Layer(layer))
         .expect("a layer")

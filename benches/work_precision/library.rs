@@ -3,7 +3,7 @@
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
 use cannonpile::shape::Selection;
-use cannonpile::{Packing, Pile, Statics, Strengths};
+use cannonpile::{Packing, Pile, Forces, Strengths};
 use num_rational::BigRational;
 
 use crate::Bench;
@@ -86,7 +86,7 @@ fn filled<V: Copy + Default + Send + Sync>(strengths: &Strengths<V>) -> Vec<[V; 
 
 fn closed<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
     measured::<T>(bench, Method::Closed, || {
-        contacts(&bench.case.pile.statics::<T>())
+        contacts(&bench.case.pile.forces::<T>())
     })
 }
 
@@ -96,7 +96,7 @@ fn recursion<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
 
 fn engine(bench: &Bench) -> Run {
     let run = measured::<BigRational>(bench, Method::Engine, || {
-        let statics = bench.case.pile.statics::<BigRational>();
+        let statics = bench.case.pile.forces::<BigRational>();
         contacts(&statics.by(cannonpile::Method::Sweep).expect("spheres"))
     });
     Run {
@@ -122,7 +122,7 @@ fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
 }
 
 /// All contact forces, as they are asked for one after the other.
-fn contacts<T: Algebra>(statics: &Statics<'_, T>) -> Vec<[T; 3]> {
+fn contacts<T: Algebra>(statics: &Forces<'_, T>) -> Vec<[T; 3]> {
     let rows = statics.pile().rows(Selection::All).expect("rows");
     let forces = statics.contacts(rows).map(|c| c.expect("a force").force);
     by_sphere(forces.collect())

@@ -35,7 +35,7 @@ impl Reference {
     /// equations as forces have one solution.
     pub(crate) fn new(pile: &Pile, network: &Network) -> Self {
         let rows = pile.rows(Selection::All).expect("rows");
-        let statics = pile.statics::<BigRational>();
+        let statics = pile.forces::<BigRational>();
         let contacts = statics.contacts(rows);
         let forces: Vec<BigRational> = contacts.map(|c| c.expect("a force").force).collect();
         let forces = by_sphere(forces);
@@ -106,7 +106,7 @@ pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
 
 /// That what a sphere is pushed up by, what it is pushed down by and its weight, 3 f₀ cosθ, add up to nothing.
 fn certify(pile: &Pile, network: &Network, forces: &[[BigRational; 3]]) {
-    let statics = pile.statics::<BigRational>();
+    let statics = pile.forces::<BigRational>();
     let mut left = vec![Vector::zero(); network.sites.len()];
     for (sum, &site) in left.iter_mut().zip(&network.sites) {
         sum.z = pile.sphere_weight(site).expect("a sphere") * BigRational::from_i128(3);

@@ -1,17 +1,17 @@
 //! The claims that each fuzz target makes.
 //!
 //! Generators and claims are those of the property tests; here libFuzzer chooses the bytes. A crash file
-//! is such a byte string: it fails the same claim in `tests/properties.rs`.
+//! is such a byte string: it fails the same claim in `tests/properties`.
 //!
 //! `cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes one on a stable toolchain. An
 //! input takes some hundred bytes: the last option gives them from the start.
 
-#[path = "../../tests/claims/mod.rs"]
+#[path = "../../tests/properties/claims/mod.rs"]
 mod claims;
-#[path = "../../tests/generators/mod.rs"]
+#[path = "../../tests/properties/generators/mod.rs"]
 mod generators;
-#[path = "../../tests/judge/mod.rs"]
-mod judge;
+#[path = "../../tests/support/mod.rs"]
+mod support;
 
 mod enclosing;
 mod polynomial;

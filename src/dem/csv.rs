@@ -68,9 +68,8 @@ pub(super) fn write_base(
 ) -> Result<(), WriteError> {
     write_heads(out, BASE, pile)?;
     let flat = pile.pile().dimension() == Dimension::Two;
-    let rows = pile.pile().rows(Selection::Base)?;
     let ids = pile.numbering().first_on_floor()..;
-    for (id, force) in ids.zip(pile.packing().base(rows)) {
+    for (id, force) in ids.zip(pile.packing().base(Selection::Base)?) {
         let force = force?;
         let Site { i, j, .. } = force.site;
         let (normal, x) = (

@@ -9,7 +9,7 @@ use super::file::{PileFile, PileFormat, Written};
 use super::numbered::NumberedPile;
 use super::{csv, folder, lammps, vtp, yade};
 use crate::shape::{Numbering, Selection};
-use crate::table::{Progress, Units, WriteError};
+use crate::table::{Progress, WriteError};
 use crate::{Error, Packing};
 
 /// A pile to be written as files.
@@ -57,10 +57,10 @@ impl<'p> PileExport<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn new(packing: &Packing<'p>) -> Result<Self, Error> {
-        let (pile, units) = (packing.pile(), Units::of_packing(packing.clone()));
+        let pile = packing.pile();
         let numbered = NumberedPile::new(packing)?;
-        pile.plan(units.question(Selection::All, false))?;
-        pile.plan(units.question(Selection::Base, true))?;
+        pile.plan(Selection::All)?;
+        pile.plan(Selection::Base)?;
         Ok(Self {
             pile: numbered,
             scene: None,

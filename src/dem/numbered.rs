@@ -188,8 +188,7 @@ impl<'p> NumberedPile<'p> {
         &self,
         make: impl Fn(&Surd, &[Surd; 3]) -> Result<V, Error>,
     ) -> Result<impl Iterator<Item = Result<(Touch, V), Error>>, Error> {
-        let rows = self.pile().rows(Selection::All)?;
-        let multiples = self.packing.statics().contacts(rows);
+        let multiples = self.packing.forces().contacts(Selection::All)?;
         let mut forces = Forces::new(&self.packing, make);
         Ok(self
             .touches()?

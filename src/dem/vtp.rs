@@ -78,8 +78,7 @@ fn write_reactions(pile: &NumberedPile<'_>, data: &mut PolyData<'_>) -> Result<(
     for _ in 1..pile.numbering().first_on_floor() {
         data.vector([0.0; 3])?;
     }
-    let rows = pile.pile().rows(Selection::Base)?;
-    for force in pile.packing().base(rows) {
+    for force in pile.packing().base(Selection::Base)? {
         let force = force?;
         let quantity = "a reaction";
         data.vector([

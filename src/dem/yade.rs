@@ -46,6 +46,7 @@ pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resu
             ("first", pile.numbering().first_on_floor().to_string()),
             ("stiffness", number(springs.stiffness)),
             ("radius", number(springs.radius)),
+            ("rest", number(2.0 * springs.rest())),
             ("most_steps", springs.most_steps.to_string()),
             ("loads", loads),
             ("masses", by_id(masses.into_iter())),

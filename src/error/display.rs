@@ -1,13 +1,31 @@
 //! What each error says: one line, with the value and the remedy.
 
+use alloc::string::ToString;
 use core::fmt;
 
-use super::Error;
+use super::short::numbers;
+use super::{Culprit, Error};
 use crate::geometry::{Bound, Spacing};
 use crate::lattice::{Dimension, MAX_LAYERS, Site};
 
+/// An error with its numbers at full length.
+struct Whole<'a>(&'a Error);
+
+impl fmt::Display for Whole<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt_whole(f)
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&numbers(&Whole(self).to_string()))
+    }
+}
+
+impl Error {
+    /// Errors of sites and layers.
+    fn fmt_whole(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Layers { given } => {
                 let digits = MAX_LAYERS.ilog10();
@@ -106,29 +124,24 @@ impl Error {
                 f,
                 "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
             ),
-            Self::NotStraight => f.write_str(
-                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Statics",
-            ),
             Self::NoSuchMethod { method } => write!(
                 f,
                 "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
                  spheres and not of discs; use another, or none to have the cheapest"
             ),
-            Self::SweepElsewhere { layer, at, last } => write!(
+            Self::OtherLayer { layer, at } => write!(
                 f,
-                "a sweep at layer {at} answers for that layer and goes down to layer {last} at most, not to layer {layer}: \
-                 begin a new one for a layer above"
+                "a sphere of layer {layer} is not in layer {at}: ask its own layer"
             ),
             Self::NeedsUnits { quantity } => write!(
                 f,
                 "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
             ),
-            Self::NoSuchRow { k, j } => write!(
-                f,
-                "no row j={j} of layer k={k} lies above the floor: ask for a row of the pile (Pile::rows), not of the bottom layer"
-            ),
             Self::Length { needed, given } => {
-                write!(f, "a slice of {given} places for {needed} forces: make it as long")
+                write!(
+                    f,
+                    "a slice of {given} places for {needed} forces: make it as long"
+                )
             }
             Self::NegativeLoad {
                 quantity,
@@ -178,6 +191,18 @@ impl Error {
                     "the root of {given} is not real: the radicand must not be negative"
                 )
             }
+            Self::Misspelled {
+                text,
+                position,
+                found,
+            } => {
+                write!(f, "the stacking '{text}' ")?;
+                match found {
+                    Some(found) => write!(f, "has {found:?} as character {position}")?,
+                    None => write!(f, "ends after character {}", position - 1)?,
+                }
+                f.write_str(": use one notation, such as ++-+, ABCBC, chh or (2,1,1)")
+            }
             Self::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
             Self::TooManyRows {
                 rows,
@@ -198,10 +223,18 @@ impl Error {
                 f,
                 "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
             ),
-            Self::Excluded { given, beside } => write!(
-                f,
-                "{given} has no meaning beside {beside}: leave one of the two out"
-            ),
+            Self::Excluded { given, beside } => {
+                // Of dimensions only this one excludes anything.
+                let two = if *beside == Culprit::Dimension {
+                    " 2"
+                } else {
+                    ""
+                };
+                write!(
+                    f,
+                    "{given} has no meaning beside {beside}{two}: leave one of the two out"
+                )
+            }
             Self::TooLarge {
                 quantity,
                 needed,
@@ -234,6 +267,10 @@ impl Error {
                 }
             }
             Self::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Self::Bug { invariant } => write!(
+                f,
+                "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"
+            ),
             // Every variant has its text in one of the four.
             _ => write!(f, "{self:?}"),
         }

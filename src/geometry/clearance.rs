@@ -1,36 +1,16 @@
 //! Which spacings leave room for the spheres.
 //!
-//! # What has to be looked at
+//! # Which pairs of spheres decide
 //! Two spheres of a pile of L layers differ by n = (n_a, n_b, n_c) if both the positive and the negative
 //! parts of n sum to at most L−1. They overlap if the form [`squared_distance`] is below 1 at n. With
 //! σ = sin²θ it is m² + σ(h(n) − m²), linear in σ, where m = n_a+n_b+n_c counts the layers between them
 //! and σh(n) is the squared horizontal distance. So every n sets one bound on σ, and the allowed
 //! spacings are an interval.
 //!
-//! Finitely many n suffice:
-//! * m = 0. The neighbours (1,−1,0), (1,0,−1) and (0,1,−1) of a layer are the sides of a triangle
-//!   without an obtuse angle, so no other pair of the layer is closer. They give the lower bounds.
-//! * m > 0 (n and −n are one pair). A bound arises only where h(n) < m², and from above. Let the layers
-//!   be free of overlap, and n overlap. Its horizontal part is shorter than 1 while the neighbours
-//!   (1,−1,0) are at least 1 apart, so |n_a−n_b| ≤ 1; and |s·t − n_c| < 1/sinθ ≤ √(2(1+s)) < 2 with
-//!   t = n_a+n_b. If cosθ ≥ 1/4, then m·cosθ < 1 leaves m ≤ 3, and n_c = m−t gives
-//!   |(1+s)t − m| < 2, hence −1 ≤ t ≤ 4. If cosθ < 1/4, one of (1,1,0), (1,1,1), (1,0,1) overlaps
-//!   already: for s ≤ 0.17, between, and for s ≥ 0.83, in that order. The pile has it unless L ≤ 3,
-//!   where n has sums of at most 2 anyway and lies in the same range.
-//!
-//! The same n are all that touch: for n at distance exactly 1 and m > 0 the inequalities are strict too, but
-//! for m = 4, cosθ = 1/4 and no horizontal part, which needs (1+s)t = 4 with t even: no 0 < s < 1 does, and of
-//! discs (1,1,0) overlaps there.
-//!
-//! # Other stackings
-//! With s = ½ the sites of a layer are a triangular lattice of side 2R·√3 sinθ, and each layer is shifted against the
-//! next by 2R sinθ, forwards (+) or backwards (−). Let the layers be free of overlap, 3 sin²θ ≥ 1, and let two spheres
-//! be m layers apart. If the shifts between them do not cancel modulo 3, their horizontal distance is at least 2R sinθ,
-//! and m²cos²θ + sin²θ ≥ 1 with equality for m = 1 only: the contacts α, β, γ. If they do, the closest pair is
-//! straight above each other, at 2R·m cosθ. For m = 2 that is + − or − +: 2cosθ ≥ 1, q ≤ 9/4, and then all greater m
-//! have room. A straight stacking has m = 3 first: 3cosθ ≥ 1, q ≤ 8/3, and its next is m = 6. So there is one upper
-//! bound; which bases and tops there are does not matter, since a sphere and what is straight below it on its own
-//! supports are in every pile of enough layers.
+//! Finitely many n suffice, whatever L is: the neighbours (1,−1,0), (1,0,−1), (0,1,−1) of a layer, which give the lower
+//! bounds, and those with 1 ≤ m ≤ 3, |n_a−n_b| ≤ 1 and −1 ≤ n_a+n_b ≤ 4, which give the upper ones; the same n are all that
+//! touch. Other stackings have one upper bound, from spheres straight above each other: two layers apart at a change
+//! of sign, q ≤ 9/4, else three, q ≤ 8/3. The lemma and its reason are in [`paper`](crate::paper#overlap).
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;
@@ -55,13 +35,18 @@ use crate::shape::Shape;
 /// assert_eq!(Apart { layers: 3 }.to_string(), "3 layers apart");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Apart {
     /// The number of layers between them, 0 for neighbours of one layer.
     pub layers: u8,
 }
 
 impl fmt::Display for Apart {
-    /// `in one layer`, `3 layers apart`.
+    /// Prints `in one layer`, `3 layers apart`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.layers {
             0 => f.write_str("in one layer"),
@@ -76,21 +61,18 @@ type Touch = (BigRational, Apart);
 
 /// The spacings a pile allows: those at which no two of its spheres overlap.
 ///
-/// Made by [`Pile::clearance`](crate::Pile::clearance). THEORY §2, "No overlap". On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the bounds
-/// further spheres touch.
+/// [`Pile::clearance`](crate::Pile::clearance) makes it. On an equilateral base of L ≥ 4 layers 1 ≤ a/R ≤ √(8/3); at the
+/// bounds further spheres touch.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::geometry::Spacing;
-/// use num_rational::BigRational;
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
 /// let clearance = Pile::triangular(10)?.clearance();
-/// assert!(clearance.check(&Spacing::new(ratio(163, 100))?).is_ok());
-/// assert!(clearance.check(&Spacing::new(ratio(164, 100))?).is_err());
+/// assert!(clearance.check(&"1.63".parse()?).is_ok());
+/// assert!(clearance.check(&"1.64".parse()?).is_err());
 /// // a = R is the FCC stack: horizontal neighbours touch.
-/// let touching = clearance.check(&Spacing::new(ratio(1, 1))?)?;
+/// let touching = clearance.check(&"1".parse()?)?;
 /// assert_eq!(touching[0].to_string(), "in one layer");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -106,7 +88,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
+    /// Returns the bounds for a pile of these sites with sin φ = `s`; for discs `s` must be 0.
     pub(crate) fn new(shape: &Shape, s: &BigRational) -> Self {
         if shape.is_pyramid() {
             Self::of_pyramid(shape, s)
@@ -139,7 +121,7 @@ impl Clearance {
         let lines = pyramid.dimension().directions().len();
         let flat = square_per_sin2(pyramid.dimension());
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for n in candidates() {
+        for (layers, n) in candidates() {
             if !occurs(n, pyramid.layers()) || n.iter().skip(lines).any(|c| *c != 0) {
                 continue;
             }
@@ -151,10 +133,7 @@ impl Clearance {
             }
             // at_zero + σ·slope ≥ 1
             let sin2 = (BigRational::one() - at_zero) / &slope;
-            let layers: i128 = n.iter().sum();
-            let apart = Apart {
-                layers: u8::try_from(layers).unwrap_or(u8::MAX),
-            };
+            let apart = Apart { layers };
             if slope.is_positive() {
                 lower.push((sin2 * &flat, apart));
             } else if sin2 < BigRational::one() {
@@ -171,7 +150,7 @@ impl Clearance {
         }
     }
 
-    /// The least allowed spacing, or `None` where the pile sets no lower bound (one sphere).
+    /// Returns the least allowed spacing, or `None` for one sphere, which sets no lower bound.
     ///
     /// # Examples
     /// ```
@@ -188,8 +167,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// The greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers
-    /// on an equilateral base).
+    /// Returns the greatest allowed spacing, or `None` where any with θ < 90° is allowed (up to three layers on an
+    /// equilateral base).
     ///
     /// # Examples
     /// ```
@@ -206,8 +185,8 @@ impl Clearance {
         Spacing::from_square(bound.clone()).ok()
     }
 
-    /// Decides exactly whether the spheres have room, and tells which ones touch beside the contacts
-    /// α, β, γ: none in general, some at the bounds.
+    /// Checks, exactly, that the spheres have room. Returns which of them touch, other than at the contacts α, β, γ:
+    /// none in general, some at the bounds.
     ///
     /// # Errors
     /// [`Error::NoSpacing`] if no spacing at all fits this sin φ, [`Error::Overlap`] with the allowed
@@ -215,14 +194,12 @@ impl Clearance {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::{Apart, Spacing};
+    /// use cannonpile::geometry::Apart;
     /// use cannonpile::{Error, Pile};
-    /// use num_rational::BigRational;
     ///
     /// let clearance = Pile::triangular(10)?.clearance();
-    /// let most = Spacing::from_square(BigRational::new(8.into(), 3.into()))?;
-    /// assert_eq!(clearance.check(&most)?, [Apart { layers: 3 }]);
-    /// let wide = Spacing::from_square(BigRational::new(17.into(), 6.into()))?;
+    /// assert_eq!(clearance.check(&"2/3*sqrt(6)".parse()?)?, [Apart { layers: 3 }]);
+    /// let wide = "sqrt(17/6)".parse()?;
     /// assert!(matches!(clearance.check(&wide), Err(Error::Overlap { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -263,15 +240,15 @@ impl Clearance {
     }
 }
 
-/// The differences that may overlap (module documentation), one of each ±n.
-fn candidates() -> impl Iterator<Item = [i128; 3]> {
-    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]];
-    let stacked = (1..=3).flat_map(|m| {
+/// The differences that may overlap (module documentation), one of each ±n, with the layers between.
+fn candidates() -> impl Iterator<Item = (u8, [i128; 3])> {
+    let neighbours = [[1, -1, 0], [1, 0, -1], [0, 1, -1]].map(|n| (0, n));
+    let stacked = (1..=3_u8).flat_map(|m| {
         (-1..=4).flat_map(move |t: i128| {
             (-1..=1)
                 .filter(move |d| (t + d) % 2 == 0)
                 .map(move |d| t.midpoint(d))
-                .map(move |a| [a, t - a, m - t])
+                .map(move |a| (m, [a, t - a, i128::from(m) - t]))
         })
     });
     neighbours.into_iter().chain(stacked)

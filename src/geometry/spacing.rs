@@ -1,13 +1,14 @@
 //! a/R, the distance of neighbours in a layer over the diameter.
 
 use core::fmt;
+use core::str::FromStr;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use crate::Error;
-use crate::scalar::Surd;
+use crate::scalar::{RealSign, Surd};
+use crate::{Culprit, Error};
 
 /// a/R: half the distance 2a of horizontal neighbours, over the radius. Positive; its square q is
 /// rational.
@@ -31,7 +32,7 @@ pub struct Spacing {
 }
 
 impl Spacing {
-    /// The spacing a/R.
+    /// Returns the spacing a/R.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
@@ -54,13 +55,13 @@ impl Spacing {
             })
         } else {
             Err(Error::NotPositive {
-                quantity: "spacing",
+                quantity: Culprit::Spacing,
                 given: ratio,
             })
         }
     }
 
-    /// The spacing √q.
+    /// Returns the spacing √q.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless q is positive.
@@ -82,13 +83,13 @@ impl Spacing {
             Ok(Self { square })
         } else {
             Err(Error::NotPositive {
-                quantity: "squared spacing",
+                quantity: Culprit::Spacing,
                 given: square,
             })
         }
     }
 
-    /// q = (a/R)².
+    /// Returns q = (a/R)².
     ///
     /// # Examples
     /// ```
@@ -104,7 +105,7 @@ impl Spacing {
         &self.square
     }
 
-    /// a/R itself.
+    /// Returns a/R.
     ///
     /// # Examples
     /// ```
@@ -118,8 +119,7 @@ impl Spacing {
     /// ```
     #[must_use]
     pub fn ratio(&self) -> Surd {
-        // A square is not negative.
-        Surd::sqrt(self.square.clone()).unwrap_or_else(|_| Surd::zero())
+        Surd::root_of(self.square.clone())
     }
 
     /// a/R in millionths, rounded down, and whether that is exact.
@@ -136,6 +136,37 @@ impl fmt::Display for Spacing {
         self.ratio().fmt(f)
     }
 }
+
+impl FromStr for Spacing {
+    type Err = Error;
+
+    /// Reads a/R: `6/5`, `1.2`, `2/3*sqrt(6)`.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`]; [`Error::NotPositive`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    ///
+    /// let spacing: Spacing = "1.2".parse()?;
+    /// assert_eq!(spacing.to_string(), "6/5");
+    /// assert_eq!("2/3*sqrt(6)".parse::<Spacing>()?.square().to_string(), "8/3");
+    /// assert!("0".parse::<Spacing>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let ratio: Surd = text.parse()?;
+        match (ratio.to_rational(), ratio.sign()) {
+            (Some(rational), _) => Self::new(rational),
+            (None, RealSign::Positive) => Self::from_square(ratio.square()),
+            (None, _) => Err(Error::syntax(text, "a spacing: it must be positive")),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Spacing);
 
 /// A bound on the spacing, exact and as a decimal that itself keeps the bound: `2/3*sqrt(6) =
 /// 1.632993…`, `1`.

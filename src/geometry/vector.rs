@@ -9,17 +9,25 @@ use crate::scalar::Ring;
 /// x stands for x·sinθ, y for y·2cosφ·sinθ (√3·sinθ on an equilateral base), z for z·cosθ; the length
 /// or force it is measured in is said where it is returned. [`on`](Self::on) puts the basis in.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(bound = "T: crate::scalar::serde::Number", deny_unknown_fields)
+)]
 pub struct Vector<T> {
     /// The component along x̂ sinθ.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub x: T,
     /// The component along ŷ 2cosφ sinθ.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub y: T,
     /// The component along ẑ cosθ, down.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub z: T,
 }
 
 impl<T: Ring> Vector<T> {
-    /// The zero vector.
+    /// Returns the zero vector.
     ///
     /// # Examples
     /// ```
@@ -38,7 +46,7 @@ impl<T: Ring> Vector<T> {
         }
     }
 
-    /// The vector times a number.
+    /// Returns the vector times a number.
     ///
     /// # Examples
     /// ```
@@ -52,8 +60,8 @@ impl<T: Ring> Vector<T> {
         self.map(|c| c * factor)
     }
 
-    /// The vector after a half-turn about the vertical, (−x, −y, z): how directions of contacts differ between + and
-    /// − steps.
+    /// Returns the vector after a half-turn about the vertical, (−x, −y, z). Directions of contacts under − steps are
+    /// those under + steps, turned so.
     ///
     /// # Examples
     /// ```
@@ -71,7 +79,7 @@ impl<T: Ring> Vector<T> {
         }
     }
 
-    /// Σ c_m v_m.
+    /// Returns the sum Σ c_m v_m.
     ///
     /// # Examples
     /// ```
@@ -88,7 +96,7 @@ impl<T: Ring> Vector<T> {
             .fold(Self::zero(), |sum, (c, v)| sum + &v.clone().scaled(c))
     }
 
-    /// The Cartesian components, for a basis given in numbers: (x·b₀, y·b₁, z·b₂).
+    /// Returns the Cartesian components, for a basis given in numbers: (x·b₀, y·b₁, z·b₂).
     ///
     /// # Examples
     /// ```
@@ -106,7 +114,7 @@ impl<T: Ring> Vector<T> {
 }
 
 impl<T> Vector<T> {
-    /// The vector with `f` applied to each component.
+    /// Returns the vector with `f` applied to each component.
     ///
     /// # Examples
     /// ```
@@ -121,7 +129,7 @@ impl<T> Vector<T> {
         Vector { x, y, z }
     }
 
-    /// [x, y, z].
+    /// Returns the components [x, y, z].
     ///
     /// # Examples
     /// ```

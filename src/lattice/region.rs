@@ -7,6 +7,7 @@ pub(crate) use lines::{Along, Slopes, Trapezoid};
 use alloc::boxed::Box;
 use core::fmt;
 use core::ops::RangeInclusive;
+use core::str::FromStr;
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
@@ -14,11 +15,12 @@ use num_integer::Integer;
 use super::Row;
 use crate::Error;
 use crate::lattice::Sign;
+use crate::scalar::parse::integer;
 
 /// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁ of one layer: a triangle, trapezium, parallelogram,
 /// pentagon or hexagon. Never empty, and its bounds are tight: each is attained.
 ///
-/// THEORY §3. Dilation and erosion are one addition on each bound, whatever the size.
+/// Dilation and erosion are one addition on each bound, whatever the size.
 ///
 /// # Examples
 /// ```
@@ -44,7 +46,7 @@ pub struct Region {
 const LIMIT: i128 = super::MAX_LAYERS;
 
 impl Region {
-    /// The sites with i in `x`, j in `y` and i+j in `s`, bounds included.
+    /// Returns the region of all sites with i in `x`, j in `y` and i+j in `s`, bounds included.
     ///
     /// # Errors
     /// [`Error::EmptyRegion`] if there is none; [`Error::RegionTooLarge`] for bounds beyond ±10³⁶.
@@ -83,7 +85,7 @@ impl Region {
         upper: [0; 3],
     };
 
-    /// The hexagon with `p` and `q` spheres on alternate sides: −(q−1) ≤ i, j, i+j ≤ p−1.
+    /// Returns the hexagon with `p` and `q` spheres on alternate sides: −(q−1) ≤ i, j, i+j ≤ p−1.
     ///
     /// # Errors
     /// [`Error::RegionSide`] unless both sides are between 1 and 10³⁶.
@@ -105,7 +107,7 @@ impl Region {
         Self::new(range(), range(), range())
     }
 
-    /// The triangle with `n` spheres on a side: 0 ≤ i, j, i+j ≤ n−1.
+    /// Returns the triangle with `n` spheres on a side: 0 ≤ i, j, i+j ≤ n−1.
     ///
     /// # Errors
     /// [`Error::RegionSide`] unless 1 ≤ `n` ≤ 10³⁶.
@@ -121,7 +123,7 @@ impl Region {
         Self::hexagon(n, 1)
     }
 
-    /// x₀ … x₁.
+    /// Returns the range x₀ … x₁ of i.
     ///
     /// # Examples
     /// ```
@@ -135,7 +137,7 @@ impl Region {
         self.lower[0]..=self.upper[0]
     }
 
-    /// y₀ … y₁.
+    /// Returns the range y₀ … y₁ of j.
     ///
     /// # Examples
     /// ```
@@ -149,7 +151,7 @@ impl Region {
         self.lower[1]..=self.upper[1]
     }
 
-    /// s₀ … s₁.
+    /// Returns the range s₀ … s₁ of i+j.
     ///
     /// # Examples
     /// ```
@@ -163,7 +165,7 @@ impl Region {
         self.lower[2]..=self.upper[2]
     }
 
-    /// Whether the region has the site (i, j).
+    /// Returns whether the region has the site (i, j).
     ///
     /// # Examples
     /// ```
@@ -180,7 +182,7 @@ impl Region {
         self.x().contains(&i) && self.y().contains(&j) && self.s().contains(&(i + j))
     }
 
-    /// The layer below: every support of every site, under a step of this sign.
+    /// Returns the layer below: every support of every site, under a step of this sign.
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] beyond ±10³⁶.
@@ -198,7 +200,7 @@ impl Region {
         self.dilated_by(sign, 1)
     }
 
-    /// The layer `steps` steps of one sign further down.
+    /// Returns the layer `steps` steps of one sign further down.
     ///
     /// # Errors
     /// [`Error::RegionTooLarge`] beyond ±10³⁶; [`Error::RunLength`] for negative steps.
@@ -230,7 +232,7 @@ impl Region {
         })
     }
 
-    /// The layer above: every site whose three supports are all here; `None` if there is none.
+    /// Returns the layer above: every site whose three supports are all here; `None` if there is none.
     ///
     /// # Examples
     /// ```
@@ -250,7 +252,7 @@ impl Region {
         }
     }
 
-    /// The mirror image (i, j) → (−i, −j).
+    /// Returns the mirror image (i, j) → (−i, −j).
     ///
     /// # Examples
     /// ```
@@ -267,7 +269,7 @@ impl Region {
         }
     }
 
-    /// Whether the mirror image (i, j) → (−i, −j) is the region again, moved to another place.
+    /// Returns whether the mirror image (i, j) → (−i, −j) is this region, or can be moved onto it.
     ///
     /// # Examples
     /// ```
@@ -284,7 +286,7 @@ impl Region {
         s0 - x0 - y0 == x1 + y1 - s1
     }
 
-    /// The number of sites, of any size.
+    /// Returns the number of sites, of any size.
     ///
     /// The parallelogram x × y less the two corner triangles that s cuts off.
     ///
@@ -309,7 +311,7 @@ impl Region {
             .1
     }
 
-    /// How many sites come before (i, j) in row order; (i, j) must be one.
+    /// Returns how many sites come before (i, j) in row order; (i, j) must be one.
     pub(crate) fn sites_before(&self, i: i128, j: i128) -> BigUint {
         let start = self.row(j).start;
         let rows_before = Self {
@@ -322,13 +324,13 @@ impl Region {
         whole_rows + BigInt::from(i - start).into_parts().1
     }
 
-    /// The range of i in row j, which may be empty.
+    /// Returns the range of i in row j, which may be empty.
     pub(crate) fn row(&self, j: i128) -> core::ops::Range<i128> {
         let ([x0, _, s0], [x1, _, s1]) = (self.lower, self.upper);
         x0.max(s0 - j)..x1.min(s1 - j) + 1
     }
 
-    /// The six corners in turn; a side of one site has its two corners in one place.
+    /// Returns the six corners in turn. Where a side has one site only, two corners are one place.
     ///
     /// # Examples
     /// ```
@@ -351,7 +353,7 @@ impl Region {
         ]
     }
 
-    /// The number of sites on a side less one, by i, j and i+j.
+    /// Returns the number of sites on a side less one, by i, j and i+j.
     pub(crate) fn widths(&self) -> [i128; 3] {
         core::array::from_fn(|n| self.upper[n] - self.lower[n])
     }
@@ -365,7 +367,7 @@ impl Region {
         }
     }
 
-    /// The layer this many + and − steps further down; bounds must stay within `i128`.
+    /// Returns the layer this many + and − steps further down; bounds must stay within `i128`.
     #[inline]
     pub(crate) fn grown(&self, plus: i128, minus: i128) -> Self {
         Self {
@@ -374,12 +376,12 @@ impl Region {
         }
     }
 
-    /// The layer this many + and − steps further up; `None` if no site is left.
+    /// Returns the layer this many + and − steps further up; `None` if no site is left.
     pub(crate) fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
         self.grown(-plus, -minus).tightened()
     }
 
-    /// The rows, from y₀ up; every one of them has a site.
+    /// Returns the rows, from y₀ up; every one of them has a site.
     ///
     /// # Examples
     /// ```
@@ -397,7 +399,8 @@ impl Region {
         })
     }
 
-    /// One simultaneous round of tightening, all from the old bounds; it is complete (THEORY §3).
+    /// Tightens all six bounds once, each by the old ones of the others; after one round all are attained. `None` if
+    /// there is no site.
     fn tightened(&self) -> Option<Self> {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let tight = Self {
@@ -418,7 +421,8 @@ impl Region {
     }
 }
 
-/// A parallelogram of these sides without its two corners, triangles that are so many sites wide.
+/// The number of sites of a parallelogram with these sides, without two triangles at its corners that are so many sites
+/// wide.
 fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
     let two = I::one() + I::one();
     let triangle = |side: I| side.clone() * (side + I::one()) / two.clone();
@@ -427,9 +431,86 @@ fn sites<I: Integer + Clone>([width, height]: [I; 2], corners: [I; 2]) -> I {
 }
 
 impl fmt::Display for Region {
-    /// `x0..x1,y0..y1,s0..s1`, as the command line reads it.
+    /// Prints the bounds, `x0..x1,y0..y1,s0..s1`; with `{:#}` the shape by its sides, `triangle:4`, if it is a triangle
+    /// or hexagon about (0, 0), and `region:` before the bounds if not. Both are read by [`FromStr`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let hexagon = Region::hexagon(3, 2)?;
+    /// assert_eq!(format!("{hexagon}"), "-1..2,-1..2,-1..2");
+    /// assert_eq!(format!("{hexagon:#}"), "hexagon:3,2");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        if f.alternate() {
+            // Within ±10³⁶.
+            let (p, q) = (x1 + 1, 1 - x0);
+            let about_zero = Self::hexagon(p, q).as_ref() == Ok(self);
+            match (about_zero, p, q) {
+                (true, 2.., 1) => return write!(f, "triangle:{p}"),
+                (true, ..) if p == q => return write!(f, "hexagon:{p}"),
+                (true, ..) => return write!(f, "hexagon:{p},{q}"),
+                (false, ..) => f.write_str("region:")?,
+            }
+        }
         write!(f, "{x0}..{x1},{y0}..{y1},{s0}..{s1}")
     }
 }
+
+impl FromStr for Region {
+    type Err = Error;
+
+    /// Reads `hexagon:P,Q`, `hexagon:N`, `triangle:N` or `region:x0..x1,y0..y1,s0..s1`, bounds included; `region:` may
+    /// be left out.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`]; those of [`Region::new`] and [`Region::hexagon`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    ///
+    /// assert_eq!("hexagon:3,2".parse(), Region::hexagon(3, 2));
+    /// assert_eq!("hexagon:3".parse(), Region::hexagon(3, 3));
+    /// assert_eq!("triangle:4".parse(), Region::triangle(4));
+    /// assert_eq!("region:0..3,0..3,0..3".parse(), Region::triangle(4));
+    /// assert_eq!("0..3,0..3,0..3".parse(), Region::triangle(4));
+    /// assert!("circle:4".parse::<Region>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let syntax = || {
+            Error::syntax(
+                text,
+                "a shape: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1",
+            )
+        };
+        let (kind, sizes) = text.split_once(':').unwrap_or(("region", text));
+        match kind {
+            "hexagon" => {
+                let (p, q) = sizes.split_once(',').unwrap_or((sizes, sizes));
+                Self::hexagon(integer(p)?, integer(q)?)
+            }
+            "triangle" => Self::triangle(integer(sizes)?),
+            "region" => {
+                let mut ranges = sizes.split(',').map(|range| {
+                    let (from, to) = range.split_once("..").ok_or_else(syntax)?;
+                    Ok(integer(from)?..=integer(to)?)
+                });
+                let mut next = || ranges.next().unwrap_or_else(|| Err(syntax()));
+                let (x, y, s) = (next()?, next()?, next()?);
+                match ranges.next() {
+                    None => Self::new(x, y, s),
+                    Some(_) => Err(syntax()),
+                }
+            }
+            _ => Err(syntax()),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Region: ":#");

@@ -15,12 +15,20 @@ use super::Site;
 /// assert!(row.into_iter().eq([Site { i: 0, j: 1, k: 2 }, Site { i: 1, j: 1, k: 2 }]));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct Row {
     /// The layer.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub k: i128,
     /// The row within the layer.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub j: i128,
     /// The places within the row.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub i: Range<i128>,
 }
 

@@ -1,8 +1,11 @@
 //! The Hägg sign of a step between layers.
 
+use core::fmt;
 use core::ops::Neg;
+use core::str::FromStr;
 
 use super::Direction;
+use crate::Error;
 
 /// The Hägg sign of a step from a layer to the one below.
 ///
@@ -21,7 +24,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// The step (Δi, Δj) to the support in a direction.
+    /// Returns the step (Δi, Δj) to the support in a direction.
     ///
     /// # Examples
     /// ```
@@ -38,7 +41,7 @@ impl Sign {
         }
     }
 
-    /// `+` or `-`.
+    /// Returns `+` or `-`.
     ///
     /// # Examples
     /// ```
@@ -54,6 +57,39 @@ impl Sign {
         }
     }
 }
+
+impl fmt::Display for Sign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.symbol().fmt(f)
+    }
+}
+
+impl FromStr for Sign {
+    type Err = Error;
+
+    /// Reads a sign: `+` or `-`.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Sign;
+    ///
+    /// assert_eq!("-".parse::<Sign>()?, Sign::Minus);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "+" => Ok(Self::Plus),
+            "-" => Ok(Self::Minus),
+            _ => Err(Error::syntax(text, "a sign: + or -")),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(Sign);
 
 impl Neg for Sign {
     type Output = Self;

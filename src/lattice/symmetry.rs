@@ -54,7 +54,7 @@ impl Symmetry {
         ]
     };
 
-    /// The image of a site; `None` if it leaves `i128`, which no site of a pile does.
+    /// Returns the image of a site; `None` if it leaves `i128`, which no site of a pile does.
     ///
     /// # Examples
     /// ```
@@ -70,7 +70,7 @@ impl Symmetry {
         Some(Site { i, j, k })
     }
 
-    /// The counts of spheres above at the image, from those at the site, in any scalar.
+    /// Returns the counts of spheres above the image of a site, from those above the site, in any scalar.
     ///
     /// # Examples
     /// ```
@@ -82,8 +82,8 @@ impl Symmetry {
         self.0.map(|direction| above[direction.index()].clone())
     }
 
-    /// The direction whose line is carried to the line of `direction`: the count along `direction` at an
-    /// image is the count along this one at the site it comes from.
+    /// Returns the direction whose line is carried to the line of `direction`: the count along `direction` at an image
+    /// is the count along this one at the site it comes from.
     ///
     /// # Examples
     /// ```

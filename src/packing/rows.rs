@@ -1,10 +1,12 @@
 //! Many answers in SI, one after the other.
 
+use crate::engine::Meter;
+use crate::forces::{NearestLayers, Units};
 use crate::lattice::{Direction, Site};
-use crate::meter::Meter;
-use crate::scalar::Surd;
-use crate::shape::Rows;
+use crate::scalar::{NearestFloat, Surd};
+use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing};
+use num_rational::BigRational;
 
 /// A contact between two spheres, in the units and the frame of a [`Packing`].
 ///
@@ -17,7 +19,7 @@ use crate::{ContactForce, Error, FloorForce, Packing};
 ///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-/// for contact in packing.contacts(pile.rows(Selection::All)?) {
+/// for contact in packing.contacts(Selection::All)? {
 ///     let contact = contact?;
 ///     assert_eq!(contact.force.to_string(), "5/39*sqrt(13)");
 ///     // On the upper sphere, upwards.
@@ -40,9 +42,47 @@ pub struct PackedContact {
 }
 
 impl<'p, M: Meter> Packing<'p, M> {
+    /// Returns a way down through the layers of a part of the pile, which fills the floats nearest to the exact forces into
+    /// slices: the fast way to many of them, for every stacking.
+    ///
+    /// # Errors
+    /// As for [`Forces::layers`](crate::Forces::layers); [`Error::Overflow`] for a force beyond the floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let layers = packing.layers::<f64>(Selection::All)?;
+    /// let mut forces = [(); 3].map(|()| vec![0.0; 165]);
+    /// let [alpha, beta, gamma] = &mut forces;
+    /// layers.fill([alpha, beta, gamma])?;
+    /// assert_eq!(forces[0][0], 0.46225016352102425);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn layers<F: NearestFloat>(
+        &self,
+        part: Selection,
+    ) -> Result<NearestLayers<'p, F, M>, Error> {
+        let weight = self.sphere_weight();
+        let units = Units {
+            contact: self.unit_force(),
+            floor: self
+                .roots
+                .forces
+                .each_ref()
+                .map(|root| root.scaled(&weight)),
+        };
+        self.forces.layers(part)?.nearest_in(units)
+    }
+
     /// The contacts of the spheres in `rows`, each with the spheres below it, lazily.
     ///
-    /// As [`Statics::contacts`](crate::Statics::contacts).
+    /// As [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -54,7 +94,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let contacts = packing.contacts(pile.rows(Selection::All)?).collect::<Result<Vec<_>, _>>()?;
+    /// let contacts = packing.contacts(Selection::All)?.collect::<Result<Vec<_>, _>>()?;
     /// assert_eq!(contacts.len(), 12);
     /// for contact in contacts {
     ///     let squares = contact.vector.iter().map(Surd::square);
@@ -64,21 +104,45 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     pub fn contacts(
         &self,
-        rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<PackedContact, Error>> + use<'p, M> {
-        // Before it is cloned, so that the next question finds the roots taken.
-        let _ = (self.secant(), self.forces(), self.lengths());
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<PackedContact, Error>> + use<'p, M>, Error> {
         let packing = self.clone();
-        self.statics.contacts(rows).map(move |contact| {
-            let contact = contact?;
-            let (site, direction) = (contact.site, contact.direction);
-            Ok(PackedContact {
-                site,
-                direction,
-                force: packing.magnitude(&contact.force),
-                vector: packing.vector(site, direction, &contact.force)?,
-                point: packing.contact_point(site, direction)?,
-            })
+        let contacts = self.forces.contacts(part)?;
+        Ok(contacts.map(move |contact| packing.packed(contact?)))
+    }
+
+    /// Returns a contact in SI, from its force in f₀.
+    ///
+    /// # Errors
+    /// As for [`contact_point`](Self::contact_point).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let multiples = packing.forces().contacts(Selection::All)?;
+    /// for (multiple, contact) in multiples.zip(packing.contacts(Selection::All)?) {
+    ///     assert_eq!(packing.packed(multiple?)?, contact?);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn packed(&self, contact: ContactForce<BigRational>) -> Result<PackedContact, Error> {
+        let ContactForce {
+            site,
+            direction,
+            force,
+        } = contact;
+        Ok(PackedContact {
+            site,
+            direction,
+            force: self.magnitude(&force),
+            vector: self.vector(site, direction, &force)?,
+            point: self.contact_point(site, direction)?,
         })
     }
 
@@ -93,7 +157,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let forces = packing.magnitudes(pile.rows(Selection::All)?);
+    /// let forces = packing.magnitudes(Selection::All)?;
     /// let forces: Result<Vec<_>, _> = forces.map(|contact| Ok(contact?.force)).collect();
     /// assert_eq!(forces.as_ref().map(Vec::len), Ok(12));
     /// assert_eq!(forces?.iter().max().unwrap().to_string(), "10/39*sqrt(13)");
@@ -101,11 +165,11 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     pub fn magnitudes(
         &self,
-        rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<ContactForce<Surd>, Error>> + use<'p, M> {
-        let _ = self.secant();
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<ContactForce<Surd>, Error>> + use<'p, M>, Error> {
         let packing = self.clone();
-        self.statics.contacts(rows).map(move |contact| {
+        let contacts = self.forces.contacts(part)?;
+        Ok(contacts.map(move |contact| {
             let ContactForce {
                 site,
                 direction,
@@ -116,7 +180,7 @@ impl<'p, M: Meter> Packing<'p, M> {
                 direction,
                 force: packing.magnitude(&force),
             })
-        })
+        }))
     }
 
     /// The places of the spheres in `rows`, lazily.
@@ -133,26 +197,26 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// // The bottom layer is at height 0.
-    /// for position in packing.positions(pile.rows(Selection::Base)?) {
+    /// for position in packing.positions(Selection::Base)? {
     ///     assert!(position?[2] == 0.0);
     /// }
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn positions(
         &self,
-        rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<[Surd; 3], Error>> + use<'p, M> {
-        let _ = self.lengths();
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<[Surd; 3], Error>> + use<'p, M>, Error> {
         let packing = self.clone();
-        rows.flatten().map(move |site| {
-            packing.statics.meter().answer(1);
+        let sites = self.pile().rows(part)?.flatten();
+        Ok(sites.map(move |site| {
+            packing.forces.meter().answer(1);
             packing.position(site)
-        })
+        }))
     }
 
     /// The forces of the bottom spheres in `rows` on the floor, lazily.
     ///
-    /// As [`Statics::base`](crate::Statics::base).
+    /// As [`Forces::base`](crate::Forces::base).
     ///
     /// # Examples
     /// ```
@@ -164,18 +228,17 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// let pile = Pile::under(Region::SITE, "+-".parse()?)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// for force in packing.base(pile.rows(Selection::Base)?) {
+    /// for force in packing.base(Selection::Base)? {
     ///     println!("{}", force?.normal);
     /// }
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn base(
         &self,
-        rows: Rows<'p>,
-    ) -> impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p, M> {
-        let _ = self.forces();
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p, M>, Error> {
         let packing = self.clone();
-        let forces = self.statics.base(rows);
-        forces.map(move |force| Ok(packing.floor_force(force?)))
+        let forces = self.forces.base(part)?;
+        Ok(forces.map(move |force| Ok(packing.floor_force(force?))))
     }
 }

@@ -3,7 +3,7 @@
 //! A rational n/d, and a root √(n/d), are scaled by a power of two until their integer part has a
 //! few bits more than the float. What lies below that integer part is summed up in one *sticky* bit:
 //! is it zero or not? Together they decide every rounding, ties to even, through the subnormals
-//! down to zero (THEORY §4). In front of that is a [screen](super::screen), which tells most floats at a glance.
+//! down to zero ([`paper`](crate::paper#exactness)). In front of that is a [screen](super::screen), which tells most floats at a glance.
 
 use num_bigint::BigUint;
 use num_integer::Integer;

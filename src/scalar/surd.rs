@@ -16,13 +16,13 @@ use crate::Error;
 /// An exact number c·√n, with c rational and n a positive integer.
 ///
 /// A contact force is n·mg/(3 cosθ) with cos²θ rational; heights carry cosθ, horizontal positions
-/// sinθ and √3 (THEORY §4): all of them are surds. Two surds multiply to a surd and compare exactly,
+/// sinθ and √3 ([`paper`](crate::paper#exactness)): all of them are surds. Two surds multiply to a surd and compare exactly,
 /// through their squares. They do not add to a surd, so this is a value and not a
 /// [scalar](super::Algebra).
 ///
-/// √(a/b) is kept as √(ab)/b, with the square factors taken out as far as they are found: the square
-/// of every prime below 1000, and the rest if it is a square as a whole. Equality and order do not
-/// depend on that form.
+/// √(a/b) is kept as √(ab)/b, with the square factors taken out as far as they are found: in a and in b the squares of
+/// all primes below 1000, and what the other primes make up if it is a square as a whole. So the square of a spacing's
+/// denominator always comes out. Equality and order do not depend on that form.
 ///
 /// # Examples
 /// ```
@@ -68,11 +68,22 @@ impl Surd {
         if radicand.is_negative() {
             return Err(Error::NegativeRadicand { given: radicand });
         }
-        // √(a/b) = √(ab)/b
-        let (a, b) = radicand.into_raw();
-        let (root, rest) = extract_squares((a * &b).into_parts().1);
-        let root = BigRational::new(root.into(), b);
-        Ok(Self::normal(coefficient * root, rest))
+        Ok(Self::of_valid(coefficient, radicand))
+    }
+
+    /// √`square` of a number that is known not to be negative.
+    pub(crate) fn root_of(square: BigRational) -> Self {
+        debug_assert!(!square.is_negative(), "the root of {square} is not real");
+        Self::of_valid(BigRational::one(), square)
+    }
+
+    fn of_valid(coefficient: BigRational, radicand: BigRational) -> Self {
+        // They have no common factor, so that no square is lost when each is looked at for itself.
+        let (numer, denom) = radicand.into_raw();
+        let [(p, a), (q, b)] = [numer, denom].map(|n| extract_squares(n.into_parts().1));
+        // √(p²a/q²b) = p/(qb)·√(ab)
+        let root = BigRational::new(p.into(), (q * &b).into());
+        Self::normal(coefficient * root, a * b)
     }
 
     /// √`radicand`.
@@ -87,6 +98,9 @@ impl Surd {
     ///
     /// let root = Surd::sqrt(BigRational::new(4.into(), 9.into()))?;
     /// assert_eq!(root.to_rational().unwrap().to_string(), "2/3");
+    /// // The square of a denominator comes out whatever its primes are.
+    /// let root = Surd::sqrt(BigRational::new(2.into(), (1_000_003_i64 * 1_000_003).into()))?;
+    /// assert_eq!(root.to_string(), "1/1000003*sqrt(2)");
     /// assert!(Surd::sqrt(BigRational::from_integer((-1).into())).is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -349,28 +363,30 @@ fn product(a: &BigRational, b: &BigRational) -> BigRational {
     BigRational::new_raw(numer, denom)
 }
 
-/// `n` = root²·rest, with the squares of small primes and a rest that is a square taken out.
+/// `n` = root²·rest, with the squares of small primes taken out, and what the others make up if it is a square.
 fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
-    let mut root = BigUint::one();
+    let (mut root, mut rest) = (BigUint::one(), BigUint::one());
     if n.is_zero() {
         return (root, n);
     }
     for p in (2_u32..1000).filter(|p| *p == 2 || p % 2 == 1) {
-        let square = p * p;
-        if n < BigUint::from(square) {
+        if n < BigUint::from(p * p) {
             break;
         }
+        let mut odd = false;
         loop {
-            let (quotient, remainder) = n.div_rem(&square.into());
+            let (quotient, remainder) = n.div_rem(&p.into());
             if !remainder.is_zero() {
                 break;
             }
             n = quotient;
-            root *= p;
+            root *= if odd { p } else { 1 };
+            odd = !odd;
         }
+        rest *= if odd { p } else { 1 };
     }
-    let (rest, n) = whole_square(n);
-    (root * rest, n)
+    let (others, n) = whole_square(n);
+    (root * others, rest * n)
 }
 
 /// (√n, 1) for a square, (1, n) otherwise.

@@ -1,21 +1,16 @@
-//! Numbers, sites and shapes from text, exactly.
+//! What a scene is described by and that has no type of its own: numbers, and places and loads in a pile of either
+//! dimension. What has a type is read by `str::parse`: [`Region`](crate::lattice::Region),
+//! [`Pattern`](crate::stacking::Pattern), [`Spacing`](crate::geometry::Spacing), [`Dimension`], [`Surd`](crate::scalar::Surd).
 
-mod numbers;
-mod roots;
-mod shapes;
+use num_rational::BigRational;
 
-#[cfg(feature = "serde")]
-pub(crate) use numbers::big_integer;
-pub use numbers::{integer, rational};
-pub use roots::surd;
-pub use shapes::{load, region, stacking};
+pub use crate::scalar::parse::{integer, rational};
 
 use crate::Error;
-use crate::lattice::{Dimension, Direction, MAX_LAYERS, Site};
+use crate::lattice::{Dimension, MAX_LAYERS, Site};
+use crate::scalar::parse::big_integer;
 
-use numbers::{LONGEST, integer_digits};
-
-/// A number of layers.
+/// Reads a number of layers: `10`, `1e36`.
 ///
 /// # Errors
 /// [`Error::Layers`] for an integer that cannot be one, [`Error::Syntax`] for anything else.
@@ -26,48 +21,23 @@ use numbers::{LONGEST, integer_digits};
 /// use cannonpile::scene::parse;
 ///
 /// assert_eq!(parse::layers("10")?, 10);
+/// assert_eq!(parse::layers("1e36")?, 10_i128.pow(36));
 /// assert!(matches!(parse::layers("0"), Err(Error::Layers { .. })));
 /// assert!(matches!(parse::layers("ten"), Err(Error::Syntax { .. })));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn layers(text: &str) -> Result<i128, Error> {
-    if text.len() > LONGEST {
-        return Err(Error::syntax(
-            text,
-            "a number of layers of at most 37 digits",
-        ));
-    }
-    let given = integer_digits(text);
-    let given = given.ok_or_else(|| Error::syntax(text, "a number of layers such as 10"))?;
+    let given = big_integer(text)
+        .map_err(|_| Error::syntax(text, "a number of layers such as 10 or 1e36"))?;
     match i128::try_from(&given) {
         Ok(layers) if (1..=MAX_LAYERS).contains(&layers) => Ok(layers),
         _ => Err(Error::Layers { given }),
     }
 }
 
-/// A dimension: `2` or `3`.
+/// The place of one sphere in a pile of any height: in its base, or in a layer counted from the top.
 ///
-/// # Errors
-/// [`Error::Syntax`].
-///
-/// # Examples
-/// ```
-/// use cannonpile::lattice::Dimension;
-/// use cannonpile::scene::parse;
-///
-/// assert_eq!(parse::dimension("2")?, Dimension::Two);
-/// assert!(parse::dimension("4").is_err());
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-pub fn dimension(text: &str) -> Result<Dimension, Error> {
-    match text {
-        "2" => Ok(Dimension::Two),
-        "3" => Ok(Dimension::Three),
-        _ => Err(Error::syntax(text, "a dimension: 2 (discs) or 3 (spheres)")),
-    }
-}
-
-/// One sphere as text: `K,I,J`, or `I,J` on the base; in two dimensions `K,I`, or `I`.
+/// [`at`] reads it.
 ///
 /// # Examples
 /// ```
@@ -79,17 +49,31 @@ pub fn dimension(text: &str) -> Result<Dimension, Error> {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct At {
     /// The layer; the base if there is none.
+    #[cfg_attr(
+        feature = "serde",
+        serde(with = "crate::scalar::serde::number", default)
+    )]
     pub layer: Option<i128>,
     /// The place within the row.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub i: i128,
     /// The row.
+    #[cfg_attr(
+        feature = "serde",
+        serde(with = "crate::scalar::serde::number", default)
+    )]
     pub j: i128,
 }
 
 impl At {
-    /// The site, for a pile of this many layers. Whether the pile has it is not checked here.
+    /// Returns the site, for a pile of this many layers. Whether the pile has it is not checked here.
     ///
     /// # Examples
     /// ```
@@ -111,7 +95,7 @@ impl At {
     }
 }
 
-/// One sphere: `K,I,J` or `I,J`; in two dimensions `K,I` or `I`.
+/// Reads the place of one sphere: `K,I,J`, or `I,J` on the base; in two dimensions `K,I`, or `I`.
 ///
 /// # Errors
 /// [`Error::Syntax`].
@@ -137,10 +121,7 @@ pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
         let slot = numbers
             .get_mut(given)
             .ok_or_else(|| Error::syntax(text, expected))?;
-        *slot = part
-            .trim()
-            .parse()
-            .map_err(|_| Error::syntax(text, expected))?;
+        *slot = integer(part.trim()).map_err(|_| Error::syntax(text, expected))?;
         given += 1;
     }
     let [a, b, c] = numbers;
@@ -169,22 +150,24 @@ pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
     }
 }
 
-/// A direction by its name.
+/// Reads a load on one sphere, in mg: `K,I,J=W`, or `I,J=W` on the base. Discs: `K,I=W`, `I=W`.
 ///
 /// # Errors
 /// [`Error::Syntax`].
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::Direction;
+/// use cannonpile::lattice::Dimension;
 /// use cannonpile::scene::parse;
 ///
-/// assert_eq!(parse::direction("gamma")?, Direction::Gamma);
+/// let (at, load) = parse::load("0,0,0=5/2", Dimension::Three)?;
+/// assert_eq!((at.layer, load.to_string().as_str()), (Some(0), "5/2"));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub fn direction(text: &str) -> Result<Direction, Error> {
-    let found = Direction::ALL
-        .into_iter()
-        .find(|direction| direction.name() == text);
-    found.ok_or_else(|| Error::syntax(text, "a direction: alpha, beta or gamma"))
+pub fn load(text: &str, dimension: Dimension) -> Result<(At, BigRational), Error> {
+    let expected = "a load K,I,J=W on a sphere, such as 0,0,0=5/2";
+    let (site, load) = text
+        .split_once('=')
+        .ok_or_else(|| Error::syntax(text, expected))?;
+    Ok((at(site, dimension)?, rational(load)?))
 }

@@ -14,8 +14,8 @@ use num_rational::BigRational;
 
 use super::parse::{self, At};
 use super::{Anchor, Scene};
-use crate::Error;
 use crate::lattice::Dimension;
+use crate::{Culprit, Error};
 
 use nearest::nearest;
 use value::{Value, line_of};
@@ -94,7 +94,7 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
-    /// The scene.
+    /// Returns the scene.
     ///
     /// # Examples
     /// ```
@@ -108,7 +108,7 @@ impl SceneFile {
         &self.scene
     }
 
-    /// The line of a key, counted from 1, if the file has it.
+    /// Returns the line of a key, counted from 1, if the file has it.
     ///
     /// # Examples
     /// ```
@@ -142,7 +142,7 @@ impl FromStr for SceneFile {
 }
 
 impl Scene {
-    /// The scene that a TOML file describes; its keys are those of [`SceneFile`].
+    /// Returns the scene that a TOML file describes; its keys are those of [`SceneFile`].
     ///
     /// Each value is checked for itself; whether they go together shows when a [`Pile`](crate::Pile) is asked for.
     ///
@@ -197,25 +197,27 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
     let mut scene = Scene::default();
     // The sites of loads are read by it, wherever it stands.
     if let Some(dimension) = values.iter().find(|value| value.key == "dimension") {
-        scene.dimension = dimension.read(parse::dimension)?;
+        scene.dimension = dimension.read(str::parse)?;
     }
     for value in values {
         match value.key {
             "layers" => scene.layers = Some(value.read(parse::layers)?),
-            "stacking" => scene.stacking = Some(value.read(parse::stacking)?),
+            "stacking" => scene.stacking = Some(value.read(str::parse)?),
             "top" | "base" => {
                 if let Some(anchor) = &scene.anchor {
-                    return Err(value.refused(Error::Excluded {
-                        given: value.key,
-                        beside: anchor.name(),
-                    }));
+                    let beside = super::culprit_of(anchor);
+                    let given = match beside {
+                        Culprit::Top => Culprit::Base,
+                        _ => Culprit::Top,
+                    };
+                    return Err(value.refused(Error::Excluded { given, beside }));
                 }
                 let grown = if value.key == "top" {
                     Anchor::Top
                 } else {
                     Anchor::Base
                 };
-                scene.anchor = Some(grown(value.read(parse::region)?));
+                scene.anchor = Some(grown(value.read(str::parse)?));
             }
             "sin-phi" => scene.sin_phi = Some(value.read(parse::rational)?),
             "load" => scene.loads = loads(value, scene.dimension)?,

@@ -7,12 +7,11 @@ use ::serde::de::Error as _;
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_rational::BigRational;
 
-use super::number;
 use crate::lattice::{Dimension, Region, Site};
-use crate::scene::Anchor;
-use crate::shape::Shape;
+use crate::scalar::serde::number;
+use crate::shape::Anchor;
 use crate::stacking::Stacking;
-use crate::{Error, Pile};
+use crate::{Culprit, Error, Pile};
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Pile", deny_unknown_fields)]
@@ -48,7 +47,7 @@ impl Parts {
             dimension: pile.dimension(),
             sin_phi: pile.sin_phi().clone(),
             stacking: shape.stacking().clone(),
-            anchor: anchor(shape),
+            anchor: shape.anchor(),
             weightless: loading.is_weightless(),
             weights: loading.weights().map(on_sites).collect(),
             loads: loading.loads().map(on_sites).collect(),
@@ -85,27 +84,19 @@ impl Parts {
         };
         // Discs have but one shape, and most shapes but one sin φ.
         let given = if pile.sin_phi() != &self.sin_phi {
-            "sin_phi"
+            Culprit::SinPhi
         } else if pile.shape().stacking() != &self.stacking {
-            "stacking"
-        } else if anchor(pile.shape()) != self.anchor {
-            "anchor"
+            Culprit::Stacking
+        } else if pile.shape().anchor() != self.anchor {
+            Culprit::Top
         } else {
             return Ok(pile);
         };
         let beside = match self.dimension {
-            Dimension::Two => "dimension 2",
-            Dimension::Three => "this stacking and anchor",
+            Dimension::Two => Culprit::Dimension,
+            Dimension::Three => Culprit::Stacking,
         };
         Err(Error::Excluded { given, beside })
-    }
-}
-
-/// What the pile is grown from.
-fn anchor(shape: &Shape) -> Anchor {
-    match shape.layer(0) {
-        Ok(top) if !shape.is_grown_from_base() => Anchor::Top(top),
-        _ => Anchor::Base(shape.base()),
     }
 }
 

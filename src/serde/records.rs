@@ -1,32 +1,37 @@
 //! What is a record of its public fields: here they are again, each with the way it is written.
 
-use core::ops::Range;
-
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 
-use super::{Number, number};
 use crate::census::Entry;
-use crate::geometry::{Apart, Vector};
-use crate::lattice::Sign;
-use crate::lattice::{Direction, Row, Site};
-use crate::scalar::{Enclosure, Surd};
+use crate::lattice::{Direction, Site};
+use crate::scalar::Surd;
+use crate::scalar::serde::{Number, number};
 use crate::shape::Selection;
-use crate::stacking::Run;
 use crate::{
     BaseExtremes, ContactForce, Counters, FloorForce, Method, PackedContact, Pile, Plan, Quantity,
     Question, Standing,
 };
 
+/// The implementations that serde derives for the copy of a type of this name.
+macro_rules! records {
+    ($($type:ident as $copy:ident $(<$scalar:ident>)?;)*) => {$(
+        impl $(<$scalar: Number>)? Serialize for $type $(<$scalar>)? {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                $copy::serialize(self, serializer)
+            }
+        }
+
+        impl<'de $(, $scalar: Number)?> Deserialize<'de> for $type $(<$scalar>)? {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $copy::deserialize(deserializer)
+            }
+        }
+    )*};
+}
+
 records! {
-    Site as SiteRecord;
-    Run as RunRecord;
-    Row as RowRecord;
-    Selection as SelectionRecord;
-    Apart as ApartRecord;
-    Vector as VectorRecord<T>;
-    Enclosure as EnclosureRecord;
     ContactForce as ContactForceRecord<T>;
     FloorForce as FloorForceRecord<T>;
     PackedContact as PackedContactRecord;
@@ -36,85 +41,6 @@ records! {
     Question as QuestionRecord;
     Plan as PlanRecord;
     Counters as CountersRecord;
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Site", rename = "Site", deny_unknown_fields)]
-struct SiteRecord {
-    #[serde(with = "number")]
-    i: i128,
-    #[serde(with = "number")]
-    j: i128,
-    #[serde(with = "number")]
-    k: i128,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Run", rename = "Run", deny_unknown_fields)]
-struct RunRecord {
-    sign: Sign,
-    #[serde(with = "number")]
-    steps: i128,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Row", rename = "Row", deny_unknown_fields)]
-struct RowRecord {
-    #[serde(with = "number")]
-    k: i128,
-    #[serde(with = "number")]
-    j: i128,
-    #[serde(with = "RangeRecord")]
-    i: Range<i128>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Range<i128>", rename = "Range", deny_unknown_fields)]
-struct RangeRecord {
-    #[serde(with = "number")]
-    start: i128,
-    #[serde(with = "number")]
-    end: i128,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Selection", rename = "Selection", rename_all = "lowercase")]
-enum SelectionRecord {
-    One(Site),
-    Layer(#[serde(with = "number")] i128),
-    Base,
-    All,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Apart", rename = "Apart", deny_unknown_fields)]
-struct ApartRecord {
-    layers: u8,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(
-    remote = "Vector",
-    rename = "Vector",
-    bound = "T: Number",
-    deny_unknown_fields
-)]
-struct VectorRecord<T> {
-    #[serde(with = "number")]
-    x: T,
-    #[serde(with = "number")]
-    y: T,
-    #[serde(with = "number")]
-    z: T,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Enclosure", rename = "Enclosure", deny_unknown_fields)]
-struct EnclosureRecord {
-    #[serde(with = "number")]
-    lower: BigRational,
-    #[serde(with = "number")]
-    upper: BigRational,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -227,20 +153,12 @@ struct CountersRecord {
     turned: u64,
     #[serde(getter = "Counters::passes")]
     passes: u64,
-    #[serde(getter = "Counters::roots")]
-    roots: u64,
     #[serde(getter = "Counters::rows")]
     rows: u64,
 }
 
 impl From<CountersRecord> for Counters {
     fn from(record: CountersRecord) -> Self {
-        Self::of([
-            record.visited,
-            record.turned,
-            record.passes,
-            record.roots,
-            record.rows,
-        ])
+        Self::of([record.visited, record.turned, record.passes, record.rows])
     }
 }

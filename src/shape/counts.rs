@@ -12,7 +12,7 @@ use crate::lattice::Site;
 use crate::shape::Numbering;
 
 impl Shape {
-    /// The number of spheres, of any size.
+    /// Returns the number of spheres, of any size.
     ///
     /// # Examples
     /// ```
@@ -29,7 +29,7 @@ impl Shape {
         self.spheres_in(0..self.layers())
     }
 
-    /// The number of spheres in these layers.
+    /// Returns the number of spheres in these layers.
     ///
     /// Between the layers where a sign changes, or a side of the region ends, the spheres of a layer are a polynomial
     /// of degree two in k: Newton's forward differences sum it.
@@ -79,7 +79,7 @@ impl Shape {
         (n * c0 + pairs * first + triples * second).into_parts().1
     }
 
-    /// How many spheres come before this one, in row order from the top.
+    /// Returns the number of spheres before this one, in row order from the top.
     ///
     /// # Errors
     /// [`Error::SiteOutside`].
@@ -101,7 +101,7 @@ impl Shape {
         Ok(self.spheres_in(0..k) + in_layer)
     }
 
-    /// The numbers of all spheres, both ways.
+    /// Returns the numbers of all spheres, both ways.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10¹¹ spheres.

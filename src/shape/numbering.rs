@@ -6,6 +6,7 @@ use num_bigint::BigUint;
 
 use super::{Shape, Site};
 use crate::Error;
+use crate::error::bug;
 
 /// The most spheres that are numbered: each has one number in a `u64`, and each layer one offset in memory.
 const MOST: u64 = 100_000_000_000;
@@ -31,8 +32,11 @@ const MOST: u64 = 100_000_000_000;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Numbering<'p> {
     shape: &'p Shape,
-    /// The spheres before each layer, and all of them.
+    /// The spheres before each layer.
     before: Vec<u64>,
+    /// Those before the bottom layer.
+    above_floor: u64,
+    spheres: u64,
 }
 
 impl<'p> Numbering<'p> {
@@ -46,17 +50,21 @@ impl<'p> Numbering<'p> {
                 remedy: "use fewer layers, or a smaller top or base",
             });
         }
-        let mut before = alloc::vec![0];
-        let mut sum = 0;
+        let (mut before, mut above_floor, mut sum) = (Vec::new(), 0, 0);
         for k in 0..shape.layers() {
-            // A part of the sum that fits.
-            sum += u64::try_from(shape.layer(k)?.sites()).unwrap_or_default();
             before.push(sum);
+            above_floor = sum;
+            sum += few(shape.layer(k)?.sites())?;
         }
-        Ok(Self { shape, before })
+        Ok(Self {
+            shape,
+            before,
+            above_floor,
+            spheres: sum,
+        })
     }
 
-    /// The shape whose spheres these are.
+    /// Returns the shape whose spheres these are.
     ///
     /// # Examples
     /// ```
@@ -71,7 +79,7 @@ impl<'p> Numbering<'p> {
         self.shape
     }
 
-    /// How many spheres there are, which is the greatest number.
+    /// Returns the number of spheres, which is the greatest number of a sphere.
     ///
     /// # Examples
     /// ```
@@ -81,11 +89,11 @@ impl<'p> Numbering<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn spheres(&self) -> u64 {
-        self.before.last().copied().unwrap_or_default()
+    pub const fn spheres(&self) -> u64 {
+        self.spheres
     }
 
-    /// The number of the first sphere of the bottom layer. From it on all are on the floor.
+    /// Returns the number of the first sphere of the bottom layer. All spheres from it on are on the floor.
     ///
     /// # Examples
     /// ```
@@ -95,13 +103,11 @@ impl<'p> Numbering<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn first_on_floor(&self) -> u64 {
-        let layer = self.before.len().checked_sub(2);
-        let before = layer.and_then(|layer| self.before.get(layer));
-        before.copied().unwrap_or_default() + 1
+    pub const fn first_on_floor(&self) -> u64 {
+        self.above_floor + 1
     }
 
-    /// The number of a sphere.
+    /// Returns the number of a sphere.
     ///
     /// # Errors
     /// As for [`Shape::check`].
@@ -121,14 +127,13 @@ impl<'p> Numbering<'p> {
     pub fn id(&self, site: Site) -> Result<u64, Error> {
         let Site { i, j, k } = self.shape.check(site)?;
         let layer = usize::try_from(k).ok();
-        let before = layer.and_then(|layer| self.before.get(layer)).copied();
+        let before = layer.and_then(|layer| self.before.get(layer));
+        let before = before.ok_or_else(|| bug("a layer of the shape has its offset"))?;
         let in_layer = self.shape.layer(k)?.sites_before(i, j);
-        // Not more than all spheres, which fit.
-        let in_layer = u64::try_from(in_layer).unwrap_or_default();
-        Ok(before.unwrap_or_default() + in_layer + 1)
+        Ok(before + few(in_layer)? + 1)
     }
 
-    /// The sphere of a number, or `None` for 0 and for numbers past the last.
+    /// Returns the sphere of a number, or `None` for 0 and for numbers past the last.
     ///
     /// # Examples
     /// ```
@@ -145,9 +150,12 @@ impl<'p> Numbering<'p> {
     #[must_use]
     pub fn site(&self, id: u64) -> Option<Site> {
         let place = id.checked_sub(1)?;
-        // The first layer that ends past it.
-        let ends = self.before.get(1..)?;
-        let layer = ends.partition_point(|end| *end <= place);
+        if id > self.spheres {
+            return None;
+        }
+        // The last layer that begins at or before it.
+        let begun = self.before.partition_point(|before| *before <= place);
+        let layer = begun.checked_sub(1)?;
         let in_layer = BigUint::from(place - self.before.get(layer)?);
         let k = i128::try_from(layer).ok()?;
         let region = self.shape.layer(k).ok()?;
@@ -166,4 +174,9 @@ impl<'p> Numbering<'p> {
         let i = region.row(row).start + along;
         Some(Site { i, j: row, k })
     }
+}
+
+/// A part of the spheres of a pile that are few enough to be numbered.
+fn few(spheres: BigUint) -> Result<u64, Error> {
+    u64::try_from(spheres).map_err(|_| bug("a part of the spheres is no more than all"))
 }

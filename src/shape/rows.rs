@@ -21,11 +21,16 @@ use num_bigint::BigUint;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Selection {
     /// One sphere.
     One(Site),
     /// The layer k, counted from the top.
-    Layer(i128),
+    Layer(#[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))] i128),
     /// The bottom layer.
     Base,
     /// Every sphere.
@@ -106,7 +111,7 @@ impl<'p> Rows<'p> {
         self
     }
 
-    /// The pile whose rows they are.
+    /// Returns the pile whose rows they are.
     ///
     /// # Examples
     /// ```
@@ -123,17 +128,17 @@ impl<'p> Rows<'p> {
         self.shape
     }
 
-    /// The layers that are not yet done, or none if this is a single sphere.
+    /// Returns the layers that are not yet done, or none if this is a single sphere.
     pub(crate) fn layers(&self) -> Range<i128> {
         self.k..self.end
     }
 
-    /// The single sphere, if it is one.
+    /// Returns the single sphere, if it is one.
     pub(crate) fn one(&self) -> Option<Site> {
         self.one
     }
 
-    /// How many sites are still to come, of any size.
+    /// Returns the number of sites still to come, of any size.
     ///
     /// # Examples
     /// ```
@@ -155,14 +160,16 @@ impl<'p> Rows<'p> {
         if self.k >= self.end {
             return 0_u32.into();
         }
-        let given = self.j.zip(self.shape.layer(self.k).ok());
-        let given = given.map(|(j, region)| region.sites_before(region.row(j).start, j));
-        self.shape.spheres_in(self.k..self.end) - given.unwrap_or_default()
+        let all = self.shape.spheres_in(self.k..self.end);
+        match (self.j, self.shape.layer(self.k)) {
+            // Some rows of the layer have been given already.
+            (Some(j), Ok(region)) => all - region.sites_before(region.row(j).start, j),
+            _ => all,
+        }
     }
 
-    /// The sites at which a quantity that is linear in i, j and k, or the norm of such quantities, takes its
-    /// extremes over a straight pile: the corners of the first and the last layer, whole layers even where some rows
-    /// of the first have been given already.
+    /// Returns the corner sites of the first and the last layer. A linear function of (i, j, k), or its norm, is
+    /// extreme at one of them on a straight pile. Rows that were given already still count.
     ///
     /// # Examples
     /// ```

@@ -1,79 +1,69 @@
-//! The runs of a pile's stacking, by layer.
+//! The runs of a pile's stacking, each with the layers it leads from and to.
 
 use super::{Anchor, Shape};
 use crate::lattice::Sign;
 
-/// How many steps of each sign lead from one layer to another.
+/// A number of steps of each sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Descent {
+pub(super) struct Steps {
     pub(super) plus: i128,
     pub(super) minus: i128,
 }
 
-impl Descent {
-    pub(super) fn further(self, sign: Sign, steps: i128) -> Self {
-        let Self { plus, minus } = self;
+impl Steps {
+    /// Returns these steps and some more of one sign.
+    pub(super) fn and(mut self, sign: Sign, steps: i128) -> Self {
         match sign {
-            Sign::Plus => Self {
-                plus: plus + steps,
-                minus,
-            },
-            Sign::Minus => Self {
-                plus,
-                minus: minus + steps,
-            },
+            Sign::Plus => self.plus += steps,
+            Sign::Minus => self.minus += steps,
         }
+        self
     }
 }
 
-/// The layer above the first step of a run, and the way there from the top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Start {
-    pub(super) layer: i128,
-    pub(super) sign: Sign,
-    pub(super) descent: Descent,
-}
-
-/// A run of steps of one sign, and the layers it leads from and to.
+/// A [`Run`](crate::stacking::Run) with its place in a pile: the layers it leads from and to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stretch {
-    /// The place of the run in the stacking: how often the sign changes before it.
+    /// The number of changes of sign before the run.
     pub(crate) index: usize,
     pub(crate) sign: Sign,
     /// The layer above the first step.
     pub(crate) from: i128,
     /// The layer below the last step.
     pub(crate) to: i128,
+    /// The steps from the top to `from`.
+    pub(super) above: Steps,
 }
 
 impl Shape {
     /// The place of the run whose steps lead down to layer k; none for the top.
     #[inline]
     fn run_to(&self, k: i128) -> Option<usize> {
-        if let [_] = *self.starts {
+        if let [_] = *self.stretches {
             return (k > 0).then_some(0);
         }
-        self.starts
-            .partition_point(|start| start.layer < k)
+        self.stretches
+            .partition_point(|stretch| stretch.from < k)
             .checked_sub(1)
     }
 
-    /// The steps from the top to layer k.
+    /// Returns the steps from the top to layer k.
     #[inline]
-    pub(super) fn descent(&self, k: i128) -> Descent {
-        match self.run_to(k).and_then(|run| self.starts.get(run)) {
-            Some(start) => start.descent.further(start.sign, k - start.layer),
-            None => Descent::default(),
+    pub(super) fn steps_to(&self, k: i128) -> Steps {
+        match self.stretch_to(k) {
+            Some(run) => run.above.and(run.sign, k - run.from),
+            None => Steps::default(),
         }
     }
 
-    /// The net number of + steps from the top to layer k: where site (0, 0) of layer k lies, in units of −ê_a.
+    /// Returns the number of + steps from the top to layer k less that of − steps: where site (0, 0) of layer k lies,
+    /// in units of −ê_a.
     pub(crate) fn shift(&self, k: i128) -> i128 {
-        let Descent { plus, minus } = self.descent(k);
+        let Steps { plus, minus } = self.steps_to(k);
         plus - minus
     }
 
-    /// The net number of + steps above layer k, from the site under which x = y = 0.
+    /// Returns the [`shift`](Self::shift) from the site under which x = y = 0.
     pub(crate) fn shift_from_origin(&self, k: i128) -> i128 {
         match self.anchor {
             Anchor::Top(_) => self.shift(k),
@@ -81,26 +71,19 @@ impl Shape {
         }
     }
 
-    /// The run whose steps lead down to layer k; none for the top.
+    /// Returns the run whose steps lead down to layer k; none for the top.
     #[inline]
     pub(crate) fn stretch_to(&self, k: i128) -> Option<Stretch> {
         self.stretch(self.run_to(k)?)
     }
 
-    /// The run of a place in the stacking.
+    /// Returns the run after this many changes of sign.
     #[inline]
     pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {
-        let start = self.starts.get(index)?;
-        let next = self.starts.get(index + 1);
-        Some(Stretch {
-            index,
-            sign: start.sign,
-            from: start.layer,
-            to: next.map_or(self.layers() - 1, |next| next.layer),
-        })
+        self.stretches.get(index).copied()
     }
 
-    /// The sign of the step down from layer k; none from the floor.
+    /// Returns the sign of the step down from layer k; none from the floor.
     ///
     /// # Examples
     /// ```
@@ -118,6 +101,6 @@ impl Shape {
     pub fn sign_below(&self, k: i128) -> Option<Sign> {
         let inside = (0..self.layers() - 1).contains(&k);
         let run = inside.then(|| self.run_to(k + 1))??;
-        self.starts.get(run).map(|start| start.sign)
+        self.stretch(run).map(|run| run.sign)
     }
 }

@@ -11,247 +11,242 @@ use crate::lattice::Sign;
 /// The longest text read, in bytes.
 const LONGEST: usize = 4_000_000;
 
-/// A sign for each step: `++-+`.
-#[derive(Clone, Copy, Debug)]
-pub struct Hagg<'a>(&'a Stacking);
+/// The longest text with a fault that is quoted whole; in a longer one the fault is located.
+const QUOTED: usize = 60;
 
-/// A letter for each layer: `ABCBC`.
-#[derive(Clone, Copy, Debug)]
-pub struct Abc<'a>(&'a Stacking);
-
-/// A letter for each inner layer: `chh`.
-#[derive(Clone, Copy, Debug)]
-pub struct Jagodzinski<'a>(&'a Stacking);
-
-/// The lengths of the runs: `(2,1,1)`.
-#[derive(Clone, Copy, Debug)]
-pub struct Zhdanov<'a>(&'a Stacking);
+/// The ways to write a stacking.
+///
+/// # Examples
+/// ```
+/// use cannonpile::stacking::{Notation, Stacking};
+///
+/// let stacking: Stacking = "++-+".parse()?;
+/// let written = |notation| stacking.in_notation(notation).to_string();
+/// assert_eq!(written(Notation::Hagg), "++-+");
+/// assert_eq!(written(Notation::Abc), "ABCBC");
+/// assert_eq!(written(Notation::Jagodzinski), "chh");
+/// assert_eq!(written(Notation::Zhdanov), "(2,1,1)");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Notation {
+    /// A sign for each step: `++-+`.
+    Hagg,
+    /// A letter for each layer, `ABCBC`; the top one is A.
+    Abc,
+    /// A letter for each inner layer: `chh`. It leaves the first sign open.
+    Jagodzinski,
+    /// The lengths of the runs: `(2,1,1)`. It leaves the first sign open.
+    Zhdanov,
+}
 
 impl Stacking {
-    /// A sign for each step, for display.
+    /// Returns the stacking in a notation, for display.
     ///
-    /// As long as the stacking; [`Display`](fmt::Display) of the stacking itself stays short.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::stacking::Stacking;
-    ///
-    /// assert_eq!("++-+".parse::<Stacking>()?.hagg().to_string(), "++-+");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub const fn hagg(&self) -> Hagg<'_> {
-        Hagg(self)
-    }
-
-    /// A letter for each layer, for display; the top one is A.
-    ///
-    /// As long as the stacking.
+    /// All but [`Notation::Zhdanov`] are as long as the stacking; [`Display`](fmt::Display) of the stacking itself
+    /// stays short.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::stacking::Stacking;
+    /// use cannonpile::stacking::{Notation, Stacking};
     ///
-    /// assert_eq!("++-+".parse::<Stacking>()?.abc().to_string(), "ABCBC");
+    /// let stacking: Stacking = "++-+".parse()?;
+    /// assert_eq!(stacking.in_notation(Notation::Abc).to_string(), "ABCBC");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub const fn abc(&self) -> Abc<'_> {
-        Abc(self)
-    }
-
-    /// A letter for each inner layer, for display. Does not tell the first sign.
-    ///
-    /// As long as the stacking.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::stacking::Stacking;
-    ///
-    /// assert_eq!("++-+".parse::<Stacking>()?.jagodzinski().to_string(), "chh");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub const fn jagodzinski(&self) -> Jagodzinski<'_> {
-        Jagodzinski(self)
-    }
-
-    /// The lengths of the runs, for display. Does not tell the first sign.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::stacking::Stacking;
-    ///
-    /// assert_eq!("++-+".parse::<Stacking>()?.zhdanov().to_string(), "(2,1,1)");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub const fn zhdanov(&self) -> Zhdanov<'_> {
-        Zhdanov(self)
+    pub fn in_notation(&self, notation: Notation) -> impl fmt::Display + '_ {
+        Written(self, notation)
     }
 }
 
-impl fmt::Display for Hagg<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        use fmt::Write;
-        self.0
-            .signs()
-            .try_for_each(|sign| f.write_char(sign.symbol()))
-    }
-}
+/// A stacking in a notation.
+struct Written<'a>(&'a Stacking, Notation);
 
-impl fmt::Display for Abc<'_> {
+impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut letter = 0;
-        f.write_str(LETTERS[letter])?;
-        for sign in self.0.signs() {
-            letter = match sign {
-                Sign::Plus => (letter + 1) % 3,
-                Sign::Minus => (letter + 2) % 3,
-            };
-            f.write_str(LETTERS[letter])?;
+        let Self(stacking, notation) = self;
+        match notation {
+            Notation::Hagg => stacking.signs().try_for_each(|sign| sign.fmt(f)),
+            Notation::Abc => write_abc(stacking, f),
+            Notation::Jagodzinski => write_jagodzinski(stacking, f),
+            Notation::Zhdanov => write_zhdanov(stacking, f),
         }
-        Ok(())
     }
+}
+
+fn write_abc(stacking: &Stacking, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let mut letter = 0;
+    f.write_str(LETTERS[letter])?;
+    for sign in stacking.signs() {
+        letter = match sign {
+            Sign::Plus => (letter + 1) % 3,
+            Sign::Minus => (letter + 2) % 3,
+        };
+        f.write_str(LETTERS[letter])?;
+    }
+    Ok(())
 }
 
 const LETTERS: [&str; 3] = ["A", "B", "C"];
 
-impl fmt::Display for Jagodzinski<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (n, run) in self.0.runs().enumerate() {
-            if n > 0 {
-                f.write_str("h")?;
-            }
-            (1..run.steps).try_for_each(|_| f.write_str("c"))?;
+fn write_jagodzinski(stacking: &Stacking, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    for (n, run) in stacking.runs().enumerate() {
+        if n > 0 {
+            f.write_str("h")?;
         }
-        Ok(())
+        (1..run.steps).try_for_each(|_| f.write_str("c"))?;
     }
+    Ok(())
 }
 
-impl fmt::Display for Zhdanov<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("(")?;
-        for (n, run) in self.0.runs().enumerate() {
-            let comma = if n > 0 { "," } else { "" };
-            write!(f, "{comma}{}", run.steps)?;
-        }
-        f.write_str(")")
+fn write_zhdanov(stacking: &Stacking, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    f.write_str("(")?;
+    for (n, run) in stacking.runs().enumerate() {
+        let comma = if n > 0 { "," } else { "" };
+        write!(f, "{comma}{}", run.steps)?;
     }
+    f.write_str(")")
 }
 
 /// The longest stacking shown sign by sign.
 const LONGEST_HAGG: i128 = 64;
 
 impl fmt::Display for Stacking {
-    /// What reads back the same: the signs of up to 65 layers, Zhdanov's lengths beyond, with `-` before them if the
-    /// first sign is −. One layer is `A`.
+    /// Prints what reads back the same: the signs of up to 65 layers, Zhdanov's lengths beyond, with `-` before them if
+    /// the first sign is −. One layer is `A`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.layers() {
-            1 => f.write_str("A"),
-            layers if layers <= LONGEST_HAGG + 1 => self.hagg().fmt(f),
-            _ if self.first == Sign::Minus => write!(f, "-{}", self.zhdanov()),
-            _ => self.zhdanov().fmt(f),
-        }
+        let notation = match self.layers() {
+            1 => Notation::Abc,
+            layers if layers <= LONGEST_HAGG + 1 => Notation::Hagg,
+            _ => {
+                if self.first == Sign::Minus {
+                    f.write_str("-")?;
+                }
+                Notation::Zhdanov
+            }
+        };
+        self.in_notation(notation).fmt(f)
     }
 }
 
 impl FromStr for Stacking {
     type Err = Error;
 
-    /// Reads any of the four notations; which one, its characters say.
+    /// Reads any of the four notations; its characters show which one it is.
     ///
-    /// An empty text is not a stacking; one layer is `A` or `()`. A `-` before Zhdanov's lengths makes the first sign −.
+    /// One layer is `A` or `()`; an empty text is refused. A `-` before Zhdanov's lengths makes the first sign −.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`], for a long text [`Error::Misspelled`]; those of [`from_runs`](Self::from_runs).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::stacking::Stacking;
+    ///
+    /// let stacking: Stacking = "ABCBC".parse()?;
+    /// assert_eq!("++-+".parse(), Ok(stacking));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     fn from_str(text: &str) -> Result<Self, Error> {
-        let expected = "a stacking such as ++-+, ABCBC, chh or (2,1,1)";
-        let syntax = || Error::syntax(text, expected);
         if text.len() > LONGEST {
             return Err(Error::syntax(
                 text,
                 "a stacking of at most 4000000 characters",
             ));
         }
-        let parsed = match text.as_bytes().first() {
-            Some(b'-') if text.starts_with("-(") => {
-                let from_plus: Self = text.get(1..).ok_or_else(syntax)?.parse()?;
-                return Ok(from_plus.mirrored());
-            }
-            Some(b'+' | b'-') => signs_of_hagg(text).map(Self::from_signs),
-            Some(b'A' | b'B' | b'C') => signs_of_abc(text).map(Self::from_signs),
-            Some(b'h' | b'c') => signs_of_jagodzinski(text).map(Self::from_signs),
-            Some(b'(') => {
-                // Digits, but more than any number of layers has.
-                let digits = |length: &str| length.bytes().all(|b| b.is_ascii_digit());
-                let tall = |length: &str| {
-                    length.len() > 38 && digits(length) && length.parse::<i128>().is_err()
-                };
-                if text.trim_matches(['(', ')']).split(',').any(tall) {
-                    return Err(Error::syntax(text, "a stacking of at most 10^36 layers"));
-                }
-                return runs_of_zhdanov(text)
-                    .ok_or_else(syntax)
-                    .and_then(Self::from_runs);
-            }
-            _ => None,
+        if text.split(['(', ',', ')']).any(is_beyond_i128) {
+            return Err(Error::syntax(text, "a stacking of at most 10^36 layers"));
+        }
+        let signs = |read: Result<Vec<Sign>, usize>| read.map(Self::from_signs);
+        let read = match (text.strip_prefix('-'), text.as_bytes().first()) {
+            (Some(lengths), _) if lengths.starts_with('(') => runs_of_zhdanov(lengths)
+                .map(|runs| Self::from_runs(runs).map(|from_plus| from_plus.mirrored()))
+                .map_err(|fault| fault + 1),
+            (_, Some(b'+' | b'-')) => signs(signs_of_hagg(text)),
+            (_, Some(b'A' | b'B' | b'C')) => signs(signs_of_abc(text)),
+            (_, Some(b'h' | b'c')) => signs(signs_of_jagodzinski(text)),
+            (_, Some(b'(')) => runs_of_zhdanov(text).map(Self::from_runs),
+            _ => Err(0),
         };
-        parsed.ok_or_else(syntax)?
+        read.unwrap_or_else(|fault| Err(misspelled(text, fault)))
     }
 }
 
-fn signs_of_hagg(text: &str) -> Option<Vec<Sign>> {
-    let sign = |byte| match byte {
-        b'+' => Some(Sign::Plus),
-        b'-' => Some(Sign::Minus),
-        _ => None,
-    };
-    text.bytes().map(sign).collect()
-}
-
-fn signs_of_abc(text: &str) -> Option<Vec<Sign>> {
-    let bytes = text.as_bytes();
-    let known = bytes.iter().all(|byte| (b'A'..=b'C').contains(byte));
-    // Two equal letters in sequence would be spheres on top of each other.
-    let sign = |pair: &[u8]| match (pair[1] + 3 - pair[0]) % 3 {
-        1 => Some(Sign::Plus),
-        2 => Some(Sign::Minus),
-        _ => None,
-    };
-    if known {
-        bytes.windows(2).map(sign).collect()
-    } else {
-        None
+/// The error for a text with a fault at this byte.
+fn misspelled(text: &str, fault: usize) -> Error {
+    if text.chars().nth(QUOTED).is_none() {
+        return Error::syntax(text, "a stacking such as ++-+, ABCBC, chh or (2,1,1)");
+    }
+    // Before the fault all characters are of the notation, and a byte long.
+    Error::Misspelled {
+        text: Error::quoted(text),
+        position: fault + 1,
+        found: text.get(fault..).and_then(|rest| rest.chars().next()),
     }
 }
 
-fn signs_of_jagodzinski(text: &str) -> Option<Vec<Sign>> {
+/// Whether this is a number with more digits than any number of layers has.
+fn is_beyond_i128(length: &str) -> bool {
+    length.len() > 38
+        && length.bytes().all(|byte| byte.is_ascii_digit())
+        && length.parse::<i128>().is_err()
+}
+
+// The readers return the byte at which a text breaks the rules of its notation.
+
+fn signs_of_hagg(text: &str) -> Result<Vec<Sign>, usize> {
+    let sign = |(n, byte)| match byte {
+        b'+' => Ok(Sign::Plus),
+        b'-' => Ok(Sign::Minus),
+        _ => Err(n),
+    };
+    text.bytes().enumerate().map(sign).collect()
+}
+
+fn signs_of_abc(text: &str) -> Result<Vec<Sign>, usize> {
+    let pairs = text.bytes().zip(text.bytes().skip(1)).enumerate();
+    let sign = |(n, pair): (usize, (u8, u8))| match pair {
+        (b'A', b'B') | (b'B', b'C') | (b'C', b'A') => Ok(Sign::Plus),
+        (b'B', b'A') | (b'C', b'B') | (b'A', b'C') => Ok(Sign::Minus),
+        // Two equal letters in sequence would be spheres on top of each other.
+        _ => Err(n + 1),
+    };
+    pairs.map(sign).collect()
+}
+
+fn signs_of_jagodzinski(text: &str) -> Result<Vec<Sign>, usize> {
     let mut sign = Sign::Plus;
     let mut signs = Vec::from([sign]);
-    for byte in text.bytes() {
+    for (n, byte) in text.bytes().enumerate() {
         sign = match byte {
             b'h' => -sign,
             b'c' => sign,
-            _ => return None,
+            _ => return Err(n),
         };
         signs.push(sign);
     }
-    Some(signs)
+    Ok(signs)
 }
 
-fn runs_of_zhdanov(text: &str) -> Option<Vec<Run>> {
-    let inside = text.strip_prefix('(')?.strip_suffix(')')?;
+fn runs_of_zhdanov(text: &str) -> Result<Vec<Run>, usize> {
+    let inside = text.strip_prefix('(').ok_or(0_usize)?;
+    let inside = inside.strip_suffix(')').ok_or(text.len())?;
     if inside.is_empty() {
-        return Some(Vec::new());
+        return Ok(Vec::new());
     }
-    let mut sign = Sign::Minus;
+    let (mut sign, mut place) = (Sign::Minus, 1);
     let run = |length: &str| {
         sign = -sign;
-        let digits = !length.is_empty() && length.bytes().all(|byte| byte.is_ascii_digit());
-        let steps = if digits {
-            length.parse().ok()?
-        } else {
-            return None;
-        };
-        (steps > 0).then_some(Run { sign, steps })
+        let start = place;
+        place += length.len() + 1;
+        if let Some(fault) = length.bytes().position(|byte| !byte.is_ascii_digit()) {
+            return Err(start + fault);
+        }
+        match length.parse() {
+            Ok(0) | Err(_) => Err(start),
+            Ok(steps) => Ok(Run { sign, steps }),
+        }
     };
     inside.split(',').map(run).collect()
 }

@@ -13,7 +13,7 @@ use crate::scalar::{NearestFloat, Surd};
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cell {
+pub enum Cell {
     /// A count, in all number formats alike.
     Integer(BigInt),
     /// An index, in all number formats alike.
@@ -32,7 +32,7 @@ pub(crate) enum Cell {
 
 /// A number and its text.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Shown {
+pub struct Shown {
     pub(super) text: String,
     /// The exact number, where it is summed.
     pub(super) exact: Option<Surd>,

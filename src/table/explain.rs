@@ -138,32 +138,32 @@ impl<'p> Explanation<'p> {
     pub fn run(&self) -> Result<Counters, Error> {
         self.check()?;
         let counters = Counters::default();
-        let rows = self.units.pile().rows(self.question.part)?;
+        let part = self.question.part;
         let quantity = self.question.quantity;
-        let statics = match &self.units {
-            Units::Pile(statics) => statics.as_ref().clone().metered(&counters),
+        let forces = match &self.units {
+            Units::Pile(forces) => forces.as_ref().clone().metered(&counters),
             Units::Si(packing) => {
                 let packing = packing.as_ref().clone().metered(&counters);
                 match quantity {
-                    Quantity::ContactMagnitudes => all(packing.magnitudes(rows.clone()))?,
-                    Quantity::ContactVectors => all(packing.contacts(rows.clone()))?,
-                    Quantity::FloorForces => all(packing.base(rows.clone()))?,
-                    Quantity::Positions => all(packing.positions(rows.clone()))?,
+                    Quantity::ContactMagnitudes => all(packing.magnitudes(part)?)?,
+                    Quantity::ContactVectors => all(packing.contacts(part)?)?,
+                    Quantity::FloorForces => all(packing.base(part)?)?,
+                    Quantity::Positions => all(packing.positions(part)?)?,
                     Quantity::ContactMultiples | Quantity::FloorMultiples => {}
                 }
-                packing.statics().clone()
+                packing.forces().clone()
             }
         };
         match quantity {
-            Quantity::ContactMultiples => all(statics.contacts(rows))?,
-            Quantity::FloorMultiples => all(statics.base(rows))?,
+            Quantity::ContactMultiples => all(forces.contacts(part)?)?,
+            Quantity::FloorMultiples => all(forces.base(part)?)?,
             _ => {}
         }
         Ok(counters)
     }
 
     /// One row: `quantity, method, runs, visited, turned, passes, numbers, bits, planes, roots, rows, bytes`, all at most,
-    /// and what was counted, if it was: `counted_visited, counted_turned, counted_passes, counted_roots, counted_rows`.
+    /// and what was counted, if it was: `counted_visited, counted_turned, counted_passes, counted_rows`.
     ///
     /// # Examples
     /// ```
@@ -212,7 +212,7 @@ impl<'p> Explanation<'p> {
     ///
     /// let counters = Counters::default();
     /// let pile = Pile::triangular(10)?;
-    /// pile.statics::<f64>().metered(&counters).contact(Site::APEX, Direction::Alpha)?;
+    /// pile.forces::<f64>().metered(&counters).contact(Site::APEX, Direction::Alpha)?;
     /// let mut csv = Vec::new();
     /// Explanation::counted(&counters).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
     /// // One sphere visited, and nothing else.
@@ -225,12 +225,11 @@ impl<'p> Explanation<'p> {
     }
 }
 
-fn counted(counters: &Counters) -> [(&'static str, Cell); 5] {
+fn counted(counters: &Counters) -> [(&'static str, Cell); 4] {
     [
         ("counted_visited", count(counters.visited())),
         ("counted_turned", count(counters.turned())),
         ("counted_passes", count(counters.passes())),
-        ("counted_roots", count(counters.roots())),
         ("counted_rows", count(counters.rows())),
     ]
 }

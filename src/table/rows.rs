@@ -118,6 +118,42 @@ impl Table<'static> {
 }
 
 impl<'a> Table<'a> {
+    /// Returns the table, whose rows are shown to `look` before they are written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
+    ///
+    /// let (pile, mut seen) = (Pile::triangular(10)?, 0);
+    /// let table = table::base(&Units::of_pile(&pile), Selection::Base)?.inspect(|_| seen += 1);
+    /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut Vec::new())?;
+    /// assert_eq!(seen, 55);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn inspect<'b>(self, mut look: impl FnMut(&[Cell]) + 'b) -> Table<'b>
+    where
+        'a: 'b,
+    {
+        let rows = self.rows;
+        Table {
+            columns: self.columns,
+            layout: self.layout,
+            bounds: self.bounds,
+            count: self.count,
+            rows: Box::new(move |numbers| {
+                let rows = rows(numbers);
+                Box::new(rows.inspect(move |row| {
+                    if let Ok(row) = row {
+                        look(row);
+                    }
+                }))
+            }),
+        }
+    }
+
     /// A table of these rows, a line a row; `noun` says in the plural what they are.
     pub(crate) fn of_rows(
         columns: Vec<Column>,

@@ -12,9 +12,9 @@ use super::units::Units;
 use crate::census::Entry;
 use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::Surd;
-use crate::shape::{Rows, Selection};
+use crate::shape::Selection;
 use crate::theorem::{Proof, Theorem};
-use crate::{ContactForce, Error, FloorForce, Packing, Pile};
+use crate::{Base, ContactForce, Contacts, Error, FloorForce, Packing, Pile};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;
@@ -45,7 +45,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     let rows = pile.rows(selection)?;
     refuse_beyond(&rows.sites(), "ask for one sphere")?;
     // What cannot be done is refused before a row is written.
-    pile.plan(units.question(selection, true))?;
+    let forces = units.forces().base(selection)?;
     let mut columns = indices(pile, &[]);
     columns.push(Column::summed("normal", units.normal()));
     columns.push(Column::summed("shear_x", units.shear_x()));
@@ -53,11 +53,11 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
     let (count, bounds) = (rows.sites(), bounds(&columns, units));
-    let table = Table::of_rows(columns, "bottom spheres", base_rows(units, rows));
+    let table = Table::of_rows(columns, "bottom spheres", base_rows(units, forces));
     Ok(table.bounded(count, bounds))
 }
 
-fn base_rows<'p>(units: &Units<'p>, rows: Rows<'p>) -> RowIter<'p> {
+fn base_rows<'p>(units: &Units<'p>, forces: Base<'p, BigRational>) -> RowIter<'p> {
     fn cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
         let mut cells: Vec<Cell> = places(pile, force.site).collect();
         cells.extend([force.normal.into(), force.shear_x.into()]);
@@ -67,9 +67,11 @@ fn base_rows<'p>(units: &Units<'p>, rows: Rows<'p>) -> RowIter<'p> {
         cells
     }
     let pile = units.pile();
-    match units {
-        Units::Pile(statics) => Box::new(statics.base(rows).map(|force| Ok(cells(pile, force?)))),
-        Units::Si(packing) => Box::new(packing.base(rows).map(|force| Ok(cells(pile, force?)))),
+    match units.clone() {
+        Units::Pile(_) => Box::new(forces.map(|force| Ok(cells(pile, force?)))),
+        Units::Si(packing) => {
+            Box::new(forces.map(move |force| Ok(cells(pile, packing.floor_force(force?)))))
+        }
     }
 }
 
@@ -101,7 +103,7 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
     let rows = pile.rows(selection)?.off_the_floor();
     let count = rows.sites() * directions.len();
     refuse_beyond(&count, narrower(selection))?;
-    pile.plan(units.question(selection, false))?;
+    let forces = units.forces().contacts(selection)?;
     let mut columns = indices(pile, &["k"]);
     columns.push(Column::plain("direction"));
     columns.push(Column::summed("force", units.force()));
@@ -112,8 +114,8 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
     let bounds = bounds(&columns, units);
     let units = units.clone();
     let rows = move |numbers| match numbers {
-        NumberFormat::Exact | NumberFormat::Interval => exact_contacts(&units, rows),
-        NumberFormat::F64 | NumberFormat::F32 => rounded_contacts(&units, rows, numbers),
+        NumberFormat::Exact | NumberFormat::Interval => exact_contacts(&units, forces),
+        NumberFormat::F64 | NumberFormat::F32 => rounded_contacts(&units, forces, numbers),
     };
     Ok(Table::made_for(columns, "contacts", rows).bounded(count, bounds))
 }
@@ -127,17 +129,17 @@ fn contact_cells(pile: &Pile, site: Site, direction: Direction) -> Vec<Cell> {
     cells
 }
 
-fn exact_contacts<'p>(units: &Units<'p>, rows: Rows<'p>) -> RowIter<'p> {
+fn exact_contacts<'p>(units: &Units<'p>, forces: Contacts<'p, BigRational>) -> RowIter<'p> {
     let pile = units.pile();
-    match units {
-        Units::Pile(statics) => Box::new(statics.contacts(rows).map(|contact| {
+    match units.clone() {
+        Units::Pile(_) => Box::new(forces.map(|contact| {
             let contact = contact?;
             let mut cells = contact_cells(pile, contact.site, contact.direction);
             cells.push(contact.force.into());
             Ok(cells)
         })),
-        Units::Si(packing) => Box::new(packing.contacts(rows).map(|contact| {
-            let contact = contact?;
+        Units::Si(packing) => Box::new(forces.map(move |contact| {
+            let contact = packing.packed(contact?)?;
             let mut cells = contact_cells(pile, contact.site, contact.direction);
             cells.push(contact.force.into());
             cells.extend(contact.vector.map(Cell::from));
@@ -148,13 +150,17 @@ fn exact_contacts<'p>(units: &Units<'p>, rows: Rows<'p>) -> RowIter<'p> {
 }
 
 /// The contacts with floats: each distinct number is rounded and written out once.
-fn rounded_contacts<'p>(units: &Units<'p>, rows: Rows<'p>, numbers: NumberFormat) -> RowIter<'p> {
+fn rounded_contacts<'p>(
+    units: &Units<'p>,
+    contacts: Contacts<'p, BigRational>,
+    numbers: NumberFormat,
+) -> RowIter<'p> {
     let pile = units.pile();
     let shown_force = move |force: &Surd| Shown::new(force, numbers, "force", true);
     match units {
-        Units::Pile(statics) => {
+        Units::Pile(_) => {
             let mut forces = Distinct::new();
-            Box::new(statics.contacts(rows).map(move |contact| {
+            Box::new(contacts.map(move |contact| {
                 let ContactForce {
                     site,
                     direction,
@@ -180,7 +186,7 @@ fn rounded_contacts<'p>(units: &Units<'p>, rows: Rows<'p>, numbers: NumberFormat
             let mut points = Places::new(packing, move |x: &Surd| {
                 Shown::new(x, numbers, "a position", false)
             });
-            Box::new(packing.statics().contacts(rows).map(move |contact| {
+            Box::new(contacts.map(move |contact| {
                 let ContactForce {
                     site,
                     direction,

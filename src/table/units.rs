@@ -4,14 +4,13 @@ use num_rational::BigRational;
 
 use crate::lattice::Dimension;
 use crate::scalar::{Ring, Surd};
-use crate::shape::Selection;
-use crate::{Error, Method, Packing, Pile, Quantity, Question, Statics};
+use crate::{Error, Forces, Method, Packing, Pile};
 
 /// The units of a table.
 #[derive(Clone, Debug)]
 pub enum Units<'p> {
     /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
-    Pile(Box<Statics<'p, BigRational>>),
+    Pile(Box<Forces<'p, BigRational>>),
     /// Newtons and metres, for radius, mass and gravity in SI units.
     Si(Box<Packing<'p>>),
 }
@@ -32,7 +31,7 @@ impl<'p> Units<'p> {
     /// ```
     #[must_use]
     pub fn of_pile(pile: &'p Pile) -> Self {
-        Self::Pile(Box::new(pile.statics()))
+        Self::Pile(Box::new(pile.forces()))
     }
 
     /// Returns newtons and metres, for radius, mass and gravity in SI units.
@@ -58,9 +57,14 @@ impl<'p> Units<'p> {
 
     /// The pile.
     pub(crate) fn pile(&self) -> &'p Pile {
+        self.forces().pile()
+    }
+
+    /// Returns the forces in pile units, from which those in SI are made.
+    pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
         match self {
-            Self::Pile(statics) => statics.pile(),
-            Self::Si(packing) => packing.pile(),
+            Self::Pile(forces) => forces,
+            Self::Si(packing) => packing.forces(),
         }
     }
 
@@ -114,7 +118,7 @@ impl Units<'_> {
     /// Returns these units, for answers that are found by one method.
     ///
     /// # Errors
-    /// As for [`Statics::by`](crate::Statics::by).
+    /// As for [`Forces::by`](crate::Forces::by).
     ///
     /// # Examples
     /// ```
@@ -127,30 +131,12 @@ impl Units<'_> {
     /// ```
     pub fn by(self, method: Method) -> Result<Self, Error> {
         Ok(match self {
-            Self::Pile(statics) => Self::Pile(Box::new(statics.by(method)?)),
+            Self::Pile(forces) => Self::Pile(Box::new(forces.by(method)?)),
             Self::Si(packing) => Self::Si(Box::new(packing.by(method)?)),
         })
     }
 
     pub(super) fn method(&self) -> Option<Method> {
-        match self {
-            Self::Pile(statics) => statics.method(),
-            Self::Si(packing) => packing.method(),
-        }
-    }
-
-    /// The question that a table of contacts or of the base puts.
-    pub(crate) fn question(&self, part: Selection, of_floor: bool) -> Question {
-        let quantity = match (self, of_floor) {
-            (Self::Pile(_), true) => Quantity::FloorMultiples,
-            (Self::Pile(_), false) => Quantity::ContactMultiples,
-            (Self::Si(_), true) => Quantity::FloorForces,
-            (Self::Si(_), false) => Quantity::ContactVectors,
-        };
-        Question {
-            part,
-            quantity,
-            method: self.method(),
-        }
+        self.forces().method()
     }
 }

@@ -1,28 +1,27 @@
 //! The formulas that theorems are about, each replaceable by a wrong one.
 
-use crate::closed_form::{self, Increments};
+use crate::formula;
 use crate::geometry::{self, Vector};
-use crate::lattice::{Direction, Symmetry, count};
+use crate::lattice::{Direction, Sign, count};
 use crate::scalar::Polynomial;
-use crate::transfer;
 
 type P = Polynomial;
+/// By direction α, β, γ; of bounds, those of i, j and i+j.
+type Three = [P; 3];
 /// ê_a, ê_b, ê_c.
 type Directions = [Vector<P>; 3];
-/// Lower or upper bounds of i, j and i+j.
-type Bounds = [P; 3];
-/// What a sphere adds to its three lines.
-type Added = Increments<P, 3>;
 
-/// The formulas of the crate, run on polynomials. What each one means is said where it links to.
+/// The formulas of the crate, run on polynomials: what each one means is said where it links to.
+///
+/// They are exactly the functions that engines and answers call: a test reads the sources for it.
 #[derive(Clone, Copy, Debug)]
 pub struct Formulas {
     /// [`count::above`].
-    pub above: fn(&P, &P, &P) -> [P; 3],
-    /// [`Direction::descent`].
-    pub descent: fn(Direction) -> [i128; 3],
-    /// [`Symmetry::permute`] of [`Symmetry::ROTATION`].
-    pub rotate: fn(&[P; 3]) -> [P; 3],
+    pub above: fn(&P, &P, &P) -> Three,
+    /// [`count::bounds_above`].
+    pub bounds_above: fn(&P, &P, &Three, &Three, &P, Sign) -> [[P; 4]; 3],
+    /// [`Sign::descent`].
+    pub descent: fn(Sign, Direction) -> [i128; 2],
     /// [`count::spheres`].
     pub spheres: fn(&P, u32) -> P,
     /// [`count::spheres_in_layer`].
@@ -31,68 +30,62 @@ pub struct Formulas {
     pub contacts: fn(&P, u32) -> P,
     /// [`count::contacts_of_strength`].
     pub contacts_of_strength: fn(&P, &P, u32) -> P,
-    /// [`count::before`].
-    pub before: fn(&P, &P, &P, u32) -> P,
-    /// [`count::bounds_above`].
-    pub bounds_above: fn(&P, &P, &Bounds, &Bounds, &P) -> [[P; 4]; 3],
     /// [`geometry::directions`].
     pub directions: fn(&P) -> Directions,
     /// [`geometry::disc_directions`].
     pub disc_directions: fn() -> Directions,
+    /// [`Vector::turned_about_z`].
+    pub turned_about_z: fn(Vector<P>) -> Vector<P>,
     /// [`geometry::position`].
-    pub position: fn(&[P; 3], &Directions) -> Vector<P>,
+    pub position: fn(&Three, &Directions) -> Vector<P>,
     /// [`geometry::squared_distance`].
-    pub squared_distance: fn(&[P; 3], &P, &P) -> P,
-    /// [`Increments::isosceles`].
-    pub increments: fn(&P) -> Added,
-    /// [`Increments::force`].
-    pub force: fn(&Added, P, usize) -> P,
-    /// [`Increments::from_above`].
-    pub from_above: fn(&Added, &[P; 3]) -> [P; 3],
-    /// [`Increments::to_below`].
-    pub to_below: fn(&Added, &[P; 3]) -> [P; 3],
-    /// [`Increments::carried`].
-    pub carried: fn(&Added, &[P; 3]) -> P,
-    /// [`closed_form::resultant_above`].
-    pub resultant_above: fn(&[P; 3], &Added, &Directions) -> Vector<P>,
-    /// [`closed_form::force_on_floor`].
-    pub force_on_floor: fn(&[P; 3], &Added, &Directions, &P) -> Vector<P>,
-    /// [`closed_form::unbalanced`].
-    pub unbalanced: fn(&[P; 3], &Added, &Directions, &P) -> Vector<P>,
-    /// [`closed_form::corner_shear_ratio`].
-    pub corner_shear_ratio: fn(&P, &Added, usize) -> (P, P),
-    /// [`transfer::half_turn`].
-    pub half_turn: fn(&[P; 3]) -> [P; 3],
-    /// [`transfer::tripled_half_turn`].
-    pub tripled_half_turn: fn(&[P; 3]) -> [P; 3],
+    pub squared_distance: fn(&Three, &P, &P) -> P,
+    /// [`formula::increments`].
+    pub increments: fn(&P) -> Three,
+    /// [`formula::weight`].
+    pub weight: fn(&[P]) -> P,
+    /// [`formula::force`].
+    pub force: fn(P, &P) -> P,
+    /// [`formula::passed_on`].
+    pub passed_on: fn(P, &P) -> P,
+    /// [`formula::resultant`].
+    pub resultant: fn(&Three, &Directions) -> Vector<P>,
+    /// [`formula::handed_on`].
+    pub handed_on: fn(&Three, &Directions, &P) -> Vector<P>,
+    /// [`formula::unbalanced`].
+    pub unbalanced: fn(&Three, &Directions, &Three, &Directions, &P) -> Vector<P>,
+    /// [`formula::half_turn`].
+    pub half_turn: fn(&Three) -> Three,
+    /// [`formula::tripled_half_turn`].
+    pub tripled_half_turn: fn(&Three) -> Three,
+    /// [`formula::tripled_apart`].
+    pub tripled_apart: fn(&Three) -> Three,
 }
 
 impl Formulas {
-    /// The functions that users call.
+    /// The functions that engines and answers call.
     pub const LIBRARY: Self = Self {
         above: count::above,
-        descent: Direction::descent,
-        rotate: |above| Symmetry::ROTATION.permute(above),
+        bounds_above: count::bounds_above,
+        descent: Sign::descent,
         spheres: count::spheres,
         spheres_in_layer: count::spheres_in_layer,
         contacts: count::contacts,
         contacts_of_strength: count::contacts_of_strength,
-        before: count::before,
-        bounds_above: count::bounds_above,
         directions: geometry::directions,
         disc_directions: geometry::disc_directions,
+        turned_about_z: Vector::turned_about_z,
         position: geometry::position,
         squared_distance: geometry::squared_distance,
-        increments: Increments::isosceles,
-        force: Increments::force,
-        from_above: Increments::from_above,
-        to_below: Increments::to_below,
-        carried: Increments::carried,
-        resultant_above: closed_form::resultant_above,
-        force_on_floor: closed_form::force_on_floor,
-        unbalanced: closed_form::unbalanced,
-        corner_shear_ratio: closed_form::corner_shear_ratio,
-        half_turn: transfer::half_turn,
-        tripled_half_turn: transfer::tripled_half_turn,
+        increments: formula::increments,
+        weight: formula::weight,
+        force: formula::force,
+        passed_on: formula::passed_on,
+        resultant: formula::resultant,
+        handed_on: formula::handed_on,
+        unbalanced: formula::unbalanced,
+        half_turn: formula::half_turn::<P>,
+        tripled_half_turn: formula::tripled_half_turn,
+        tripled_apart: formula::tripled_apart,
     };
 }

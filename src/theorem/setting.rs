@@ -1,9 +1,11 @@
 //! Symbols, sums over piles, and what a pile is made of, for the proofs.
 
+use alloc::format;
+use alloc::vec::Vec;
+
 use num_traits::{One, Zero};
 
-use super::Formulas;
-use crate::closed_form::Increments;
+use super::{Formulas, Step};
 use crate::geometry::Vector;
 use crate::scalar::{Algebra, Polynomial, Ring, Symbol};
 
@@ -29,7 +31,9 @@ pub(super) fn half() -> P {
 pub(super) struct Setting {
     /// sin φ.
     pub(super) s: P,
-    pub(super) increments: Increments<P, 3>,
+    pub(super) increments: [P; 3],
+    /// W.
+    pub(super) weight: P,
     pub(super) directions: [Vector<P>; 3],
 }
 
@@ -53,16 +57,52 @@ impl Setting {
     }
 
     fn with_sin_phi(f: &Formulas, s: P) -> Self {
+        let increments = (f.increments)(&s);
         Self {
-            increments: (f.increments)(&s),
+            weight: (f.weight)(&increments),
+            increments,
             directions: (f.directions)(&s),
             s,
         }
     }
 
-    /// W.
-    pub(super) fn weight(&self) -> &P {
-        self.increments.sum()
+    /// The forces from above on a sphere with so many above it on its lines.
+    pub(super) fn from_above(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
+        let [w_a, w_b, w_c] = &self.increments;
+        [
+            (f.force)(a.clone(), w_a),
+            (f.force)(b.clone(), w_b),
+            (f.force)(c.clone(), w_c),
+        ]
+    }
+
+    /// What a sphere passes on of the forces from above.
+    pub(super) fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
+        passed_on(f, from_above, &self.increments)
+    }
+
+    /// What a sphere of weight `n` adds to its lines, and that weight in the unit of forces.
+    pub(super) fn loaded(&self, f: &Formulas, n: &P) -> ([P; 3], P) {
+        let own = self.from_above(f, &[n.clone(), n.clone(), n.clone()]);
+        (own, (f.force)(n.clone(), &self.weight))
+    }
+
+    /// The unit vectors along contacts under − steps.
+    pub(super) fn turned_directions(&self, f: &Formulas) -> [Vector<P>; 3] {
+        self.directions.clone().map(f.turned_about_z)
+    }
+
+    /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
+    pub(super) fn handed_on(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+        (f.handed_on)(&self.from_above(f, above), &self.directions, &self.weight)
+    }
+
+    /// What is left over of all forces on such a sphere.
+    pub(super) fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+        let from_above = self.from_above(f, above);
+        let to_below = self.to_below(f, from_above.clone());
+        let e = &self.directions;
+        (f.unbalanced)(&to_below, e, &from_above, e, &self.weight)
     }
 
     /// The squared horizontal length of a vector, over sin²θ: x² + 4(1−s²)·y².
@@ -70,6 +110,25 @@ impl Setting {
         let across = int(4) * &(P::one() - &(self.s.clone() * &self.s));
         v.x.clone() * &v.x + &(across * &(v.y.clone() * &v.y))
     }
+}
+
+/// What a sphere passes on along its three lines, from what it receives and adds.
+pub(super) fn passed_on(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
+    let [own_a, own_b, own_c] = own;
+    [
+        (f.passed_on)(a, own_a),
+        (f.passed_on)(b, own_b),
+        (f.passed_on)(c, own_c),
+    ]
+}
+
+/// One step for each component of two vectors.
+pub(super) fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
+    let sides = left.into_array().into_iter().zip(right.into_array());
+    let sides = ["x", "y", "z"].into_iter().zip(sides);
+    sides
+        .map(|(axis, (left, right))| Step::equal(format!("{axis}: {claim}"), left, right))
+        .collect()
 }
 
 /// The counts of spheres above (i, j, k), all symbols.

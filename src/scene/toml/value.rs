@@ -11,9 +11,7 @@ use ::toml::de::{DeInteger, DeTable, DeValue};
 use num_bigint::BigInt;
 
 use crate::Error;
-
-/// The longest hexadecimal, octal or binary integer that is read, in digits.
-const LONGEST: usize = 5_000;
+use crate::scalar::parse::MOST_DIGITS;
 
 /// A value under a key.
 pub(super) struct Value<'a> {
@@ -124,7 +122,7 @@ impl<'a> Value<'a> {
 /// The integer in decimal digits.
 fn digits<'a>(integer: &'a DeInteger<'_>) -> Cow<'a, str> {
     let digits = integer.as_str();
-    if integer.radix() == 10 || digits.len() > LONGEST {
+    if integer.radix() == 10 || digits.len() > MOST_DIGITS {
         return Cow::Borrowed(digits);
     }
     let value = BigInt::parse_bytes(digits.as_bytes(), integer.radix());
@@ -149,7 +147,7 @@ pub(super) fn not_toml(file: &str, error: &::toml::de::Error) -> Error {
     Error::NotToml { line, reason }
 }
 
-/// A character as it is, or escaped if it would break the line.
+/// A character, escaped if it would break the line.
 fn printable(c: char) -> impl Iterator<Item = char> {
     let escaped = c.is_control().then(|| c.escape_debug());
     let plain = (!c.is_control()).then_some(c);

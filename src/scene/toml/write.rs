@@ -2,6 +2,7 @@
 
 use alloc::format;
 use alloc::string::{String, ToString};
+use core::fmt;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -9,11 +10,11 @@ use num_traits::ToPrimitive;
 
 use crate::lattice::Dimension;
 use crate::scene::parse::At;
-use crate::scene::text::{pattern, shape};
 use crate::scene::{Anchor, Scene};
 
 impl Scene {
-    /// The scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads the same scene back.
+    /// Returns the scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads it back as it
+    /// was.
     ///
     /// What is left to its default is left out; sizes and weights are always there. Every scene is read back that
     /// was itself read, by the parsers of texts or of files; of others, those whose numbers have a length that
@@ -42,21 +43,21 @@ impl Scene {
                 Some(Anchor::Base(_)) => "How layers follow one another, from the base up.",
                 _ => "How layers follow one another, from the top.",
             };
-            file.key(comment, "stacking", &quoted(&pattern(stacking)));
+            file.key(comment, "stacking", &quoted(stacking));
         }
         match &self.anchor {
             Some(Anchor::Top(top)) => {
                 file.key(
                     "The top layer, from which the pile grows down.",
                     "top",
-                    &quoted(&shape(top)),
+                    &quoted(format_args!("{top:#}")),
                 );
             }
             Some(Anchor::Base(base)) => {
                 file.key(
                     "The bottom layer, from which the pile grows up.",
                     "base",
-                    &quoted(&shape(base)),
+                    &quoted(format_args!("{base:#}")),
                 );
             }
             None => {}
@@ -106,7 +107,7 @@ impl Scene {
     fn loads_array(&self) -> String {
         let mut array = String::from("[\n");
         for (at, load) in &self.loads {
-            let load = quoted(&format!("{}={load}", place(at, self.dimension)));
+            let load = quoted(format!("{}={load}", place(at, self.dimension)));
             array.extend(["    ", &load, ",\n"]);
         }
         array.push(']');
@@ -125,7 +126,7 @@ impl File {
 }
 
 /// A TOML string; none of these texts has a character to escape.
-fn quoted(text: &str) -> String {
+fn quoted(text: impl fmt::Display) -> String {
     format!("\"{text}\"")
 }
 
@@ -133,7 +134,7 @@ fn quoted(text: &str) -> String {
 fn integer(n: &BigInt) -> String {
     match n.to_i64() {
         Some(n) => n.to_string(),
-        None => quoted(&n.to_string()),
+        None => quoted(n),
     }
 }
 
@@ -141,7 +142,7 @@ fn number(r: &BigRational) -> String {
     if r.is_integer() {
         integer(r.numer())
     } else {
-        quoted(&r.to_string())
+        quoted(r)
     }
 }
 

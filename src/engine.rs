@@ -1,0 +1,40 @@
+//! How a line gets its force: the plan, and the engines that it chooses among.
+//!
+//! | method | how | where |
+//! |---|---|---|
+//! | *closed* | by counting the spheres on a line, paper, (8) and (9) | `tree.rs`, which such a line begins |
+//! | *tree* | the lines above one sphere, which begin at the changes of sign | `tree.rs` |
+//! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs | `sweep.rs`, `cells.rs`, `limbs.rs` |
+//! | *table* | the distinct forces of a straight pile, copied row by row | `table.rs` |
+//!
+//! Engines know a [`System`](crate::pile::System), not a pile. They count and pass on by the functions of
+//! [`formula`](crate::formula), and by nothing else.
+
+mod cells;
+mod ends;
+mod grid;
+mod limbs;
+mod lines;
+mod meter;
+mod parallel;
+mod plan;
+mod question;
+mod rows;
+mod single;
+mod sweep;
+mod table;
+mod tree;
+
+pub(crate) use cells::Cells;
+pub(crate) use grid::{Grid, MAX_NUMBERS};
+pub(crate) use limbs::Planes;
+pub(crate) use lines::{Lines, Received};
+pub use meter::{Counters, Meter};
+pub use plan::Plan;
+pub(crate) use plan::{Keeping, trees_are_cheaper};
+pub use question::{Method, Quantity, Question};
+pub(crate) use rows::{Engine, exact_sweep};
+pub(crate) use single::{closed_contact, plain_sweep, received};
+pub(crate) use sweep::Descent;
+pub(crate) use table::Table;
+pub(crate) use tree::{Wanted, nodes};

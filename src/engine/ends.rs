@@ -1,0 +1,87 @@
+//! Where the forces of a layer take their extremes.
+//!
+//! Along a row the forces are linear between few places, and what is looked for is greatest at the ends of such pieces:
+//! a linear function of the three forces, and the ratio of shear to normal force. The lemma and its reason are in
+//! [`paper`](crate::paper#extremes). A layer has as many rows as a side has spheres: far fewer places than spheres.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
+
+use num_bigint::BigUint;
+
+use super::lines::{Lines, start_of};
+use crate::Error;
+use crate::lattice::Direction;
+use crate::scalar::Algebra;
+use crate::shape::Stretch;
+
+/// The ends of pieces in a row, if nothing special meets it: the ends of the row, and three places for each line.
+const ENDS_OF_A_ROW: u32 = 14;
+
+impl<T: Algebra> Lines<'_, T> {
+    /// Returns how many sites [`ends_of_pieces`](Self::ends_of_pieces) has at most.
+    pub(crate) fn most_ends_of_pieces(&self, k: i128) -> Result<BigUint, Error> {
+        let region = self.shape.layer(k)?;
+        let rows = BigUint::from((region.y().end() - region.y().start() + 1).unsigned_abs());
+        let starts = match self.shape.stretch_to(k) {
+            Some(run) if run.index > 0 => self.shape.layer(run.from)?.sites(),
+            _ => BigUint::ZERO,
+        };
+        Ok(rows * ENDS_OF_A_ROW + (starts + self.extra_weights.len()) * 9_u32)
+    }
+
+    /// Returns the rows of layer `k`, each with the places i where a piece of it ends: with all spheres whose lines come
+    /// from a change of sign, or carry more than ordinary weights of the last run, and their neighbours.
+    pub(crate) fn ends_of_pieces(
+        &self,
+        k: i128,
+    ) -> Result<impl Iterator<Item = (i128, Vec<[i128; 2]>)> + use<'_, T>, Error> {
+        let run = self.shape.stretch_to(k);
+        let special = self.ends_of_extras(k, run);
+        let rows = self.shape.layer(k)?.rows(k);
+        Ok(rows.map(move |row| {
+            let mut ends = BTreeSet::from([row.i.start, row.i.end - 1]);
+            if let Some(run) = run {
+                let steps = k - run.from;
+                for count in self.shape.row_counts(&run, k, row.j) {
+                    let level = (
+                        count.rises.map_or(row.i.start, |from| from + count.cap),
+                        count.falls.map_or(row.i.end - 1, |until| until - count.cap),
+                    );
+                    ends.extend([level.0, level.1]);
+                    if let (Some(from), Some(until)) = (count.rises, count.falls) {
+                        let top = (from + until).div_euclid(2);
+                        ends.extend([top, top + 1]);
+                    }
+                    if run.index > 0 && count.cap == steps {
+                        let within = (level.0 - 1).max(row.i.start)..(level.1 + 2).min(row.i.end);
+                        ends.extend(within);
+                    }
+                }
+            }
+            ends.extend(special.get(&row.j).into_iter().flatten());
+            let inside = ends.into_iter().filter(|i| row.i.contains(i));
+            (row.j, inside.map(|i| [i, row.j]).collect())
+        }))
+    }
+
+    /// The spheres of layer `k` that weigh more, and those on whose lines, within the run down to there, such spheres
+    /// lie, with the places beside them, by row.
+    fn ends_of_extras(&self, k: i128, run: Option<Stretch>) -> BTreeMap<i128, Vec<i128>> {
+        let mut rows: BTreeMap<i128, Vec<i128>> = BTreeMap::new();
+        let mut meet = |[i, j]: [i128; 2]| {
+            rows.entry(j).or_default().extend([i - 1, i, i + 1]);
+        };
+        for site in self.extras_in(k..k + 1) {
+            meet([site.i, site.j]);
+        }
+        if let Some(run) = run {
+            for site in self.extras_in(run.from..k) {
+                for direction in Direction::ALL {
+                    meet(start_of([site.i, site.j], direction, run.sign, site.k - k));
+                }
+            }
+        }
+        rows
+    }
+}

@@ -1,0 +1,196 @@
+//! Where the lines of a layer have their cells.
+//!
+//! # Lines keep their cells
+//! From layer to layer every line of contacts goes on: each sphere receives three and passes three on. So a line is
+//! given a cell, once for all, named by where the line will be in the last layer: the lines of direction α by the site
+//! (i, j) they end at, and a sphere (i, j) of layer k finds its three lines at
+//!
+//! α: (i, j), β: (i+o, j), γ: (i, j+o), where o is the net number of + steps from layer k to the last one.
+//!
+//! A step without a change of sign moves nothing: lines count up, and a whole run is one pass that adds to each cell
+//! the increments of the spheres on it ([`Region::spheres_above`]). A change of sign turns the three cells of each
+//! sphere in place. A line that has not begun is a cell that holds zero.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use num_bigint::BigUint;
+
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::Region;
+use crate::scalar::Algebra;
+use crate::shape::{Shape, Stretch};
+
+/// The most numbers that a sweep keeps, 1 GiB of `i64`.
+pub(crate) const MAX_NUMBERS: u64 = 1 << 27;
+
+/// Where the lines of a layer have their cells.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid<'p> {
+    pub(super) shape: &'p Shape,
+    /// The last layer of the sweep, which names the cells.
+    pub(super) last: i128,
+    first_row: i128,
+    /// By row of the last layer: its first site and that site's cell.
+    rows: Vec<(i128, usize)>,
+    pub(super) cells: usize,
+}
+
+/// One pass: the layer that it leads to, and where that layer's rows lie.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pass {
+    /// The run passed through, down to `k`.
+    pub(crate) run: Stretch,
+    /// Whether a change of sign follows at layer `k`.
+    pub(crate) turns: bool,
+    /// The layer that the pass begins at.
+    pub(crate) from: i128,
+    /// The layer that it leads to.
+    pub(crate) k: i128,
+    pub(crate) region: Region,
+    /// The net number of + steps from layer `k` to the last one.
+    pub(super) shift: i128,
+}
+
+impl Pass {
+    /// No line of the layer has more spheres of the pass on it: not more than steps, nor than sites on a side.
+    pub(super) fn greatest_count(&self) -> i128 {
+        let widths = self.region.widths();
+        widths.into_iter().fold(self.k - self.from, i128::min)
+    }
+}
+
+impl<'p> Grid<'p> {
+    /// The cells of a sweep from the top to layer `last`, each of `planes` numbers.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`], with the size; [`Error::LayerOutside`].
+    pub(crate) fn new(shape: &'p Shape, last: i128, planes: usize) -> Result<Self, Error> {
+        Self::numbers(shape, last, planes)?;
+        let region = shape.layer(last)?;
+        let mut rows = Vec::new();
+        let mut cells = 0;
+        for row in region.rows(last) {
+            rows.push((row.i.start, cells));
+            cells += length(&row.i);
+        }
+        Ok(Self {
+            shape,
+            last,
+            first_row: *region.y().start(),
+            rows,
+            cells,
+        })
+    }
+
+    /// How many numbers they are.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn numbers(shape: &Shape, last: i128, planes: usize) -> Result<BigUint, Error> {
+        let numbers = shape.layer(last)?.sites() * 3_u32 * planes;
+        if numbers > BigUint::from(MAX_NUMBERS) {
+            return Err(Error::TooLarge {
+                quantity: "a sweep down to this layer",
+                needed: numbers,
+                limit: MAX_NUMBERS,
+                remedy: "ask for one sphere, or for fewer layers",
+            });
+        }
+        Ok(numbers)
+    }
+
+    /// Returns the next pass on the way from layer `from` down to layer `to`: through one run, or as far as it is asked
+    /// for. `None` where there is none.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if a line of the layer that it leads to has no cell.
+    pub(crate) fn pass(&self, from: i128, to: i128) -> Result<Option<Pass>, Error> {
+        if from >= to {
+            return Ok(None);
+        }
+        let run = self.shape.stretch_to(from + 1);
+        let run = run.ok_or_else(|| bug("a run leads to every layer below the top"))?;
+        let k = run.to.min(to);
+        let pass = Pass {
+            run,
+            turns: k == run.to && k < self.shape.layers() - 1 && k < self.last,
+            from,
+            k,
+            region: self.shape.layer(k)?,
+            shift: self.shift(k),
+        };
+        // Layers are convex, and so are the places their lines lead to: the corners speak for all.
+        let places = pass.region.corners().into_iter().flat_map(|[i, j]| {
+            let shift = pass.shift;
+            [[i, j], [i + shift, j], [i, j + shift]]
+        });
+        if places.into_iter().all(|[i, j]| self.cell(i, j).is_some()) {
+            Ok(Some(pass))
+        } else {
+            Err(bug("every line of a layer goes on to the last one"))
+        }
+    }
+
+    pub(super) fn shift(&self, k: i128) -> i128 {
+        self.shape.shift(self.last) - self.shape.shift(k)
+    }
+
+    /// Returns the cell of the line that leads to the place (i, j) of the last layer, if that place is in it.
+    fn cell(&self, i: i128, j: i128) -> Option<usize> {
+        let row = usize::try_from(j.checked_sub(self.first_row)?).ok()?;
+        let (first, cell) = self.rows.get(row)?;
+        let along = usize::try_from(i.checked_sub(*first)?).ok()?;
+        let end = self.rows.get(row + 1).map_or(self.cells, |(_, next)| *next);
+        cell.checked_add(along).filter(|cell| *cell < end)
+    }
+
+    /// Returns the cells of consecutive lines, from the place (i, j) in the last layer on.
+    fn range(&self, i: i128, j: i128, length: usize) -> Range<usize> {
+        let start = self.cell(i, j);
+        debug_assert!(start.is_some(), "a line of a checked pass has a cell");
+        // Not a default: without a cell there is no number to take or change.
+        let start = start.unwrap_or(self.cells);
+        start..start + length
+    }
+
+    /// The cells of a row of sites of a layer, by direction.
+    pub(super) fn row(&self, j: i128, i: &Range<i128>, shift: i128) -> [Range<usize>; 3] {
+        let n = length(i);
+        [
+            self.range(i.start, j, n),
+            self.range(i.start + shift, j, n),
+            self.range(i.start, j + shift, n),
+        ]
+    }
+
+    /// The cells of a sphere of layer `k`, by direction.
+    pub(crate) fn site(&self, i: i128, j: i128, k: i128) -> [usize; 3] {
+        let shift = self.shift(k);
+        self.row(j, &(i..i + 1), shift).map(|cells| cells.start)
+    }
+}
+
+/// The numbers of a layer, in one of the ways they are kept.
+pub(crate) trait Layer<T: Algebra> {
+    /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there.
+    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]);
+
+    /// Makes the passes that were only noted: before anything else is asked of the layer.
+    fn catch_up(&mut self, _grid: &Grid<'_>) {}
+
+    /// Adds to the three lines of a sphere.
+    fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]);
+
+    /// What the three lines of a sphere carry.
+    fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];
+}
+
+/// The number of sites in a range that fits in memory.
+fn length(i: &Range<i128>) -> usize {
+    let sites = usize::try_from(i.end - i.start);
+    debug_assert!(sites.is_ok(), "a row of a sweep fits in memory");
+    // Not a default: a row that is not in memory has no cells.
+    sites.unwrap_or(0)
+}

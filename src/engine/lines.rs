@@ -1,0 +1,238 @@
+//! What the lines of contacts of a pile add up to, run by run: the methods *closed* and *tree*.
+//!
+//! Within a run of steps of one sign a line just counts up, see [`paper`](crate::paper#lines): a sphere m layers into a run receives
+//! along a line the increments of the N spheres above it on the line, N ≤ m by
+//! [`Region::spheres_above`](crate::lattice::Region::spheres_above). If N < m the line begins at a surface, with
+//! nothing. If N = m it begins at the change of sign, with what the sphere there passes on across it, which needs the
+//! three forces on that sphere, and so on up: a tree whose nodes are pairs of a run and a site. Different branches meet
+//! at the same nodes again and again; each is visited once.
+//!
+//! A straight pile has no change of sign: its tree has no nodes, and every force is closed.
+
+use alloc::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero, pow};
+
+use super::meter::Meter;
+use crate::formula::{self, force, half_turn, passed_on};
+use crate::lattice::Sign;
+use crate::lattice::{Direction, Site};
+use crate::pile::System;
+use crate::scalar::{Algebra, Ring};
+use crate::shape::{Shape, Stretch};
+
+/// Forces on a sphere, by direction, as numerators.
+#[derive(Clone, Debug)]
+pub(crate) struct Received<T: Algebra> {
+    pub(crate) forces: [T::Numerator; 3],
+    /// The changes of sign before: the denominator is [`Lines::scale`] of it.
+    pub(crate) changes: usize,
+}
+
+/// What the spheres of a pile add to their lines, as numerators in the ring of the scalar.
+///
+/// A force after d changes of sign has the denominator [`scale`](Self::scale)(d).
+#[derive(Clone, Debug)]
+pub(crate) struct Lines<'p, T: Algebra> {
+    pub(super) shape: &'p Shape,
+    /// Of an ordinary sphere.
+    pub(super) ordinary: [T::Numerator; 3],
+    /// What some spheres add beside, by line, and by layer on it.
+    pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
+    /// What acts on some spheres beside an ordinary weight, in mg/W.
+    pub(super) extra_weights: BTreeMap<Site, T::Numerator>,
+    scale: T::Numerator,
+    /// Whether a change of sign triples the denominator: the ring of numerators has no thirds.
+    triples: bool,
+}
+
+/// A line of contacts within a run: its direction, and the place where it would cross layer 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Line {
+    run: usize,
+    direction: Direction,
+    place: [i128; 2],
+}
+
+/// Numerators over the denominator of `least`, which they share.
+fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerator {
+    let ([value, _], _) = T::numerators(&[value, least.clone()]);
+    value
+}
+
+impl<'p, T: Algebra> Lines<'p, T> {
+    pub(crate) fn new(system: &System<'p>) -> Self {
+        let (increments, loading) = (&system.increments, system.loading);
+        // One denominator for all: of increments, and of weights and loads times increments.
+        let least = BigRational::new(BigInt::one(), system.denominator());
+        let (_, scale) = T::numerators(core::array::from_ref(&least));
+        let ordinary = increments
+            .each_ref()
+            .map(|w| numerator::<T>(force(loading.ordinary(), w), &least));
+        let mut lines = Self {
+            shape: system.shape,
+            ordinary,
+            extras: BTreeMap::new(),
+            extra_weights: BTreeMap::new(),
+            scale,
+            triples: formula::triples::<T>(),
+        };
+        for (site, extra) in loading.extras() {
+            let run_below = lines
+                .shape
+                .stretch_to(site.k + 1)
+                .filter(|run| site.k < run.to);
+            for direction in Direction::ALL {
+                if let Some(run) = run_below {
+                    let own = force(extra.clone(), &increments[direction.index()]);
+                    let w = numerator::<T>(own, &least);
+                    lines
+                        .extras
+                        .insert((Line::through(site, direction, run), site.k), w);
+                }
+            }
+            let weight = force(extra, &formula::weight(increments));
+            let weight = numerator::<T>(weight, &least);
+            lines.extra_weights.insert(site, weight);
+        }
+        lines
+    }
+
+    /// The denominator of forces after so many changes of sign.
+    pub(crate) fn scale(&self, changes: usize) -> T::Numerator {
+        self.scaled(self.scale.clone(), changes)
+    }
+
+    /// A numerator over the first denominator, over the one after so many changes.
+    pub(super) fn scaled(&self, numerator: T::Numerator, changes: usize) -> T::Numerator {
+        if self.triples && changes > 0 {
+            numerator * &pow(T::Numerator::from_i128(3), changes)
+        } else {
+            numerator
+        }
+    }
+
+    /// A numerator over the denominator after `from` changes, over the one after `to`.
+    pub(crate) fn rescaled(&self, numerator: T::Numerator, from: usize, to: usize) -> T::Numerator {
+        self.scaled(numerator, to.saturating_sub(from))
+    }
+
+    /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
+    pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
+        let ordinary = formula::weight(&self.ordinary);
+        let weight = match self.extra_weights.get(&site) {
+            Some(extra) => ordinary + extra,
+            None => ordinary,
+        };
+        self.scaled(weight, changes)
+    }
+
+    /// Returns what `n` ordinary spheres add to a line of a direction, over the first denominator.
+    pub(crate) fn ordinary(&self, n: T::Numerator, line: usize) -> T::Numerator {
+        force(n, &self.ordinary[line])
+    }
+
+    /// What an ordinary sphere adds to its lines after so many changes.
+    pub(crate) fn increments_after(&self, changes: usize) -> [T::Numerator; 3] {
+        let ordinary = self.ordinary.each_ref();
+        ordinary.map(|w| self.scaled(w.clone(), changes))
+    }
+
+    /// What a sphere adds to its lines in the run below it, beside an ordinary weight.
+    pub(crate) fn extra(&self, site: Site) -> [T::Numerator; 3] {
+        let Some(run) = self.shape.stretch_to(site.k + 1) else {
+            return core::array::from_fn(|_| T::Numerator::zero());
+        };
+        Direction::ALL.map(|direction| {
+            let extra = self
+                .extras
+                .get(&(Line::through(site, direction, run), site.k));
+            // A sphere of ordinary weight has none.
+            extra.map_or_else(T::Numerator::zero, |extra| {
+                self.scaled(extra.clone(), run.index)
+            })
+        })
+    }
+
+    /// What the spheres of these layers add to their lines beside an ordinary weight.
+    pub(crate) fn extras_in(
+        &self,
+        layers: core::ops::Range<i128>,
+    ) -> impl Iterator<Item = Site> + '_ {
+        let first = |k| Site {
+            i: i128::MIN,
+            j: i128::MIN,
+            k,
+        };
+        let sites = self
+            .extra_weights
+            .range(first(layers.start)..first(layers.end));
+        sites.map(|(site, _)| *site)
+    }
+
+    /// Returns what a sphere passes on in each direction, from what it receives.
+    pub(crate) fn to_below(
+        &self,
+        site: Site,
+        above: Received<T>,
+        meter: impl Meter,
+    ) -> Received<T> {
+        let Some(run) = self.shape.stretch_to(site.k + 1) else {
+            return above;
+        };
+        let received = if run.index > above.changes {
+            meter.turn(1);
+            half_turn::<T>(&above.forces)
+        } else {
+            above.forces
+        };
+        self.with_own(site, received, run.index)
+    }
+
+    /// Returns what a sphere passes on, from what it receives, turned if the sign changes there.
+    pub(crate) fn with_own(
+        &self,
+        site: Site,
+        received: [T::Numerator; 3],
+        changes: usize,
+    ) -> Received<T> {
+        let mut forces = add(received, &self.increments_after(changes));
+        if !self.extra_weights.is_empty() && self.extra_weights.contains_key(&site) {
+            forces = add(forces, &self.extra(site));
+        }
+        Received { forces, changes }
+    }
+}
+
+/// Returns what a sphere passes on along its three lines.
+fn add<N: Ring>([a, b, c]: [N; 3], [own_a, own_b, own_c]: &[N; 3]) -> [N; 3] {
+    [
+        passed_on(a, own_a),
+        passed_on(b, own_b),
+        passed_on(c, own_c),
+    ]
+}
+
+impl Line {
+    pub(super) fn through(site: Site, direction: Direction, run: Stretch) -> Self {
+        let place = start_of([site.i, site.j], direction, run.sign, site.k);
+        Self {
+            run: run.index,
+            direction,
+            place,
+        }
+    }
+}
+
+/// The site so many steps up a line.
+pub(super) fn start_of(
+    [i, j]: [i128; 2],
+    direction: Direction,
+    sign: Sign,
+    steps: i128,
+) -> [i128; 2] {
+    let [di, dj] = sign.descent(direction);
+    [i - di * steps, j - dj * steps]
+}

@@ -1,0 +1,301 @@
+//! How a question is answered, and how much it takes: decided once, before anything is computed.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use num_bigint::{BigInt, BigUint};
+use num_traits::Zero;
+
+use super::grid::Grid;
+use super::limbs::{Size, bound};
+use super::question::{Method, Quantity};
+use super::tree::{MAX_NODES, check_tree};
+use crate::Error;
+use crate::lattice::Site;
+use crate::pile::System;
+use crate::scalar::{Algebra, Exactness};
+use crate::shape::Rows;
+
+/// The most spheres of a row that are answered from one tree.
+pub(crate) const CHUNK: i128 = 1024;
+
+/// In what the numbers of a sweep are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keeping {
+    /// In the limbs of the exact engine, as many as a proved bound asks for.
+    Limbs,
+    /// Each in so many words of 64 bits.
+    Words(usize),
+}
+
+impl Keeping {
+    /// Returns how a sweep keeps the numerators of a scalar.
+    pub(crate) fn of<T: Algebra>() -> Self {
+        match T::EXACTNESS {
+            Exactness::Exact => Self::Limbs,
+            _ => Self::Words(size_of::<T::Numerator>().div_ceil(size_of::<i64>())),
+        }
+    }
+}
+
+/// The method for a part of a pile, and what it takes.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Region;
+/// use cannonpile::shape::Selection;
+/// use cannonpile::{Method, Pile};
+///
+/// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+/// let plan = pile.plan(Selection::Base)?;
+/// assert_eq!(plan.method, Method::Sweep);
+/// assert_eq!(plan.to_string(), "sweep: 5 runs, 81 numbers of 1 x 64 bits");
+///
+/// // A base of 3·10³⁰ rows is streamed, row by row.
+/// let high = Pile::under(Region::SITE, format!("(2,1,{})", 10_i128.pow(30)).parse()?)?;
+/// assert_eq!(high.plan(Selection::Base)?.method, Method::Tree);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Plan {
+    /// How forces are found.
+    pub method: Method,
+    /// The runs of steps above the lowest layer asked for: a sweep jumps each of them, a tree has a level for each.
+    pub runs: usize,
+    /// The spheres whose forces are worked out or looked up, at most.
+    pub visited: BigUint,
+    /// Those of them that forces are turned on, across a change of sign, at most.
+    pub turned: BigUint,
+    /// The runs, or parts of one, that a sweep goes through at once, at most; 0 for the other methods.
+    pub passes: BigUint,
+    /// How many numbers a sweep keeps; 0 for the other methods.
+    pub numbers: BigUint,
+    /// The bits that exact numerators may need, by the proved bound; 0 where numbers grow as they must.
+    pub bits: u64,
+    /// The bits that a sweep reserves for them.
+    pub reserved: u64,
+    /// The `i64` limbs of each of them.
+    pub planes: usize,
+    /// The square roots that are taken, at most.
+    pub roots: u64,
+    /// How many answers there are.
+    pub rows: BigUint,
+    /// The memory that a sweep keeps its numbers in.
+    pub bytes: BigUint,
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.method)?;
+        match self.method {
+            Method::Closed => Ok(()),
+            Method::Tree => write!(f, ": {} runs", self.runs),
+            Method::Sweep => write!(
+                f,
+                ": {} runs, {} numbers of {} x 64 bits",
+                self.runs, self.numbers, self.planes
+            ),
+        }
+    }
+}
+
+/// Whether the trees above `above` spheres cost less than a sweep over `sweep` spheres.
+pub(crate) fn trees_are_cheaper(above: &BigUint, sweep: &BigUint) -> bool {
+    /// What the tree of one sphere costs, in spheres that a sweep passes.
+    const COST_OF_A_TREE: u32 = 16;
+    above * COST_OF_A_TREE < *sweep
+}
+
+impl System<'_> {
+    /// Errors if a method does not apply to the pile.
+    pub(crate) fn check_method(&self, method: Method) -> Result<(), Error> {
+        let applies = match method {
+            Method::Closed => self.is_straight(),
+            Method::Tree => true,
+            Method::Sweep => self.fills_its_layers(),
+        };
+        if applies {
+            Ok(())
+        } else {
+            Err(Error::NoSuchMethod { method })
+        }
+    }
+
+    /// Returns the width of the numbers of an exact sweep down to layer `last`, the change of sign there included.
+    pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
+        let run = self.shape.stretch_to(last + 1);
+        let run = run.or_else(|| self.shape.stretch_to(last));
+        Size::new(&self.bound_of_sweep(last), run.map_or(0, |run| run.index))
+    }
+
+    /// Returns a bound no less than 2√3·B·D on the numbers of an exact sweep down to layer `last`, before changes of
+    /// sign triple them.
+    pub(crate) fn bound_of_sweep(&self, last: i128) -> BigInt {
+        let [ordinary, extras] = self.magnitudes();
+        let spheres = self.shape.spheres_in(0..last + 1);
+        bound(last + 1, &spheres, &ordinary, &extras)
+    }
+
+    /// Returns how a question about the spheres in `rows` is answered by numbers kept in this way, and what it takes.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMethod`], [`Error::NotOnFloor`], [`Error::TooLarge`].
+    pub(crate) fn plan(
+        &self,
+        rows: &Rows<'_>,
+        quantity: Quantity,
+        method: Option<Method>,
+        keeping: Keeping,
+    ) -> Result<Plan, Error> {
+        if let Some(method) = method {
+            self.check_method(method)?;
+        }
+        let mut answers = rows.sites();
+        if quantity.is_of_contacts() {
+            answers *= self.shape.dimension().directions().len();
+        } else if quantity != Quantity::Positions {
+            self.check_on_floor(rows)?;
+        }
+        let last = last_of(rows);
+        let mut plan = Plan {
+            method: Method::Closed,
+            runs: self.shape.stretch_to(last).map_or(0, |run| run.index + 1),
+            visited: rows.sites(),
+            turned: BigUint::zero(),
+            passes: BigUint::zero(),
+            numbers: BigUint::zero(),
+            bits: 0,
+            reserved: 0,
+            planes: 0,
+            roots: quantity.roots(),
+            rows: answers,
+            bytes: BigUint::zero(),
+        };
+        if quantity == Quantity::Positions {
+            plan.visited = BigUint::zero();
+            return Ok(plan);
+        }
+        match method {
+            Some(Method::Closed) => {}
+            None if self.is_straight() => {}
+            Some(Method::Tree) => self.plan_trees(&mut plan, rows)?,
+            Some(Method::Sweep) => self.plan_sweep(&mut plan, rows, keeping)?,
+            None if rows.one().is_some() => {
+                // The one sphere is left to a sweep where its tree is too large.
+                if let Err(too_large) = self.plan_trees(&mut plan, rows) {
+                    let growing = match keeping {
+                        // In integers that grow, each with its digits elsewhere.
+                        Keeping::Limbs => {
+                            let digits = self.size_of_sweep(last).planes;
+                            Keeping::Words(digits + size_of::<BigInt>().div_ceil(size_of::<i64>()))
+                        }
+                        words @ Keeping::Words(_) => words,
+                    };
+                    self.plan_sweep(&mut plan, rows, growing)
+                        .map_err(|_| too_large)?;
+                }
+            }
+            None => {
+                let swept = self.plan_sweep(&mut plan, rows, keeping);
+                // What does not fit in memory is streamed by rows.
+                swept.or_else(|_| self.plan_trees(&mut plan, rows))?;
+            }
+        }
+        Ok(plan)
+    }
+
+    fn check_on_floor(&self, rows: &Rows<'_>) -> Result<(), Error> {
+        let floor = self.shape.layers() - 1;
+        match rows.clone().flatten().next() {
+            Some(site) if site.k != floor => Err(Error::NotOnFloor { site, floor }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Plans trees, each of a piece of a row.
+    fn plan_trees(&self, plan: &mut Plan, rows: &Rows<'_>) -> Result<(), Error> {
+        let last = last_of(rows);
+        let sites = rows.sites();
+        let mut pieces = BigUint::from(1_u32);
+        if rows.one().is_none() {
+            let (layers, height) = (rows.layers(), self.shape.layer(last)?.widths()[1]);
+            let layers = (layers.end - layers.start).max(0).unsigned_abs();
+            // Each row may end with a shorter piece.
+            pieces = BigUint::from(layers) * (height.unsigned_abs() + 1);
+            pieces += &sites / CHUNK.unsigned_abs();
+        }
+        // At a change of sign, three for each below, and no more than there are.
+        let most = BigUint::from(MAX_NODES);
+        let mut level = BigUint::from(CHUNK.unsigned_abs()).min(sites.clone());
+        let mut above = BigUint::zero();
+        let mut run = self.shape.stretch_to(last).filter(|run| run.index > 0);
+        while let (Some(stretch), true) = (run, above <= most) {
+            level = (level * 3_u32).min(self.shape.layer(stretch.from)?.sites());
+            above += &level;
+            run = self.shape.stretch(stretch.index - 1);
+            run = run.filter(|run| run.index > 0);
+        }
+        if above > most {
+            // It may be less, and is more for none.
+            match rows.one() {
+                Some(Site { i, j, k }) => check_tree(self.shape, k, &[[i, j]])?,
+                None => self.sample_trees(last)?,
+            }
+            above = most;
+        }
+        above *= pieces;
+        plan.method = Method::Tree;
+        plan.turned = &above + &sites;
+        plan.visited = above + sites;
+        Ok(())
+    }
+
+    /// Errors if a tree of layer `k` is too large: of four sample pieces, in the middle of the rows and of the corners.
+    /// Others may still be refused when they are asked for.
+    fn sample_trees(&self, k: i128) -> Result<(), Error> {
+        let region = self.shape.layer(k)?;
+        let corners = region.corners();
+        let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;
+        for j in [region.y().start().midpoint(*region.y().end()), mean(1)] {
+            let row = region.row(j);
+            for middle in [row.start.midpoint(row.end - 1), mean(0)] {
+                let piece = middle - CHUNK / 2..middle + CHUNK / 2;
+                let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
+                check_tree(self.shape, k, &sites)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Plans one sweep, down to the last layer.
+    fn plan_sweep(&self, plan: &mut Plan, rows: &Rows<'_>, keeping: Keeping) -> Result<(), Error> {
+        let (last, shape) = (last_of(rows), self.shape);
+        let size = self.size_of_sweep(last);
+        let words = match keeping {
+            Keeping::Limbs => size.planes,
+            Keeping::Words(words) => words,
+        };
+        let words_in_all = Grid::numbers(shape, last, words)?;
+        plan.method = Method::Sweep;
+        plan.numbers = shape.layer(last)?.sites() * 3_u32;
+        plan.bytes = words_in_all * size_of::<i64>();
+        (plan.bits, plan.reserved, plan.planes) = (size.bits, size.reserved(), size.planes);
+        plan.turned = BigUint::zero();
+        let changes = (1..).map_while(|run| shape.stretch(run));
+        for change in changes.take_while(|run| run.from <= last) {
+            plan.turned += shape.layer(change.from)?.sites();
+        }
+        plan.visited = rows.sites();
+        let layers = rows.layers();
+        let stops = (layers.end - layers.start).max(1).unsigned_abs();
+        plan.passes = BigUint::from(stops) + plan.runs;
+        Ok(())
+    }
+}
+
+/// Returns the lowest layer that rows are of.
+pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
+    let last = rows.one().map_or(rows.layers().end - 1, |site| site.k);
+    last.max(0)
+}

@@ -1,0 +1,170 @@
+//! The forces of many spheres, sphere after sphere in row order.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use num_rational::BigRational;
+
+use super::cells::Cells;
+use super::grid::{Grid, Layer};
+use super::limbs::Planes;
+use super::lines::{Lines, Received};
+use super::meter::Meter;
+use super::plan::{CHUNK, Plan, last_of};
+use super::question::Method;
+use super::single::{by_tree, plain_sweep, received};
+use super::sweep::Descent;
+use super::tree::Wanted;
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::Site;
+use crate::pile::System;
+use crate::scalar::Algebra;
+use crate::shape::Rows;
+
+/// What a plan has chosen to answer many spheres with.
+#[derive(Clone, Debug)]
+pub(crate) enum Engine<'p, T: Algebra, L> {
+    /// Each sphere by itself.
+    Single(Option<Method>),
+    /// A piece of a row at a time.
+    Tree(Option<Piece<T>>),
+    /// One layer in memory.
+    Sweep(Box<Descent<'p, T, L>>),
+}
+
+/// Consecutive spheres of a row with the forces from above on them.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece<T: Algebra> {
+    first: Site,
+    forces: Vec<[T::Numerator; 3]>,
+    changes: usize,
+}
+
+impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
+    fn new(
+        plan: &Plan,
+        rows: &Rows<'_>,
+        sweep: impl FnOnce(i128) -> Result<Descent<'p, T, L>, Error>,
+    ) -> Result<Self, Error> {
+        Ok(match plan.method {
+            Method::Tree if rows.one().is_none() => Self::Tree(None),
+            // A method that is cheapest is found again for each sphere, with what it falls back on.
+            method @ (Method::Closed | Method::Tree) => Self::Single(Some(method)),
+            Method::Sweep => Self::Sweep(Box::new(sweep(last_of(rows))?)),
+        })
+    }
+
+    /// Returns the forces from above on a sphere, which is not above the one asked before.
+    pub(crate) fn received(
+        &mut self,
+        pile: (&Lines<'p, T>, &System<'p>),
+        site: Site,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        match self {
+            Self::Single(method) => received(pile, (site, Wanted::All), *method, meter),
+            Self::Tree(piece) => Piece::at(piece, pile.0, site, meter),
+            Self::Sweep(sweep) => {
+                sweep.advance(site.k, meter)?;
+                meter.visit(1);
+                sweep.received(site)
+            }
+        }
+    }
+
+    /// Returns the forces to the spheres below one, which is not above the one asked before and not on the floor.
+    pub(crate) fn passed_on(
+        &mut self,
+        pile: (&Lines<'p, T>, &System<'p>),
+        site: Site,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        if let Self::Sweep(sweep) = self {
+            // Where the sign changes the cells are turned already.
+            sweep.advance(site.k, meter)?;
+            meter.visit(1);
+            return sweep.passed_on(site, meter);
+        }
+        let above = self.received(pile, site, meter)?;
+        Ok(pile.0.to_below(site, above, meter))
+    }
+}
+
+impl<'p, T: Algebra> Engine<'p, T, Cells<T::Numerator>> {
+    /// Returns the engine that a plan has chosen, in the numerators of the scalar.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if it does not fit in memory.
+    pub(crate) fn plain(
+        plan: &Plan,
+        rows: &Rows<'_>,
+        (lines, system): (&Lines<'p, T>, &System<'p>),
+    ) -> Result<Self, Error> {
+        Self::new(plan, rows, |last| plain_sweep(lines, system, last))
+    }
+}
+
+impl<'p> Engine<'p, BigRational, Planes> {
+    /// Returns the engine that a plan has chosen, with sweeps in limbs.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if it does not fit in memory.
+    pub(crate) fn exact(
+        plan: &Plan,
+        rows: &Rows<'_>,
+        (lines, system): (&Lines<'p, BigRational>, &System<'p>),
+    ) -> Result<Self, Error> {
+        Self::new(plan, rows, |last| exact_sweep(lines, system, last))
+    }
+}
+
+/// Returns a sweep in limbs down to layer `last`, at the top.
+///
+/// # Errors
+/// [`Error::TooLarge`] if a layer does not fit in memory.
+pub(crate) fn exact_sweep<'p>(
+    lines: &Lines<'p, BigRational>,
+    system: &System<'_>,
+    last: i128,
+) -> Result<Descent<'p, BigRational, Planes>, Error> {
+    let size = system.size_of_sweep(last);
+    let grid = Grid::new(lines.shape, last, size.planes)?;
+    let layer = Planes::new(&grid, system.bound_of_sweep(last));
+    Ok(Descent::new(lines.clone(), grid, layer))
+}
+
+impl<T: Algebra> Piece<T> {
+    /// Returns the forces from above on a sphere: from the piece it is in, or from a new one that begins with it.
+    fn at(
+        piece: &mut Option<Self>,
+        lines: &Lines<'_, T>,
+        site: Site,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        if let Some(found) = piece.as_ref().and_then(|piece| piece.get(site)) {
+            return Ok(found);
+        }
+        let Site { i, j, k } = site;
+        let end = lines.shape.layer(k)?.row(j).end;
+        let sites: Vec<[i128; 2]> = (i..end.min(i + CHUNK)).map(|i| [i, j]).collect();
+        let above = by_tree(lines, k, &sites, Wanted::All, meter)?;
+        let new = piece.insert(Self {
+            first: site,
+            forces: above.forces,
+            changes: above.changes,
+        });
+        new.get(site)
+            .ok_or_else(|| bug("a piece of a row begins with the sphere asked for"))
+    }
+
+    fn get(&self, site: Site) -> Option<Received<T>> {
+        let same_row = (site.k, site.j) == (self.first.k, self.first.j);
+        let place = usize::try_from(site.i.checked_sub(self.first.i)?).ok()?;
+        let forces = self.forces.get(place).filter(|_| same_row)?;
+        Some(Received {
+            forces: forces.clone(),
+            changes: self.changes,
+        })
+    }
+}

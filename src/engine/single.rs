@@ -1,0 +1,113 @@
+//! The forces on one sphere, by the method that was asked for or by the cheapest that will do.
+
+use num_traits::Zero;
+
+use super::cells::Cells;
+use super::grid::Grid;
+use super::lines::{Lines, Received};
+use super::meter::Meter;
+use super::plan::Keeping;
+use super::question::Method;
+use super::sweep::Descent;
+use super::tree::{Above, Wanted};
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::{Direction, Site};
+use crate::pile::System;
+use crate::scalar::{Algebra, Exactness};
+
+/// Returns the force below a sphere of a straight stacking along one line, if the closed form may be used.
+pub(crate) fn closed_contact<T: Algebra>(
+    lines: &Lines<'_, T>,
+    (site, direction): (Site, Direction),
+    method: Option<Method>,
+    meter: impl Meter,
+) -> Option<T::Numerator> {
+    let closed = matches!(method, None | Some(Method::Closed));
+    let force = closed.then(|| lines.closed_contact(site, direction))??;
+    meter.visit(1);
+    Some(force)
+}
+
+/// Returns the forces from above on a sphere of the pile, on the lines that are wanted; zero on others.
+///
+/// # Errors
+/// [`Error::TooLarge`] if it is too far below too many changes of sign.
+pub(crate) fn received<T: Algebra>(
+    (lines, system): (&Lines<'_, T>, &System<'_>),
+    (site, wanted): (Site, Wanted),
+    method: Option<Method>,
+    meter: impl Meter,
+) -> Result<Received<T>, Error> {
+    match method {
+        Some(Method::Sweep) => return by_sweep(lines, system, site, meter),
+        None | Some(Method::Closed) => {
+            if let Some(forces) = lines.closed(site, wanted) {
+                meter.visit(1);
+                return Ok(Received { forces, changes: 0 });
+            }
+        }
+        Some(Method::Tree) => {}
+    }
+    let above = match by_tree(lines, site.k, &[[site.i, site.j]], wanted, meter) {
+        // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
+        Err(too_large @ Error::TooLarge { .. }) if method.is_none() => {
+            return by_sweep(lines, system, site, meter).map_err(|_| too_large);
+        }
+        above => above?,
+    };
+    let forces = above.forces.into_iter().next();
+    Ok(Received {
+        forces: forces.ok_or_else(|| bug("a tree above one sphere has its forces"))?,
+        changes: above.changes,
+    })
+}
+
+/// Returns the forces from above on spheres of one layer, from the lines that lead to them.
+pub(super) fn by_tree<T: Algebra>(
+    lines: &Lines<'_, T>,
+    k: i128,
+    sites: &[[i128; 2]],
+    wanted: Wanted,
+    meter: impl Meter,
+) -> Result<Above<T>, Error> {
+    let above = lines.forces_above(k, sites, wanted)?;
+    meter.visit(above.nodes + sites.len());
+    meter.turn(above.nodes);
+    Ok(above)
+}
+
+/// Returns the forces from above on one sphere, after a sweep of the whole layer.
+fn by_sweep<T: Algebra>(
+    lines: &Lines<'_, T>,
+    system: &System<'_>,
+    site: Site,
+    meter: impl Meter,
+) -> Result<Received<T>, Error> {
+    let mut sweep = plain_sweep(lines, system, site.k)?;
+    sweep.advance(site.k, meter)?;
+    meter.visit(1);
+    sweep.received(site)
+}
+
+/// Returns a sweep down to layer `last` in the numerators of the scalar, at the top.
+///
+/// # Errors
+/// [`Error::TooLarge`] if a layer does not fit in memory.
+pub(crate) fn plain_sweep<'p, T: Algebra>(
+    lines: &Lines<'p, T>,
+    system: &System<'_>,
+    last: i128,
+) -> Result<Descent<'p, T, Cells<T::Numerator>>, Error> {
+    let mut words = match Keeping::of::<T>() {
+        Keeping::Words(words) => words,
+        Keeping::Limbs => size_of::<T::Numerator>().div_ceil(size_of::<i64>()),
+    };
+    if T::EXACTNESS == Exactness::Exact {
+        // Integers keep their digits elsewhere.
+        words += system.size_of_sweep(last).planes;
+    }
+    let grid = Grid::new(lines.shape, last, words)?;
+    let layer = Cells::new(&grid, &T::Numerator::zero());
+    Ok(Descent::new(lines.clone(), grid, layer))
+}

@@ -1,0 +1,147 @@
+//! Layer after layer, one layer in memory: the method *sweep*.
+//!
+//! The passes are linear, and alike for every number: a [`Cells`] of the numerators of a scalar is the generic sweep;
+//! several of `i64`, one for each limb, are the exact engine ([`Planes`]). Where lines have their cells: [`Grid`].
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use super::cells::Cells;
+use super::grid::{Grid, Layer, Pass};
+use super::limbs::{Least, Planes};
+use super::lines::{Lines, Received};
+use super::meter::Meter;
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::{Row, Site};
+use crate::scalar::Algebra;
+
+/// A pile on its way down: the forces of one layer.
+#[derive(Clone, Debug)]
+pub(crate) struct Descent<'p, T: Algebra, S> {
+    lines: Lines<'p, T>,
+    grid: Grid<'p>,
+    layer: S,
+    /// The last pass; none at the top.
+    pass: Option<Pass>,
+    k: i128,
+    /// Whether the extra weights and loads of layer `k` are on its lines already.
+    extras_added: bool,
+}
+
+impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
+    pub(crate) fn new(lines: Lines<'p, T>, grid: Grid<'p>, layer: S) -> Self {
+        Self {
+            lines,
+            grid,
+            layer,
+            pass: None,
+            k: 0,
+            extras_added: false,
+        }
+    }
+
+    /// The layer that it is at.
+    pub(crate) fn k(&self) -> i128 {
+        self.k
+    }
+
+    /// Goes down to layer `k`, if it is further down.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) -> Result<(), Error> {
+        while let Some(pass) = self.grid.pass(self.k, k)? {
+            self.add_extras_here();
+            self.add_extras(pass.from + 1..pass.k);
+            let increments = self.lines.increments_after(pass.run.index);
+            self.layer.pass(&self.grid, &pass, &increments);
+            meter.pass();
+            if M::COUNTS && pass.turns {
+                meter.turn(pass.region.sites().to_usize().unwrap_or(usize::MAX));
+            }
+            (self.k, self.pass, self.extras_added) = (pass.k, Some(pass), false);
+        }
+        self.layer.catch_up(&self.grid);
+        Ok(())
+    }
+
+    /// Puts the extra weights and loads of this layer on its lines.
+    pub(crate) fn add_extras_here(&mut self) {
+        if !self.extras_added {
+            self.add_extras(self.k..self.k + 1);
+            self.extras_added = true;
+        }
+    }
+
+    fn add_extras(&mut self, layers: Range<i128>) {
+        let sites: Vec<Site> = self.lines.extras_in(layers).collect();
+        if !sites.is_empty() {
+            self.layer.catch_up(&self.grid);
+        }
+        for site in sites {
+            let cells = self.grid.site(site.i, site.j, site.k);
+            self.layer.add_at(cells, &self.lines.extra(site));
+        }
+    }
+
+    /// Returns the forces from above on a sphere of this layer, which must be the last of the sweep.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if the sphere is of another layer.
+    pub(crate) fn received(&self, site: Site) -> Result<Received<T>, Error> {
+        if site.k != self.k {
+            return Err(bug("a sweep is asked of the layer that it is at"));
+        }
+        let cells = self.grid.site(site.i, site.j, site.k);
+        Ok(Received {
+            forces: self.layer.at(cells),
+            changes: self.pass.map_or(0, |pass| pass.run.index),
+        })
+    }
+
+    /// The changes of sign across which what the lines carry is turned.
+    pub(crate) fn turned_already(&self) -> usize {
+        self.pass
+            .map_or(0, |pass| pass.run.index + usize::from(pass.turns))
+    }
+
+    /// Returns what a sphere of this layer passes on.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if the sphere is of another layer.
+    pub(crate) fn passed_on(&self, site: Site, meter: impl Meter) -> Result<Received<T>, Error> {
+        let Received { forces, changes } = self.received(site)?;
+        Ok(match self.pass {
+            Some(pass) if pass.turns => self.lines.with_own(site, forces, changes + 1),
+            _ => self
+                .lines
+                .to_below(site, Received { forces, changes }, meter),
+        })
+    }
+}
+
+impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
+    /// What the lines of any row of this layer carry.
+    pub(crate) fn carried_by_rows<'s>(
+        &'s self,
+    ) -> impl Fn(&Row) -> [&'s [T::Numerator]; 3] + use<'s, 'p, T> {
+        let shift = self.grid.shift(self.k);
+        move |row| self.layer.slices(self.grid.row(row.j, &row.i, shift))
+    }
+}
+
+impl Descent<'_, BigRational, Planes> {
+    /// Returns the least number on the lines of this layer, and where it is.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] at the top, where no line has begun.
+    pub(crate) fn least(&mut self) -> Result<Least, Error> {
+        let pass = self.pass.as_ref();
+        let least = pass.and_then(|pass| self.layer.least(&self.grid, pass));
+        least.ok_or_else(|| bug("lines are compared below the top"))
+    }
+}

@@ -1,0 +1,196 @@
+//! All contact forces of a straight pile, copied into slices.
+//!
+//! A straight pile has few distinct forces: along a line they are 1, 2, 3, … increments. They are rounded once, into a
+//! table, and the rows of the pile are pieces of it: under one sphere, along a row of layer k, α runs down the table from
+//! k−j+1 increments to one, β runs up it, and γ stays at j+1; under any other top each direction rises, is level, and
+//! falls. Nothing else is computed and nothing allocated, and every row can be filled by itself.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use num_bigint::BigUint;
+use num_traits::ToPrimitive;
+
+use super::parallel;
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::{Along, Region, Sign, Slopes};
+use crate::pile::System;
+use crate::shape::Shape;
+
+/// The distinct contact forces of a straight pile, by direction: what 1, 2, 3, … increments come to.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Table<V> {
+    /// By direction; the n-th is that of n+1 increments. As long as there are layers above the floor.
+    tables: [Vec<V>; 3],
+    shape: Shape,
+}
+
+/// The most layers of a table; the contacts of as many take 10¹⁹ bytes.
+const MOST_LAYERS: i128 = 1_000_000;
+
+impl<V> Table<V> {
+    /// Returns the table of the values of n increments along a line, or `None` for a pile that has none: with changes of
+    /// sign or loads, of spheres that do not weigh mg, of discs, or of more than a million layers.
+    ///
+    /// # Errors
+    /// Those of `value`.
+    pub(crate) fn new(
+        system: &System<'_>,
+        value: impl Fn(i128, usize) -> Result<V, Error>,
+    ) -> Result<Option<Self>, Error> {
+        let shape = system.shape;
+        let few = system.is_straight() && system.is_even() && system.fills_its_layers();
+        if !few || shape.layers() > MOST_LAYERS {
+            return Ok(None);
+        }
+        let table = |line: usize| {
+            (1..shape.layers())
+                .map(|n| value(n, line))
+                .collect::<Result<Vec<V>, Error>>()
+        };
+        Ok(Some(Self {
+            tables: [table(0)?, table(1)?, table(2)?],
+            shape: shape.clone(),
+        }))
+    }
+}
+
+impl<V> Table<V> {
+    /// Returns the table of other values of the same forces.
+    ///
+    /// # Errors
+    /// Those of `value`.
+    pub(crate) fn map<U>(&self, value: impl Fn(&V) -> Result<U, Error>) -> Result<Table<U>, Error> {
+        let table = |line: usize| {
+            self.tables[line]
+                .iter()
+                .map(&value)
+                .collect::<Result<Vec<U>, Error>>()
+        };
+        Ok(Table {
+            tables: [table(0)?, table(1)?, table(2)?],
+            shape: self.shape.clone(),
+        })
+    }
+}
+
+/// From so many spheres on a part of the layers is worth a thread.
+const WORTH_A_THREAD: u32 = 1 << 15;
+
+impl<V: Clone + Send + Sync> Table<V> {
+    /// Writes the forces below layers above the floor, one layer after the other, into slices of as many numbers as they
+    /// have spheres; in two halves at once where there are threads.
+    pub(crate) fn fill(&self, layers: Range<i128>, slices: [&mut [V]; 3]) -> Result<(), Error> {
+        let Some((upper, lower)) = self.halves(&layers) else {
+            let mut rest = slices;
+            for k in layers {
+                self.fill_layer(k, &mut rest)?;
+            }
+            return Ok(());
+        };
+        let spheres = self.shape.spheres_in(upper.clone()).to_usize();
+        let mut rest = slices;
+        let above = split_front(&mut rest, spheres.ok_or_else(too_short)?)?;
+        let (mut first, mut second) = (Ok(()), Ok(()));
+        parallel::join(
+            || first = self.fill(upper, above),
+            || second = self.fill(lower, rest),
+        );
+        first.and(second)
+    }
+
+    /// Returns two parts of some layers with about as many spheres, where that is worth a thread.
+    fn halves(&self, layers: &Range<i128>) -> Option<(Range<i128>, Range<i128>)> {
+        let spheres = self.shape.spheres_in(layers.clone());
+        if !parallel::HAS_THREADS || spheres < BigUint::from(2 * WORTH_A_THREAD) {
+            return None;
+        }
+        // Layers grow like squares: the half of a pile lies at 0.8 of its height, or less.
+        let mut inside = layers.start + 1..layers.end;
+        let middle = inside.find(|k| self.shape.spheres_in(layers.start..*k) * 2_u32 >= spheres)?;
+        Some((layers.start..middle, middle..layers.end))
+    }
+
+    /// Writes the forces below layer `k` into the front of the slices, which are left without it.
+    fn fill_layer(&self, k: i128, rest: &mut [&mut [V]; 3]) -> Result<(), Error> {
+        let region = self.shape.layer(k)?;
+        let sign = self.shape.sign_below(k);
+        let sign = sign.ok_or_else(|| bug("a layer above the floor rests on another"))?;
+        for j in region.y() {
+            let row = region.row(j);
+            let spheres = usize::try_from(row.end - row.start).map_err(|_| too_short())?;
+            let row = split_front(rest, spheres)?;
+            if self.shape.is_pyramid() {
+                self.fill_row_of_pyramid(j, row)?;
+            } else {
+                self.fill_row((k, j, sign), &region, row)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the forces below a row of any straight pile.
+    fn fill_row(
+        &self,
+        (k, j, sign): (i128, i128, Sign),
+        region: &Region,
+        slices: [&mut [V]; 3],
+    ) -> Result<(), Error> {
+        let start = region.row(j).start;
+        let counts = region.row_counts(j, sign, k);
+        for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {
+            let n = slice.len();
+            write(&Slopes::new(count, start, n).along(0..n, table), slice)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the forces below row `j` of a layer under one sphere.
+    fn fill_row_of_pyramid(&self, j: i128, [a, b, c]: [&mut [V]; 3]) -> Result<(), Error> {
+        let [alpha, beta, gamma] = &self.tables;
+        let n = a.len();
+        let (Some(alpha), Some(beta)) = (alpha.get(..n), beta.get(..n)) else {
+            return Err(too_short());
+        };
+        // In one loop: two of them, or a copy, take half as long again on rows this short.
+        let values = alpha.iter().rev().zip(beta);
+        for ((a, b), (down, up)) in a.iter_mut().zip(b).zip(values) {
+            (*a, *b) = (down.clone(), up.clone());
+        }
+        let same = usize::try_from(j).ok().and_then(|j| gamma.get(j));
+        c.fill(same.ok_or_else(too_short)?.clone());
+        Ok(())
+    }
+}
+
+fn too_short() -> Error {
+    bug("a table has every force of its pile, and slices have the length that was checked")
+}
+
+/// Writes forces that rise along a row, are level, and fall.
+fn write<V: Clone>(along: &Along<'_, V>, row: &mut [V]) -> Result<(), Error> {
+    let Along { up, level, down } = *along;
+    let same = row.len().checked_sub(up.len() + down.len());
+    let same = same.ok_or_else(too_short)?;
+    let (rising, rest) = row.split_at_mut(up.len());
+    let (middle, falling) = rest.split_at_mut(same);
+    rising.clone_from_slice(up);
+    match level {
+        Some(value) => middle.fill(value.clone()),
+        None if middle.is_empty() => {}
+        None => return Err(too_short()),
+    }
+    for (force, value) in falling.iter_mut().zip(down.iter().rev()) {
+        *force = value.clone();
+    }
+    Ok(())
+}
+
+/// Splits the first `n` elements off each slice.
+fn split_front<'a, V>(rest: &mut [&'a mut [V]; 3], n: usize) -> Result<[&'a mut [V]; 3], Error> {
+    match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
+        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
+        _ => Err(too_short()),
+    }
+}

@@ -1,0 +1,665 @@
+//! The one thing to ask: the forces of a pile, in any scalar, in pile units.
+//!
+//! Pile units: contact forces in f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base and
+//! mg/(2 cosθ) for discs; forces on the floor in mg, mg·tanθ and 2cosφ·mg·tanθ. In them every answer
+//! is rational, and neither spacing nor mass is needed. [`Packing`](crate::Packing) gives SI.
+
+mod base;
+mod contacts;
+mod ends;
+mod layers;
+mod nearest;
+mod numerators;
+mod terms;
+mod walk;
+
+pub use base::{Base, FloorForce};
+pub use contacts::{ContactForce, Contacts};
+pub use layers::{Layer, Layers};
+pub(crate) use nearest::Units;
+pub use nearest::{NearestLayer, NearestLayers};
+pub use numerators::{NumeratorLayer, NumeratorLayers};
+
+use crate::engine::{
+    Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact, nodes,
+    received,
+};
+use crate::formula;
+use crate::geometry::{Vector, position};
+use crate::lattice::{Direction, Site, count};
+use crate::scalar::{Algebra, Ring};
+use crate::shape::{Rows, Selection};
+use crate::{Error, Pile};
+
+use terms::{Terms, edge, edge_all, of_direction};
+
+/// The forces of a pile in the scalar `T`, made by [`Pile::forces`].
+///
+/// | I want | ask |
+/// |---|---|
+/// | the force of one contact | [`contact`](Self::contact) |
+/// | the force of one sphere on the floor | [`on_floor`](Self::on_floor) |
+/// | contact forces, one by one | [`contacts`](Self::contacts) |
+/// | forces on the floor, one by one | [`base`](Self::base) |
+/// | many forces into slices, fast | [`layers`](Self::layers) |
+/// | any of these in newtons and metres | a [`Packing`](crate::Packing) |
+///
+/// How they are found is decided by a plan ([`Pile::plan`]): of a straight stacking each by closed form, O(1), whatever
+/// the number of layers; of any other from the lines above a sphere, or for many spheres in a sweep.
+///
+/// Exact scalars give exact answers. Of rounded ones, contact forces and normal forces of a straight stacking are a few
+/// units in the last place off; shear, resultants and positions are differences, and a few units of the greatest term
+/// off, max(N)·f₀, which is all there is where they cancel. A change of sign subtracts too, and amplifies nothing in the
+/// sum of squares over a layer: [`Layer::error_bound`] says how far a force is off at most. A number that the scalar
+/// cannot hold is [`Error::Overflow`], never a wrong value.
+///
+/// Inside, formulas run on the scalar's [numerators](Algebra::Numerator): for rationals on integers over a
+/// denominator known beforehand, reduced once at the end.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Site;
+/// use cannonpile::{Forces, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let forces: Forces<BigRational> = pile.forces();
+/// assert_eq!(forces.on_floor(Site { i: 5, j: 2, k: 9 })?.shear_y.to_string(), "1/2");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Forces<'p, T: Algebra, M = ()> {
+    pile: &'p Pile,
+    terms: Terms<'p, T>,
+    /// The method asked for, if it is not the cheapest.
+    method: Option<Method>,
+    meter: M,
+}
+
+impl Pile {
+    /// Returns the forces of the pile, in the scalar `T`.
+    ///
+    /// # Examples
+    /// One pile in two scalars:
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let site = Site { i: 1, j: 2, k: 5 };
+    /// let exact: BigRational = pile.forces().contact(site, Direction::Alpha)?;
+    /// let float: f64 = pile.forces().contact(site, Direction::Alpha)?;
+    /// assert_eq!((exact.to_string().as_str(), float), ("3", 3.0));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn forces<T: Algebra>(&self) -> Forces<'_, T> {
+        Forces {
+            pile: self,
+            terms: Terms::new(self.system()),
+            method: None,
+            meter: (),
+        }
+    }
+
+    /// Returns how a question is answered exactly, and how much it takes at most.
+    ///
+    /// One sphere by the lines above it; a layer or more by a sweep, or row by row where that would not fit in
+    /// memory. Of a straight stacking everything is closed. A [`Counters`](crate::Counters) tells what it took.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`] or [`Error::LayerOutside`]; [`Error::NotOnFloor`] if forces on the floor are asked of a
+    /// sphere that is not there; [`Error::TooLarge`] if a layer neither fits in memory nor has few enough spheres at the
+    /// changes of sign above it; [`Error::NoSuchMethod`] if one is asked for that does not apply.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Method, Pile, Question};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let plan = pile.plan(Selection::Base)?;
+    /// assert_eq!((plan.method, plan.planes), (Method::Sweep, 1));
+    ///
+    /// let by_trees = Question { method: Some(Method::Tree), ..Selection::Base.into() };
+    /// assert_eq!(pile.plan(by_trees)?.method, Method::Tree);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn plan(&self, question: impl Into<Question>) -> Result<Plan, Error> {
+        let Question {
+            part,
+            quantity,
+            method,
+        } = question.into();
+        let mut rows = self.rows(part)?;
+        if quantity.is_of_contacts() {
+            rows = rows.off_the_floor();
+        }
+        self.system().plan(&rows, quantity, method, Keeping::Limbs)
+    }
+
+    /// Returns how many spheres at changes of sign the force of a contact depends on: the nodes that its tree visits.
+    ///
+    /// At most (3^d − 1)/2 for d changes of sign above the contact, and at most the spheres above it at those changes.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::TooLarge`] beyond 4 million.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Direction, Region, Site};
+    ///
+    /// let layers = 10_i128.pow(30);
+    /// let pile = Pile::under(Region::SITE, format!("(2,1,{layers})").parse()?)?;
+    /// // A line that begins at the surface of the last run, far below the changes of sign.
+    /// let low = Site { i: 5, j: 7, k: pile.layers() - 2 };
+    /// assert_eq!(pile.nodes(low, Direction::Alpha)?, 0);
+    /// // And one that passes through both changes.
+    /// assert_eq!(pile.nodes(Site { i: 1, j: 0, ..low }, Direction::Alpha)?, 4);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn nodes(&self, site: Site, direction: Direction) -> Result<usize, Error> {
+        let site = self.shape().check(site)?;
+        if site.k == self.layers() - 1 {
+            return Err(Error::OnFloor { site });
+        }
+        nodes(self.shape(), site, direction)
+    }
+}
+
+impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
+    /// The same, telling a meter what every answer takes.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Counters, Pile};
+    ///
+    /// let (pile, counters) = (Pile::triangular(4)?, Counters::default());
+    /// let forces = pile.forces::<f64>().metered(&counters);
+    /// assert_eq!(forces.contacts(Selection::All)?.count(), 30);
+    /// assert_eq!(counters.to_string(), "10 visited, 0 turned, 0 passes, 0 roots, 30 rows");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn metered<N: Meter>(self, meter: N) -> Forces<'p, T, N> {
+        Forces {
+            pile: self.pile,
+            terms: self.terms,
+            method: self.method,
+            meter,
+        }
+    }
+
+    /// The same by this method, whether it is the cheapest or not: for comparison. Exact answers do not depend on it.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMethod`] for a closed form of a stacking that is not straight, or a sweep of discs. What does not
+    /// fit in memory is an error of the answers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let forces = pile.forces::<f64>();
+    /// let swept = forces.clone().by(Method::Sweep)?;
+    /// let base = |forces: &cannonpile::Forces<'_, f64>| {
+    ///     forces.base(Selection::Base)?.collect::<Result<Vec<_>, _>>()
+    /// };
+    /// assert_eq!(base(&swept)?, base(&forces)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn by(self, method: Method) -> Result<Self, Error> {
+        self.terms.system.check_method(method)?;
+        Ok(Self {
+            method: Some(method),
+            ..self
+        })
+    }
+
+    /// The method asked for, or `None` for the cheapest.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let forces = pile.forces::<f64>();
+    /// assert_eq!(forces.method(), None);
+    /// assert_eq!(forces.by(Method::Tree)?.method(), Some(Method::Tree));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn method(&self) -> Option<Method> {
+        self.method
+    }
+
+    pub(crate) fn meter(&self) -> M {
+        self.meter
+    }
+
+    /// Returns the pile that is asked.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.forces::<f64>().pile(), &pile);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn pile(&self) -> &'p Pile {
+        self.pile
+    }
+
+    /// W, the unit mg/W in which a contact's vertical force is a sum of increments: 3 on an equilateral
+    /// base, 2(1+s) on an isosceles one, 2 for discs.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] if the scalar cannot hold it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(10)?.forces::<f64>().increment_sum()?, 3.0);
+    /// assert_eq!(Pile::discs(10)?.forces::<f64>().increment_sum()?, 2.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn increment_sum(&self) -> Result<T, Error> {
+        self.terms.increment_sum()
+    }
+
+    /// The forces from the spheres above on `site`, by direction, in f₀; zero where there is none.
+    ///
+    /// Paper, (10): (k−i−j, i, j)·f₀ on an equilateral base.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::Overflow`] if the scalar cannot hold the answer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.forces::<f64>().from_above(Site { i: 1, j: 2, k: 5 })?, [2.0, 1.0, 2.0]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn from_above(&self, site: Site) -> Result<[T; 3], Error> {
+        let site = self.pile.shape().check(site)?;
+        self.terms.contacts(self.received(site, Wanted::All)?)
+    }
+
+    /// Returns the forces to the spheres below `site`, by direction, in f₀; zero along γ for discs.
+    ///
+    /// Paper, (8): one increment more than comes from above along each line, which crosses no change of sign there.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::OnFloor`]; [`Error::Overflow`] if the scalar cannot hold the answer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.forces::<f64>().to_below(Site { i: 1, j: 2, k: 5 })?, [3.0, 2.0, 3.0]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn to_below(&self, site: Site) -> Result<[T; 3], Error> {
+        self.terms.contacts(self.passed_on(site)?)
+    }
+
+    /// Returns the force of a bottom sphere on the floor.
+    ///
+    /// Normal mg(L+2)/3 under every sphere on an equilateral base (paper, (13)), and
+    /// mg[1 + ((L−1−j) + 2sj)/(2(1+s))] in general. Shear −mg·tanθ/3·((L−1−3j)/2, √3/2·(L−1−2i−j)) on an
+    /// equilateral base (paper, (14)).
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::NotOnFloor`] for a sphere of another layer; [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let force = pile.forces::<f64>().on_floor(Site { i: 0, j: 0, k: 9 })?;
+    /// assert_eq!((force.normal, force.shear_x, force.shear_y), (4.0, -1.5, -1.5));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
+        let site = self.pile.shape().check(site)?;
+        let floor = self.floor();
+        if site.k != floor {
+            return Err(Error::NotOnFloor { site, floor });
+        }
+        self.terms.floor(site, &self.received(site, Wanted::All)?)
+    }
+
+    /// Returns the contact forces of a part of the pile, each sphere's with the spheres below it, one by one in row
+    /// order, in f₀. Spheres on the floor have none.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::TooLarge`] if a layer neither fits in memory nor has few
+    /// enough spheres at the changes of sign above it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut total = 0.0;
+    /// for contact in pile.forces::<f64>().contacts(Selection::All)? {
+    ///     total += contact?.force;
+    /// }
+    /// assert_eq!(total, 1485.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T, M>, Error> {
+        Contacts::new(self, part)
+    }
+
+    /// Returns the forces of bottom spheres on the floor, one by one in row order.
+    ///
+    /// # Errors
+    /// [`Error::NotOnFloor`] for a part that is not of the bottom layer; else as for [`contacts`](Self::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let base = pile.forces::<f64>().base(Selection::Base)?;
+    /// let base: Result<Vec<_>, _> = base.collect();
+    /// assert!(base?.iter().all(|force| force.normal == 4.0));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn base(&self, part: Selection) -> Result<Base<'p, T, M>, Error> {
+        Base::new(self, part)
+    }
+
+    /// Returns a way down through the layers of a part of the pile, which fills the forces of each into slices: the fast
+    /// way to many of them, for every stacking.
+    ///
+    /// # Errors
+    /// As for [`contacts`](Self::contacts).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
+    /// let mut total = 0.0;
+    /// while let Some(layer) = layers.next_layer()? {
+    ///     if layer.is_floor() {
+    ///         break;
+    ///     }
+    ///     let mut forces = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+    ///     let [alpha, beta, gamma] = &mut forces;
+    ///     layer.fill([alpha, beta, gamma])?;
+    ///     total += forces.concat().iter().sum::<f64>();
+    /// }
+    /// // Three for the weight of each sphere above: of 1, 1 + 3 and 1 + 3 + 6.
+    /// assert!((total - 45.0).abs() < 1e-12);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn layers(&self, part: Selection) -> Result<Layers<'p, T, M>, Error> {
+        Layers::new(self, part)
+    }
+
+    /// Returns the magnitude of the contact force between `site` and the sphere below it, in f₀.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::OnFloor`] for a sphere of the bottom layer;
+    /// [`Error::NoSuchDirection`] for γ in a pile of discs; [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Direction, Site};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.forces::<f64>().contact(Site::APEX, Direction::Gamma)?, 1.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contact(&self, site: Site, direction: Direction) -> Result<T, Error> {
+        let (force, changes) = self.contact_numerator(site, direction)?;
+        edge("a contact force", force, &self.terms.lines.scale(changes))
+    }
+
+    /// Returns the contact force on the upper sphere as a vector, in f₀ and the symbolic basis: f·ê. The lower sphere feels
+    /// the opposite.
+    ///
+    /// # Errors
+    /// As for [`contact`](Self::contact).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::{Direction, Site};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let force = pile.forces::<f64>().contact_vector(Site { i: 1, j: 0, k: 1 }, Direction::Beta)?;
+    /// assert_eq!(force, Vector { x: 1.0, y: -1.0, z: -2.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contact_vector(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
+        let (force, changes) = self.contact_numerator(site, direction)?;
+        let along = of_direction(self.terms.directions_below(site.k), direction);
+        self.terms
+            .vector("a contact force", along.scaled(&force), changes)
+    }
+
+    /// Returns the direction of the contact between `site` and the sphere below it, ê or, under a − step, ê turned about
+    /// the vertical, in the symbolic basis.
+    ///
+    /// # Errors
+    /// As for [`contact`](Self::contact).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::{Direction, Region, Site};
+    ///
+    /// let pile = Pile::under(Region::SITE, "-".parse()?)?;
+    /// let a = pile.forces::<f64>().contact_direction(Site::APEX, Direction::Alpha)?;
+    /// assert_eq!(a, Vector { x: -0.5, y: -0.5, z: -1.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn contact_direction(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
+        self.check_contact(site, direction)?;
+        let along = of_direction(self.terms.directions_below(site.k), direction).into_array();
+        let [x, y, z] = edge_all("a direction", along, &self.terms.direction_scale)?;
+        Ok(Vector { x, y, z })
+    }
+
+    /// Returns a contact force as a numerator, and the changes of sign down to it.
+    fn contact_numerator(
+        &self,
+        site: Site,
+        direction: Direction,
+    ) -> Result<(T::Numerator, usize), Error> {
+        self.check_contact(site, direction)?;
+        let (lines, contact) = (&self.terms.lines, (site, direction));
+        if let Some(force) = closed_contact(lines, contact, self.method, self.meter) {
+            return Ok((force, 0));
+        }
+        let wanted = Wanted::for_contact(self.pile.shape(), site, direction);
+        let above = self.received(site, wanted)?;
+        let Received { forces, changes } = lines.to_below(site, above, self.meter);
+        Ok((of_direction(forces, direction), changes))
+    }
+
+    /// Returns the forces from above on a sphere of the pile, on the lines that are wanted.
+    fn received(&self, site: Site, wanted: Wanted) -> Result<Received<T>, Error> {
+        let Terms { lines, system, .. } = &self.terms;
+        received((lines, system), (site, wanted), self.method, self.meter)
+    }
+
+    /// Returns the forces to the spheres below.
+    fn passed_on(&self, site: Site) -> Result<Received<T>, Error> {
+        self.check_off_the_floor(site)?;
+        self.terms.passed_on(site, self.method, self.meter)
+    }
+
+    /// Errors unless the pile has the site and it rests on spheres.
+    fn check_off_the_floor(&self, site: Site) -> Result<(), Error> {
+        let site = self.pile.shape().check(site)?;
+        if site.k == self.floor() {
+            return Err(Error::OnFloor { site });
+        }
+        Ok(())
+    }
+
+    /// Errors unless there is a sphere below `site` in a direction.
+    fn check_contact(&self, site: Site, direction: Direction) -> Result<(), Error> {
+        self.check_off_the_floor(site)?;
+        if self.pile.dimension().directions().contains(&direction) {
+            Ok(())
+        } else {
+            Err(Error::NoSuchDirection { direction })
+        }
+    }
+
+    /// Returns how a question about some rows is answered in this scalar.
+    fn plan(&self, rows: &Rows<'_>, quantity: Quantity) -> Result<Plan, Error> {
+        let system = &self.terms.system;
+        system.plan(rows, quantity, self.method, Keeping::of::<T>())
+    }
+
+    /// ê of a direction under + steps, in the symbolic basis.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] if the scalar cannot hold it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::Direction;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let a = pile.forces::<f64>().direction(Direction::Alpha)?;
+    /// assert_eq!(a, Vector { x: 0.5, y: 0.5, z: -1.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn direction(&self, direction: Direction) -> Result<Vector<T>, Error> {
+        let numerators = of_direction(self.terms.directions.clone(), direction).into_array();
+        let [x, y, z] = edge_all("a direction", numerators, &self.terms.direction_scale)?;
+        Ok(Vector { x, y, z })
+    }
+
+    /// The sum of the forces from above on `site`, in f₀ and the symbolic basis.
+    ///
+    /// On an equilateral base it is the central force mg/(6R cosθ)·r, see [`paper`](crate::paper#closed-form).
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let (forces, site) = (pile.forces::<f64>(), Site { i: 1, j: 2, k: 5 });
+    /// assert_eq!(forces.resultant_above(site)?, forces.position(site)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn resultant_above(&self, site: Site) -> Result<Vector<T>, Error> {
+        let site = self.pile.shape().check(site)?;
+        let Received { forces, changes } = self.received(site, Wanted::All)?;
+        let force = formula::resultant(&forces, &self.terms.directions_above(site.k));
+        self.terms.vector("a resultant force", force, changes)
+    }
+
+    /// The position of a sphere, in 2R and the symbolic basis, z down from the top layer: from the apex; of a pile grown
+    /// from a base, horizontally from site (0, 0) of the base, else from that of the top layer, occupied or not.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let r = pile.forces::<f64>().position(Site { i: 1, j: 2, k: 5 })?;
+    /// assert_eq!(r, Vector { x: 0.5, y: -0.5, z: 5.0 });
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn position(&self, site: Site) -> Result<Vector<T>, Error> {
+        let Site { i, j, k } = self.pile.shape().check(site)?;
+        let across = self.pile.shape().shift_from_origin(k);
+        let counts = count::above(&i, &j, &across).map(T::Numerator::from_i128);
+        let Terms {
+            directions,
+            direction_scale: scale,
+            ..
+        } = &self.terms;
+        let z = T::Numerator::from_i128(k) * scale;
+        let r = Vector {
+            z,
+            ..position(&counts, directions)
+        };
+        let [x, y, z] = edge_all("a position", r.into_array(), scale)?;
+        Ok(Vector { x, y, z })
+    }
+
+    /// What is left over of all forces on a sphere, in f₀: the zero vector in an exact scalar. A bottom
+    /// sphere is held by the floor, which pushes back with what it receives.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::OnFloor`], [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::geometry::Vector;
+    /// use cannonpile::lattice::Site;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10_i128.pow(36))?;
+    /// let site = Site { i: 123, j: 10_i128.pow(20), k: 10_i128.pow(35) };
+    /// assert_eq!(pile.forces::<BigRational>().unbalanced(site)?, Vector::zero());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn unbalanced(&self, site: Site) -> Result<Vector<T>, Error> {
+        let below = self.passed_on(site)?;
+        let above = self.received(site, Wanted::All)?;
+        let (terms, changes) = (&self.terms, below.changes);
+        let rescaled = |force| terms.lines.rescaled(force, above.changes, changes);
+        let received = above.forces.map(rescaled);
+        let unbalanced = formula::unbalanced(
+            &below.forces,
+            &terms.directions_below(site.k),
+            &received,
+            &terms.directions_above(site.k),
+            &terms.weight(site, changes),
+        );
+        terms.vector("a resultant force", unbalanced, changes)
+    }
+
+    /// Returns the layer on the floor.
+    fn floor(&self) -> i128 {
+        self.pile.layers() - 1
+    }
+}

@@ -1,0 +1,61 @@
+//! The bottom spheres at which functions of the force on the floor take their extremes.
+
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+
+use super::Forces;
+use crate::Error;
+use crate::engine::{Engine, Quantity, Received, Wanted, trees_are_cheaper};
+use crate::geometry::Vector;
+use crate::lattice::Site;
+use crate::shape::Selection;
+
+impl Forces<'_, BigRational> {
+    /// Shows the forces of bottom spheres on the floor as integers (shear_x, shear_y, normal), and returns the
+    /// denominator of all of them: of the corners of a straight pile under one sphere; of those spheres between which
+    /// the forces are linear, where they are far fewer; or of every bottom sphere.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 10⁸ of them.
+    pub(crate) fn ends_of_base(
+        &self,
+        mut meet: impl FnMut(&Vector<BigInt>),
+    ) -> Result<BigInt, Error> {
+        const MOST: u64 = 100_000_000;
+        let (terms, floor) = (&self.terms, self.floor());
+        let (lines, shape) = (&terms.lines, terms.system.shape);
+        let changes = shape.stretch_to(floor).map_or(0, |run| run.index);
+        let mut meet = |site, above: &Received<BigRational>| {
+            meet(&terms.floor_numerators(site, above).0);
+        };
+        let rows = self.pile.rows(Selection::Base)?;
+        let (sites, ends) = (rows.sites(), lines.most_ends_of_pieces(floor)?);
+        if self.pile.is_paper_pile() {
+            for corner in rows.corners() {
+                meet(corner, &self.received(corner, Wanted::All)?);
+            }
+        } else if sites.clone().min(ends.clone()) > BigUint::from(MOST) {
+            return Err(Error::TooLarge {
+                quantity: "the extremes over this base",
+                needed: sites.min(ends),
+                limit: MOST,
+                remedy: "ask for single spheres",
+            });
+        } else if trees_are_cheaper(&ends, &sites) {
+            for (_, row) in lines.ends_of_pieces(floor)? {
+                let above = lines.forces_above(floor, &row, Wanted::All)?;
+                let changes = above.changes;
+                for ([i, j], forces) in row.into_iter().zip(above.forces) {
+                    meet(Site { i, j, k: floor }, &Received { forces, changes });
+                }
+            }
+        } else {
+            let plan = self.plan(&rows, Quantity::FloorMultiples)?;
+            let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
+            for site in rows.flatten() {
+                meet(site, &engine.received((lines, &terms.system), site, ())?);
+            }
+        }
+        Ok(terms.floor_unit(changes))
+    }
+}

@@ -1,0 +1,743 @@
+//! The forces of whole layers, written into slices: the fast way to many of them.
+
+use core::fmt;
+use core::ops::Range;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::terms::Terms;
+use super::{FloorForce, Forces};
+use crate::Error;
+use crate::engine::{
+    Cells, Descent, Meter, Method, Plan, Planes, Quantity, Table, exact_sweep, plain_sweep,
+};
+use crate::error::bug;
+use crate::formula::{half_turn, passed_on};
+use crate::lattice::{Region, Site};
+use crate::scalar::{Algebra, Exactness, Ring};
+use crate::shape::{Selection, Shape};
+
+/// A way down through the layers of a part of a pile, made by [`Forces::layers`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::shape::Selection;
+///
+/// let pile = Pile::triangular(10)?;
+/// let mut layers = pile.forces::<f64>().layers(Selection::Layer(2))?;
+/// let layer = layers.next_layer()?.expect("layer 2 is asked for");
+/// let [mut alpha, mut beta, mut gamma] = [[0.0; 6]; 3];
+/// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
+/// assert_eq!(alpha, [3.0, 2.0, 1.0, 2.0, 1.0, 1.0]);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub struct Layers<'p, T: Algebra, M = ()> {
+    terms: Terms<'p, T>,
+    way: Way<'p, T>,
+    /// The layers still to come.
+    ahead: Range<i128>,
+    /// How many layers were stopped at.
+    stops: usize,
+    meter: M,
+}
+
+/// How the layers are gone through.
+enum Way<'p, T: Algebra> {
+    /// By copying the distinct forces of a straight pile.
+    Table(Table<T>),
+    /// Sphere by sphere.
+    Single(Option<Method>),
+    /// By a sweep in the numerators of the scalar.
+    Plain(Descent<'p, T, Cells<T::Numerator>>),
+    /// By a sweep in the limbs of the exact engine.
+    Exact(Terms<'p, BigRational>, Descent<'p, BigRational, Planes>),
+}
+
+/// One layer of a pile, with its forces at hand.
+pub struct Layer<'l, 'p, T: Algebra, M = ()> {
+    layers: &'l Layers<'p, T, M>,
+    k: i128,
+    region: Region,
+    spheres: usize,
+}
+
+impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
+    pub(super) fn new(forces: &Forces<'p, T, M>, part: Selection) -> Result<Self, Error> {
+        let (pile, terms) = (forces.pile, forces.terms.clone());
+        let floor = pile.layers() - 1;
+        let ahead = match part {
+            Selection::All => 0..floor + 1,
+            Selection::Base => floor..floor + 1,
+            Selection::Layer(k) => k..k + 1,
+            Selection::One(site) => site.k..site.k + 1,
+        };
+        let rows = match part {
+            Selection::One(site) => pile.rows(Selection::Layer(pile.shape().check(site)?.k))?,
+            part => pile.rows(part)?,
+        };
+        // Of the contacts there is nothing on the floor; what leads to it is the same.
+        let quantity = Quantity::ContactMultiples;
+        let plan = terms.system.plan(
+            &rows,
+            quantity,
+            forces.method,
+            crate::engine::Keeping::of::<T>(),
+        )?;
+        Ok(Self {
+            way: Way::of(&plan, &terms, forces.method, ahead.end - 1)?,
+            terms,
+            ahead,
+            stops: 0,
+            meter: forces.meter,
+        })
+    }
+
+    /// Goes down to the next layer of the part and returns it, or `None` below the last one.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for a layer that no memory holds.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
+    /// let mut spheres = 0;
+    /// while let Some(layer) = layers.next_layer()? {
+    ///     spheres += layer.spheres();
+    /// }
+    /// assert_eq!(spheres, 20);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T, M>>, Error> {
+        let Some(k) = self.ahead.next() else {
+            return Ok(None);
+        };
+        match &mut self.way {
+            Way::Table(_) | Way::Single(_) => {}
+            Way::Plain(sweep) => {
+                sweep.advance(k, self.meter)?;
+                self.stops += 1;
+            }
+            Way::Exact(_, sweep) => sweep.advance(k, self.meter)?,
+        }
+        let region = self.shape().layer(k)?;
+        let sites = region.sites();
+        let Some(spheres) = sites.to_usize() else {
+            return Err(Error::TooLarge {
+                quantity: "a layer",
+                needed: sites,
+                limit: usize::MAX as u64,
+                remedy: "ask for one sphere",
+            });
+        };
+        Ok(Some(Layer {
+            layers: self,
+            k,
+            region,
+            spheres,
+        }))
+    }
+
+    /// Returns how many spheres of the layers still to come rest on others: the length of each slice of
+    /// [`fill`](Self::fill).
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if no memory could hold as many.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// // Of the 220 spheres 55 are on the floor.
+    /// let pile = Pile::triangular(10)?;
+    /// assert_eq!(pile.forces::<f64>().layers(Selection::All)?.spheres()?, 220 - 55);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn spheres(&self) -> Result<usize, Error> {
+        let spheres = self.shape().spheres_in(self.above_the_floor());
+        spheres.to_usize().ok_or(Error::TooLarge {
+            quantity: "all contact forces",
+            needed: spheres,
+            limit: usize::MAX as u64,
+            remedy: "fill layer by layer",
+        })
+    }
+
+    /// Writes the contact forces of all layers still to come into slices, one for each direction, layer after layer, in f₀;
+    /// on all cores with the feature `rayon`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for a slice that is not as long as there are [`spheres`](Self::spheres); else as for
+    /// [`Layer::fill`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0.0; 4]; 3];
+    /// pile.forces().layers(Selection::All)?.fill([&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!(alpha, [1.0, 2.0, 1.0, 1.0]);
+    /// assert_eq!(beta, [1.0, 1.0, 2.0, 1.0]);
+    /// assert_eq!(gamma, [1.0, 1.0, 1.0, 2.0]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill(mut self, slices: [&mut [T]; 3]) -> Result<(), Error> {
+        if let Way::Table(table) = &self.way {
+            return self.fill_from_table(table, slices);
+        }
+        check_lengths(self.spheres()?, &slices)?;
+        let mut rest = slices;
+        self.ahead = self.above_the_floor();
+        while let Some(layer) = self.next_layer()? {
+            let front = split_front(&mut rest, layer.spheres())?;
+            layer.fill(front)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what a table says of all layers still to come into slices.
+    pub(super) fn fill_from_table<V: Clone + Send + Sync>(
+        &self,
+        table: &Table<V>,
+        slices: [&mut [V]; 3],
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres()?, &slices)?;
+        table.fill(self.above_the_floor(), slices)
+    }
+
+    /// Returns the distinct forces, if the layers are filled from them.
+    pub(super) fn table(&self) -> Option<&Table<T>> {
+        match &self.way {
+            Way::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    fn above_the_floor(&self) -> Range<i128> {
+        let floor = self.shape().layers() - 1;
+        self.ahead.start.min(floor)..self.ahead.end.min(floor)
+    }
+
+    fn shape(&self) -> &'p Shape {
+        self.terms.system.shape
+    }
+}
+
+/// Splits the first `n` elements off each slice.
+pub(super) fn split_front<'a, V>(
+    rest: &mut [&'a mut [V]; 3],
+    n: usize,
+) -> Result<[&'a mut [V]; 3], Error> {
+    match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
+        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
+        _ => Err(bug("slices are as long as was checked")),
+    }
+}
+
+/// Errors unless each slice has as many elements as are needed.
+pub(super) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
+    match slices.iter().find(|slice| slice.len() != needed) {
+        Some(slice) => Err(Error::Length {
+            needed,
+            given: slice.len(),
+        }),
+        None => Ok(()),
+    }
+}
+
+impl<'p, T: Algebra> Way<'p, T> {
+    fn of(
+        plan: &Plan,
+        terms: &Terms<'p, T>,
+        method: Option<Method>,
+        last: i128,
+    ) -> Result<Self, Error> {
+        let Terms { lines, system, .. } = terms;
+        if plan.method == Method::Sweep {
+            if T::EXACTNESS == Exactness::Exact {
+                let terms = Terms::<BigRational>::new(system.clone());
+                let sweep = exact_sweep(&terms.lines, &terms.system, last)?;
+                return Ok(Self::Exact(terms, sweep));
+            }
+            return Ok(Self::Plain(plain_sweep(lines, system, last)?));
+        }
+        let scale = lines.scale(0);
+        let multiple = |n: i128, line: usize| {
+            let force = lines.ordinary(T::Numerator::from_i128(n), line);
+            super::edge("a contact force", force, &scale)
+        };
+        Ok(match Table::new(system, multiple)? {
+            Some(table) if plan.method == Method::Closed => Self::Table(table),
+            _ => Self::Single(method),
+        })
+    }
+}
+
+impl<M: Meter> Layers<'_, BigRational, M> {
+    /// Returns the denominator of forces below so many changes of sign.
+    pub(super) fn denominator(&self, changes: usize) -> BigInt {
+        self.terms.lines.scale(changes)
+    }
+
+    /// Returns the denominator of the forces below the lowest layer that is still to come and not on the floor.
+    pub(super) fn lowest_denominator(&self) -> BigInt {
+        let run = self.shape().stretch_to(self.above_the_floor().end);
+        self.denominator(run.map_or(0, |run| run.index))
+    }
+}
+
+impl<M: Meter> Layer<'_, '_, BigRational, M> {
+    /// Returns the denominator of the forces below the layer.
+    pub(super) fn denominator(&self) -> BigInt {
+        let run = self.shape().stretch_to(self.k + 1);
+        self.layers.denominator(run.map_or(0, |run| run.index))
+    }
+
+    /// Writes what becomes of the numerators of the forces below each sphere.
+    pub(super) fn fill_numerators<V>(
+        &self,
+        slices: [&mut [V]; 3],
+        value: impl Fn([BigInt; 3]) -> Result<[V; 3], Error>,
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres, &slices)?;
+        if self.is_floor() {
+            return Err(Error::OnFloor { site: self.first() });
+        }
+        let [alpha, beta, gamma] = slices;
+        let out = alpha.iter_mut().zip(beta).zip(gamma);
+        for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
+            let Layers {
+                terms, meter, way, ..
+            } = self.layers;
+            let passed_on = match way {
+                Way::Exact(_, sweep) => sweep.passed_on(site, *meter)?,
+                Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
+                Way::Table(_) => terms.passed_on(site, None, *meter)?,
+                Way::Single(method) => terms.passed_on(site, *method, *meter)?,
+            };
+            [*a, *b, *c] = value(passed_on.forces)?;
+        }
+        Ok(())
+    }
+}
+
+impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
+    /// Returns the number of the layer, counted from 0 at the top.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.k()), Some(3));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn k(&self) -> i128 {
+        self.k
+    }
+
+    /// Returns the number of spheres of the layer: the length of each slice to fill.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.spheres()), Some(10));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spheres(&self) -> usize {
+        self.spheres
+    }
+
+    /// Whether the layer is the one on the floor, which has no contacts below it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.is_floor()), Some(false));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn is_floor(&self) -> bool {
+        self.k == self.shape().layers() - 1
+    }
+
+    /// Returns the forces of a sphere of this layer to the spheres below, by direction, in f₀; zero along γ for discs.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::OtherLayer`] for a sphere of another layer; [`Error::OnFloor`];
+    /// [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Region, Site};
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Layer(2))?;
+    /// let layer = layers.next_layer()?.expect("layer 2 is asked for");
+    /// let forces = layer.to_below(Site { i: 0, j: 0, k: 2 })?;
+    /// assert_eq!(forces.map(|force| force.to_string()), ["5/3"; 3]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn to_below(&self, site: Site) -> Result<[T; 3], Error> {
+        self.check(site)?;
+        if self.is_floor() {
+            return Err(Error::OnFloor { site });
+        }
+        self.passed_on(site)
+    }
+
+    /// Returns the force of a sphere of this layer, the one on the floor, on the floor.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::NotOnFloor`]; [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
+    /// let floor = layers.next_layer()?.expect("every pile has a floor");
+    /// assert_eq!(floor.on_floor(Site { i: 0, j: 0, k: 9 })?.normal, 4.0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
+        self.check(site)?;
+        if !self.is_floor() {
+            let floor = self.shape().layers() - 1;
+            return Err(Error::NotOnFloor { site, floor });
+        }
+        let Layers {
+            terms, meter, way, ..
+        } = self.layers;
+        match way {
+            Way::Plain(sweep) => terms.floor(site, &sweep.received(site)?),
+            Way::Exact(terms, sweep) => {
+                let force = terms.floor(site, &sweep.received(site)?)?;
+                Ok(force.map(|component| T::from_rational(&component)))
+            }
+            Way::Table(_) => terms.floor(site, &terms.received(site, None, *meter)?),
+            Way::Single(method) => terms.floor(site, &terms.received(site, *method, *meter)?),
+        }
+    }
+
+    /// Writes the forces below the layer into slices, one for each direction, row after row, in f₀; zero along γ for
+    /// discs.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for a slice that is not as long as the layer has [`spheres`](Self::spheres); [`Error::OnFloor`];
+    /// [`Error::Overflow`] if the scalar cannot hold a force, after the slices were written to.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Layer(1))?;
+    /// let layer = layers.next_layer()?.expect("layer 1 is asked for");
+    /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
+    /// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
+    /// // Each of the three passes the weight of the apex on: 2/3, 2/3 and −1/3, and its own.
+    /// assert!((alpha[0] - 2.0 / 3.0).abs() < 1e-15);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
+        check_lengths(self.spheres, &slices)?;
+        if self.is_floor() {
+            return Err(Error::OnFloor { site: self.first() });
+        }
+        match &self.layers.way {
+            Way::Table(table) => table.fill(self.k..self.k + 1, slices),
+            Way::Plain(sweep) => self.fill_from(sweep, slices),
+            Way::Single(_) | Way::Exact(..) => self.fill_with(slices, Ok),
+        }
+    }
+
+    /// Writes what becomes of the forces below each sphere.
+    pub(super) fn fill_with<V>(
+        &self,
+        slices: [&mut [V]; 3],
+        value: impl Fn([T; 3]) -> Result<[V; 3], Error>,
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres, &slices)?;
+        if self.is_floor() {
+            return Err(Error::OnFloor { site: self.first() });
+        }
+        let [alpha, beta, gamma] = slices;
+        let out = alpha.iter_mut().zip(beta).zip(gamma);
+        for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
+            [*a, *b, *c] = value(self.passed_on(site)?)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what a table says of the layer into slices.
+    pub(super) fn fill_from_table<V: Clone + Send + Sync>(
+        &self,
+        table: &Table<V>,
+        slices: [&mut [V]; 3],
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres, &slices)?;
+        if self.is_floor() {
+            return Err(Error::OnFloor { site: self.first() });
+        }
+        table.fill(self.k..self.k + 1, slices)
+    }
+
+    /// Writes the forces of the bottom layer on the floor into slices, row after row: normal in mg, shear_x in mg·tanθ and
+    /// shear_y in 2cosφ·mg·tanθ.
+    ///
+    /// # Errors
+    /// [`Error::Length`]; [`Error::NotOnFloor`] for a layer above it; [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
+    /// let floor = layers.next_layer()?.expect("every pile has a floor");
+    /// let [mut normal, mut shear_x, mut shear_y] = [[0.0; 55]; 3];
+    /// floor.fill_base([&mut normal, &mut shear_x, &mut shear_y])?;
+    /// assert_eq!((normal, shear_x[0], shear_y[0]), ([4.0; 55], -1.5, -1.5));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill_base(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
+        self.fill_base_with(slices, |force| {
+            Ok([force.normal, force.shear_x, force.shear_y])
+        })
+    }
+
+    /// Writes what becomes of (normal, shear_x, shear_y) of each bottom sphere.
+    pub(super) fn fill_base_with<V>(
+        &self,
+        slices: [&mut [V]; 3],
+        value: impl Fn(FloorForce<T>) -> Result<[V; 3], Error>,
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres, &slices)?;
+        let [normal, shear_x, shear_y] = slices;
+        let out = normal.iter_mut().zip(shear_x).zip(shear_y);
+        for (site, ((normal, shear_x), shear_y)) in self.region.rows(self.k).flatten().zip(out) {
+            [*normal, *shear_x, *shear_y] = value(self.on_floor(site)?)?;
+        }
+        Ok(())
+    }
+
+    /// Returns a bound on how far a contact force below the layer can be from the exact one, in f₀: 0 in an exact scalar,
+    /// `None` where the scalar promises no precision or the bound would be useless.
+    ///
+    /// Every operation of a sweep is off by at most one unit in the last place, no sum on the way to 3G g is greater than
+    /// 2√3·‖g‖, and the transfer amplifies nothing: with n passes and sums on the way, 13·n units in the last place of the
+    /// bound on all forces.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    /// use num_traits::ToPrimitive;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+-".parse()?)?;
+    /// let mut layers = pile.forces::<f64>().layers(Selection::Layer(5))?;
+    /// let layer = layers.next_layer()?.expect("layer 5 is asked for");
+    /// let bound = layer.error_bound().and_then(|bound| bound.to_f64());
+    /// assert!(bound < Some(1e-12));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn error_bound(&self) -> Option<BigRational> {
+        let bits = match T::EXACTNESS {
+            Exactness::Exact => return Some(BigRational::zero()),
+            Exactness::Rounded { bits } => bits,
+            _ => return None,
+        };
+        let system = &self.layers.terms.system;
+        let changes = self.shape().stretch_to(self.k + 1);
+        let changes = changes.map_or(0, |run| run.index + 1);
+        let extras = self.layers.terms.lines.extras_in(0..self.k + 1).count();
+        // As many passes as runs, and as layers stopped at; one more for what a sphere adds itself.
+        let steps = BigInt::from(self.layers.stops + changes + extras + 1);
+        let unit = BigRational::new(steps * 13, BigInt::one() << bits);
+        // 2√3·B·D is at least 3·B·D.
+        let greatest = BigRational::new(system.bound_of_sweep(self.k), system.denominator() * 3);
+        let little = unit < BigRational::new(1.into(), 100.into());
+        little.then(|| unit * greatest)
+    }
+
+    fn shape(&self) -> &Shape {
+        self.layers.shape()
+    }
+
+    fn first(&self) -> Site {
+        let [[i, j], ..] = self.region.corners();
+        Site { i, j, k: self.k }
+    }
+
+    fn check(&self, site: Site) -> Result<(), Error> {
+        self.shape().check(site)?;
+        if site.k == self.k {
+            Ok(())
+        } else {
+            Err(Error::OtherLayer {
+                layer: site.k,
+                at: self.k,
+            })
+        }
+    }
+
+    /// Returns what a sphere of this layer, above the floor, passes on.
+    fn passed_on(&self, site: Site) -> Result<[T; 3], Error> {
+        let Layers {
+            terms, meter, way, ..
+        } = self.layers;
+        let passed_on = match way {
+            Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
+            Way::Exact(terms, sweep) => {
+                let forces = terms.contacts(sweep.passed_on(site, *meter)?)?;
+                return Ok(forces.map(|force| T::from_rational(&force)));
+            }
+            Way::Table(_) => terms.passed_on(site, None, *meter)?,
+            Way::Single(method) => terms.passed_on(site, *method, *meter)?,
+        };
+        terms.contacts(passed_on)
+    }
+
+    /// Fills slices from the cells of a sweep, row by row.
+    fn fill_from(
+        &self,
+        sweep: &Descent<'_, T, Cells<T::Numerator>>,
+        slices: [&mut [T]; 3],
+    ) -> Result<(), Error> {
+        let lines = &self.layers.terms.lines;
+        let run = self.shape().stretch_to(self.k + 1);
+        let changes = run.map_or(0, |run| run.index);
+        let below = Below::<T> {
+            own: lines.increments_after(changes),
+            scale: lines.scale(changes),
+            turns: sweep.turned_already() < changes,
+        };
+        let [alpha, beta, gamma] = slices;
+        let mut rest = [&mut *alpha, &mut *beta, &mut *gamma];
+        let mut defined = true;
+        let carried = sweep.carried_by_rows();
+        for row in self.region.rows(self.k) {
+            let row = carried(&row);
+            let out = split_front(&mut rest, row[0].len())?;
+            defined &= below.write(row, out);
+        }
+        // Spheres that weigh more or less than the others, or carry loads.
+        for site in lines.extras_in(self.k..self.k + 1) {
+            let forces = self.layers.terms.contacts(sweep.passed_on(site, ())?)?;
+            let place = self.region.sites_before(site.i, site.j).to_usize();
+            let place = place.filter(|place| *place < self.spheres);
+            let place = place.ok_or_else(|| bug("a loaded sphere has a place in its layer"))?;
+            let [a, b, c] = forces;
+            (alpha[place], beta[place], gamma[place]) = (a, b, c);
+        }
+        if defined {
+            Ok(())
+        } else {
+            Err(Error::Overflow {
+                quantity: "a contact force",
+                scalar: T::NAME,
+            })
+        }
+    }
+}
+
+/// What turns the numbers that lines carry into forces below a layer.
+struct Below<T: Algebra> {
+    /// What an ordinary sphere of the layer adds.
+    own: [T::Numerator; 3],
+    /// The denominator.
+    scale: T::Numerator,
+    /// Whether the sign changes at the layer, and what is carried is not turned yet.
+    turns: bool,
+}
+
+impl<T: Algebra> Below<T> {
+    /// Writes the forces below a row, and returns whether all are numbers.
+    fn write(&self, carried: [&[T::Numerator]; 3], [a, b, c]: [&mut [T]; 3]) -> bool {
+        if self.turns {
+            return self.write_turned(carried, [a, b, c]);
+        }
+        let mut defined = true;
+        for ((carried, out), own) in carried.into_iter().zip([a, b, c]).zip(&self.own) {
+            for (force, out) in carried.iter().zip(out) {
+                defined &= self.put(passed_on(force.clone(), own), out);
+            }
+        }
+        defined
+    }
+
+    fn write_turned(&self, [a, b, c]: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
+        let mut defined = true;
+        let carried = a.iter().zip(b).zip(c);
+        let [to_a, to_b, to_c] = out;
+        for (((a, b), c), ((to_a, to_b), to_c)) in carried.zip(to_a.iter_mut().zip(to_b).zip(to_c))
+        {
+            let turned = half_turn::<T>(&[a.clone(), b.clone(), c.clone()]);
+            for ((force, out), own) in turned.into_iter().zip([to_a, to_b, to_c]).zip(&self.own) {
+                defined &= self.put(passed_on(force, own), out);
+            }
+        }
+        defined
+    }
+
+    #[inline]
+    fn put(&self, force: T::Numerator, out: &mut T) -> bool {
+        match T::from_ratio(force, &self.scale) {
+            Some(value) => {
+                let defined = value.is_defined();
+                *out = value;
+                defined
+            }
+            None => false,
+        }
+    }
+}
+
+impl<T: Algebra, M> fmt::Debug for Layers<'_, T, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Layers")
+            .field("ahead", &self.ahead)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<T: Algebra, M> fmt::Debug for Layer<'_, '_, T, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Layer")
+            .field("k", &self.k)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,297 @@
+//! The forces of whole layers as exact integers over one denominator.
+
+use core::any::type_name;
+use core::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::layers::{Layer, Layers, check_lengths, split_front};
+use crate::Error;
+use crate::engine::{Meter, Table};
+
+/// A way down through the layers of a part of a pile, in integers `V` over a denominator that a layer shares.
+///
+/// Made by [`Layers::numerators`]. The denominator is D·3^d below d changes of sign, D that of increments, weights and
+/// loads: 1 below a straight stacking on an equilateral base without loads.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Region;
+/// use cannonpile::shape::Selection;
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+/// let layers = pile.forces::<BigRational>().layers(Selection::Layer(1))?;
+/// let mut layers = layers.numerators::<i64>()?;
+/// let layer = layers.next_layer()?.expect("layer 1 is asked for");
+/// let [mut alpha, mut beta, mut gamma] = [[0; 3]; 3];
+/// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
+/// assert_eq!((alpha[0], layer.denominator()), (2, 3.into()));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub struct NumeratorLayers<'p, V, M = ()> {
+    layers: Layers<'p, BigRational, M>,
+    /// The distinct numerators of a straight pile.
+    table: Option<Table<V>>,
+}
+
+/// One layer of a pile, with the numerators of its forces at hand.
+pub struct NumeratorLayer<'l, 'p, V, M = ()> {
+    layer: Layer<'l, 'p, BigRational, M>,
+    table: Option<&'l Table<V>>,
+}
+
+impl<'p, M: Meter> Layers<'p, BigRational, M> {
+    /// Returns the layers in exact integers over a denominator that each layer shares.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`] for a numerator beyond `V`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Error, Pile};
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let small = Pile::triangular(128)?;
+    /// assert!(small.forces::<BigRational>().layers(Selection::All)?.numerators::<i8>().is_ok());
+    /// // A contact of 128 f₀ does not fit in an i8.
+    /// let large = Pile::triangular(129)?;
+    /// let refused = large.forces::<BigRational>().layers(Selection::All)?.numerators::<i8>();
+    /// assert!(matches!(refused, Err(Error::Overflow { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn numerators<V: TryFrom<BigInt>>(self) -> Result<NumeratorLayers<'p, V, M>, Error> {
+        let scale = self.denominator(0);
+        // An integer: the scale is a multiple of all denominators.
+        let whole = |multiple: &BigRational| numerator((multiple * &scale).to_integer());
+        Ok(NumeratorLayers {
+            table: self.table().map(|table| table.map(whole)).transpose()?,
+            layers: self,
+        })
+    }
+}
+
+impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayers<'p, V, M> {
+    /// Goes down to the next layer of the part and returns it, or `None` below the last one.
+    ///
+    /// # Errors
+    /// As for [`Layers::next_layer`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<BigRational>().layers(Selection::All)?.numerators::<i64>()?;
+    /// let mut layers_met = 0;
+    /// while let Some(_) = layers.next_layer()? {
+    ///     layers_met += 1;
+    /// }
+    /// assert_eq!(layers_met, 4);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn next_layer(&mut self) -> Result<Option<NumeratorLayer<'_, 'p, V, M>>, Error> {
+        let layer = self.layers.next_layer()?;
+        Ok(layer.map(|layer| NumeratorLayer {
+            layer,
+            table: self.table.as_ref(),
+        }))
+    }
+
+    /// Returns how many spheres of the layers still to come rest on others: the length of each slice of
+    /// [`fill`](Self::fill).
+    ///
+    /// # Errors
+    /// As for [`Layers::spheres`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let layers = pile.forces::<BigRational>().layers(Selection::All)?.numerators::<i64>()?;
+    /// assert_eq!(layers.spheres()?, 220 - 55);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn spheres(&self) -> Result<usize, Error> {
+        self.layers.spheres()
+    }
+
+    /// Writes the numerators of the contact forces of all layers still to come into slices, one for each direction, layer
+    /// after layer, and returns their denominator: that of the lowest layer, to which all are brought.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let layers = pile.forces::<BigRational>().layers(Selection::All)?.numerators::<i32>()?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0; 4]; 3];
+    /// assert_eq!(layers.fill([&mut alpha, &mut beta, &mut gamma])?, 1.into());
+    /// assert_eq!((alpha, beta, gamma), ([1, 2, 1, 1], [1, 1, 2, 1], [1, 1, 1, 2]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill(mut self, slices: [&mut [V]; 3]) -> Result<BigInt, Error> {
+        let lowest = self.layers.lowest_denominator();
+        if let Some(table) = &self.table {
+            self.layers.fill_from_table(table, slices)?;
+            return Ok(lowest);
+        }
+        check_lengths(self.spheres()?, &slices)?;
+        let mut rest = slices;
+        while let Some(layer) = self.next_layer()? {
+            if layer.is_floor() {
+                break;
+            }
+            let front = split_front(&mut rest, layer.spheres())?;
+            layer.fill_over(&lowest, front)?;
+        }
+        Ok(lowest)
+    }
+}
+
+impl<V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayer<'_, '_, V, M> {
+    /// Returns the number of the layer, counted from 0 at the top.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.k()), Some(3));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn k(&self) -> i128 {
+        self.layer.k()
+    }
+
+    /// Returns the number of spheres of the layer: the length of each slice to fill.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.spheres()), Some(10));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn spheres(&self) -> usize {
+        self.layer.spheres()
+    }
+
+    /// Whether the layer is the one on the floor, which has no contacts below it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.is_floor()), Some(true));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn is_floor(&self) -> bool {
+        self.layer.is_floor()
+    }
+
+    /// Returns the denominator of the forces below the layer, in f₀.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
+    /// let layers = pile.forces::<BigRational>().layers(Selection::Layer(2))?;
+    /// let mut layers = layers.numerators::<i64>()?;
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.denominator()), Some(9.into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn denominator(&self) -> BigInt {
+        self.layer.denominator()
+    }
+
+    /// Writes the numerators of the forces below the layer into slices, one for each direction, row after row; zero along γ
+    /// for discs.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::OnFloor`]; [`Error::Overflow`] for a numerator beyond `V`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Layer(2))?.numerators::<i32>()?;
+    /// let layer = layers.next_layer()?.expect("layer 2 is asked for");
+    /// let [mut alpha, mut beta, mut gamma] = [[0; 6]; 3];
+    /// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!(alpha, [3, 2, 1, 2, 1, 1]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill(&self, slices: [&mut [V]; 3]) -> Result<(), Error> {
+        if let Some(table) = self.table {
+            return self.layer.fill_from_table(table, slices);
+        }
+        self.fill_over(&self.denominator(), slices)
+    }
+
+    /// Writes numerators over a multiple of the denominator.
+    fn fill_over(&self, denominator: &BigInt, slices: [&mut [V]; 3]) -> Result<(), Error> {
+        let factor = denominator / self.denominator();
+        self.layer.fill_numerators(slices, |[a, b, c]| {
+            Ok([
+                numerator(a * &factor)?,
+                numerator(b * &factor)?,
+                numerator(c * &factor)?,
+            ])
+        })
+    }
+}
+
+fn numerator<V: TryFrom<BigInt>>(numerator: BigInt) -> Result<V, Error> {
+    V::try_from(numerator).map_err(|_| Error::Overflow {
+        quantity: "the numerator of a contact force",
+        scalar: type_name::<V>(),
+    })
+}
+
+impl<V, M> fmt::Debug for NumeratorLayers<'_, V, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.layers.fmt(f)
+    }
+}
+
+impl<V, M> fmt::Debug for NumeratorLayer<'_, '_, V, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.layer.fmt(f)
+    }
+}

@@ -1,0 +1,182 @@
+//! What forces are made of, as numerators over known denominators.
+
+use super::FloorForce;
+use crate::Error;
+use crate::engine::{Lines, Meter, Method, Received, Wanted, received};
+use crate::formula;
+use crate::geometry::Vector;
+use crate::lattice::{Direction, Sign, Site};
+use crate::pile::System;
+use crate::scalar::Algebra;
+
+/// A system of equations in the numerators of a scalar: what spheres add to their lines, and the lines' directions.
+#[derive(Clone, Debug)]
+pub(super) struct Terms<'p, T: Algebra> {
+    pub(super) system: System<'p>,
+    pub(super) lines: Lines<'p, T>,
+    /// W, over `sum_scale`.
+    increment_sum: T::Numerator,
+    sum_scale: T::Numerator,
+    /// Numerators over `direction_scale`.
+    pub(super) directions: [Vector<T::Numerator>; 3],
+    pub(super) direction_scale: T::Numerator,
+}
+
+impl<'p, T: Algebra> Terms<'p, T> {
+    pub(super) fn new(system: System<'p>) -> Self {
+        let ([increment_sum], sum_scale) = T::numerators(&[formula::weight(&system.increments)]);
+        let [a, b, c] = system.directions.clone().map(Vector::into_array);
+        let [ax, ay, az] = a;
+        let [bx, by, bz] = b;
+        let [cx, cy, cz] = c;
+        let components = [ax, ay, az, bx, by, bz, cx, cy, cz];
+        let ([ax, ay, az, bx, by, bz, cx, cy, cz], direction_scale) = T::numerators(&components);
+        Self {
+            lines: Lines::new(&system),
+            system,
+            increment_sum,
+            sum_scale,
+            directions: [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(|[x, y, z]| Vector {
+                x,
+                y,
+                z,
+            }),
+            direction_scale,
+        }
+    }
+
+    pub(super) fn increment_sum(&self) -> Result<T, Error> {
+        let sum = self.increment_sum.clone();
+        edge("the sum of increments", sum, &self.sum_scale)
+    }
+
+    /// Returns the forces from above on a sphere.
+    pub(super) fn received(
+        &self,
+        site: Site,
+        method: Option<Method>,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        let system = (&self.lines, &self.system);
+        received(system, (site, Wanted::All), method, meter)
+    }
+
+    /// Returns the forces of a sphere that is not on the floor to the spheres below.
+    pub(super) fn passed_on(
+        &self,
+        site: Site,
+        method: Option<Method>,
+        meter: impl Meter,
+    ) -> Result<Received<T>, Error> {
+        let above = self.received(site, method, meter)?;
+        Ok(self.lines.to_below(site, above, meter))
+    }
+
+    /// Returns contact forces in f₀.
+    pub(super) fn contacts(&self, numerators: Received<T>) -> Result<[T; 3], Error> {
+        let Received { forces, changes } = numerators;
+        edge_all("a contact force", forces, &self.lines.scale(changes))
+    }
+
+    /// Returns a vector in f₀, from numerators of increments times directions.
+    pub(super) fn vector(
+        &self,
+        quantity: &'static str,
+        vector: Vector<T::Numerator>,
+        changes: usize,
+    ) -> Result<Vector<T>, Error> {
+        let scale = self.lines.scale(changes) * &self.direction_scale;
+        let [x, y, z] = edge_all(quantity, vector.into_array(), &scale)?;
+        Ok(Vector { x, y, z })
+    }
+
+    /// Returns what a bottom sphere hands on to the floor.
+    pub(super) fn floor(&self, site: Site, above: &Received<T>) -> Result<FloorForce<T>, Error> {
+        let (force, unit) = self.floor_numerators(site, above);
+        let force = edge_all("a force on the floor", force.into_array(), &unit)?;
+        let [shear_x, shear_y, normal] = force;
+        Ok(FloorForce {
+            site,
+            normal,
+            shear_x,
+            shear_y,
+        })
+    }
+
+    /// Returns what a bottom sphere hands on to the floor as numerators of (shear_x, shear_y, normal), and their
+    /// denominator.
+    pub(super) fn floor_numerators(
+        &self,
+        site: Site,
+        above: &Received<T>,
+    ) -> (Vector<T::Numerator>, T::Numerator) {
+        let Received { forces, changes } = above;
+        let directions = self.directions_above(site.k);
+        let force = formula::handed_on(forces, &directions, &self.weight(site, *changes));
+        (force.scaled(&self.sum_scale), self.floor_unit(*changes))
+    }
+
+    /// Returns the denominator of forces on the floor: mg is W of the unit of forces along lines.
+    pub(super) fn floor_unit(&self, changes: usize) -> T::Numerator {
+        self.lines.scale(changes) * &self.direction_scale * &self.increment_sum
+    }
+
+    /// Returns weight and load of a sphere, in the scale of forces along directions.
+    pub(super) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
+        self.lines.weight(site, changes) * &self.direction_scale
+    }
+
+    /// Returns the unit vectors along the contacts above layer `k`; those of a + step above the top, where there are none.
+    pub(super) fn directions_above(&self, k: i128) -> [Vector<T::Numerator>; 3] {
+        self.directions_under(self.system.shape.sign_below(k - 1))
+    }
+
+    /// Returns the unit vectors along the contacts below layer `k`; those of a + step below the floor, where there are none.
+    pub(super) fn directions_below(&self, k: i128) -> [Vector<T::Numerator>; 3] {
+        self.directions_under(self.system.shape.sign_below(k))
+    }
+
+    fn directions_under(&self, sign: Option<Sign>) -> [Vector<T::Numerator>; 3] {
+        let directions = self.directions.clone();
+        match sign {
+            None | Some(Sign::Plus) => directions,
+            Some(Sign::Minus) => directions.map(Vector::turned_about_z),
+        }
+    }
+}
+
+/// Returns the one of three that belongs to a direction.
+pub(super) fn of_direction<V>([alpha, beta, gamma]: [V; 3], direction: Direction) -> V {
+    match direction {
+        Direction::Alpha => alpha,
+        Direction::Beta => beta,
+        Direction::Gamma => gamma,
+    }
+}
+
+/// Returns `n / d`, unless that is no number.
+pub(super) fn edge<T: Algebra>(
+    quantity: &'static str,
+    n: T::Numerator,
+    d: &T::Numerator,
+) -> Result<T, Error> {
+    let value = T::from_ratio(n, d).filter(T::is_defined);
+    value.ok_or(Error::Overflow {
+        quantity,
+        scalar: T::NAME,
+    })
+}
+
+/// Returns each of `n` over `d`, unless one of them is no number.
+pub(super) fn edge_all<T: Algebra>(
+    quantity: &'static str,
+    n: [T::Numerator; 3],
+    d: &T::Numerator,
+) -> Result<[T; 3], Error> {
+    let [x, y, z] = n;
+    Ok([
+        edge(quantity, x, d)?,
+        edge(quantity, y, d)?,
+        edge(quantity, z, d)?,
+    ])
+}

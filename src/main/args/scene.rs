@@ -1,0 +1,253 @@
+//! The scene options, on the line and in a file.
+
+use std::fs::File;
+use std::io::{self, Read};
+
+use cannonpile::lattice::{Dimension, Region};
+use cannonpile::scene::{Anchor, Scene, SceneFile, parse};
+use cannonpile::stacking::Pattern;
+use cannonpile::{Culprit, Error, Pile};
+use clap::Args;
+use num_rational::BigRational;
+
+use crate::output::{Failure, Refused, option_of, reason};
+
+#[derive(Args)]
+#[command(next_help_heading = "Scene")]
+pub(crate) struct SceneOptions {
+    /// Read these options from a TOML file, - for stdin; those on the line win over it
+    #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
+    scene_file: Option<NamedFile>,
+    /// Number of layers, 1 to 10^36 [default: 10, those of a stacking that is spelled out, or as many as a base carries]
+    #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
+    layers: Option<i128>,
+    /// How layers follow one another: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); from the top, or from
+    /// the base up with --base [default: fcc]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = str::parse::<Pattern>)]
+    stacking: Option<Pattern>,
+    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "base")]
+    top: Option<Region>,
+    /// Grow up from this layer
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
+    base: Option<Region>,
+    /// 2 for discs, 3 for spheres [default: 3]
+    #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = str::parse::<Dimension>)]
+    dimension: Option<Dimension>,
+    /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
+    sin_phi: Option<BigRational>,
+    /// A vertical load on one sphere, in mg; may be given again; those of a file are left out then
+    #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
+    load: Vec<String>,
+    /// The spheres weigh nothing: only the loads act; --weightless=false wins over a file
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    weightless: Option<bool>,
+    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
+    spacing: Option<BigRational>,
+    /// Radius R of a sphere, in m [default: 1]
+    #[arg(long, value_name = "R", allow_hyphen_values = true, value_parser = parse::rational)]
+    radius: Option<BigRational>,
+    /// Mass m of a sphere, in kg [default: 1]
+    #[arg(long, value_name = "M", allow_hyphen_values = true, value_parser = parse::rational)]
+    mass: Option<BigRational>,
+    /// Gravity g, in m/s² [default: 1]
+    #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse::rational)]
+    gravity: Option<BigRational>,
+}
+
+impl SceneOptions {
+    /// Returns the scene described, and its pile.
+    ///
+    /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
+    pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
+        self.scene().and_then(checked)
+    }
+
+    /// Returns the scene described and its pile, of this many layers where nothing says how many.
+    pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Refused> {
+        let mut scene = self.scene()?;
+        let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
+        if spelled.is_none() && !matches!(scene.anchor, Some(Anchor::Base(_))) {
+            scene.layers = scene.layers.or(Some(layers));
+        }
+        checked(scene)
+    }
+
+    /// That of the file, with the options on the line in place of its own.
+    fn scene(&self) -> Result<Scene, Refused> {
+        let file = self
+            .scene_file
+            .as_ref()
+            .map(|file| file.content.scene().clone());
+        let file = file.unwrap_or_default();
+        let dimension = self.dimension.unwrap_or(file.dimension);
+        let load = |text: &String| {
+            parse::load(text, dimension).map_err(|error| Refused::of(Culprit::Load, error))
+        };
+        let loads: Vec<_> = self.load.iter().map(load).collect::<Result<_, _>>()?;
+        let anchor = self.top.map(Anchor::Top).or(self.base.map(Anchor::Base));
+        Ok(Scene {
+            layers: self.layers.or(file.layers),
+            dimension,
+            sin_phi: self.sin_phi.clone().or(file.sin_phi),
+            stacking: self.stacking.clone().or(file.stacking),
+            anchor: anchor.or(file.anchor),
+            loads: if loads.is_empty() { file.loads } else { loads },
+            weightless: self.weightless.unwrap_or(file.weightless),
+            spacing: self.spacing.clone().or(file.spacing),
+            radius: self.radius.clone().unwrap_or(file.radius),
+            mass: self.mass.clone().unwrap_or(file.mass),
+            gravity: self.gravity.clone().unwrap_or(file.gravity),
+        })
+    }
+
+    /// Whether the file took all of stdin.
+    pub(crate) fn is_from_stdin(&self) -> bool {
+        self.scene_file
+            .as_ref()
+            .is_some_and(|file| file.name == "-")
+    }
+
+    /// Returns the failure of a command whose numbers are floats: what does not fit there comes of the sizes.
+    pub(crate) fn beyond_floats(&self, error: Error, scene: &Scene) -> Failure {
+        let Error::Overflow { quantity, scalar } = error else {
+            return error.into();
+        };
+        let (place, remedy) = match farthest_from_one(scene) {
+            Culprit::Load => (self.place(Culprit::Load), "use smaller loads"),
+            culprit => (
+                self.place(culprit),
+                "give radius, mass and gravity in other units",
+            ),
+        };
+        Failure::BadUse(format!(
+            "{place}: {quantity} does not fit in {scalar}: {remedy}"
+        ))
+    }
+
+    /// Returns the size of a scene to change where a number does not fit, on the line or in the file.
+    pub(crate) fn place_of_size(&self, scene: &Scene) -> String {
+        self.place(farthest_from_one(scene))
+    }
+
+    /// Returns the option, or where it is in the file.
+    fn place(&self, culprit: Culprit) -> String {
+        let option = culprit.name();
+        self.line_of(option)
+            .unwrap_or_else(|| format!("--{option}"))
+    }
+
+    /// Returns where the file gives an option that the line does not.
+    pub(crate) fn line_of(&self, option: &str) -> Option<String> {
+        let file = self.scene_file.as_ref()?;
+        let line = file.content.line(option).filter(|_| !self.gives(option))?;
+        Some(format!("--scene {}: line {line}, {option}", file.name))
+    }
+
+    /// Returns the refusal as a message: the option or the line of the file to change, what is wrong, and the remedy.
+    pub(crate) fn message(scene: Option<&Self>, refused: &Refused) -> String {
+        let line_of = |culprit| {
+            let option = option_of(culprit)?;
+            scene.and_then(|scene| scene.line_of(option))
+        };
+        let error = &refused.error;
+        let place = refused.culprit.and_then(|culprit| {
+            line_of(culprit).or_else(|| Some(format!("--{}", option_of(culprit)?)))
+        });
+        let place = place.map_or_else(String::new, |place| format!("{place}: "));
+        // Where the other of two inputs that exclude each other is, if it is in the file.
+        let other = error.conflicts_with().and_then(line_of);
+        let notes = other.or(refused.remedy.map(str::to_owned));
+        let notes = notes.map_or_else(String::new, |notes| format!(" ({notes})"));
+        format!("{place}{error}{notes}")
+    }
+
+    /// Whether the option, or one in whose place it would be, is on the line.
+    fn gives(&self, option: &str) -> bool {
+        match option {
+            "layers" => self.layers.is_some(),
+            "stacking" => self.stacking.is_some(),
+            "top" | "base" => self.top.is_some() || self.base.is_some(),
+            "dimension" => self.dimension.is_some(),
+            "sin-phi" => self.sin_phi.is_some(),
+            "load" => !self.load.is_empty(),
+            "weightless" => self.weightless.is_some(),
+            "spacing" => self.spacing.is_some(),
+            "radius" => self.radius.is_some(),
+            "mass" => self.mass.is_some(),
+            "gravity" => self.gravity.is_some(),
+            _ => false,
+        }
+    }
+}
+
+/// Returns the size that is farthest from 1; the radius only if its cube leaves the floats.
+fn farthest_from_one(scene: &Scene) -> Culprit {
+    const FLOATS: u64 = f64::MAX_EXP.unsigned_abs() as u64;
+    let distance = |size: &BigRational| size.numer().bits().abs_diff(size.denom().bits());
+    let loads = scene.loads.iter().map(|(_, load)| (Culprit::Load, load));
+    let sizes = [
+        (Culprit::Radius, &scene.radius),
+        (Culprit::Gravity, &scene.gravity),
+        (Culprit::Mass, &scene.mass),
+    ];
+    let sizes = loads
+        .chain(sizes)
+        .filter(|(culprit, size)| *culprit != Culprit::Radius || 3 * distance(size) >= FLOATS);
+    let farthest = sizes.max_by_key(|(_, size)| distance(size));
+    farthest.map_or(Culprit::Mass, |(culprit, _)| culprit)
+}
+
+/// A scene whose sizes are right, and its pile.
+fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
+    scene.check_sizes()?;
+    let pile = scene.pile().map_err(|error| match error {
+        // The only sites of a scene.
+        Error::SiteOutside { .. } | Error::LayerOutside { .. } => Refused::of(Culprit::Load, error),
+        error => error.into(),
+    })?;
+    Ok((scene, pile))
+}
+
+/// A scene file, and what it was called on the line.
+#[derive(Clone)]
+struct NamedFile {
+    name: String,
+    content: SceneFile,
+}
+
+impl NamedFile {
+    fn read(name: &str) -> Result<Self, String> {
+        let text = text_of(name).map_err(|error| {
+            let reason = match error.kind() {
+                io::ErrorKind::InvalidData => "not text in UTF-8".into(),
+                _ => reason(&error),
+            };
+            format!("{reason}; name a TOML file that can be read, or - for stdin")
+        })?;
+        let content = text.parse().map_err(|error: Error| error.to_string())?;
+        Ok(Self {
+            name: name.into(),
+            content,
+        })
+    }
+}
+
+/// More than any scene that is read: its length is then refused.
+const LONGEST: u64 = 32 << 20;
+
+fn text_of(name: &str) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    let read = if name == "-" {
+        io::stdin().lock().take(LONGEST).read_to_end(&mut bytes)?
+    } else {
+        File::open(name)?.take(LONGEST).read_to_end(&mut bytes)?
+    };
+    // What is cut within a character is too long, not wrong.
+    if read as u64 == LONGEST {
+        return Ok(String::from_utf8_lossy(&bytes).into_owned());
+    }
+    String::from_utf8(bytes).map_err(|_| io::ErrorKind::InvalidData.into())
+}

@@ -1,0 +1,122 @@
+//! The commands, one a file, and what they have in common.
+
+mod base;
+mod census;
+mod completions;
+mod contacts;
+mod explain;
+mod export;
+mod plot;
+mod prove;
+mod scene;
+mod spheres;
+mod summary;
+mod verify;
+
+pub(crate) use base::Base;
+pub(crate) use census::Census;
+pub(crate) use completions::Completions;
+pub(crate) use contacts::Contacts;
+pub(crate) use explain::Explain;
+pub(crate) use export::Export;
+pub(crate) use plot::Plot;
+pub(crate) use prove::Prove;
+pub(crate) use scene::WriteScene;
+pub(crate) use spheres::Spheres;
+pub(crate) use summary::Summary;
+pub(crate) use verify::Verify;
+
+use cannonpile::Pile;
+use cannonpile::scalar::RealSign;
+use cannonpile::shape::Selection;
+use cannonpile::table::{Cell, Table};
+
+use crate::args::{SceneOptions, target};
+use crate::output::{Failure, complain};
+use crate::progress::Progress;
+
+/// A command that was read from the line.
+pub(crate) trait Command {
+    /// Answers, and returns whether the answer is yes.
+    fn run(&self) -> Result<bool, Failure>;
+
+    /// Returns the scene options, of a command that has them.
+    fn scene(&self) -> Option<&SceneOptions> {
+        None
+    }
+
+    /// Returns where the output goes, for messages.
+    fn target(&self) -> String {
+        target("output", None)
+    }
+}
+
+/// Says in one line on stderr that no pile can bear such forces, if that is so.
+fn note_if_it_falls(pile: &Pile) {
+    if pile.is_weightless() {
+        return;
+    }
+    let progress = Progress::begin("finding out whether the pile stands");
+    let failure = pile.first_failure();
+    drop(progress);
+    match failure {
+        Ok(None) => {}
+        Ok(Some(layer)) => complain(&format!(
+            "note: this pile does not stand without further contacts: below layer k = {layer} spheres would have to pull; \
+             no other forces of these contacts are in balance"
+        )),
+        Err(error) => complain(&format!(
+            "note: whether this pile stands is not known: {error}"
+        )),
+    }
+}
+
+/// What the rows of a table say of whether the pile stands, where the question is of a part of it: that of the whole may
+/// take much longer.
+struct Pulls {
+    /// The column with the force, positive for a push.
+    column: &'static str,
+    seen: std::cell::Cell<bool>,
+}
+
+impl Pulls {
+    const fn in_column(column: &'static str) -> Self {
+        Self {
+            column,
+            seen: std::cell::Cell::new(false),
+        }
+    }
+
+    /// Looks at the rows as they are written.
+    fn watch<'t>(&'t self, table: Table<'t>) -> Table<'t> {
+        let mut columns = table.columns().iter();
+        let Some(place) = columns.position(|column| column.name == self.column) else {
+            return table;
+        };
+        table.inspect(move |row| {
+            if let Some(Cell::Number(force)) = row.get(place)
+                && force.sign() == RealSign::Negative
+            {
+                self.seen.set(true);
+            }
+        })
+    }
+
+    /// Says in one line on stderr that no pile can bear such forces: of the whole pile, or for what was seen of a part.
+    fn note(&self, pile: &Pile, selection: Selection) {
+        match selection {
+            Selection::All | Selection::Base => note_if_it_falls(pile),
+            Selection::Layer(_) | Selection::One(_) => note_of_part(pile, self.seen.get()),
+        }
+    }
+}
+
+/// Says in one line on stderr that a pull was among the forces, if there was one.
+fn note_of_part(pile: &Pile, pulls: bool) {
+    if pulls && !pile.is_weightless() {
+        complain(
+            "note: this pile does not stand without further contacts: spheres would have to pull here; no other forces of \
+             these contacts are in balance",
+        );
+    }
+}

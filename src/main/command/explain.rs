@@ -1,0 +1,119 @@
+//! `explain`: how a question is answered, and what that takes.
+
+use cannonpile::shape::Selection;
+use cannonpile::table::{Explanation, NumberFormat, Table, WriteError};
+use cannonpile::{Error, Pile, Quantity};
+use clap::{Args, ValueEnum};
+
+use super::Command;
+use crate::args::{ByMethod, Format, Output, Part, SceneOptions, UnitSystem};
+use crate::output::{Failure, Refused};
+use crate::progress::Progress;
+
+#[derive(Args)]
+pub(crate) struct Explain {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// What is asked of the spheres
+    #[arg(long, value_enum, default_value = "contacts", help_heading = "Output")]
+    of: Asked,
+    #[command(flatten)]
+    part: Part,
+    /// What forces are multiples of
+    #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
+    units: UnitSystem,
+    #[command(flatten)]
+    method: ByMethod,
+    /// The plan only: nothing is run
+    #[arg(long, help_heading = "Output")]
+    no_run: bool,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// What is asked of spheres.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Asked {
+    /// What `contacts` prints
+    Contacts,
+    /// The magnitudes alone; in SI
+    Magnitudes,
+    /// What `base` prints
+    Base,
+    /// What `spheres` prints: places, in SI
+    Spheres,
+}
+
+impl Asked {
+    /// Returns the quantity, and the units that it is in: magnitudes and places are in SI.
+    const fn quantity(self, units: UnitSystem) -> (Quantity, UnitSystem) {
+        match (self, units) {
+            (Self::Contacts, UnitSystem::Pile) => (Quantity::ContactMultiples, units),
+            (Self::Contacts, UnitSystem::Si) => (Quantity::ContactVectors, units),
+            (Self::Magnitudes, _) => (Quantity::ContactMagnitudes, UnitSystem::Si),
+            (Self::Base, UnitSystem::Pile) => (Quantity::FloorMultiples, units),
+            (Self::Base, UnitSystem::Si) => (Quantity::FloorForces, units),
+            (Self::Spheres, _) => (Quantity::Positions, UnitSystem::Si),
+        }
+    }
+
+    /// Returns the part that is asked about: on the floor there is but the base.
+    fn part(self, part: Selection, pile: &Pile) -> Selection {
+        match part {
+            Selection::All if self == Self::Base => Selection::Base,
+            Selection::Layer(k) if self == Self::Base && k == pile.layers() - 1 => Selection::Base,
+            part => part,
+        }
+    }
+}
+
+impl Explain {
+    /// Writes the plan, before anything is run, and then what was counted.
+    fn write(&self, explanation: &Explanation<'_>) -> Result<(), Failure> {
+        let format = self.output.format()?;
+        if !self.no_run {
+            explanation.check().map_err(narrower)?;
+        }
+        let progress = Progress::begin("counting");
+        self.output.write(&progress, |out| {
+            let mut write = |table: Table<'_>| {
+                table.write(format.into(), NumberFormat::Exact, out)?;
+                Ok::<_, WriteError>(out.flush()?)
+            };
+            if format != Format::Table || self.no_run {
+                let counters = (!self.no_run).then(|| explanation.run()).transpose()?;
+                return write(explanation.table(counters.as_ref()));
+            }
+            write(explanation.table(None))?;
+            write(Explanation::counted(&explanation.run()?))
+        })
+    }
+}
+
+/// Adds to a refusal of too many rows the options that ask for fewer.
+fn narrower(error: Error) -> Refused {
+    let many = matches!(error, Error::TooManyRows { .. });
+    Refused {
+        remedy: many.then_some("--layer, --at or --no-run"),
+        ..error.into()
+    }
+}
+
+impl Command for Explain {
+    fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let part = self.of.part(self.part.selection(&pile)?, &pile);
+        let (quantity, system) = self.of.quantity(self.units);
+        let units = self.method.of(system.of(&scene, &pile)?)?;
+        self.write(&Explanation::new(&units, quantity, part)?)?;
+        Ok(true)
+    }
+
+    fn scene(&self) -> Option<&SceneOptions> {
+        Some(&self.scene)
+    }
+
+    fn target(&self) -> String {
+        self.output.target()
+    }
+}

@@ -1,0 +1,209 @@
+//! `export`: a whole pile as files.
+
+use std::io::{self, IsTerminal};
+use std::path::{self, Path, PathBuf};
+use std::time::Instant;
+
+use cannonpile::dem::{self, PileExport, PileFile, PileFormat, Written};
+use cannonpile::table::{NumberFormat, WriteError};
+use clap::{Args, ValueEnum};
+
+use super::{Command, note_if_it_falls};
+use crate::args::{Format, SceneOptions, agreed, target};
+use crate::output::{Failure, complain, write_to};
+use crate::progress::Progress;
+
+#[derive(Args)]
+pub(crate) struct Export {
+    /// The folder, made if it is not there; other files in it stay as they are
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// For what; several with commas between, or the option again
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "FORMAT",
+        default_value = "csv"
+    )]
+    to: Vec<Target>,
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Write the list of the files to this file, not to stdout
+    #[arg(
+        long,
+        value_name = "FILE",
+        alias = "output",
+        help_heading = "List of the files"
+    )]
+    list: Option<PathBuf>,
+    /// How the list is laid out [default: by the ending of --list, .csv or .json; else table]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMAT",
+        alias = "format",
+        help_heading = "List of the files"
+    )]
+    list_format: Option<Format>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Target {
+    /// spheres.csv, contacts.csv, base.csv: in SI, spheres by number; base.csv has the last ones, in order
+    Csv,
+    /// For LAMMPS: pile.data, and pile.in, which relaxes it and writes forces.dump
+    Lammps,
+    /// For ParaView: spheres.vtp, contacts.vtp
+    Vtp,
+    /// For YADE: spheres.txt, and pile.py, which relaxes it and writes forces.csv
+    Yade,
+    /// All of these
+    All,
+}
+
+impl Target {
+    const fn formats(self) -> &'static [PileFormat] {
+        match self {
+            Self::Csv => &[PileFormat::Csv],
+            Self::Lammps => &[PileFormat::Lammps],
+            Self::Vtp => &[PileFormat::Vtp],
+            Self::Yade => &[PileFormat::Yade],
+            Self::All => &PileFormat::ALL,
+        }
+    }
+}
+
+/// From this many bytes on it is said before how much will be written.
+const MUCH: u64 = 1_000_000_000;
+
+impl Command for Export {
+    /// Writes the files, and then what they are.
+    fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let packing = scene.packing(&pile)?;
+        let files = PileExport::new(&packing)?;
+        let formats = self.formats();
+        self.keep_apart(&formats)?;
+        let format = agreed(
+            "list-format",
+            self.list_format,
+            "list",
+            self.list.as_deref(),
+        )?;
+        self.check_room(&files, &formats)?;
+        let begun = Instant::now();
+        let progress = Progress::of_rows("files", Some(rows(&files, &formats)));
+        let written = files.write(&formats, &self.folder, &mut |rows| progress.advance(rows));
+        drop(progress);
+        let written = written.map_err(|error| match error {
+            WriteError::Answer(error) => self.scene.beyond_floats(error, &scene),
+            error => error.into(),
+        })?;
+        write_to(self.list.as_deref(), |out| {
+            dem::files(&written).write(format.into(), NumberFormat::Exact, out)
+        })?;
+        note_if_it_falls(&pile);
+        tell_rate(&written, begun);
+        Ok(true)
+    }
+
+    fn scene(&self) -> Option<&SceneOptions> {
+        Some(&self.scene)
+    }
+
+    fn target(&self) -> String {
+        target("list", self.list.as_deref())
+    }
+}
+
+impl Export {
+    /// Returns the formats asked for, each once.
+    fn formats(&self) -> Vec<PileFormat> {
+        let asked: Vec<_> = self.to.iter().flat_map(|target| target.formats()).collect();
+        let chosen = PileFormat::ALL.into_iter();
+        chosen.filter(|format| asked.contains(&format)).collect()
+    }
+
+    /// The list must not take the place of one of the files that it lists.
+    fn keep_apart(&self, formats: &[PileFormat]) -> Result<(), Failure> {
+        let Some(list) = &self.list else {
+            return Ok(());
+        };
+        let place = |path: &Path| path::absolute(path).ok();
+        let files = formats.iter().flat_map(|format| format.files());
+        let mut paths = files.map(|file| self.folder.join(file.name()));
+        if paths.any(|path| place(&path) == place(list)) {
+            let list = list.display();
+            return Err(Failure::BadUse(format!(
+                "--list: {list} is one of the files of the export: name another file for the list"
+            )));
+        }
+        Ok(())
+    }
+
+    /// Says how much will be written, if it is much, and refuses what the disk has no room for.
+    fn check_room(&self, files: &PileExport<'_>, formats: &[PileFormat]) -> Result<(), Failure> {
+        let all = formats.iter().flat_map(|format| format.files());
+        let bytes: u64 = all.map(|file| bytes(files, *file)).sum();
+        if bytes < MUCH {
+            return Ok(());
+        }
+        let gigabytes = bytes / MUCH;
+        let folder = self.folder.display();
+        let there = path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
+        let there = there.ancestors().find(|folder| folder.exists());
+        // Where this is not known, the disk will say it.
+        let room = there.and_then(|folder| fs4::available_space(folder).ok());
+        if let Some(room) = room.filter(|room| *room < bytes) {
+            return Err(Failure::BadUse(format!(
+                "DIR: {folder} would take about {gigabytes} GB, and its disk has room for {}: choose another disk, fewer \
+                 formats or fewer layers",
+                indicatif::DecimalBytes(room)
+            )));
+        }
+        complain(&format!(
+            "note: about {gigabytes} GB will be written into {folder}"
+        ));
+        Ok(())
+    }
+}
+
+/// Returns about how many bytes a file will have, rather too few than too many.
+fn bytes(files: &PileExport<'_>, file: PileFile) -> u64 {
+    // Measured for 100 layers.
+    let a_row = match file {
+        PileFile::ContactsVtp => 137,
+        PileFile::SpheresVtp => 104,
+        PileFile::ContactsCsv => 78,
+        PileFile::LammpsData => 74,
+        PileFile::SpheresCsv => 67,
+        _ => 46,
+    };
+    files.rows(file).unwrap_or(0) * a_row
+}
+
+/// Returns the rows of all files.
+fn rows(files: &PileExport<'_>, formats: &[PileFormat]) -> u64 {
+    let rows = formats.iter().flat_map(|format| format.files());
+    rows.filter_map(|file| files.rows(*file)).sum()
+}
+
+/// Says in one line on stderr how fast it was, at a terminal, or if it took more than a second.
+fn tell_rate(written: &[Written], begun: Instant) {
+    let seconds = begun.elapsed().as_secs_f64();
+    if seconds < 1.0 && !io::stderr().is_terminal() {
+        return;
+    }
+    let rows: u64 = written.iter().filter_map(|file| file.rows).sum();
+    let bytes: u64 = written.iter().map(|file| file.bytes).sum();
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "rows that fit on a disk are exact enough as floats"
+    )]
+    let rate = rows as f64 / seconds;
+    let files = written.len();
+    complain(&format!(
+        "{rows} rows and {bytes} bytes in {files} files in {seconds:.1} s: {rate:.0} rows/s"
+    ));
+}

@@ -1,0 +1,252 @@
+//! `plot KIND`: the figures.
+
+use std::path::{Path, PathBuf};
+
+use cannonpile::figure::{self, Figure, Layout, Subject};
+use cannonpile::lattice::{Dimension, Region};
+use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::table::WriteError;
+use cannonpile::{Culprit, Error, Pile};
+use clap::{Args, Subcommand};
+
+use super::Command;
+use crate::args::{SceneOptions, UnitSystem, one, target};
+use crate::output::{Failure, Refused, complain, write_to};
+use crate::progress::Progress;
+
+/// A kind of figure.
+#[derive(Subcommand)]
+pub(crate) enum Plot {
+    /// The pile in perspective, of four layers unless the scene says how many
+    Pile(Of),
+    /// The indices i and j of the spheres of a layer
+    Indexing {
+        #[command(flatten)]
+        of: Of,
+        /// The layer, counted from 0 at the top [default: 3, or the bottom layer if there are fewer]
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+    /// The forces on one sphere
+    Sphere {
+        #[command(flatten)]
+        of: Measured,
+        /// The sphere, as K,I,J, or I,J on the base (discs: K,I or I) [default: in the middle]
+        #[arg(
+            long,
+            value_name = "K,I,J",
+            allow_hyphen_values = true,
+            help_heading = "Output"
+        )]
+        at: Option<String>,
+    },
+    /// The shear force on the floor, as arrows
+    Shear(Measured),
+    /// The normal force on the floor, as a map
+    Base(Measured),
+    /// The contact forces as lines, in a vertical section through the middle
+    Network {
+        #[command(flatten)]
+        of: Measured,
+        /// Instead, those of this layer on the next, seen from above; counted from 0 at the top
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+    /// The vertical force in a layer of weightless spheres, as a map: of --load, or of 1 mg on the middle of a wide top
+    Response {
+        #[command(flatten)]
+        of: Measured,
+        /// The layer, counted from 0 at the top [default: the bottom layer]
+        #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
+        layer: Option<i128>,
+    },
+}
+
+/// A pile, whose figure has no forces.
+#[derive(Args)]
+pub(crate) struct Of {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    output: ToFile,
+}
+
+/// A pile and its forces.
+#[derive(Args)]
+pub(crate) struct Measured {
+    #[command(flatten)]
+    of: Of,
+    /// What forces and lengths are multiples of; of the pile: lengths of R
+    #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
+    units: UnitSystem,
+}
+
+/// Where a figure goes.
+#[derive(Args)]
+#[command(next_help_heading = "Output")]
+struct ToFile {
+    /// Write to an SVG file, which is replaced only when all is written [default: stdout]
+    #[arg(long = "output", value_name = "FILE.svg")]
+    file: Option<PathBuf>,
+    /// The width of the figure, in pixels; all in it grows with it
+    #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    width: u32,
+    /// Leave out the title and the line below it
+    #[arg(long)]
+    no_title: bool,
+}
+
+impl Command for Plot {
+    fn run(&self) -> Result<bool, Failure> {
+        let ToFile {
+            file,
+            width,
+            no_title,
+        } = &self.of().output;
+        keep_to_svg(file.as_deref())?;
+        let figure = self.draw()?.laid_out(Layout {
+            width: f64::from(*width),
+            title: !no_title,
+        });
+        write_to(file.as_deref(), |out| {
+            figure.write(out).map_err(WriteError::from)
+        })?;
+        if let Some(note) = figure.note() {
+            complain(&format!("note: {note}"));
+        }
+        Ok(true)
+    }
+
+    fn scene(&self) -> Option<&SceneOptions> {
+        Some(&self.of().scene)
+    }
+
+    fn target(&self) -> String {
+        target("output", self.of().output.file.as_deref())
+    }
+}
+
+/// Figures are written in one format, and a file should not say that it is in another.
+fn keep_to_svg(file: Option<&Path>) -> Result<(), Failure> {
+    let Some(file) = file else { return Ok(()) };
+    match file.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
+            let svg = file.with_extension("svg");
+            Err(Failure::BadUse(format!(
+                "--output: a figure is written as SVG, not in the format of {}: name the file {}, and convert it",
+                file.display(),
+                svg.display()
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The layers of the picture of a pile, as in the paper.
+const PICTURED: i128 = 4;
+
+/// The layer whose indices are shown, as in the paper.
+const INDEXED: i128 = 3;
+
+/// The side of the top under which a response is shown: the load is seen to spread from its middle.
+const WIDE: i128 = 4;
+
+impl Plot {
+    const fn of(&self) -> &Of {
+        match self {
+            Self::Pile(of) | Self::Indexing { of, .. } => of,
+            Self::Shear(measured)
+            | Self::Base(measured)
+            | Self::Sphere { of: measured, .. }
+            | Self::Network { of: measured, .. }
+            | Self::Response { of: measured, .. } => &measured.of,
+        }
+    }
+
+    fn draw(&self) -> Result<Figure, Failure> {
+        match self {
+            Self::Pile(of) => {
+                let (scene, pile) = of.scene.read_or(PICTURED)?;
+                let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
+                Ok(figure::pile(&subject)?)
+            }
+            Self::Indexing { of, layer } => {
+                let (scene, pile) = of.scene.read()?;
+                let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
+                let layer = layer.unwrap_or_else(|| INDEXED.min(pile.layers() - 1));
+                Ok(figure::indexing(&subject, layer).map_err(of_layer)?)
+            }
+            Self::Sphere { of, at } => of.draw(|subject, pile| {
+                let site = match one(at.as_deref(), pile)? {
+                    Some(site) => site,
+                    None => figure::example(pile)?,
+                };
+                Ok(figure::sphere(subject, site)?)
+            }),
+            Self::Network { of, layer } => of.draw(|subject, _| match layer {
+                Some(k) => figure::layer(subject, *k).map_err(of_layer),
+                None => Ok(figure::section(subject)?),
+            }),
+            Self::Shear(of) => of.draw(|subject, _| Ok(figure::shear(subject)?)),
+            Self::Base(of) => of.draw(|subject, _| Ok(figure::base(subject)?)),
+            Self::Response { of, layer } => {
+                let (mut scene, mut pile) = of.of.scene.read()?;
+                if needs_a_top(&scene) {
+                    scene.anchor = Some(Anchor::Top(Region::hexagon(WIDE, WIDE)?));
+                    pile = scene.pile()?;
+                }
+                let pile = figure::of_unit_load(pile)?;
+                let layer = layer.unwrap_or(pile.layers() - 1);
+                of.draw_pile(&scene, &pile, |subject, _| {
+                    figure::response(subject, layer).map_err(of_layer)
+                })
+            }
+        }
+    }
+}
+
+/// Blames the layer that was to be drawn, not the number of layers.
+fn of_layer(error: Error) -> Refused {
+    match error {
+        Error::TooManyMarks { .. } | Error::OnFloor { .. } => Refused::of(Culprit::Layer, error),
+        error => error.into(),
+    }
+}
+
+/// Whether a load is to be put on a top that nobody described.
+fn needs_a_top(scene: &Scene) -> bool {
+    scene.anchor.is_none()
+        && scene.loads.is_empty()
+        && scene.sin_phi.is_none()
+        && scene.dimension == Dimension::Three
+}
+
+impl Measured {
+    fn draw(
+        &self,
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+    ) -> Result<Figure, Failure> {
+        let (scene, pile) = self.of.scene.read()?;
+        self.draw_pile(&scene, &pile, draw)
+    }
+
+    fn draw_pile(
+        &self,
+        scene: &Scene,
+        pile: &Pile,
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+    ) -> Result<Figure, Failure> {
+        let subject = match self.units {
+            UnitSystem::Pile => Subject::of_pile(pile, &scene.spacing()?)?,
+            UnitSystem::Si => Subject::of_packing(scene.packing(pile)?),
+        };
+        let progress = Progress::begin("drawing");
+        let drawn = draw(&subject, pile);
+        drop(progress);
+        // A figure has no other numbers than floats.
+        drawn.map_err(|refused| match refused.error {
+            error @ Error::Overflow { .. } => self.of.scene.beyond_floats(error, scene),
+            _ => refused.into(),
+        })
+    }
+}

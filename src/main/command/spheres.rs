@@ -1,0 +1,50 @@
+//! `spheres`: the place, size and mass of each sphere.
+
+use cannonpile::shape::Selection;
+use cannonpile::table;
+use clap::Args;
+
+use super::{Command, note_if_it_falls};
+use crate::args::{Numbers, Output, Part, SceneOptions, narrower, spheres};
+use crate::output::Failure;
+use crate::progress::Progress;
+
+#[derive(Args)]
+pub(crate) struct Spheres {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    part: Part,
+    #[command(flatten)]
+    numbers: Numbers,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Command for Spheres {
+    fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let selection = self.part.selection(&pile)?;
+        self.output.format()?;
+        let rows = spheres(&pile, selection)?;
+        let progress = Progress::of_rows("places", rows.try_into().ok());
+        let table = table::spheres(&scene.packing(&pile)?, selection)
+            .map_err(|error| narrower(error, selection))?;
+        self.output
+            .write_table(table, self.numbers.number, &progress)?;
+        drop(progress);
+        // The verdict on the pile would take longer than the places of a part of it.
+        if selection == Selection::All {
+            note_if_it_falls(&pile);
+        }
+        Ok(true)
+    }
+
+    fn scene(&self) -> Option<&SceneOptions> {
+        Some(&self.scene)
+    }
+
+    fn target(&self) -> String {
+        self.output.target()
+    }
+}

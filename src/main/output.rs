@@ -1,0 +1,106 @@
+//! What is printed: answers on stdout or into a file, refusals and notes on stderr.
+
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use cannonpile::table::{WriteError, write_aside};
+use cannonpile::{Culprit, Error};
+
+/// Why there is no answer.
+pub(crate) enum Failure {
+    /// The library refused what was given.
+    Refused(Refused),
+    /// The output could not be written.
+    Write(WriteError),
+    /// The command line refused it: the option, what is wrong with it, and the remedy.
+    BadUse(String),
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        Self::Refused(refused)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Refused(error.into())
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        match error {
+            WriteError::Answer(error) => error.into(),
+            error => Self::Write(error),
+        }
+    }
+}
+
+/// A refusal, with the input to blame and the options that are its remedy.
+#[derive(Debug)]
+pub(crate) struct Refused {
+    pub(crate) error: Error,
+    pub(crate) culprit: Option<Culprit>,
+    /// Options that ask what the message advises.
+    pub(crate) remedy: Option<&'static str>,
+}
+
+impl Refused {
+    /// Puts the blame on another input than the error does, where it is known better.
+    pub(crate) fn of(culprit: Culprit, error: Error) -> Self {
+        Self {
+            culprit: Some(culprit),
+            ..error.into()
+        }
+    }
+}
+
+impl From<Error> for Refused {
+    fn from(error: Error) -> Self {
+        Self {
+            culprit: error.culprit(),
+            error,
+            remedy: None,
+        }
+    }
+}
+
+/// Returns the option that an input is given by, if it is one.
+pub(crate) const fn option_of(culprit: Culprit) -> Option<&'static str> {
+    match culprit {
+        Culprit::Site => Some("at"),
+        Culprit::File => None,
+        culprit => Some(culprit.name()),
+    }
+}
+
+/// Returns why a file could not be read or written, without the number that the system gives it.
+pub(crate) fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file or folder".into(),
+        kind => kind.to_string(),
+    }
+}
+
+/// Writes to the file, whole or not at all, or to stdout.
+pub(crate) fn write_to(
+    file: Option<&Path>,
+    content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    if let Some(path) = file {
+        return write_aside(path, content);
+    }
+    let mut out = BufWriter::new(io::stdout().lock());
+    content(&mut out)?;
+    Ok(out.flush()?)
+}
+
+/// Prints one line on stderr, whatever the text; if even that is closed, the exit status has to say it.
+pub(crate) fn complain(message: &str) {
+    let line: String = message
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    let _ = writeln!(io::stderr(), "{line}");
+}

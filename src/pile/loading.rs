@@ -1,0 +1,131 @@
+//! What the spheres weigh, and what is put on them.
+
+use alloc::boxed::Box;
+use alloc::collections::BTreeMap;
+
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use crate::Error;
+use crate::lattice::Site;
+
+/// The weights of the spheres and the vertical loads on them, in mg. None is negative.
+///
+/// For the forces a load is one with the weight of its sphere; only the floor and the mass tell them apart.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Loading {
+    weightless: bool,
+    /// Of the spheres that do not weigh mg.
+    weights: BTreeMap<Site, BigRational>,
+    loads: BTreeMap<Site, BigRational>,
+}
+
+impl Loading {
+    /// No sphere weighs anything.
+    pub(crate) fn set_weightless(&mut self) {
+        self.weightless = true;
+    }
+
+    /// Adds to the load on a sphere.
+    pub(crate) fn add_load(&mut self, site: Site, load: BigRational) -> Result<(), Error> {
+        let load = not_negative("load", site, load)?;
+        *self.loads.entry(site).or_default() += load;
+        Ok(())
+    }
+
+    /// Makes a sphere weigh this much.
+    pub(crate) fn set_weight(&mut self, site: Site, weight: BigRational) -> Result<(), Error> {
+        let weight = not_negative("weight", site, weight)?;
+        self.weights.insert(site, weight);
+        Ok(())
+    }
+
+    /// What an ordinary sphere weighs.
+    pub(crate) fn ordinary(&self) -> BigRational {
+        if self.weightless {
+            BigRational::zero()
+        } else {
+            BigRational::one()
+        }
+    }
+
+    /// The weight of a sphere.
+    pub(crate) fn weight(&self, site: Site) -> BigRational {
+        let special = self.weights.get(&site).filter(|_| !self.weightless);
+        special.cloned().unwrap_or_else(|| self.ordinary())
+    }
+
+    /// Whether a sphere weighs what most do.
+    #[cfg(feature = "export")]
+    pub(crate) fn is_ordinary(&self, site: Site) -> bool {
+        self.weightless || !self.weights.contains_key(&site)
+    }
+
+    /// The spheres that have a weight of their own.
+    #[cfg(feature = "export")]
+    pub(crate) fn special_weights(&self) -> impl Iterator<Item = Site> + '_ {
+        let weights = self.weights.keys().copied();
+        weights.filter(|site| !self.is_ordinary(*site))
+    }
+
+    /// The spheres that have a load, or a weight of their own.
+    #[cfg(feature = "export")]
+    pub(crate) fn special_sites(&self) -> impl Iterator<Item = Site> + '_ {
+        let unloaded = self
+            .weights
+            .keys()
+            .filter(|site| !self.loads.contains_key(site));
+        self.loads.keys().chain(unloaded).copied()
+    }
+
+    /// What is put on a sphere.
+    pub(crate) fn load(&self, site: Site) -> BigRational {
+        self.loads.get(&site).cloned().unwrap_or_default()
+    }
+
+    /// Weight and load together.
+    pub(crate) fn total(&self, site: Site) -> BigRational {
+        self.weight(site) + self.load(site)
+    }
+
+    /// The spheres that do not weigh mg, in their order, with their weights.
+    pub(crate) fn weights(&self) -> impl Iterator<Item = (Site, &BigRational)> + '_ {
+        self.weights.iter().map(|(site, weight)| (*site, weight))
+    }
+
+    /// The spheres with something on them, in their order, with the loads.
+    pub(crate) fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
+        self.loads.iter().map(|(site, load)| (*site, load))
+    }
+
+    pub(crate) fn is_weightless(&self) -> bool {
+        self.weightless
+    }
+
+    /// The spheres on which more or less acts than an ordinary weight, with the difference.
+    pub(crate) fn extras(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
+        let special = self
+            .weights
+            .keys()
+            .filter(|site| !self.loads.contains_key(site));
+        let sites = self.loads.keys().chain(special).copied();
+        sites
+            .map(|site| (site, self.total(site) - self.ordinary()))
+            .filter(|(_, extra)| !extra.is_zero())
+    }
+}
+
+fn not_negative(
+    quantity: &'static str,
+    site: Site,
+    given: BigRational,
+) -> Result<BigRational, Error> {
+    if given.is_negative() {
+        return Err(Error::NegativeLoad {
+            quantity,
+            site,
+            given: Box::new(given),
+        });
+    }
+    Ok(given)
+}

@@ -1,0 +1,286 @@
+//! The command line as a user meets it: what it prints, what it refuses, how it ends.
+
+mod completions;
+mod console;
+mod explain;
+mod export;
+mod plot;
+mod scene;
+mod stackings;
+mod verify;
+
+use std::fs;
+use std::io::Read;
+use std::process::{Command, Output, Stdio};
+
+fn cannonpile(arguments: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(arguments.split_whitespace())
+        .output()
+        .expect("the binary runs")
+}
+
+/// What is printed on success.
+fn stdout(arguments: &str) -> String {
+    let output = cannonpile(arguments);
+    assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
+    assert!(output.stderr.is_empty(), "{arguments}: {output:?}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// What is said on bad use: one line on stderr, nothing on stdout, status 2.
+fn refusal(arguments: &str) -> String {
+    let output = cannonpile(arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments}: {output:?}");
+    assert!(output.stdout.is_empty(), "{arguments}: {output:?}");
+    let line = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(line.lines().count(), 1, "{arguments}: {line}");
+    line
+}
+
+#[test]
+fn the_papers_base() {
+    let table = stdout("base --layers 10");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .map(|l| l.split_whitespace().collect())
+        .collect();
+    let spheres = &rows[2..57];
+    assert!(spheres.iter().all(|row| row.len() == 5 && row[2] == "4"));
+    assert!(rows[57][0].starts_with("---"));
+    assert_eq!(rows[58], ["total", "220", "0", "0"]);
+    assert_eq!(table.lines().last(), Some("55 bottom spheres"));
+}
+
+#[test]
+fn surds_in_si() {
+    let csv = stdout("base --layers 10 --spacing 6/5 --units si --number exact --format csv");
+    assert_eq!(
+        csv.lines().nth(1),
+        Some("0,0,4,-3/13*sqrt(39),-9/13*sqrt(13)")
+    );
+    let floats = stdout("base --layers 10 --spacing 6/5 --units si --number f64 --format csv");
+    assert_eq!(
+        floats.lines().nth(1),
+        Some("0,0,4.0,-1.4411533842457842,-2.496150883013531")
+    );
+}
+
+#[test]
+fn a_pile_of_ten_to_the_thirty() {
+    let huge = "1000000000000000000000000000000";
+    let csv = stdout(&format!("base --layers {huge} --at 5,7 --format csv"));
+    let row = "5,7,333333333333333333333333333334,-166666666666666666666666666663,\
+               -499999999999999999999999999991/3";
+    assert_eq!(csv.lines().nth(1), Some(row));
+    let summary = stdout(&format!("summary --layers {huge} --format csv"));
+    assert!(
+        summary
+            .lines()
+            .nth(1)
+            .unwrap()
+            .starts_with(&format!("{huge},fcc,1666666"))
+    );
+}
+
+#[test]
+fn headers_are_those_of_the_design() {
+    for (arguments, header) in [
+        (
+            "summary",
+            "layers,stacking,spheres,contacts,weight,stands,min_contact,base_spheres,normal_min,\
+             normal_max,max_shear_ratio,touching,plan",
+        ),
+        ("base", "i,j,normal,shear_x,shear_y"),
+        ("base --dimension 2", "i,normal,shear_x"),
+        ("contacts", "k,i,j,direction,force"),
+        ("contacts --dimension 2", "k,i,direction,force"),
+        (
+            "contacts --units si",
+            "k,i,j,direction,force,fx,fy,fz,x,y,z",
+        ),
+        ("spheres", "id,k,i,j,x,y,z,radius,mass,fixed"),
+    ] {
+        let csv = stdout(&format!("{arguments} --layers 3 --format csv"));
+        assert_eq!(csv.lines().next(), Some(header), "{arguments}");
+    }
+}
+
+#[test]
+fn one_layer_has_no_contacts() {
+    assert_eq!(
+        stdout("contacts --layers 1 --format csv").lines().count(),
+        1
+    );
+    assert_eq!(stdout("contacts --layers 1 --format json"), "[]\n");
+    let summary = stdout("summary --layers 1 --format csv");
+    assert_eq!(
+        summary.lines().nth(1),
+        Some("1,fcc,1,0,1,yes,,1,1,1,0,none,closed")
+    );
+}
+
+#[test]
+fn json_is_an_array_of_rows() {
+    let json = stdout("spheres --layers 2 --format json --number f64");
+    let rows: serde_json::Value = serde_json::from_str(&json).expect("json");
+    let rows = rows.as_array().expect("an array");
+    assert_eq!(rows.len(), 4);
+    assert_eq!(rows[0]["id"], 1);
+    assert_eq!(rows[0]["fixed"], false);
+    assert_eq!(rows[3]["fixed"], true);
+    assert_eq!(rows[1]["z"].as_f64(), Some(0.0));
+    let exact = stdout("base --layers 2 --format json");
+    let rows: serde_json::Value = serde_json::from_str(&exact).expect("json");
+    assert_eq!(rows[0]["normal"], "4/3");
+}
+
+#[test]
+fn selections() {
+    assert_eq!(
+        stdout("contacts --layers 5 --layer 2 --format csv")
+            .lines()
+            .count(),
+        1 + 18
+    );
+    assert_eq!(
+        stdout("contacts --layers 5 --at 3,1,1 --format csv")
+            .lines()
+            .count(),
+        1 + 3
+    );
+    assert_eq!(
+        stdout("spheres --layers 5 --at 1,1 --format csv")
+            .lines()
+            .count(),
+        1 + 1
+    );
+    // A sphere on the floor has no contact below.
+    assert_eq!(
+        stdout("contacts --layers 5 --at 1,1 --format csv")
+            .lines()
+            .count(),
+        1
+    );
+    assert_eq!(
+        stdout("base --dimension 2 --layers 5 --at 2 --format csv")
+            .lines()
+            .count(),
+        2
+    );
+}
+
+#[test]
+fn bad_values_are_named_with_their_remedy() {
+    for (arguments, fragments) in [
+        ("base --layers 0", ["--layers", "at least 1"]),
+        ("base --layers -3", ["--layers", "not -3"]),
+        ("base --layers ten", ["--layers", "'ten'"]),
+        (
+            "base --layers 1000000000000000000000000000000000001",
+            ["--layers", "10^36"],
+        ),
+        (
+            "base --spacing 1.64",
+            ["--spacing", "at most 2/3*sqrt(6) = 1.632993…"],
+        ),
+        ("base --spacing 9/10", ["--spacing", "at least 1"]),
+        (
+            "base --spacing x",
+            ["--spacing", "'x' is not a number such as"],
+        ),
+        ("base --spacing 1/0", ["--spacing", "other than zero"]),
+        ("base --spacing -6/5", ["--spacing", "positive"]),
+        (
+            "base --layers 3 --spacing 2",
+            ["--spacing", "below sqrt(3)"],
+        ),
+        ("base --sin-phi 1", ["--sin-phi", "between 0 and 1"]),
+        ("base --sin-phi 0", ["--sin-phi", "between 0 and 1"]),
+        (
+            "base --sin-phi 9/10 --units si",
+            ["--sin-phi", "at most 5/6"],
+        ),
+        (
+            "base --sin-phi 1/2 --dimension 2",
+            ["--sin-phi", "dimension 3"],
+        ),
+        (
+            "base --dimension 4",
+            ["--dimension", "2 (discs) or 3 (spheres)"],
+        ),
+        ("base --mass 0", ["--mass", "positive"]),
+        ("base --radius -1", ["--radius", "positive"]),
+        ("base --gravity 0/5", ["--gravity", "positive"]),
+        ("base --at 9,9", ["--at", "0 <= i <= k-j"]),
+        ("base --at 3,0,0", ["--at", "does not touch the floor"]),
+        ("base --at=-5,-7", ["--at", "no sphere at"]),
+        ("base --at 1,2,3,4", ["--at", "K,I,J"]),
+        ("contacts --layer 10", ["--layer", "to 9 on the floor"]),
+        ("contacts --layer 1 --at 0,0", ["--layer", "--at"]),
+        ("base --layers 1000000000000", ["rows are too many", "--at"]),
+        ("contacts --layers 100000", ["rows are too many", "--layer"]),
+        (
+            "base --mass 1e300 --gravity 1e300 --units si --number f64",
+            ["--number", "normal"],
+        ),
+        ("base --colour red", ["--colour", "unexpected"]),
+        ("base --number f16", ["--number", "f32"]),
+        ("heap", ["heap", "unrecognized"]),
+        ("", ["subcommand", "base"]),
+    ] {
+        let line = refusal(arguments);
+        for fragment in fragments {
+            assert!(
+                line.contains(fragment),
+                "{arguments}: no '{fragment}' in: {line}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_file_is_whole_or_not_there() {
+    let folder = std::env::temp_dir().join(format!("cannonpile-cli-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("base.csv");
+    let target = path.display();
+    assert!(stdout(&format!("base --layers 2 --format csv --output {target}")).is_empty());
+    let written = fs::read_to_string(&path).expect("the file");
+    assert_eq!(written, stdout("base --layers 2 --format csv"));
+    // A refused question leaves the file as it was, and nothing beside it.
+    refusal(&format!(
+        "base --mass 1e999 --units si --number f64 --output {target}"
+    ));
+    refusal(&format!(
+        "base --output {}",
+        folder.join("none/base.csv").display()
+    ));
+    assert_eq!(fs::read_to_string(&path).expect("the file"), written);
+    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 1);
+    fs::remove_dir_all(&folder).expect("cleaned up");
+}
+
+#[test]
+fn a_closed_pipe_ends_quietly() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(["contacts", "--layers", "2000", "--format", "csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let mut start = [0; 64];
+    child
+        .stdout
+        .take()
+        .expect("a pipe")
+        .read_exact(&mut start)
+        .expect("some rows");
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(
+        output.stderr.is_empty(),
+        "{:?}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}

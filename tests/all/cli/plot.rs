@@ -1,0 +1,154 @@
+//! `plot`: figures on stdout and in files, and what is refused.
+
+use super::{cannonpile, refusal, stdout};
+use std::fs;
+
+const KINDS: [&str; 7] = [
+    "pile", "indexing", "sphere", "shear", "base", "network", "response",
+];
+
+#[test]
+fn every_kind_is_a_figure_on_stdout() {
+    for kind in KINDS {
+        for scene in [
+            "",
+            "--layers 1",
+            "--dimension 2 --layers 3",
+            "--top hexagon:2 --layers 3",
+        ] {
+            let svg = stdout(&format!("plot {kind} {scene}"));
+            assert!(
+                svg.starts_with("<svg ") && svg.ends_with("</svg>\n"),
+                "{kind} {scene}"
+            );
+            assert!(roxmltree::Document::parse(&svg).is_ok(), "{kind} {scene}");
+        }
+    }
+}
+
+#[test]
+fn the_papers_figures_are_the_defaults() {
+    let pile = stdout("plot pile");
+    assert!(pile.contains("4 layers, FCC, a/R = 6/5"));
+    assert_eq!(pile.matches("class=\"sphere\"").count(), 20);
+    assert_eq!(pile, stdout("plot pile --layers 4 --spacing 1.2"));
+    assert!(stdout("plot indexing").contains("layer k = 3"));
+    assert!(stdout("plot sphere").contains("k = 5, i = 2, j = 2"));
+    let shear = stdout("plot shear");
+    assert!(shear.contains("10 layers") && shear.contains("mg·tanθ"));
+    assert!(stdout("plot shear --units si --gravity 9.81").contains(" N"));
+    // A stacking that is spelled out, or a base, says itself how many layers there are.
+    assert!(stdout("plot pile --stacking ++-+-").contains("6 layers"));
+    assert!(stdout("plot pile --base triangle:6").contains("6 layers"));
+}
+
+#[test]
+fn a_file_is_the_same_as_stdout_and_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("shear.svg");
+    let printed = stdout(&format!("plot shear --output {}", path.display()));
+    assert_eq!(printed, "");
+    assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
+    // What is refused leaves it as it was.
+    let refused = refusal(&format!(
+        "plot shear --layers 9999 --output {}",
+        path.display()
+    ));
+    assert!(refused.contains("--layers"));
+    assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
+    let nowhere = folder.path().join("missing/shear.svg");
+    assert!(refusal(&format!("plot shear --output {}", nowhere.display())).contains("--output"));
+}
+
+#[test]
+fn what_nobody_could_read_is_refused() {
+    let huge = "1000000000000000000000000000000";
+    for kind in ["pile", "shear", "base", "network", "response"] {
+        let line = refusal(&format!("plot {kind} --layers {huge}"));
+        assert!(
+            line.starts_with("error: --layer") && line.contains("too many for a figure"),
+            "{line}"
+        );
+    }
+    // A layer or a sphere of it can be drawn.
+    stdout(&format!("plot indexing --layers {huge}"));
+    stdout(&format!("plot network --layers {huge} --layer 4"));
+    stdout(&format!(
+        "plot sphere --layers {huge} --at 100000000000000000000,7,5"
+    ));
+}
+
+#[test]
+fn refusals_name_the_option() {
+    for (arguments, option) in [
+        ("pile --spacing 1/2", "--spacing"),
+        ("pile --mass 0", "--mass"),
+        ("indexing --layer 10", "--layer"),
+        ("indexing --layers 40 --layer 30", "--layer"),
+        ("network --layer 9", "--layer"),
+        ("network --layer -1", "--layer"),
+        ("response --layer 10", "--layer"),
+        ("sphere --at 1,2,3", "--at"),
+        ("sphere --at x", "--at"),
+        ("base --load 0,0,0=-1", "--load"),
+        ("base --load 0,0,0=1e400", "--load"),
+        ("base --units si --radius 1e400", "--radius"),
+        ("base --units si --mass 1e400", "--mass"),
+        ("shear --width 0", "--width"),
+        ("work-precision", "work-precision"),
+        ("shear --format csv", "--format"),
+        ("cake", "cake"),
+        ("", "subcommand"),
+    ] {
+        let line = refusal(&format!("plot {arguments}"));
+        assert!(line.contains(option), "{arguments}: {line}");
+    }
+}
+
+#[test]
+fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
+    for kind in ["sphere", "shear", "base", "network"] {
+        let output = cannonpile(&format!("plot {kind} --stacking hcp"));
+        assert_eq!(output.status.code(), Some(0));
+        let note = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            note.starts_with("note: ") && note.lines().count() == 1,
+            "{note}"
+        );
+    }
+    // A response is of weightless spheres: nothing is said of standing.
+    assert!(stdout("plot response --stacking hcp").contains("spheres without weight"));
+}
+
+#[test]
+fn the_page_can_be_wide_and_without_a_title() {
+    let whole = stdout("plot shear");
+    assert_eq!(whole, stdout("plot shear --width 800"));
+    assert!(whole.contains("width=\"800\"") && whole.contains("font-weight=\"bold\""));
+    let bare = stdout("plot shear --width 1200 --no-title");
+    assert!(bare.contains("width=\"1200\"") && !bare.contains("font-weight=\"bold\""));
+}
+
+#[test]
+fn the_figures_of_readme_are_those_of_the_commands() {
+    for (command, figure) in [
+        (
+            "plot pile",
+            include_str!("../../../examples/figures/pile.svg"),
+        ),
+        (
+            "plot shear",
+            include_str!("../../../examples/figures/shear.svg"),
+        ),
+        (
+            "plot response --stacking hcp --top hexagon:5 --layers 6",
+            include_str!("../../../examples/figures/response.svg"),
+        ),
+    ] {
+        assert!(stdout(command) == figure, "draw it again: {command}");
+        assert!(
+            include_str!("../../../README.md").contains(command),
+            "{command}"
+        );
+    }
+}

@@ -1,0 +1,143 @@
+//! Extremes over a base, and the least contact, found among few spheres, are those of all.
+
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::{BaseExtremes, ContactForce, Pile};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+fn ratio(n: i64, d: i64) -> BigRational {
+    BigRational::new(n.into(), d.into())
+}
+
+/// Piles with runs so long that a layer has hundreds of times more spheres than rows.
+fn piles() -> Vec<Pile> {
+    let tops = [Region::SITE, Region::new(-3..=12, 0..=5, -2..=14).unwrap()];
+    let stackings = ["(490)", "(2,1,480)", "-(490,2)", "(300,1,180)"];
+    let mut piles = Vec::new();
+    for (n, stacking) in stackings.into_iter().enumerate() {
+        let top = tops[n % 2];
+        let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+        let [[i, j], ..] = top.corners();
+        let mut below = pile.rows(Selection::Layer(245)).unwrap().flatten();
+        let below = below.nth(770).unwrap();
+        let loaded = pile
+            .clone()
+            .with_load(Site { i, j, k: 0 }, ratio(25, 3))
+            .unwrap();
+        let loaded = loaded.with_load(below, ratio(5000, 7)).unwrap();
+        piles.push(if n < 2 { pile } else { loaded.weightless() });
+    }
+    let pile = Pile::under(tops[0], "(1,480)".parse().unwrap()).unwrap();
+    let below = pile
+        .rows(Selection::Layer(300))
+        .unwrap()
+        .flatten()
+        .nth(9999)
+        .unwrap();
+    piles.push(pile.with_load(below, ratio(5000, 7)).unwrap());
+    // On the floor itself, and on a layer where the sign changes: on no line of the run above.
+    let pile = Pile::triangular(480).unwrap();
+    let on_floor = Site {
+        i: 150,
+        j: 201,
+        k: 479,
+    };
+    piles.push(pile.with_load(on_floor, ratio(1000, 1)).unwrap());
+    let pile = Pile::under(tops[0], "(470,2)".parse().unwrap()).unwrap();
+    let worst = pile.standing().unwrap().least.unwrap().site;
+    let inside = Site {
+        i: 100,
+        j: 200,
+        ..worst
+    };
+    let lighter = pile.clone().with_weight(worst, ratio(0, 1)).unwrap();
+    piles.extend([lighter, pile.with_weight(inside, ratio(0, 1)).unwrap()]);
+    let layer = Pile::under(Region::hexagon(300, 300).unwrap(), Stacking::single_layer());
+    let pile = layer
+        .unwrap()
+        .with_load(Site { i: -20, j: 7, k: 0 }, ratio(5, 1));
+    piles.push(
+        pile.unwrap()
+            .with_weight(Site { i: 9, j: 9, k: 0 }, ratio(1, 5))
+            .unwrap(),
+    );
+    let base = Region::hexagon(240, 300).unwrap();
+    piles.push(Pile::on(base, "(20,3,200)".parse().unwrap()).unwrap());
+    piles
+}
+
+/// The extremes over every bottom sphere.
+fn over_all(pile: &Pile) -> [BigRational; 3] {
+    let statics = pile.forces::<BigRational>();
+    let forces: Vec<_> = statics
+        .base(Selection::Base)
+        .unwrap()
+        .map(Result::unwrap)
+        .collect();
+    let normals = || forces.iter().map(|force| force.normal.clone());
+    let loaded = forces.iter().filter(|force| !force.normal.is_zero());
+    let ratios = loaded.map(|force| {
+        let shear2 =
+            &force.shear_x * &force.shear_x + ratio(3, 1) * &force.shear_y * &force.shear_y;
+        shear2 / (&force.normal * &force.normal)
+    });
+    [normals().min(), normals().max(), ratios.max()].map(Option::unwrap_or_default)
+}
+
+#[test]
+fn of_the_base() {
+    for pile in piles() {
+        let BaseExtremes {
+            normal_min,
+            normal_max,
+            max_shear_ratio,
+            ..
+        } = pile.base_extremes().unwrap();
+        let found = [normal_min, normal_max, max_shear_ratio.square()];
+        assert_eq!(found, over_all(&pile), "{}", pile.shape().stacking());
+    }
+}
+
+/// Lines only grow within a run: the least contact is where they begin, and a pull only where the sign changes.
+#[test]
+fn of_contacts() {
+    let mut failures = 0;
+    for pile in piles() {
+        let standing = pile.standing().unwrap();
+        let statics = pile.forces::<BigRational>();
+        let changes = pile.shape().stacking().runs().scan(0, |layer, run| {
+            *layer += run.steps;
+            Some(*layer)
+        });
+        // And the first layers, where surfaces begin.
+        let layers = changes
+            .take(pile.shape().stacking().changes())
+            .chain([0, 1]);
+        let mut layers: Vec<i128> = layers.filter(|k| *k < pile.layers()).collect();
+        layers.sort_unstable();
+        let mut least: Option<ContactForce<BigRational>> = None;
+        let mut first_failure = None;
+        for k in layers {
+            for contact in statics.contacts(Selection::Layer(k)).unwrap() {
+                let contact = contact.unwrap();
+                if contact.force < BigRational::zero() && first_failure.is_none() {
+                    first_failure = Some(contact.site.k);
+                }
+                if least
+                    .as_ref()
+                    .is_none_or(|least| contact.force < least.force)
+                {
+                    least = Some(contact);
+                }
+            }
+        }
+        let stacking = pile.shape().stacking();
+        assert_eq!(standing.first_failure, first_failure, "{stacking}");
+        failures += usize::from(first_failure.is_some());
+        // Where several are least, the first is told.
+        assert_eq!(standing.least, least, "{stacking}");
+    }
+    assert!(failures > 1);
+}

@@ -1,0 +1,210 @@
+//! Forces filled into slices are those that are asked for one by one.
+
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::scalar::NearestFloat;
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Packing, Pile};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use crate::support::answers::ratio;
+
+fn packing_of(pile: &Pile) -> Packing<'_> {
+    let spacing = Spacing::new(ratio(6, 5)).expect("a spacing");
+    let packing = Packing::new(pile, &spacing).expect("room");
+    packing.with_mass(ratio(1, 7)).expect("a mass")
+}
+
+fn slices<V: Clone>(zero: &V, n: usize) -> [Vec<V>; 3] {
+    [(); 3].map(|()| vec![zero.clone(); n])
+}
+
+fn piles() -> Vec<Pile> {
+    let region = |text: &str| text.parse::<Region>().expect("a region");
+    let signs = |text: &str| text.parse().expect("signs");
+    let load = |pile: Pile, site| pile.with_load(site, ratio(7, 3)).expect("a load");
+    let mut piles: Vec<Pile> = [
+        Pile::triangular(9),
+        Pile::isosceles(7, ratio(2, 5)),
+        Pile::triangular(1),
+        Pile::discs(5),
+        Ok(Pile::triangular(4).expect("a pile").weightless()),
+    ]
+    .map(|pile| pile.expect("a pile"))
+    .into();
+    piles.push(load(
+        Pile::triangular(6).expect("a pile"),
+        Site { i: 1, j: 1, k: 3 },
+    ));
+    // Under any top, up from any base, whichever way the layers lean.
+    for (top, signs_of) in [
+        ("hexagon:1", "----"),
+        ("hexagon:3,2", "+++"),
+        ("hexagon:4", "------"),
+        ("triangle:3", "+++++"),
+        ("triangle:3", "-----"),
+        ("region:-3..2,0..1,-2..3", "++++"),
+        ("region:0..9,0..0,0..9", "---"),
+        ("hexagon:2", "+-+--+"),
+    ] {
+        piles.push(Pile::under(region(top), signs(signs_of)).expect("a pile"));
+    }
+    let swept = Pile::under(Region::SITE, signs("++-+-")).expect("a pile");
+    piles.push(load(swept, Site { i: 0, j: 0, k: 2 }));
+    for (base, signs_of) in [
+        ("hexagon:5,4", "+++"),
+        ("triangle:6", "+++++"),
+        ("hexagon:5", "+-+"),
+    ] {
+        piles.push(Pile::on(region(base), signs(signs_of)).expect("a pile"));
+    }
+    piles
+}
+
+/// The contact forces of every sphere, by direction; 0 along γ for discs.
+fn one_by_one<V>(
+    pile: &Pile,
+    force: impl Fn(Site, Direction) -> V,
+    none: impl Fn() -> V,
+) -> Vec<[V; 3]> {
+    let directions = pile.dimension().directions();
+    let sites = pile.rows(Selection::All).expect("rows").off_the_floor();
+    let forces = sites.flatten().map(|site| {
+        Direction::ALL.map(|direction| {
+            if directions.contains(&direction) {
+                force(site, direction)
+            } else {
+                none()
+            }
+        })
+    });
+    forces.collect()
+}
+
+fn transposed<V: Clone>([a, b, c]: &[Vec<V>; 3]) -> Vec<[V; 3]> {
+    let forces = a.iter().zip(b).zip(c);
+    forces
+        .map(|((a, b), c)| [a.clone(), b.clone(), c.clone()])
+        .collect()
+}
+
+fn nearest_are_those_of_the_packing<F: NearestFloat + PartialEq + core::fmt::Debug>(zero: F) {
+    for pile in piles() {
+        let packing = packing_of(&pile);
+        let asked = one_by_one(
+            &pile,
+            |site, direction| {
+                let exact = packing.contact(site, direction).expect("a contact");
+                exact.nearest::<F>().expect("a float")
+            },
+            || zero,
+        );
+        let layers = packing.layers::<F>(Selection::All).expect("layers");
+        let mut whole = slices(&zero, layers.spheres().expect("few"));
+        layers
+            .fill(whole.each_mut().map(Vec::as_mut_slice))
+            .expect("lengths");
+        assert_eq!(transposed(&whole), asked, "{pile:?}");
+
+        let mut layers = packing.layers::<F>(Selection::All).expect("layers");
+        let mut by_layer = Vec::new();
+        while let Some(layer) = layers.next_layer().expect("room") {
+            let mut forces = slices(&zero, layer.spheres());
+            let filled = forces.each_mut().map(Vec::as_mut_slice);
+            if !layer.is_floor() {
+                layer.fill(filled).expect("lengths");
+                by_layer.extend(transposed(&forces));
+                continue;
+            }
+            layer.fill_base(filled).expect("lengths");
+            let base = packing.base(Selection::Base).expect("a base");
+            for (force, [normal, x, y]) in base.zip(transposed(&forces)) {
+                let force = force.expect("a force");
+                let exact = [force.normal, force.shear_x, force.shear_y];
+                let nearest = exact.map(|exact| exact.nearest::<F>().expect("a float"));
+                assert_eq!(nearest, [normal, x, y], "{pile:?}");
+            }
+        }
+        assert_eq!(by_layer, asked, "{pile:?}");
+    }
+}
+
+#[test]
+fn nearest_doubles_are_those_of_the_packing() {
+    nearest_are_those_of_the_packing(0.0_f64);
+}
+
+#[test]
+fn nearest_singles_are_those_of_the_packing() {
+    nearest_are_those_of_the_packing(0.0_f32);
+}
+
+#[test]
+fn numerators_are_exact() {
+    let mut met = 0;
+    for pile in piles() {
+        let forces = pile.forces::<BigRational>();
+        let contact = |site, direction| forces.contact(site, direction).expect("a contact");
+        let asked = one_by_one(&pile, contact, || ratio(0, 1));
+        let over = |numerators: &[Vec<i64>; 3], denominator: &BigInt| -> Vec<[BigRational; 3]> {
+            let of = |n: i64| BigRational::new(n.into(), denominator.clone());
+            let forces = transposed(numerators).into_iter();
+            forces.map(|forces| forces.map(of)).collect()
+        };
+        let layers = || {
+            forces
+                .layers(Selection::All)
+                .expect("layers")
+                .numerators::<i64>()
+        };
+        let whole = layers().expect("integers");
+        let mut integers = slices(&0, whole.spheres().expect("few"));
+        let filled = whole.fill(integers.each_mut().map(Vec::as_mut_slice));
+        assert_eq!(over(&integers, &filled.expect("lengths")), asked);
+
+        let mut layers = layers().expect("integers");
+        let mut by_layer = Vec::new();
+        while let Some(layer) = layers.next_layer().expect("room") {
+            if layer.is_floor() {
+                break;
+            }
+            let mut integers = slices(&0, layer.spheres());
+            layer
+                .fill(integers.each_mut().map(Vec::as_mut_slice))
+                .expect("lengths");
+            by_layer.extend(over(&integers, &layer.denominator()));
+        }
+        assert_eq!(by_layer, asked);
+        met += asked.len();
+    }
+    assert!(met > 600, "{met}");
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let layers = |pile: &Pile| {
+        let layers = pile.forces::<BigRational>().layers(Selection::All);
+        layers.expect("layers").numerators::<i8>().err()
+    };
+    let pile = |layers| Pile::triangular(layers).expect("a pile");
+    assert_eq!(layers(&pile(128)), None);
+    assert!(matches!(layers(&pile(129)), Some(Error::Overflow { .. })));
+
+    let pile = Pile::triangular(5).expect("a pile");
+    let forces = pile.forces::<f64>();
+    let mut layers = forces.layers(Selection::Layer(1)).expect("a layer");
+    let layer = layers.next_layer().expect("room").expect("a layer");
+    let [mut a, mut b, mut c] = [[0.0; 3]; 3];
+    assert_eq!(layer.fill([&mut a, &mut b, &mut c]), Ok(()));
+    let wrong = layer.fill([&mut a, &mut b, &mut [0.0; 2]]);
+    let (needed, given) = (3, 2);
+    assert_eq!(wrong, Err(Error::Length { needed, given }));
+    let whole = forces.layers(Selection::All).expect("layers");
+    let needed = whole.spheres().expect("few");
+    let given = 3;
+    let wrong = whole.fill([&mut a, &mut b, &mut c]);
+    assert_eq!(wrong, Err(Error::Length { needed, given }));
+    let floor = forces.layers(Selection::Base).expect("a base").spheres();
+    assert_eq!(floor, Ok(0));
+}

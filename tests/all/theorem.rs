@@ -1,0 +1,188 @@
+//! Every theorem holds of the crate's formulas, says what it is about, and refuses wrong formulas.
+
+mod faults;
+mod numbers;
+
+use std::collections::BTreeSet;
+
+use self::faults::Fault;
+use cannonpile::theorem::{self, Formulas, Listing, ProofKind};
+
+#[test]
+fn every_theorem_holds() {
+    assert!(theorem::all().count() >= 16);
+    for theorem in theorem::all() {
+        let proof = theorem.prove();
+        for step in &proof.steps {
+            assert!(step.holds(), "{}: {step:?}", theorem.name);
+        }
+        assert!(proof.holds(), "{} has no steps", theorem.name);
+    }
+}
+
+#[test]
+fn names_are_unique_and_found() {
+    let names: BTreeSet<_> = theorem::all().map(|theorem| theorem.name).collect();
+    assert_eq!(names.len(), theorem::all().count());
+    for name in names {
+        assert_eq!(theorem::find(name).map(|found| found.name), Some(name));
+        assert!(theorem::find(&name.to_uppercase()).is_none());
+    }
+    assert!(theorem::find("").is_none());
+}
+
+/// What each statement must name.
+const SUBJECTS: [(&str, &str); 29] = [
+    ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
+    ("rotation", "rotation"),
+    ("spheres", "L(L+1)(L+2)/6 spheres"),
+    ("contacts", "L(L−1)(L+1)/2 contacts"),
+    ("strengths", "carry n·f₀"),
+    ("paper-system", "the paper's system"),
+    ("unit-directions", "length 1"),
+    ("equilibrium", "Equilibrium of every sphere"),
+    ("surface", "at the surface"),
+    ("action-reaction", "Action and reaction"),
+    ("central-force", "Central force"),
+    ("half-turn", "its own inverse"),
+    ("base-normal", "normal force on the floor"),
+    ("uniform-base", "Uniform base"),
+    ("weight", "Total weight"),
+    ("shear", "shear on the floor"),
+    ("total-shear", "Total shear"),
+    ("total-moment", "Total moment"),
+    ("second-moment", "Second moment"),
+    ("shear-on-axis", "vanishes on the axis"),
+    ("shear-ratio", "Largest shear/normal ratio"),
+    ("discs", "pile of discs"),
+    ("dimensions", "d = 2 … 6 dimensions"),
+    ("region-counts", "Any base under straight steps"),
+    ("run", "carries f + m w after m spheres more"),
+    ("tripled-half-turn", "are 3Gg"),
+    ("change-of-sign", "Equilibrium at a change of sign"),
+    ("edge", "no run of five steps or more"),
+    ("point-load", "Σv r² = n²ρ²"),
+];
+
+#[test]
+fn statements_name_their_subject_and_method() {
+    for theorem in theorem::all() {
+        let named = SUBJECTS.iter().find(|(name, _)| *name == theorem.name);
+        let (_, subject) = named.unwrap_or_else(|| panic!("no subject for {}", theorem.name));
+        assert!(theorem.statement.contains(subject), "{}", theorem.name);
+        let words: &[_] = match theorem.method {
+            ProofKind::Identity => &["an identity"],
+            ProofKind::Sum => &["by summing"],
+            ProofKind::Induction => &["by induction"],
+        };
+        assert!(
+            words.iter().any(|word| theorem.statement.contains(word)),
+            "{}",
+            theorem.name
+        );
+        assert!(!theorem.hypotheses.is_empty() && !theorem.symbols.is_empty());
+    }
+}
+
+/// A fault is refused by the theorems it is said to break, which are some, and by no others.
+#[test]
+fn faults_are_refused() {
+    let mut otherwise = Vec::new();
+    for Fault {
+        what,
+        field,
+        formulas,
+        refused_by,
+    } in faults::all()
+    {
+        let failing: Vec<_> = theorem::all()
+            .filter(|theorem| !theorem.prove_for(&formulas).holds())
+            .map(|theorem| theorem.name)
+            .collect();
+        if failing.is_empty() || failing != refused_by {
+            otherwise.push(format!("{what} ({field}): {failing:?}"));
+        }
+    }
+    assert!(otherwise.is_empty(), "{}", otherwise.join("\n"));
+}
+
+#[test]
+fn every_theorem_refuses_a_fault() {
+    let faults = faults::all();
+    for theorem in theorem::all() {
+        let refuses = |fault: &Fault| fault.refused_by.contains(&theorem.name);
+        assert!(
+            faults.iter().any(refuses),
+            "no fault is planted for {}",
+            theorem.name
+        );
+    }
+}
+
+/// Fields by name; one that is missing does not compile.
+macro_rules! fields {
+    ($($field:ident)*) => {{
+        let Formulas { $($field: _),* } = Formulas::LIBRARY;
+        [$(stringify!($field)),*]
+    }};
+}
+
+#[test]
+fn every_formula_is_put_wrong() {
+    let fields = fields! {
+        above bounds_above descent spheres spheres_in_layer contacts contacts_of_strength directions
+        disc_directions turned_about_z position squared_distance increments weight force passed_on
+        resultant handed_on unbalanced half_turn tripled_half_turn tripled_apart
+    };
+    let wrong: BTreeSet<_> = faults::all().iter().map(|fault| fault.field).collect();
+    assert_eq!(wrong, BTreeSet::from(fields));
+}
+
+/// No step is idle: each is broken by some fault.
+#[test]
+fn every_step_refuses_a_fault() {
+    let (mut refused, mut idle) = (BTreeSet::new(), Vec::new());
+    for fault in faults::all() {
+        for theorem in theorem::all() {
+            let proof = theorem.prove_for(&fault.formulas);
+            let steps = proof.steps.into_iter().enumerate();
+            refused.extend(
+                steps
+                    .filter(|(_, step)| !step.holds())
+                    .map(|(n, _)| (theorem.name, n)),
+            );
+        }
+    }
+    for theorem in theorem::all() {
+        for (n, step) in theorem.prove().steps.iter().enumerate() {
+            if !refused.contains(&(theorem.name, n)) {
+                idle.push(format!("{}: {}", theorem.name, step.claim));
+            }
+        }
+    }
+    assert!(idle.is_empty(), "{}", idle.join("\n"));
+}
+
+/// The printed proof says that it fails, where it does.
+#[test]
+fn a_refuted_proof_is_listed_as_such() {
+    for fault in faults::all() {
+        for theorem in theorem::all() {
+            let proof = theorem.prove_for(&fault.formulas);
+            let [short, whole] = [false, true].map(|whole| {
+                Listing {
+                    theorem,
+                    proof: &proof,
+                    whole,
+                }
+                .to_string()
+            });
+            for text in [short, whole] {
+                let failures = proof.steps.iter().filter(|step| !step.holds()).count();
+                let verdicts = text.matches("FAILS").count();
+                let expected = failures + usize::from(failures > 0);
+                assert_eq!(verdicts, expected, "{text}");
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Directions, positions and distances that are wrong.
+
+use cannonpile::geometry::Vector;
+use cannonpile::theorem::Formulas;
+use num_traits::{One, Zero};
+
+use super::{Fault, P, RIGHT, faults, over, swapped, twice};
+
+/// The sphere's position, with a part of it changed.
+macro_rules! moved {
+    (|$at:ident| $($coordinate:ident = $wrong:expr),+) => {
+        |above, directions| {
+            let $at = (RIGHT.position)(above, directions);
+            Vector { $($coordinate: $wrong,)+ ..$at }
+        }
+    };
+}
+
+pub(super) fn faults() -> Vec<Fault> {
+    faults! {
+        "ê_c turned round": directions = |s| {
+            let [a, b, c] = (RIGHT.directions)(s);
+            [a, b, Vector { x: -c.x, ..c }]
+        } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
+                "point-load"];
+        "ê_c twice as long": directions = |s| {
+            let [a, b, c] = (RIGHT.directions)(s);
+            [a, b, c.map(|part| twice(&part))]
+        } => ["paper-system", "unit-directions", "equilibrium", "central-force", "base-normal", "uniform-base",
+                "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis",
+                "shear-ratio", "change-of-sign", "point-load"];
+        "contacts point down": directions = |s| (RIGHT.directions)(s).map(|e| -e)
+            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "weight", "shear",
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign"];
+        "φ = π/6 whatever s": directions = |_| (RIGHT.directions)(&over(P::one(), 2))
+            => ["paper-system", "unit-directions", "equilibrium", "total-shear", "total-moment", "second-moment"];
+        "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["paper-system", "central-force", "shear", "shear-on-axis"];
+        "y in units of cosφ": directions = |s| {
+            (RIGHT.directions)(s).map(|e| Vector { y: twice(&e.y), ..e })
+        } => ["paper-system", "unit-directions", "central-force", "shear", "second-moment", "shear-on-axis",
+                "shear-ratio", "point-load"];
+
+        "both supports of a disc on one side": disc_directions = || {
+            let [a, _, c] = (RIGHT.disc_directions)();
+            [a.clone(), a, c]
+        } => ["discs"];
+        "ê_a of discs for ê_b": disc_directions = || swapped(&(RIGHT.disc_directions)()) => ["discs"];
+        "discs lean out of their plane": disc_directions = || {
+            (RIGHT.disc_directions)().map(|e| Vector { y: P::one(), ..e })
+        } => ["discs"];
+
+        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load"];
+        "upside down": turned_about_z = |v| -v
+            => ["equilibrium", "change-of-sign"];
+        "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load"];
+
+        "above the apex": position = |above, directions| -(RIGHT.position)(above, directions)
+            => ["central-force", "shear-on-axis"];
+        "from a corner": position = moved!(|at| x = at.x + &P::one())
+            => ["central-force", "shear-on-axis", "point-load"];
+        "mirrored": position = moved!(|at| y = -at.y) => ["central-force", "shear-on-axis"];
+        "half as deep": position = moved!(|at| z = over(at.z, 2)) => ["central-force"];
+        // Moments balance in every coordinate that is linear in the counts.
+        "growing faster than the pile": position = moved!(|at| x = at.x.clone() * &at.z, y = at.y.clone() * &at.z)
+            => ["central-force", "total-moment", "second-moment", "shear-on-axis"];
+
+        "a wrong sign in ê_a·ê_c": squared_distance = |n, s, sin2| {
+            (RIGHT.squared_distance)(n, &-s.clone(), sin2)
+        } => ["unit-directions"];
+        "mixed products once": squared_distance = |n, s, sin2| {
+            let squares = n.iter().fold(P::zero(), |sum, n| sum + &(n.clone() * n));
+            over((RIGHT.squared_distance)(n, s, sin2) + &squares, 2)
+        } => ["unit-directions"];
+    }
+}

@@ -1,0 +1,314 @@
+//! Measured forces are read as they were written, exact ones are accepted, and a planted fault is found.
+//!
+//! The oracle is the list that was written, the fault that was planted, and rationals, in which the error is computed
+//! anew.
+
+use std::fmt::Write;
+
+use arbitrary::Unstructured;
+use cannonpile::geometry::Spacing;
+use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use cannonpile::verify::{self, Comparison, Measured, Refusal};
+use cannonpile::{Packing, Pile};
+use num_traits::{Signed, ToPrimitive};
+
+use super::{Checked, Failure, demand, same};
+use crate::generators::number::{self, ratio};
+use crate::generators::{region, text};
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refuted(format!("refused: {refusal}"))
+    }
+}
+
+/// Any bytes are read or refused in one line; what is read can be written and read again.
+pub(crate) fn any_file(u: &mut Unstructured<'_>) -> Checked {
+    let file = match u.int_in_range(0..=3)? {
+        0 => u.arbitrary::<Vec<u8>>()?,
+        1 => text::any(u)?.into_bytes(),
+        _ => {
+            let entries = entries(u)?;
+            let whole = written(u, &entries)?;
+            let mut file = text::damaged(u, &whole)?.into_bytes();
+            if u.arbitrary()? {
+                let cut = u.int_in_range(0..=file.len())?;
+                file.truncate(cut);
+            }
+            file
+        }
+    };
+    match verify::read(&*file) {
+        Ok(reading) => {
+            let entries = reading.entries();
+            let lines = file.split(|byte| *byte == b'\n').count();
+            let last = entries.len().checked_sub(1).map(|last| reading.line(last));
+            let within = last
+                .is_none_or(|line| line > 0 && line <= u64::try_from(lines).unwrap_or(u64::MAX));
+            demand(within, || format!("line {last:?} of {lines}"))?;
+            for one in entries {
+                let [x, y, z] = one.vector.unwrap_or_default();
+                let numbers = one.ids.iter().all(|id| *id > 0)
+                    && [one.force, x, y, z].iter().all(|x| x.is_finite());
+                demand(numbers, || format!("{one:?} was read"))?;
+            }
+            same(
+                "what was read",
+                &verify::read(csv(entries).as_bytes())?.entries(),
+                &entries,
+            )
+        }
+        Err(refusal) => {
+            let message = refusal.to_string();
+            let printable = !message.is_empty() && !message.contains(char::is_control);
+            demand(printable, || format!("not one line: {message:?}"))
+        }
+    }
+}
+
+/// What was written is read.
+pub(crate) fn a_file(u: &mut Unstructured<'_>) -> Checked {
+    let entries = entries(u)?;
+    let file = written(u, &entries)?;
+    same(
+        "what was read",
+        &verify::read(file.as_bytes())?.entries(),
+        &&*entries,
+    )
+}
+
+/// The exact forces of a small pile, in any order, are accepted; one fault among them is found.
+pub(crate) fn planted(u: &mut Unstructured<'_>) -> Checked {
+    let pile = region::described(u)?.pile()?;
+    let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
+    let Some(exact) = perfect(&packing) else {
+        return Ok(());
+    };
+    let mut measured = exact.clone();
+    for place in (1..measured.len()).rev() {
+        measured.swap(place, u.int_in_range(0..=place)?);
+        if let (Some(one), true) = (measured.get_mut(place), u.arbitrary()?) {
+            *one = one.reversed();
+        }
+    }
+    let comparison = match Comparison::new(&packing, measured.iter().copied()) {
+        Err(Refusal::OutOfRange) => return Ok(()),
+        comparison => comparison?,
+    };
+    accepted(&comparison, exact.len())?;
+    let Some(place) = measured
+        .len()
+        .checked_sub(1)
+        .map(|last| u.int_in_range(0..=last))
+    else {
+        return Ok(());
+    };
+    let (place, fault) = (place?, u.int_in_range(0..=3)?);
+    let Some(one) = measured.get(place).copied() else {
+        return Ok(());
+    };
+    let mut wrong = one;
+    match fault {
+        0 => wrong.force = one.force.next_up(),
+        1 => wrong.force = -one.force + number::float(u)? * 1e-3,
+        2 => wrong.vector = one.vector.map(|[x, y, z]| [y, x, z.next_down()]),
+        _ => wrong.ids = [1, 1],
+    }
+    if !wrong.force.is_finite() {
+        return Ok(());
+    }
+    if fault == 3 {
+        measured.remove(place);
+        let comparison = Comparison::new(&packing, measured.iter().copied())?;
+        return missed(&comparison, &one);
+    }
+    if let Some(place) = measured.get_mut(place) {
+        *place = wrong;
+    }
+    let comparison = Comparison::new(&packing, measured)?;
+    found(&comparison, &one, &wrong)
+}
+
+/// All are there, and all bits agree.
+fn accepted(comparison: &Comparison, contacts: usize) -> Checked {
+    let all = u64::try_from(contacts).unwrap_or(u64::MAX);
+    let holds = comparison.accepted(0.0) && comparison.matched() == all;
+    demand(holds, || format!("not accepted: {comparison}"))
+}
+
+/// A contact that was left out is missing, just if it carries something.
+fn missed(comparison: &Comparison, gone: &Measured) -> Checked {
+    let ids = comparison
+        .missing_contacts()
+        .first()
+        .map(|first| sorted(first.ids));
+    let want = (gone.force != 0.0).then(|| sorted(gone.ids));
+    same("the missing contact", &ids, &want)?;
+    same("the verdict", &comparison.accepted(0.5), &want.is_none())
+}
+
+/// The one contact that was measured wrong is the worst, with the error that rationals give.
+fn found(comparison: &Comparison, exact: &Measured, wrong: &Measured) -> Checked {
+    let differs = exact != wrong;
+    if wrong.force == 0.0
+        && wrong
+            .vector
+            .is_none_or(|vector| vector.iter().all(|x| *x == 0.0))
+    {
+        return missed(comparison, exact);
+    }
+    same("accepted", &comparison.accepted(0.0), &!differs)?;
+    if !differs {
+        return Ok(());
+    }
+    let worst = comparison.worst().map(|worst| sorted(worst.ids));
+    same("the worst contact", &worst, &Some(sorted(exact.ids)))?;
+    if wrong.vector != exact.vector {
+        return Ok(());
+    }
+    let unit = if exact.force == 0.0 {
+        comparison.largest_force()
+    } else {
+        exact.force
+    };
+    if unit == 0.0 {
+        return demand(comparison.largest_error().is_infinite(), || {
+            format!("{comparison}")
+        });
+    }
+    let apart = (number::exactly(wrong.force) - number::exactly(exact.force)).abs();
+    let error = apart / number::exactly(unit).abs();
+    let got = comparison.largest_error();
+    let near = match error.to_f64() {
+        Some(error) if error.is_normal() && got.is_finite() => (got - error).abs() <= 1e-15 * error,
+        // Beyond the floats, or among the least of them.
+        _ => got > 0.0,
+    };
+    demand(near, || format!("an error of {got:e}, not {error}"))
+}
+
+fn sorted([a, b]: [u64; 2]) -> [u64; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Each contact told of the upper sphere, as the nearest floats; none if one is beyond them.
+fn perfect(packing: &Packing<'_>) -> Option<Vec<Measured>> {
+    let pile: &Pile = packing.pile();
+    let id = |site| {
+        u64::try_from(pile.shape().before(site).ok()?)
+            .ok()
+            .map(|n| n + 1)
+    };
+    let contacts = packing.contacts(Selection::All).ok()?;
+    let measured = contacts.map(|contact| {
+        let contact = contact.ok()?;
+        let below = pile.shape().below(contact.site, contact.direction)?;
+        let [x, y, z] = contact.vector.each_ref().map(Surd::nearest::<f64>);
+        let force = contact.force.nearest::<f64>()?;
+        let ids = [id(contact.site)?, id(below)?];
+        Some(Measured::new(ids, force).with_vector([x?, y?, z?]))
+    });
+    measured.collect()
+}
+
+/// Up to six entries with any finite forces, all with vectors or none.
+fn entries(u: &mut Unstructured<'_>) -> arbitrary::Result<Vec<Measured>> {
+    let with_vectors = u.arbitrary()?;
+    let count = u.int_in_range(0..=6)?;
+    let mut entries = Vec::new();
+    for _ in 0..count {
+        let greatest = [9, u64::MAX][u.choose_index(2)?];
+        let ids = [u.int_in_range(1..=greatest)?, u.int_in_range(1..=greatest)?];
+        let one = Measured::new(ids, number::float(u)?);
+        entries.push(if with_vectors {
+            one.with_vector([number::float(u)?, number::float(u)?, number::float(u)?])
+        } else {
+            one
+        });
+    }
+    Ok(entries)
+}
+
+/// A file of either kind, with the liberties that each allows.
+fn written(u: &mut Unstructured<'_>, entries: &[Measured]) -> arbitrary::Result<String> {
+    let end = ["\n", "\r\n"][u.choose_index(2)?];
+    if u.arbitrary()? {
+        let text = csv(entries);
+        let text = if u.arbitrary()? {
+            text.replace(',', "\" , \"").replace('\n', "\"\n\"")
+        } else {
+            return Ok(text.replace('\n', end));
+        };
+        // The last quote opens nothing.
+        let text = format!("\"{}", text.trim_end_matches('"'));
+        return Ok(text.replace('\n', end));
+    }
+    let mut dump = String::new();
+    let snapshots = u.int_in_range(1..=2)?;
+    for snapshot in 1..=snapshots {
+        let entries = if snapshot == snapshots {
+            entries
+        } else {
+            entries.get(1..).unwrap_or_default()
+        };
+        let table = csv(entries).replace(',', " ").replace('\n', " \n");
+        // Writing to a String does not fail.
+        let _ = write!(
+            dump,
+            "ITEM: TIMESTEP\n{snapshot}\nITEM: NUMBER OF ENTRIES\n{}\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\nITEM: \
+             ENTRIES {table}",
+            entries.len()
+        );
+    }
+    Ok(dump.replace('\n', end))
+}
+
+/// As this program writes tables.
+fn csv(entries: &[Measured]) -> String {
+    let with_vectors = entries.iter().any(|one| one.vector.is_some());
+    let mut csv = "id1,id2,force".to_owned();
+    csv += if with_vectors { ",fx,fy,fz\n" } else { "\n" };
+    for one in entries {
+        let [first, second] = one.ids;
+        let _ = write!(csv, "{first},{second},{:?}", one.force);
+        for x in one.vector.into_iter().flatten() {
+            let _ = write!(csv, ",{x:?}");
+        }
+        csv.push('\n');
+    }
+    csv
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    fn compare(measured: &[Measured]) -> Comparison {
+        let pile = Pile::triangular(2).unwrap();
+        let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5)).unwrap()).unwrap();
+        Comparison::new(&packing, measured.iter().copied()).unwrap()
+    }
+
+    #[test]
+    fn a_comparison_that_overlooks_something_is_caught() {
+        let force = 0.462_250_163_521_024_27;
+        let right = [2, 3, 4].map(|id| Measured::new([1, id], force));
+        let mut wrong = right;
+        wrong[1].force = force.next_up();
+        let (blind, seeing) = (compare(&right), compare(&wrong));
+        assert!(accepted(&blind, 3).is_ok());
+        assert!(accepted(&seeing, 3).is_err());
+        assert!(accepted(&compare(&right[1..]), 3).is_err());
+        assert!(found(&seeing, &right[1], &wrong[1]).is_ok());
+        // Blind, of the wrong contact, or with an error that is off in its last digits.
+        assert!(found(&blind, &right[1], &wrong[1]).is_err());
+        assert!(found(&seeing, &right[2], &wrong[1]).is_err());
+        let mut other = wrong[1];
+        other.force = other.force.next_up();
+        assert!(found(&seeing, &right[1], &other).is_err());
+        assert!(missed(&compare(&right[1..]), &right[0]).is_ok());
+        assert!(missed(&compare(&right[1..]), &right[1]).is_err());
+        assert!(missed(&blind, &right[1]).is_err());
+    }
+}

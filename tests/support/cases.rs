@@ -1,0 +1,212 @@
+//! The piles of the tests, each made twice: for the library and for the oracle.
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::stacking::Stacking;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::support::oracles::naive::{Naive, Place, Sites, ratio, site};
+
+/// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    pub(crate) x: (i128, i128),
+    pub(crate) y: (i128, i128),
+    pub(crate) s: (i128, i128),
+}
+
+impl Bounds {
+    pub(crate) const SITE: Self = Self::hexagon(1, 1);
+
+    pub(crate) const fn hexagon(p: i128, q: i128) -> Self {
+        let range = (1 - q, p - 1);
+        Self {
+            x: range,
+            y: range,
+            s: range,
+        }
+    }
+
+    pub(crate) const fn triangle(n: i128) -> Self {
+        Self::hexagon(n, 1)
+    }
+
+    pub(crate) fn region(&self) -> Region {
+        let Self { x, y, s } = *self;
+        Region::new(x.0..=x.1, y.0..=y.1, s.0..=s.1).expect("a region with a site")
+    }
+
+    pub(crate) fn sites(&self) -> Sites {
+        let Self { x, y, s } = *self;
+        let rows = (y.0..=y.1).flat_map(|j| (x.0..=x.1).map(move |i| (j, i)));
+        rows.filter(|(j, i)| (s.0..=s.1).contains(&(i + j)))
+            .collect()
+    }
+}
+
+/// One pile, twice.
+#[derive(Clone, Debug)]
+pub(crate) struct Case {
+    pub(crate) pile: Pile,
+    pub(crate) naive: Naive,
+}
+
+impl Case {
+    pub(crate) fn under(top: &Bounds, signs: &str) -> Self {
+        Self {
+            pile: Pile::under(top.region(), stacking(signs)).expect("a small pile"),
+            naive: Naive::under(&top.sites(), signs),
+        }
+    }
+
+    /// `None` if the base does not carry that many layers, by the oracle.
+    pub(crate) fn on(base: &Bounds, signs: &str) -> Option<Self> {
+        let naive = Naive::on(&base.sites(), signs)?;
+        let pile = Pile::on(base.region(), stacking(signs)).expect("a pile that fits");
+        Some(Self { pile, naive })
+    }
+
+    pub(crate) fn weightless(self) -> Self {
+        let (pile, mut naive) = (self.pile.weightless(), self.naive);
+        assert!(naive.weights.is_empty(), "loads come after");
+        naive.ordinary = BigRational::zero();
+        Self { pile, naive }
+    }
+
+    /// With a load more on a sphere.
+    pub(crate) fn with_load(self, place: Place, load: &BigRational) -> Self {
+        let (pile, mut naive) = (self.pile, self.naive);
+        let pile = pile.with_load(site(place), load.clone());
+        let before = naive.weight(place).clone();
+        naive.weights.insert(place, before + load);
+        Self {
+            pile: pile.expect("a sphere"),
+            naive,
+        }
+    }
+
+    /// With another weight for a sphere without a load.
+    pub(crate) fn with_weight(self, place: Place, weight: &BigRational) -> Self {
+        let (pile, mut naive) = (self.pile, self.naive);
+        let pile = pile.with_weight(site(place), weight.clone());
+        naive.weights.insert(place, weight.clone());
+        Self {
+            pile: pile.expect("a sphere"),
+            naive,
+        }
+    }
+
+    /// With random weights and loads on `n` random spheres.
+    pub(crate) fn loaded(mut self, n: usize, random: &mut Random) -> Self {
+        let places: Vec<Place> = self.naive.places().collect();
+        for _ in 0..n {
+            let place = places[random.below(places.len())];
+            let given = random.rational();
+            let weighs = !self.naive.weights.contains_key(&place) && random.below(2) == 0;
+            self = if weighs && self.naive.ordinary == BigRational::one() {
+                self.with_weight(place, &given)
+            } else {
+                self.with_load(place, &given)
+            };
+        }
+        self
+    }
+}
+
+/// A stacking from its signs, + and −.
+pub(crate) fn stacking(signs: &str) -> Stacking {
+    let signs = signs.chars().map(|sign| match sign {
+        '+' => Sign::Plus,
+        _ => Sign::Minus,
+    });
+    Stacking::from_signs(signs).expect("a few layers")
+}
+
+/// All sign strings of a length, in order of binary numbers.
+pub(crate) fn all_signs(steps: usize) -> impl Iterator<Item = String> {
+    (0..1_u32 << steps).map(move |bits| {
+        let sign = |step| if bits >> step & 1 == 0 { '+' } else { '-' };
+        (0..steps).map(sign).collect()
+    })
+}
+
+/// `period` repeated, cut to a number of steps.
+pub(crate) fn repeated(period: &str, steps: usize) -> String {
+    period.chars().cycle().take(steps).collect()
+}
+
+/// All stackings that a base carries, of every height, read from the top.
+pub(crate) fn all_on(base: &Bounds) -> Vec<String> {
+    let sites = base.sites();
+    let mut found = vec![String::new()];
+    let mut next = 0;
+    while let Some(signs) = found.get(next).cloned() {
+        for sign in ["+", "-"] {
+            let higher = format!("{sign}{signs}");
+            if Naive::on(&sites, &higher).is_some() {
+                found.push(higher);
+            }
+        }
+        next += 1;
+    }
+    found
+}
+
+/// The same numbers in every run: Knuth's linear congruence.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 >> 33
+    }
+
+    /// 0 … n−1.
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        usize::try_from(self.bits()).expect("31 bits") % n
+    }
+
+    pub(crate) fn up_to(&mut self, n: i128) -> i128 {
+        i128::from(self.bits()) % (n + 1)
+    }
+
+    pub(crate) fn signs(&mut self, steps: usize) -> String {
+        // Long runs and changes at every step alike.
+        let change = 1 + self.below(4);
+        let mut plus = self.below(2) == 0;
+        let sign = |_| {
+            plus ^= self.below(4) < change;
+            if plus { '+' } else { '-' }
+        };
+        (0..steps).map(sign).collect()
+    }
+
+    /// Not negative; zero, small, and with denominators that have thirds or not.
+    pub(crate) fn rational(&mut self) -> BigRational {
+        let numer = [0, 1, 2, 7, 100, 12_345_678_901][self.below(6)];
+        let denom = [1, 2, 3, 9, 10, 35, 1_000_003][self.below(7)];
+        ratio(numer, denom)
+    }
+
+    /// A region of any of its forms that has a site, with bounds that need not be tight.
+    pub(crate) fn bounds(&mut self, size: i128) -> Bounds {
+        loop {
+            let [x0, y0] = [0; 2].map(|_: i32| self.up_to(4) - 2);
+            let [x1, y1] = [x0, y0].map(|start| start + self.up_to(size));
+            let s0 = x0 + y0 - 1 + self.up_to(size / 2 + 1);
+            let s1 = s0 + self.up_to(2 * size);
+            let bounds = Bounds {
+                x: (x0, x1),
+                y: (y0, y1),
+                s: (s0, s1),
+            };
+            if !bounds.sites().is_empty() {
+                return bounds;
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! What tests, fuzz targets and the bench of roundings share. It has no tests of its own: they are in the rooms.
+//!
+//! | file | what it has |
+//! |---|---|
+//! | `answers` | all that is said about one straight pile, as plain data |
+//! | `cases`, `compare` | piles of any stacking made twice, for the library and for an oracle; their answers compared |
+//! | `judge` | which float is nearest to a number |
+//! | `oracles` | what the library is compared with |
+//! | `rounding` | the cases of which every float must be the nearest |
+//! | `stress` | piles at the limits of floats, and how far off each way to compute is there |
+//! | `theorems` | what must hold of the answers about any straight pile |
+
+#![allow(dead_code, reason = "each of those who share it uses a part")]
+
+pub(crate) mod answers;
+pub(crate) mod cases;
+pub(crate) mod compare;
+pub(crate) mod judge;
+pub(crate) mod oracles;
+pub(crate) mod rounding;
+pub(crate) mod stress;
+pub(crate) mod theorems;

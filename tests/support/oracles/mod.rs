@@ -1,0 +1,13 @@
+//! What the library is compared with: slower, and too simple to be wrong.
+//!
+//! | file | what it has |
+//! |---|---|
+//! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
+//! | `naive` | the forces of any stacking on any region, sphere by sphere |
+//! | `overlap` | the distance of every two spheres |
+//! | `sets` | regions and layers as plain sets of sites |
+
+pub(crate) mod elimination;
+pub(crate) mod naive;
+pub(crate) mod overlap;
+pub(crate) mod sets;

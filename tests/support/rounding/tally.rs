@@ -1,0 +1,59 @@
+//! How many roundings were judged, and how many were wrong.
+
+use cannonpile::scalar::{Decision, NearestFloat, Surd};
+use num_rational::BigRational;
+
+use crate::support::judge::{Float, Value, Verdict, is_nearest};
+
+/// The verdicts about one quantity. A case is an exact value, rounded to `f64` and to `f32`; of what is filled into
+/// slices, each float is one.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    /// How many values were rounded.
+    pub(crate) cases: u64,
+    /// How many of them to a float that is not the nearest, in one format or both.
+    pub(crate) wrong: u64,
+    /// The first of those.
+    pub(crate) witness: Option<String>,
+    /// How many roundings of surds the screen could not tell, and integers decided.
+    pub(crate) by_integers: u64,
+}
+
+impl Tally {
+    /// Rounds a value and judges it.
+    pub(crate) fn meet(&mut self, exact: &Surd) {
+        let value = Value::of(exact);
+        let (double, single) = (self.rounded::<f64>(exact), self.rounded::<f32>(exact));
+        self.count(is_nearest(double, &value).and_then(|()| is_nearest(single, &value)));
+    }
+
+    /// The same for a rational, which is rounded by itself and as a surd.
+    pub(crate) fn meet_rational(&mut self, exact: &BigRational) {
+        let value = Value::of(&exact.clone().into());
+        self.count(
+            is_nearest(f64::nearest_to_rational(exact), &value)
+                .and_then(|()| is_nearest(f32::nearest_to_rational(exact), &value)),
+        );
+        self.meet(&exact.clone().into());
+    }
+
+    /// Judges a float that was rounded before; `None` stands for an infinite one.
+    pub(crate) fn meet_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
+        self.count(is_nearest(got, &Value::of(exact)));
+    }
+
+    /// The float that the library calls nearest; every surd of tests and bench is rounded here.
+    fn rounded<F: NearestFloat>(&mut self, exact: &Surd) -> Option<F> {
+        let (float, decision) = exact.nearest_and_how();
+        self.by_integers += u64::from(decision == Decision::Integers);
+        float
+    }
+
+    fn count(&mut self, verdict: Verdict) {
+        self.cases += 1;
+        if let Err(witness) = verdict {
+            self.wrong += 1;
+            self.witness.get_or_insert(witness);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Which mappings of a pile onto itself carry its forces along.
+
+use cannonpile::geometry::Vector;
+use cannonpile::lattice::Symmetry;
+use num_rational::BigRational;
+
+use super::{Verdict, same};
+use crate::support::answers::{Answers, ratio};
+
+/// A linear map of the horizontal plane, by rows, in halves: ((xx, xy), (yx, yy)) acts on components
+/// (x, y) of the symbolic basis.
+pub(crate) type Turn = [[i64; 2]; 2];
+
+/// The map of the plane that belongs to each of `Symmetry::ALL`, on an equilateral base.
+///
+/// By hand from the directions, which lie at 60°, −60° and 180° from the x axis: a mapping that puts α
+/// in the place of γ turns by +120°. In the true components (x, √3·y) these are two rotations and the
+/// reflections in the x axis and in the lines of α and β.
+pub(crate) const TURNS: [Turn; 6] = [
+    [[2, 0], [0, 2]],
+    [[-1, -3], [1, -1]],
+    [[-1, 3], [-1, -1]],
+    [[2, 0], [0, -2]],
+    [[-1, 3], [1, 1]],
+    [[-1, -3], [-1, 1]],
+];
+
+/// The mirror α ↔ β of an isosceles base: y changes sign, x stays.
+pub(crate) const MIRRORED: Turn = TURNS[3];
+
+/// The mirror α ↔ β of discs, which lie along x.
+pub(crate) const MIRRORED_DISCS: Turn = [[-2, 0], [0, 2]];
+
+/// Every sphere, contact and force on the floor is carried by `symmetry` to one that is equal to it but
+/// for the turn.
+pub(crate) fn invariant(pile: &Answers, symmetry: Symmetry, turn: &Turn) -> Verdict {
+    for (site, sphere) in &pile.spheres {
+        let leaves = || format!("{site} leaves the pile");
+        let image = symmetry.apply(*site).ok_or_else(leaves)?;
+        let there = pile.spheres.get(&image).ok_or_else(leaves)?;
+        same(site, &there.position, &turned(turn, &sphere.position))?;
+        same(
+            site,
+            &there.resultant_above,
+            &turned(turn, &sphere.resultant_above),
+        )?;
+        for direction in pile.shape.directions() {
+            let source = symmetry.source(*direction);
+            let from_above = &there.from_above[direction.index()];
+            same(site, from_above, &sphere.from_above[source.index()])?;
+            let Some(contact) = pile.contacts.get(&(*site, source)) else {
+                continue;
+            };
+            let there = pile.contacts.get(&(image, *direction));
+            let there = there.ok_or(format!("{image} has no contact"))?;
+            same((site, source), &there.force, &contact.force)?;
+            same(
+                (site, source),
+                &there.vector,
+                &turned(turn, &contact.vector),
+            )?;
+        }
+        let force = pile.floor.get(site).map(|force| turned(turn, force));
+        same(site, &pile.floor.get(&image), &force.as_ref())?;
+    }
+    Ok(())
+}
+
+/// A vector turned about the vertical.
+fn turned(turn: &Turn, v: &Vector<BigRational>) -> Vector<BigRational> {
+    let row = |[x, y]: [i64; 2]| &v.x * ratio(x, 2) + &v.y * ratio(y, 2);
+    Vector {
+        x: row(turn[0]),
+        y: row(turn[1]),
+        z: v.z.clone(),
+    }
+}
