@@ -162,7 +162,7 @@ impl Command {
             | Self::Export(Export { scene, .. })
             | Self::Verify(Verify { scene, .. }) => Some(scene),
             Self::Scene(command) => Some(&command.scene),
-            Self::Plot(figure) => figure.scene(),
+            Self::Plot(figure) => Some(figure.scene()),
             Self::Census { .. } | Self::Prove { .. } | Self::Completions(_) => None,
         }
     }

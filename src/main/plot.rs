@@ -97,15 +97,14 @@ pub(crate) struct ToFile {
 }
 
 impl Figure {
-    /// The scene options of the kinds that have them.
-    pub(crate) fn scene(&self) -> Option<&SceneOptions> {
+    pub(crate) fn scene(&self) -> &SceneOptions {
         match self {
-            Self::Pile(of) | Self::Indexing { of, .. } => Some(&of.scene),
+            Self::Pile(of) | Self::Indexing { of, .. } => &of.scene,
             Self::Shear(of)
             | Self::Base(of)
             | Self::Sphere { of, .. }
             | Self::Network { of, .. }
-            | Self::Response { of, .. } => Some(&of.scene),
+            | Self::Response { of, .. } => &of.scene,
         }
     }
 
