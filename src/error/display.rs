@@ -138,7 +138,10 @@ impl Error {
                 "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
             ),
             Self::Length { needed, given } => {
-                write!(f, "a slice of {given} places for {needed} forces: make it as long")
+                write!(
+                    f,
+                    "a slice of {given} places for {needed} forces: make it as long"
+                )
             }
             Self::NegativeLoad {
                 quantity,
