@@ -27,9 +27,11 @@
 //! Counted from a base up nothing so simple holds: what fails with few layers on it may stand with more, and the other
 //! way round. So every stacking is carried as high as it goes, and looked at there ([`on_base`]); nothing is pruned.
 
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use num_bigint::BigUint;
+use num_traits::{One, Zero};
 
 use crate::lattice::{Region, Sign};
 use crate::stacking::{Run, Stacking};
@@ -83,7 +85,8 @@ impl Entry {
 /// layers or more, and the time for all of them grows like L³.
 ///
 /// # Errors
-/// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooLarge`] for failing beginnings of thousands of layers.
+/// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooManyRows`] for more than [`MAX_ENTRIES`] with what fails;
+/// in an entry, [`Error::TooLarge`] for failing beginnings of thousands of layers.
 ///
 /// # Examples
 /// ```
@@ -107,6 +110,15 @@ pub fn under_one_sphere(
 ) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
     // The number is checked here; a single layer has no step.
     let steps = Stacking::fcc(layers)?.layers() - 1;
+    // As many as are listed, and no fewer for less than six layers.
+    let rows = BigUint::from((11 * layers).unsigned_abs());
+    if failing && rows > BigUint::from(MAX_ENTRIES) {
+        return Err(Error::TooManyRows {
+            rows: rows - 49_u32,
+            limit: MAX_ENTRIES,
+            remedy: "ask for fewer layers, or for those that stand alone",
+        });
+    }
     Ok(Search {
         steps,
         failing,
@@ -116,6 +128,9 @@ pub fn under_one_sphere(
         }],
     })
 }
+
+/// The most entries of a census.
+pub const MAX_ENTRIES: u64 = 100_000_000_000;
 
 /// The longest run before a change of sign that may stand (module documentation, 1).
 const LONGEST_RUN: i128 = 4;
@@ -214,7 +229,8 @@ impl Iterator for Search {
 /// As many as 2^(L−2) for a base that carries L layers, made one by one.
 ///
 /// # Errors
-/// [`Error::TooManyRows`] for a base that is sure to have more than 2³⁶ stackings.
+/// [`Error::TooManyRows`] for a base of more than [`MAX_ENTRIES`] stackings, with their number, or with one that they
+/// exceed if they are more than 10⁴⁰.
 ///
 /// # Examples
 /// ```
@@ -228,15 +244,11 @@ impl Iterator for Search {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
-    /// Bits of the most stackings.
-    const MOST: u32 = 36;
-    // While t steps of either sign leave a site, t steps can be taken in any order.
-    let free = (1..=MOST + 2).take_while(|t| base.shrunk((*t).into(), (*t).into()).is_some());
-    let free = free.last().unwrap_or(0);
-    if free > MOST {
+    let rows = stackings_of(base);
+    if rows > BigUint::from(MAX_ENTRIES) {
         return Err(Error::TooManyRows {
-            rows: BigUint::from(1_u32) << free,
-            limit: 1 << MOST,
+            rows,
+            limit: MAX_ENTRIES,
             remedy: "ask for a smaller base",
         });
     }
@@ -265,4 +277,62 @@ pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>
             }
         }
     }))
+}
+
+/// Returns the number of entries of a base, or one above 10⁴⁰ that it is not less than.
+///
+/// What is left after some steps depends on how many of them are + and how many −, and not on their order. So the ways to
+/// every such remainder are counted, height by height.
+fn stackings_of(base: Region) -> BigUint {
+    let enough = BigUint::from(10_u32).pow(40);
+    let mut stackings = BigUint::zero();
+    let mut one_of_two = base.is_its_own_mirror_image();
+    let ways_of = |remainders: &BTreeMap<usize, (Region, BigUint)>| {
+        remainders.values().map(|(_, ways)| ways).sum::<BigUint>()
+    };
+    // By the number of + steps: what is left, and the ways to it.
+    let mut remainders = BTreeMap::from([(0_usize, (base, BigUint::one()))]);
+    // Every way leads on to a stacking of its own.
+    while ways_of(&remainders) <= enough && !remainders.is_empty() {
+        let mut above: BTreeMap<usize, (Region, BigUint)> = BTreeMap::new();
+        for (plus, (region, ways)) in remainders {
+            let mut higher = false;
+            for (sign, plus) in [(Sign::Plus, plus + 1), (Sign::Minus, plus)] {
+                let Some(left) = region.eroded(sign) else {
+                    continue;
+                };
+                higher = true;
+                // Of mirror images one is listed.
+                if one_of_two && sign == Sign::Minus {
+                    continue;
+                }
+                above
+                    .entry(plus)
+                    .or_insert_with(|| (left, BigUint::zero()))
+                    .1 += &ways;
+            }
+            if !higher {
+                stackings += ways;
+            }
+        }
+        one_of_two = false;
+        remainders = above;
+    }
+    stackings + ways_of(&remainders)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_are_counted_before_they_are_made() -> Result<(), Error> {
+        let triangles = (1..=7).map(Region::triangle);
+        let hexagons = [(2, 2), (3, 2), (2, 3), (4, 2)].map(|(p, q)| Region::hexagon(p, q));
+        for base in triangles.chain(hexagons) {
+            let base = base?;
+            assert_eq!(stackings_of(base), on_base(base)?.count().into(), "{base}");
+        }
+        Ok(())
+    }
 }

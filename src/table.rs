@@ -2,7 +2,20 @@
 //!
 //! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
 //! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
-//! against the extremes of the table before the first byte is written.
+//! against a bound of all numbers before the first byte is written.
+//!
+//! # Units
+//! csv and json have no place for units: [`Column::unit`] has them, and the text table shows them. In pile units
+//! ([`Units::of_pile`])
+//!
+//! | column | unit |
+//! |---|---|
+//! | `force` of a contact | f₀ = mg/(3cosθ); mg/(2(1+sinφ)cosθ) in general, mg/(2cosθ) for discs |
+//! | `normal` | mg |
+//! | `shear_x` | mg·tanθ |
+//! | `shear_y` | √3·mg·tanθ; 2cosφ·mg·tanθ in general |
+//!
+//! so that all are rational. In SI ([`Units::of_packing`]) forces are in N, lengths in m, masses in kg.
 //!
 //! # Examples
 //! ```

@@ -14,7 +14,8 @@ pub(super) fn write_all<'f>(
     files: impl Iterator<Item = &'f PathBuf>,
     mut write: impl FnMut(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<Vec<u64>, WriteError> {
-    let made = Made::folder(folder).map_err(|error| of(folder, error))?;
+    let mut new = New::default();
+    new.folder(folder).map_err(|error| of(folder, error))?;
     remove_leftovers(folder);
     let mut written = Vec::new();
     for path in files {
@@ -25,13 +26,12 @@ pub(super) fn write_all<'f>(
         written.push((path, aside));
     }
     // Not one of them is there yet; a folder of the same name, or the like, is found out here.
-    let (mut bytes, mut new) = (Vec::new(), New::default());
+    let mut bytes = Vec::new();
     for (path, aside) in written {
         let kept = new.expect(aside.target()).and_then(|()| aside.keep());
         bytes.push(kept.map_err(|error| of(path, error))?);
     }
-    new.keep();
-    made.keep();
+    new.0.clear();
     Ok(bytes)
 }
 
@@ -40,37 +40,14 @@ fn of(path: &Path, error: io::Error) -> WriteError {
     WriteError::File { path, error }
 }
 
-/// Files that were not there before, removed again unless all are kept.
+/// Folders and files that were not there before, in the order in which they are made, removed again unless all are
+/// kept.
 #[derive(Default)]
-struct New(Vec<(PathBuf, Pending)>);
+struct New(Vec<Pending>);
 
 impl New {
-    fn expect(&mut self, path: &Path) -> io::Result<()> {
-        if fs::symlink_metadata(path).is_err() {
-            self.0.push((path.to_owned(), Pending::new(path)?));
-        }
-        Ok(())
-    }
-
-    fn keep(mut self) {
-        self.0.clear();
-    }
-}
-
-impl Drop for New {
-    fn drop(&mut self) {
-        for (path, _) in &self.0 {
-            // The failure that led here is the one to report.
-            let _ = fs::remove_file(path);
-        }
-    }
-}
-
-/// Folders that were not there before, the innermost first, removed again unless they are kept.
-struct Made(Vec<(PathBuf, Pending)>);
-
-impl Made {
-    fn folder(folder: &Path) -> io::Result<Self> {
+    /// Makes a folder, and those that it is in.
+    fn folder(&mut self, folder: &Path) -> io::Result<()> {
         // What is there and is no folder would be said to exist already.
         if folder.exists() && !folder.is_dir() {
             return Err(io::ErrorKind::NotADirectory.into());
@@ -78,28 +55,26 @@ impl Made {
         let missing = folder
             .ancestors()
             .take_while(|path| *path != Path::new("") && !path.exists());
-        let mut missing: Vec<&Path> = missing.collect();
-        // An interrupted program removes what was registered last first.
-        missing.reverse();
-        let pending = missing
-            .iter()
-            .map(|path| Ok((path.to_path_buf(), Pending::new(path)?)));
-        let mut made = Self(pending.collect::<io::Result<_>>()?);
-        made.0.reverse();
-        fs::create_dir_all(folder)?;
-        Ok(made)
+        let missing: Vec<&Path> = missing.collect();
+        for path in missing.into_iter().rev() {
+            self.expect(path)?;
+        }
+        fs::create_dir_all(folder)
     }
 
-    fn keep(mut self) {
-        self.0.clear();
+    /// A path that is made next.
+    fn expect(&mut self, path: &Path) -> io::Result<()> {
+        if fs::symlink_metadata(path).is_err() {
+            self.0.push(Pending::new(path)?);
+        }
+        Ok(())
     }
 }
 
-impl Drop for Made {
+impl Drop for New {
     fn drop(&mut self) {
-        for (folder, _) in &self.0 {
-            // One that has something in it by now stays.
-            let _ = fs::remove_dir(folder);
+        for pending in self.0.iter().rev() {
+            pending.remove();
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::Error;
 use crate::lattice::Dimension;
 use crate::table::WriteError;
 
-/// The most atoms of LAMMPS as it is usually compiled.
+/// The most atoms of LAMMPS compiled as usual.
 const MOST_ATOMS: u64 = i32::MAX as u64;
 
 /// Writes the spheres, those on the floor of type 2, in a box that leaves them room to fall.

@@ -4,7 +4,7 @@ use num_traits::Zero;
 
 use crate::lattice::{Direction, Row, Site};
 use crate::scalar::Surd;
-use crate::shape::{Numbering, Rows, Selection};
+use crate::shape::{Numbering, Selection};
 use crate::table::{Forces, Places, refuse_beyond};
 use crate::{Error, Packing, Pile};
 
@@ -137,14 +137,49 @@ impl<'p> NumberedPile<'p> {
     }
 
     /// All contacts in the order of the upper spheres, without their forces.
-    pub(super) fn touches(&self) -> Result<Touches<'_, 'p>, Error> {
-        let shape = self.pile().shape();
-        Ok(Touches {
-            numbering: &self.numbering,
-            directions: shape.dimension().directions(),
-            rows: shape.rows(Selection::All)?.off_the_floor(),
-            row: None,
-        })
+    pub(super) fn touches(&self) -> Result<impl Iterator<Item = Result<Touch, Error>> + '_, Error> {
+        let rows = self.pile().rows(Selection::All)?.off_the_floor();
+        Ok(
+            rows.flat_map(|row| -> Box<dyn Iterator<Item = Result<Touch, Error>>> {
+                match self.touches_of(&row) {
+                    Ok(touches) => Box::new(touches.map(Ok)),
+                    Err(error) => Box::new(core::iter::once(Err(error))),
+                }
+            }),
+        )
+    }
+
+    /// The contacts of a row of spheres with those below: along it their numbers follow each other.
+    fn touches_of(&self, row: &Row) -> Result<impl Iterator<Item = Touch> + use<>, Error> {
+        let (shape, numbering) = (self.pile().shape(), &self.numbering);
+        let at = |i| Site {
+            i,
+            j: row.j,
+            k: row.k,
+        };
+        let first = at(row.i.start);
+        let upper = numbering.id(first)?;
+        let spheres = numbering.id(at(row.i.end - 1))? - upper + 1;
+        let below = shape.dimension().directions().iter().map(|direction| {
+            let below = shape.below(first, *direction);
+            let below = below.ok_or(Error::OnFloor { site: first })?;
+            Ok((*direction, numbering.id(below)?))
+        });
+        let below = below.collect::<Result<Vec<_>, Error>>()?;
+        let contacts = 0..spheres * below.len() as u64;
+        Ok(contacts.filter_map(move |n| {
+            let (done, direction) = (n / below.len() as u64, n % below.len() as u64);
+            // One of so many.
+            let (direction, lower) = below.get(usize::try_from(direction).ok()?)?;
+            Some(Touch {
+                ids: [upper + done, lower + done],
+                site: Site {
+                    i: first.i + i128::from(done),
+                    ..first
+                },
+                direction: *direction,
+            })
+        }))
     }
 
     /// All contacts, with what `make` makes of the magnitude of a force and its vector on the upper sphere: once of each
@@ -213,85 +248,4 @@ impl<'p> NumberedPile<'p> {
 pub(super) fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
     let scalar = "f64";
     number.nearest().ok_or(Error::Overflow { quantity, scalar })
-}
-
-/// The contacts of a pile with the numbers of their spheres, in the order of the upper ones.
-pub(super) struct Touches<'a, 'p> {
-    numbering: &'a Numbering<'p>,
-    directions: &'static [Direction],
-    rows: Rows<'p>,
-    row: Option<Strip>,
-}
-
-/// A row of spheres, and the rows that they stand on: along them numbers follow each other.
-struct Strip {
-    first: Site,
-    spheres: u64,
-    upper: u64,
-    lower: [u64; 3],
-    /// How many spheres are done, and how many contacts of the next.
-    done: u64,
-    contacts: usize,
-}
-
-impl Touches<'_, '_> {
-    fn strip(&self, row: &Row) -> Result<Strip, Error> {
-        let first = Site {
-            i: row.i.start,
-            j: row.j,
-            k: row.k,
-        };
-        let last = Site {
-            i: row.i.end - 1,
-            ..first
-        };
-        let mut lower = [0; 3];
-        for direction in self.directions {
-            let below = self.numbering.shape().below(first, *direction);
-            let below = below.ok_or(Error::OnFloor { site: first })?;
-            if let Some(lower) = lower.get_mut(direction.index()) {
-                *lower = self.numbering.id(below)?;
-            }
-        }
-        let upper = self.numbering.id(first)?;
-        Ok(Strip {
-            first,
-            spheres: self.numbering.id(last)? - upper + 1,
-            upper,
-            lower,
-            done: 0,
-            contacts: 0,
-        })
-    }
-}
-
-impl Iterator for Touches<'_, '_> {
-    type Item = Result<Touch, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        loop {
-            let Some(row) = self.row.as_mut().filter(|row| row.done < row.spheres) else {
-                let row = self.rows.next()?;
-                match self.strip(&row) {
-                    Ok(strip) => self.row = Some(strip),
-                    Err(error) => return Some(Err(error)),
-                }
-                continue;
-            };
-            let Some(direction) = self.directions.get(row.contacts) else {
-                (row.done, row.contacts) = (row.done + 1, 0);
-                continue;
-            };
-            row.contacts += 1;
-            let lower = row.lower.get(direction.index())?;
-            return Some(Ok(Touch {
-                ids: [row.upper + row.done, lower + row.done],
-                site: Site {
-                    i: row.first.i + i128::from(row.done),
-                    ..row.first
-                },
-                direction: *direction,
-            }));
-        }
-    }
 }

@@ -157,6 +157,7 @@ impl Error {
 
     /// Errors of sizes, numbers and texts.
     fn fmt_rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const LONG: usize = 40;
         match self {
             Self::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
@@ -209,10 +210,14 @@ impl Error {
                 limit,
                 remedy,
             } => {
-                write!(
-                    f,
-                    "{rows} rows are too many to print, at most {limit}: {remedy}"
-                )
+                // As many digits say no more than their number does.
+                let digits = rows.to_string();
+                if let Some(power @ LONG..) = digits.len().checked_sub(1) {
+                    write!(f, "10^{power} rows and more")?;
+                } else {
+                    write!(f, "{digits} rows")?;
+                }
+                write!(f, " are too many to print, at most {limit}: {remedy}")
             }
             Self::TooManyMarks {
                 marks,

@@ -10,7 +10,7 @@ use std::io;
 use std::process::ExitCode;
 
 use cannonpile::table::WriteError;
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
 use args::SceneOptions;
@@ -20,9 +20,19 @@ use command::{
 };
 use output::{Failure, complain, reason};
 
+const START: &str = "\
+Examples:
+  cannonpile base --layers 10              the force of each bottom sphere on the floor
+  cannonpile summary --stacking hcp        whether ten layers of HCP stand
+  cannonpile export pile --to lammps       input for LAMMPS, and
+  cannonpile verify pile/forces.dump       what it measured against the exact forces
+
+'cannonpile COMMAND --help' says more of each. Exit status: 0; 1 if the answer is no; 2 for bad use, with one line on
+stderr.";
+
 /// Exact contact forces in regular piles of spheres.
 #[derive(Parser)]
-#[command(version, about, max_term_width = 100, arg_required_else_help = true)]
+#[command(version, about, max_term_width = 100, arg_required_else_help = true, after_help = START)]
 struct Arguments {
     #[command(subcommand)]
     command: Commands,
@@ -148,6 +158,43 @@ fn usage(error: &clap::Error) -> ExitCode {
     let said: Vec<&str> = lines
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
         .collect();
-    complain(&said.join(" "));
+    // Clap has a remedy where it knows a similar word, or all words there are.
+    let advised = [
+        ContextKind::SuggestedArg,
+        ContextKind::SuggestedSubcommand,
+        ContextKind::SuggestedValue,
+        ContextKind::ValidValue,
+        ContextKind::ValidSubcommand,
+    ];
+    let advised = advised.into_iter().any(|kind| match error.get(kind) {
+        Some(ContextValue::Strings(words)) => !words.is_empty(),
+        known => known.is_some(),
+    });
+    let remedy = match error.kind() {
+        _ if advised => String::new(),
+        ErrorKind::ArgumentConflict => ": leave one of the two out".into(),
+        ErrorKind::UnknownArgument
+        | ErrorKind::InvalidSubcommand
+        | ErrorKind::InvalidValue
+        | ErrorKind::MissingRequiredArgument
+        | ErrorKind::TooManyValues
+        | ErrorKind::NoEquals => format!("; '{} --help' lists what there is", named_command()),
+        _ => String::new(),
+    };
+    complain(&format!("{}{remedy}", said.join(" ")));
     ExitCode::from(BAD_USE)
+}
+
+/// Returns the command that the line begins with, as far as there is one.
+fn named_command() -> String {
+    let mut command = Arguments::command();
+    let mut names = String::from("cannonpile");
+    for word in std::env::args().skip(1) {
+        let Some(found) = command.find_subcommand(&word) else {
+            break;
+        };
+        names = format!("{names} {word}");
+        command = found.clone();
+    }
+    names
 }

@@ -19,7 +19,7 @@ pub enum Cell {
     /// An index, in all number formats alike.
     Index(i128),
     /// An exact quantity, shown in the number format asked for.
-    Number(Surd),
+    Number(Box<Surd>),
     /// A quantity that many rows share, as its text in the number format asked for.
     Shown(Rc<Shown>),
     /// A word.
@@ -46,13 +46,19 @@ impl From<i128> for Cell {
 
 impl From<BigRational> for Cell {
     fn from(value: BigRational) -> Self {
-        Self::Number(value.into())
+        Surd::from(value).into()
     }
 }
 
 impl From<Surd> for Cell {
     fn from(value: Surd) -> Self {
-        Self::Number(value)
+        Self::Number(value.into())
+    }
+}
+
+impl From<&Rc<Shown>> for Cell {
+    fn from(shown: &Rc<Shown>) -> Self {
+        Self::Shown(Rc::clone(shown))
     }
 }
 
@@ -62,19 +68,21 @@ impl From<&'static str> for Cell {
     }
 }
 
-impl Cell {
+impl Shown {
     /// A number as its text in a format of one column; `quantity` is named if it does not fit.
-    pub(super) fn shown(
+    pub(super) fn new(
         number: &Surd,
         numbers: NumberFormat,
         quantity: &'static str,
         summed: bool,
-    ) -> Result<Self, Error> {
+    ) -> Result<Rc<Self>, Error> {
         let text = numbers.show(number, quantity)?;
         let exact = summed.then(|| number.clone());
-        Ok(Self::Shown(Rc::new(Shown { text, exact })))
+        Ok(Rc::new(Self { text, exact }))
     }
+}
 
+impl Cell {
     /// The exact number, for a sum.
     pub(super) fn exact(&self) -> Option<&Surd> {
         match self {
@@ -100,7 +108,11 @@ impl Cell {
         for _ in 0..heads {
             match self {
                 Self::Integer(n) => line.push(n),
-                Self::Index(n) => line.push(n),
+                Self::Index(n) => match i64::try_from(*n) {
+                    // Written faster.
+                    Ok(n) => line.push(n),
+                    Err(_) => line.push(n),
+                },
                 Self::Number(x) => line.push_str(&numbers.show(x, column)?),
                 Self::Shown(shown) => line.push_str(&shown.text),
                 Self::Word(word) => line.push_str(word),

@@ -46,7 +46,7 @@ impl<V> Distinct<V> {
     }
 }
 
-/// A rational in lowest terms, hashed as it is written: `Ratio` hashes by its continued fraction.
+/// A rational in lowest terms, hashed by its two integers: `Ratio` hashes by its continued fraction.
 #[derive(PartialEq, Eq)]
 struct Multiple(BigRational);
 

@@ -48,7 +48,7 @@ pub(crate) struct Aside {
 }
 
 impl Aside {
-    /// Writes beside the target; dropped, it leaves nothing.
+    /// Writes into the folder of the target; dropped, it leaves nothing.
     pub(crate) fn write(
         path: &Path,
         write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,

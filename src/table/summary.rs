@@ -1,6 +1,6 @@
 //! A pile in one row.
 
-use num_bigint::BigInt;
+use num_bigint::BigUint;
 use num_rational::BigRational;
 
 use super::cell::Cell;
@@ -39,7 +39,7 @@ pub struct Summary<'p> {
 }
 
 impl<'p> Summary<'p> {
-    /// The summary of the pile of `units`; `touching` is what touches beside the contacts at the spacing in question,
+    /// Sums up the pile of `units`; `touching` is what touches besides the contacts at the spacing in question,
     /// if there is one, and nothing if there is none.
     ///
     /// # Errors
@@ -145,51 +145,42 @@ impl<'p> Summary<'p> {
             Err(Error::TooLarge { .. }) => Cell::Missing,
             plan => Cell::Word(plan?.method.to_string().into()),
         };
+        let plain = |name, cell: Cell| (Column::plain(name), cell);
+        let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
+        let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
+        let word = |word: String| Cell::Word(word.into());
+        let stands = self.verdict().map(|verdict| verdict.name().into());
+        let touching = self.touching.as_deref().map(describe);
         let entries = [
-            (Column::plain("layers"), pile.layers().into()),
-            (Column::plain("stacking"), Cell::Word(stacking(pile).into())),
-            (
-                Column::plain("spheres"),
-                Cell::Integer(pile.spheres().into()),
-            ),
-            (
-                Column::plain("contacts"),
-                Cell::Integer(pile.contacts().into()),
-            ),
-            (
-                Column::measured("weight", units.normal()),
-                in_units(&pile.weight()),
-            ),
-            (
-                Column::plain("stands"),
-                self.verdict()
-                    .map_or(Cell::Missing, |verdict| verdict.name().into()),
-            ),
-            (
-                Column::measured("min_contact", units.force()),
+            plain("layers", pile.layers().into()),
+            plain("stacking", word(stacking(pile))),
+            count("spheres", pile.spheres()),
+            count("contacts", pile.contacts()),
+            measured("weight", units.normal(), in_units(&pile.weight())),
+            plain("stands", stands.unwrap_or(Cell::Missing)),
+            measured(
+                "min_contact",
+                units.force(),
                 least.map_or(Cell::Missing, Cell::from),
             ),
-            (
-                Column::plain("base_spheres"),
-                Cell::Integer(BigInt::from(pile.base_spheres())),
-            ),
-            (
-                Column::measured("normal_min", units.normal()),
+            count("base_spheres", pile.base_spheres()),
+            measured(
+                "normal_min",
+                units.normal(),
                 of_base(|base| &base.normal_min),
             ),
-            (
-                Column::measured("normal_max", units.normal()),
+            measured(
+                "normal_max",
+                units.normal(),
                 of_base(|base| &base.normal_max),
             ),
-            (
-                Column::measured("max_shear_ratio", ratio_unit),
+            measured(
+                "max_shear_ratio",
+                ratio_unit,
                 ratio.map_or(Cell::Missing, Cell::from),
             ),
-            (
-                Column::plain("touching"),
-                self.touching.as_deref().map_or(Cell::Missing, describe),
-            ),
-            (Column::plain("plan"), plan),
+            plain("touching", touching.unwrap_or(Cell::Missing)),
+            plain("plan", plan),
         ];
         Ok(Table::record(entries.into()))
     }
@@ -216,7 +207,7 @@ pub(super) fn steps(pile: &Pile) -> String {
     as_read(pile).to_string()
 }
 
-/// The stacking as it is read: from the base up, if the pile was grown so.
+/// The stacking in the order in which it is written: from the base up, if the pile was grown so.
 fn as_read(pile: &Pile) -> Stacking {
     let stacking = pile.shape().stacking();
     if pile.shape().is_grown_from_base() {

@@ -4,7 +4,7 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::cell::{Cell, NumberFormat};
+use super::cell::{Cell, NumberFormat, Shown};
 use super::distinct::{Distinct, Forces, Places};
 use super::rows::{Column, Row, RowIter, Table};
 use super::summary::steps;
@@ -59,7 +59,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
 
 fn base_rows<'p>(units: &Units<'p>, forces: Base<'p, BigRational>) -> RowIter<'p> {
     fn cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
-        let mut cells = places(pile, force.site);
+        let mut cells: Vec<Cell> = places(pile, force.site).collect();
         cells.extend([force.normal.into(), force.shear_x.into()]);
         if pile.dimension() == Dimension::Three {
             cells.push(force.shear_y.into());
@@ -149,14 +149,14 @@ fn exact_contacts<'p>(units: &Units<'p>, forces: Contacts<'p, BigRational>) -> R
     }
 }
 
-/// The same rows with floats: each distinct number is rounded and written out once.
+/// The contacts with floats: each distinct number is rounded and written out once.
 fn rounded_contacts<'p>(
     units: &Units<'p>,
     contacts: Contacts<'p, BigRational>,
     numbers: NumberFormat,
 ) -> RowIter<'p> {
     let pile = units.pile();
-    let force_cell = move |force: &Surd| Cell::shown(force, numbers, "force", true);
+    let shown_force = move |force: &Surd| Shown::new(force, numbers, "force", true);
     match units {
         Units::Pile(_) => {
             let mut forces = Distinct::new();
@@ -166,16 +166,16 @@ fn rounded_contacts<'p>(
                     direction,
                     force,
                 } = contact?;
-                let force = forces.of(force, |force| force_cell(&force.clone().into()))?;
+                let force = forces.of(force, |force| shown_force(&force.clone().into()))?;
                 let mut cells = contact_cells(pile, site, direction);
-                cells.push(force.clone());
+                cells.push(force.into());
                 Ok(cells)
             }))
         }
         Units::Si(packing) => {
             let mut forces = Forces::new(packing, move |force: &Surd, [x, y, z]: &[Surd; 3]| {
-                let component = |x, name| Cell::shown(x, numbers, name, false);
-                let force = force_cell(force)?;
+                let component = |x, name| Shown::new(x, numbers, name, false);
+                let force = shown_force(force)?;
                 Ok([
                     force,
                     component(x, "fx")?,
@@ -184,7 +184,7 @@ fn rounded_contacts<'p>(
                 ])
             });
             let mut points = Places::new(packing, move |x: &Surd| {
-                Cell::shown(x, numbers, "a position", false)
+                Shown::new(x, numbers, "a position", false)
             });
             Box::new(contacts.map(move |contact| {
                 let ContactForce {
@@ -193,8 +193,8 @@ fn rounded_contacts<'p>(
                     force,
                 } = contact?;
                 let mut cells = contact_cells(pile, site, direction);
-                cells.extend_from_slice(forces.of(site, direction, force)?);
-                cells.extend(points.point(site, direction)?);
+                cells.extend(forces.of(site, direction, force)?.iter().map(Cell::from));
+                cells.extend(points.point(site, direction)?.map(Cell::Shown));
                 Ok(cells)
             }))
         }
@@ -287,10 +287,10 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
                 move |packing: &Packing<'_>, site| Ok(packing.position(site)?.map(Cell::from));
             return Box::new(sphere_rows(packing, spheres, centre));
         }
-        let shown = move |x: &Surd| Cell::shown(x, numbers, "a position", false);
+        let shown = move |x: &Surd| Shown::new(x, numbers, "a position", false);
         let mut places = Places::new(&packing, shown);
         Box::new(sphere_rows(packing, spheres, move |_, site| {
-            places.centre(site)
+            Ok(places.centre(site)?.map(Cell::Shown))
         }))
     };
     Ok(Table::made_for(columns, "spheres", rows).bounded(count, bounds))
@@ -342,10 +342,14 @@ pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> 
     Table::of_rows(columns.into(), "theorems", proved.map(row))
 }
 
+/// The most layers of a stacking whose normal forces a census has.
+const MOST_LAYERS: i128 = 100_000;
+
 /// Stackings and whether they stand, one a row: `stacking, layers, stands, min_contact, base_spheres, normal_min,
 /// normal_max`, and where the least contact is, `k, i, j, direction`.
 ///
-/// The normal forces of those that do not stand are left out.
+/// The normal forces of those that do not stand are left out, and those of more than 100,000 layers, of which every row of
+/// the base would be looked at.
 ///
 /// # Examples
 /// ```
@@ -380,6 +384,7 @@ pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> T
         cells.push(Cell::Integer(pile.base_spheres().into()));
         let base = match standing.first_failure {
             Some(_) => None,
+            None if pile.layers() > MOST_LAYERS => None,
             None => match pile.base_extremes() {
                 Err(Error::TooLarge { .. }) => None,
                 base => Some(base?),
@@ -421,11 +426,9 @@ fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
 }
 
 /// i, and j in space.
-fn places(pile: &Pile, site: Site) -> Vec<Cell> {
-    match pile.dimension() {
-        Dimension::Two => vec![site.i.into()],
-        Dimension::Three => vec![site.i.into(), site.j.into()],
-    }
+fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
+    let j = (pile.dimension() == Dimension::Three).then_some(site.j);
+    core::iter::once(site.i).chain(j).map(Cell::from)
 }
 
 pub(crate) fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {

@@ -13,7 +13,10 @@ use crate::Error;
 use crate::scalar::Surd;
 
 /// How many rows are aligned together: a page is all that is held in memory.
-const PAGE: usize = 4096;
+pub(super) const PAGE: usize = 4096;
+
+/// How many rows are aligned together where nothing is known of them before they are made.
+pub(super) const SHORT_PAGE: usize = 256;
 
 /// Writes a line a column: name, value, unit.
 pub(super) fn write_record(
@@ -43,7 +46,7 @@ pub(super) fn write_record(
 /// Writes a line a row, in columns as wide as their widest entry so far.
 pub(super) fn write_rows(
     columns: &[Column],
-    mut rows: RowIter<'_>,
+    (mut rows, page_length): (RowIter<'_>, usize),
     noun: &str,
     numbers: NumberFormat,
     out: &mut dyn Write,
@@ -67,7 +70,7 @@ pub(super) fn write_rows(
     let mut count = BigUint::zero();
     loop {
         let mut taken = 0;
-        for row in rows.by_ref().take(PAGE) {
+        for row in rows.by_ref().take(page_length) {
             let row = row?;
             sums.iter_mut()
                 .zip(&row)
@@ -78,7 +81,7 @@ pub(super) fn write_rows(
             taken += 1;
         }
         count += taken;
-        let last = taken < PAGE;
+        let last = taken < page_length;
         let totals = (last && has_sums).then(|| totals(columns, &sums, numbers));
         for line in page.iter().chain(&totals) {
             for (width, text) in widths.iter_mut().zip(line.fields()) {
@@ -127,7 +130,7 @@ fn totals(columns: &[Column], sums: &[Sum], numbers: NumberFormat) -> Line {
         let cell = match &sum.0 {
             // A sum beyond the floats is shown exactly: its rows are out already, and right.
             Some(sum) if !fits(sum, numbers) => Cell::Word(sum.to_string().into()),
-            Some(sum) => Cell::Number(sum.clone()),
+            Some(sum) => sum.clone().into(),
             None => word.into(),
         };
         // Whether it fits has been found out.

@@ -51,9 +51,13 @@ pub fn remove_unfinished() {
     unfinished.closed = true;
     // Files stand after the folders that were made for them.
     for path in unfinished.paths.drain(..).rev() {
-        // What cannot be removed stays; there is nobody to report it to.
-        let _ = fs::remove_file(&path).or_else(|_| fs::remove_dir(&path));
+        remove(&path);
     }
+}
+
+fn remove(path: &Path) {
+    // What cannot be removed stays, as a folder with something in it: there is nobody to report it to.
+    let _ = fs::remove_file(path).or_else(|_| fs::remove_dir(path));
 }
 
 /// A path that is unfinished until this is dropped.
@@ -70,6 +74,11 @@ impl Pending {
         }
         unfinished.paths.push(path.to_owned());
         Ok(Self(path.to_owned()))
+    }
+
+    /// Removes what is there.
+    pub(crate) fn remove(&self) {
+        remove(&self.0);
     }
 
     /// Does what completes the path, unless it has been removed.
@@ -138,4 +147,46 @@ fn remove_leftover(entry: &fs::DirEntry) -> io::Result<()> {
         fs::remove_file(entry.path())?;
     }
     Ok(())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_killed_process_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let hour = Duration::from_secs(3600);
+        let make = |name: &str, age| {
+            let file = fs::File::create(folder.path().join(name)).unwrap();
+            let modified = std::time::SystemTime::now() - age;
+            file.set_modified(modified).unwrap();
+            file
+        };
+        make(".cannonpile-left01", hour);
+        make(".cannonpile-new001", Duration::ZERO);
+        make(".cannonpile-notours", hour);
+        make(".cannonpile-0000.x", hour);
+        make("left01", hour);
+        let locked = make(".cannonpile-locked", hour);
+        assert!(lock(&locked));
+        remove_leftovers(folder.path());
+        let names = folder.path().read_dir().unwrap();
+        let mut names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(
+            names,
+            [
+                ".cannonpile-0000.x",
+                ".cannonpile-locked",
+                ".cannonpile-new001",
+                ".cannonpile-notours",
+                "left01"
+            ]
+        );
+        // Its process has ended.
+        drop(locked);
+        remove_leftovers(folder.path());
+        assert_eq!(folder.path().read_dir().unwrap().count(), 4);
+    }
 }

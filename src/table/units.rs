@@ -16,7 +16,7 @@ pub enum Units<'p> {
 }
 
 impl<'p> Units<'p> {
-    /// Pile units.
+    /// Returns the units in which all forces are rational: f₀, mg and mg·tanθ.
     ///
     /// # Examples
     /// ```
@@ -34,7 +34,7 @@ impl<'p> Units<'p> {
         Self::Pile(Box::new(pile.forces()))
     }
 
-    /// SI units.
+    /// Returns newtons and metres, for radius, mass and gravity in SI units.
     ///
     /// # Examples
     /// ```
@@ -115,7 +115,7 @@ impl<'p> Units<'p> {
 }
 
 impl Units<'_> {
-    /// The same, found by this method.
+    /// Returns these units, for answers that are found by one method.
     ///
     /// # Errors
     /// As for [`Forces::by`](crate::Forces::by).

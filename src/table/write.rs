@@ -48,13 +48,20 @@ impl Table<'_> {
     ) -> Result<(), WriteError> {
         let mut line = Line::default();
         show(&self.columns, &self.bounds, numbers, &mut line)?;
+        let is_counted = self.row_count().is_some();
         let rows = (self.rows)(numbers);
         let columns = &self.columns;
         match (format, self.layout) {
             (FileFormat::Json, _) => json::write(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Record) => text::write_record(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Rows(noun)) => {
-                text::write_rows(columns, rows, noun, numbers, out)
+                // Where the number of rows is not known, each of them may take long.
+                let page = if is_counted {
+                    text::PAGE
+                } else {
+                    text::SHORT_PAGE
+                };
+                text::write_rows(columns, (rows, page), noun, numbers, out)
             }
             (FileFormat::Csv, _) => {
                 let mut csv = csv::Writer::from_writer(out);

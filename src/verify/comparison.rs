@@ -59,7 +59,7 @@ impl Comparison {
     /// let [one, other] = [Measured::new([1, 2], 0.46), Measured::new([3, 1], 0.47)];
     /// let comparison = Comparison::new(&packing, [one, other])?;
     /// assert_eq!(Comparison::new(&packing, [other.reversed(), one.reversed()])?, comparison);
-    /// // A pair is not told twice, whichever sphere is named first.
+    /// // A pair is listed once, whichever sphere is named first.
     /// assert!(Comparison::new(&packing, [one, one.reversed()]).is_err());
     /// # Ok::<(), cannonpile::verify::Refusal>(())
     /// ```
@@ -138,7 +138,7 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(3)?.weightless().with_load(Site::APEX, BigRational::from_integer(1.into()))?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // The load goes down on three lines; the contacts beside them have no force.
+    /// // The load goes down on three lines; the other contacts have no force.
     /// let comparison = Comparison::new(&packing, [])?;
     /// assert_eq!((comparison.missing(), comparison.contacts()), (6, 12));
     /// # Ok::<(), cannonpile::verify::Refusal>(())

@@ -14,7 +14,7 @@ use super::refusal::{Fault, Refusal};
 /// Columns are found by name, in any order: `id1`, `id2`, `force`, and `fx`, `fy`, `fz` if there are vectors, where `force`
 /// may be left out; `patom1` and `patom2`, or `natom1` and `natom2`, stand for `id1` and `id2`. Others are passed over. Fields may be quoted; blanks
 /// around them and empty lines do not count. A force is any finite decimal, and read as the nearest `f64`. The last line
-/// need not end: what is cut off a csv table cannot be told from it, and shows as missing contacts.
+/// need not end: what is cut off a csv table cannot be seen, and shows as missing contacts.
 ///
 /// # Errors
 /// [`Refusal::Line`]; [`Refusal::Io`].

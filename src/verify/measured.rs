@@ -79,7 +79,7 @@ impl Measured {
         self
     }
 
-    /// The same contact with the spheres swapped: the vector, now the force on the other, changes its sign.
+    /// Returns this contact with its two spheres swapped: the vector, now the force on the other, changes its sign.
     ///
     /// # Examples
     /// ```

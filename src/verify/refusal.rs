@@ -72,7 +72,7 @@ pub enum Fault {
     Field {
         /// The column.
         column: &'static str,
-        /// The field, as far as it is quoted, with what was expected.
+        /// The field, as far as it is shown, with what was expected.
         error: Box<Error>,
     },
     /// A force beyond the floats, or none.

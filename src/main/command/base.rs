@@ -8,7 +8,17 @@ use crate::args::{BaseAt, ByMethod, Numbers, Output, SceneOptions, narrower};
 use crate::output::Failure;
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Columns: i, j; normal, downwards, in mg; shear_x in mg·tanθ and shear_y in √3·mg·tanθ (2cosφ·mg·tanθ for another base
+triangle), also in csv and json; with --units si all in N, for m = 1 kg and g = 1 m/s² unless these are given.
+
+Examples:
+  cannonpile base --layers 10
+  cannonpile base --layers 10 --spacing 6/5 --units si --number f64 --output base.csv
+  cannonpile base --layers 1000000000000000000000000000000 --at 5,7";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Base {
     #[command(flatten)]
     scene: SceneOptions,

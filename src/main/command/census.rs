@@ -12,7 +12,17 @@ use crate::args::{Number, Output};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Of mirror images one is listed. Beginnings that fail are listed where they first do, with the contact that would have to
+pull. With them a census of L layers has 11(L − 5) + 6 rows, and takes a time that grows like L³.
+
+Examples:
+  cannonpile census --layers 6
+  cannonpile census --layers 1000000 --standing
+  cannonpile census --base hexagon:3 --output census.csv";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Census {
     /// Number of layers, 1 to 10^36
     #[arg(long, value_name = "L", default_value = "10", allow_hyphen_values = true, value_parser = parse::layers)]

@@ -10,7 +10,18 @@ use crate::args::{ByMethod, Numbers, Output, Part, SceneOptions, narrower, spher
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Each row is a sphere (k, i, j), counted from k = 0 at the top, and its contact with the sphere below it in one direction.
+The force is positive for a push, in mg/(3cosθ); with --units si in N and m, for R = 1 m, m = 1 kg and g = 1 m/s² unless
+these are given, with the force on the upper sphere fx, fy, fz and the point of contact x, y, z.
+
+Examples:
+  cannonpile contacts --layers 4
+  cannonpile contacts --stacking hcp --layers 7 --layer 4
+  cannonpile contacts --layers 20 --units si --number f64 --output contacts.csv";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Contacts {
     #[command(flatten)]
     scene: SceneOptions,

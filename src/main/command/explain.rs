@@ -10,7 +10,23 @@ use crate::args::{ByMethod, Format, Output, Part, SceneOptions, UnitSystem};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Rows of the plan, which are bounds:
+  quantity  what is asked             runs      runs of equal steps that matter
+  method    how it is answered        visited   spheres whose forces are found
+  turned    of them those below a change of sign
+  passes    steps from a layer to the next
+  numbers   numbers kept at a time    bits      bits of the widest of them
+  planes    machine words for each    roots     square roots taken
+  rows      rows of the answer        bytes     memory for the numbers
+counted_visited, counted_turned, … are what a run took.
+
+Examples:
+  cannonpile explain --stacking hcp --layers 30
+  cannonpile explain --of base --layers 1000000 --at 5,7 --no-run";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Explain {
     #[command(flatten)]
     scene: SceneOptions,

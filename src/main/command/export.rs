@@ -13,7 +13,16 @@ use crate::args::{Format, SceneOptions, agreed, target};
 use crate::output::{Failure, complain, write_to};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. Files are written aside, and renamed
+when all are complete.
+
+Examples:
+  cannonpile export pile --to lammps --layers 10 --spacing 1.2
+  cannonpile export pile --to csv,vtp --layers 40 --list files.csv";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Export {
     /// The folder, made if it is not there; other files in it stay as they are
     #[arg(value_name = "DIR")]

@@ -14,8 +14,17 @@ use crate::args::{SceneOptions, UnitSystem, one, target};
 use crate::output::{Failure, Refused, complain, write_to};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+z points up in figures, as in exported files.
+
+Examples:
+  cannonpile plot shear --output shear.svg
+  cannonpile plot network --stacking hcp --layers 12 --output network.svg
+  cannonpile plot response --stacking hcp --top hexagon:5 --layers 6 --output response.svg";
+
 /// A kind of figure.
 #[derive(Subcommand)]
+#[command(after_help = HELP)]
 pub(crate) enum Plot {
     /// The pile in perspective, of four layers unless the scene says how many
     Pile(Of),

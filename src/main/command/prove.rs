@@ -10,7 +10,13 @@ use crate::args::{Format, Output};
 use crate::output::Failure;
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Examples:
+  cannonpile prove
+  cannonpile prove --theorem uniform-base";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Prove {
     /// One theorem only, with its whole derivation
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(theorem::all().map(|t| t.name)))]

@@ -8,7 +8,13 @@ use super::Command;
 use crate::args::{SceneOptions, target};
 use crate::output::{Failure, write_to};
 
+const HELP: &str = "\
+Examples:
+  cannonpile scene --layers 4 --stacking hcp --output pile.toml
+  cannonpile base --scene pile.toml --layers 6";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct WriteScene {
     #[command(flatten)]
     scene: SceneOptions,

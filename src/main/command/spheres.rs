@@ -9,7 +9,16 @@ use crate::args::{Numbers, Output, Part, SceneOptions, narrower, spheres};
 use crate::output::Failure;
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Spheres are numbered from 1, row by row from the top, as export and verify number them. z points up. R = 1 m and m = 1 kg,
+unless these are given.
+
+Examples:
+  cannonpile spheres --layers 4
+  cannonpile spheres --layers 4 --radius 1/100 --number f64 --output spheres.json";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Spheres {
     #[command(flatten)]
     scene: SceneOptions,

@@ -9,7 +9,15 @@ use crate::args::{Numbers, Output, SceneOptions};
 use crate::output::Failure;
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Lengths and forces in SI are for R = 1 m, m = 1 kg and g = 1 m/s², unless these are given.
+
+Examples:
+  cannonpile summary --stacking hcp --layers 7
+  cannonpile summary --top hexagon:3 --stacking=++-+ --units si --gravity 9.81";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Summary {
     #[command(flatten)]
     scene: SceneOptions,

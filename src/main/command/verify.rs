@@ -14,7 +14,17 @@ use crate::args::{Output, SceneOptions};
 use crate::output::{Failure, complain, reason};
 use crate::progress::Progress;
 
+const HELP: &str = "\
+Errors are relative to the exact force of the contact; where that is 0, to the largest exact force. Pairs that are no
+contact are extra, or noise if their force is below --accept times the largest; pairs of bottom spheres are fixed, and not
+judged.
+
+Examples:
+  cannonpile verify pile/forces.dump --layers 10 --spacing 1.2
+  cannonpile verify measured.csv --scene pile.toml --accept 1e-3";
+
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Verify {
     /// A csv table with columns id1, id2, force, and fx, fy, fz if there are vectors; or a LAMMPS dump local file with these
     /// columns, of which the last snapshot counts. - for stdin
