@@ -40,8 +40,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "tripled-half-turn",
-        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, which the exact engine computes, and (2(g_2+g_3) − g_1, …), which bounds \
-                    are computed by, are 3Gg; an identity",
+        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, by which integers are turned, and (2(g_2+g_3) − g_1, …), by which bounds and \
+                    the limbs of the exact engine are, are 3Gg; an identity",
         hypotheses: "any forces",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
