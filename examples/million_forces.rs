@@ -1,4 +1,4 @@
-//! A million contact forces, each the float nearest to the exact one, written into a slice of one's own; and those of a
+//! A million contact forces, each the float nearest to the exact one, written into slices of one's own; and those of a
 //! pile that is not straight, layer by layer. `cargo run --release --example million_forces`
 
 use std::time::Instant;
@@ -6,8 +6,9 @@ use std::time::Instant;
 use cannonpile::lattice::{Direction, Region};
 use cannonpile::scalar::Surd;
 use cannonpile::scene::parse;
+use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{Error, Packing, Pile, Strengths};
+use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;
 
 fn main() -> Result<(), Error> {
@@ -23,18 +24,26 @@ fn straight() -> Result<(), Error> {
         .with_radius(parse::rational("0.01")?)?
         .with_mass(parse::rational("0.033")?)?
         .with_gravity(parse::rational("1.62")?)?;
-    let strengths = Strengths::<f64>::nearest(&packing)?;
-    let mut forces = vec![[0.0; 3]; strengths.spheres()?];
+    let layers = packing.layers::<f64>(Selection::All)?;
+    let spheres = layers.spheres()?;
+    let mut forces = [(); 3].map(|()| vec![0.0; spheres]);
     let start = Instant::now();
-    strengths.fill_interleaved(&mut forces)?;
-    report("straight, in newtons", 3 * forces.len(), start);
-    assert_eq!(3 * forces.len(), 1_000_125);
+    layers.fill(forces.each_mut().map(Vec::as_mut_slice))?;
+    report("straight, in newtons", 3 * spheres, start);
+    assert_eq!(3 * spheres, 1_000_125);
 
     // Row after row, as the sites of the pile.
-    for (site, forces) in pile.shape().sites().zip(&forces).step_by(150_000) {
-        for (direction, force) in Direction::ALL.into_iter().zip(forces) {
+    for (n, site) in pile
+        .shape()
+        .sites()
+        .take(spheres)
+        .enumerate()
+        .step_by(150_000)
+    {
+        for direction in Direction::ALL {
             let exact = packing.contact(site, direction)?;
-            assert_eq!(exact.nearest(), Some(*force));
+            let force = forces[direction.index()][n];
+            assert_eq!(exact.nearest(), Some(force));
             println!("  below {site} along {direction:5}  {exact} N = {force} N");
         }
     }
@@ -45,17 +54,17 @@ fn straight() -> Result<(), Error> {
 fn mixed() -> Result<(), Error> {
     let pile = Pile::under(Region::hexagon(70, 70)?, Stacking::hcp(24)?)?;
     let start = Instant::now();
-    let (mut sweep, mut filled) = (pile.sweep::<f64>()?, 0);
+    let (mut layers, mut filled) = (pile.forces::<f64>().layers(Selection::All)?, 0);
     let mut slices = [(); 3].map(|()| Vec::new());
-    for k in 0..pile.layers() - 1 {
-        sweep.advance(k)?;
-        let spheres = sweep.spheres()?;
-        let [alpha, beta, gamma] = slices.each_mut().map(|slice| {
-            slice.resize(spheres, 0.0);
-            slice.as_mut_slice()
-        });
-        sweep.fill([alpha, beta, gamma])?;
-        filled += 3 * spheres;
+    while let Some(layer) = layers.next_layer()? {
+        if layer.is_floor() {
+            break;
+        }
+        for slice in &mut slices {
+            slice.resize(layer.spheres(), 0.0);
+        }
+        layer.fill(slices.each_mut().map(Vec::as_mut_slice))?;
+        filled += 3 * layer.spheres();
     }
     report("24 layers of hcp, in mg/(3 cosθ)", filled, start);
 

@@ -125,33 +125,22 @@ pub enum Error {
         /// The value asked for.
         given: Box<BigRational>,
     },
-    /// A pile whose forces do not follow the paper's closed form.
-    NotStraight,
     /// A method that does not apply: closed forms are of straight stackings, sweeps of spheres and not of discs.
     NoSuchMethod {
         /// The method asked for.
         method: Method,
     },
-    /// A layer that a sweep is not at, or does not lead to any more.
-    SweepElsewhere {
-        /// The layer asked for.
+    /// A sphere that is not of the layer asked.
+    OtherLayer {
+        /// The layer of the sphere.
         layer: i128,
-        /// The layer that the sweep is at.
+        /// The layer that was asked.
         at: i128,
-        /// The last layer that it leads to.
-        last: i128,
     },
     /// A quantity in SI of a pile that has no size and no weight.
     NeedsUnits {
         /// The quantity asked for.
         quantity: Quantity,
-    },
-    /// A row that has no spheres with others below them.
-    NoSuchRow {
-        /// The layer asked for.
-        k: i128,
-        /// The row asked for.
-        j: i128,
     },
     /// A slice that does not have one place for each force.
     Length {

@@ -1,73 +1,61 @@
 //! The paper's figures, and more, as SVG.
 //!
-//! Each figure of a pile is computed from a [`Subject`], a pile with a spacing and units, as plain numbers: exact answers, rounded
-//! once. Its `drawing` is a [`Drawing`], an SVG document that needs no fonts but the viewer's.
+//! A figure is drawn of a [`Subject`], a pile with a spacing and units, from exact answers that are rounded once. It is a
+//! [`Figure`], an SVG document that needs no fonts but the viewer's, and whose marks carry the numbers they stand for.
 //!
-//! | figure | what it shows |
+//! | function | what it shows |
 //! |---|---|
-//! | [`Picture`] | the pile in perspective (paper, fig. 1) |
-//! | [`Indexing`] | the indices of a layer (paper, fig. 2) |
-//! | [`SphereForces`] | the forces on one sphere (paper, fig. 3) |
-//! | [`Shear`] | the shear on the floor as arrows (paper, fig. 4) |
-//! | [`BaseMap`] | the normal force on the floor as a map |
-//! | [`Network`] | contact forces as lines: a vertical section, or a layer |
-//! | [`Response`] | what a layer feels of a load on the top |
-//! | [`WorkPrecision`] | measured run times against errors |
+//! | [`pile()`] | the pile in perspective (paper, fig. 1) |
+//! | [`indexing()`] | the indices of a layer (paper, fig. 2) |
+//! | [`sphere()`] | the forces on one sphere (paper, fig. 3) |
+//! | [`shear()`] | the shear on the floor as arrows (paper, fig. 4) |
+//! | [`base()`] | the normal force on the floor as a map |
+//! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
+//! | [`response()`] | what a layer feels of a load on the top |
+//!
+//! Axes are those of the exported files: x and y the paper's, z **up**. What is seen from above therefore has x to the right
+//! and y upwards, as every program shows the files from above. In the paper z points down: its figures 2 and 4 show the
+//! layer from below, and are the mirror images of these.
 //!
 //! # Examples
 //! ```
 //! use cannonpile::Pile;
-//! use cannonpile::figure::{Shear, Subject};
+//! use cannonpile::figure::{self, Subject};
 //! use cannonpile::geometry::Spacing;
 //! use num_rational::BigRational;
 //!
 //! let pile = Pile::triangular(10)?;
 //! let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-//! let svg = Shear::new(&Subject::of_pile(&pile, &spacing)?)?.drawing().to_string();
+//! let svg = figure::shear(&Subject::of_pile(&pile, &spacing)?)?.to_string();
 //! // 54 arrows: under the apex the shear vanishes.
 //! assert_eq!(svg.matches("class=\"arrow\"").count(), 54);
 //! # Ok::<(), cannonpile::Error>(())
 //! ```
 
 mod base;
-mod canvas;
-mod cells;
+mod caption;
 mod colour;
 mod indexing;
-mod label;
 mod layer;
+mod map;
+mod mark;
 mod network;
+mod page;
 mod panel;
-mod picture;
+mod pile;
 mod response;
 mod shear;
 mod sphere;
 mod subject;
 mod ticks;
 mod view;
-mod work_precision;
 
-pub use base::BaseMap;
-pub use canvas::Drawing;
-pub use cells::MapCell;
-pub use colour::{Colour, Scale};
-pub use indexing::Indexing;
-pub use network::{Link, Network};
-pub use picture::{Picture, PictureSphere};
-pub use response::Response;
-pub use shear::{Shear, ShearArrow};
-pub use sphere::{SphereForce, SphereForces};
+pub use base::base;
+pub use indexing::indexing;
+pub use network::{layer, section};
+pub use page::{Figure, Layout};
+pub use pile::pile;
+pub use response::{of_unit_load, response};
+pub use shear::shear;
+pub use sphere::{example, sphere};
 pub use subject::Subject;
-pub use work_precision::{MeasuredRun, WorkPrecision};
-
-use svg::Node;
-
-use crate::lattice::Site;
-
-/// The same mark, with the indices of the sphere it stands for.
-fn of<N: Node>(site: Site, mut mark: N) -> N {
-    for (name, index) in [("data-k", site.k), ("data-i", site.i), ("data-j", site.j)] {
-        mark.assign(name, index.to_string());
-    }
-    mark
-}

@@ -278,7 +278,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
 
     /// The forces from the spheres above on `site`, by direction, in f₀; zero where there is none.
     ///
-    /// Paper, eq. (forces2): (k−i−j, i, j)·f₀ on an equilateral base.
+    /// Paper, (10): (k−i−j, i, j)·f₀ on an equilateral base.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::Overflow`] if the scalar cannot hold the answer.
@@ -567,7 +567,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
 
     /// The sum of the forces from above on `site`, in f₀ and the symbolic basis.
     ///
-    /// On an equilateral base it is the central force mg/(6R cosθ)·r (THEORY §2).
+    /// On an equilateral base it is the central force mg/(6R cosθ)·r, see [`paper`](crate::paper#closed-form).
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::Overflow`].

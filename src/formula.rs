@@ -1,7 +1,8 @@
 //! The equations of the paper, each once, under its printed number; generic over the scalar, or the ring of its numerators.
 //!
 //! Whoever computes a force calls these functions, and no other body computes one: the engines with integers, floats,
-//! bounds and limbs, [`theorem`](crate::theorem) with polynomials. So what is proved is what answers.
+//! bounds and limbs, [`theorem`](crate::theorem) with polynomials. So what is proved is what answers. All equations
+//! and the mathematics behind them are in [`paper`](crate::paper).
 //!
 //! A sphere that stands on d others shares its weight among d lines of contacts, and every line just counts up: a
 //! sphere with N spheres above it on a line receives N increments along that line, and passes N + 1 of them on.
@@ -25,7 +26,7 @@
 //! | discs, d = 2 | (1, 1) | 2 |
 //!
 //! They are numbers in the unit f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base, so that every formula is
-//! a polynomial in s and the counts. The one division by W is made by who wants mg.
+//! a polynomial in s and the counts. Who wants mg divides by W once.
 
 mod turn;
 
@@ -37,7 +38,7 @@ use core::ops::Add;
 use crate::geometry::Vector;
 use crate::scalar::Ring;
 
-/// What a sphere adds to each of its three lines of contacts, in f₀: (1, 1, 2s), with s = sin φ, 0 < s < 1.
+/// Returns what a sphere adds to each of its three lines of contacts, in f₀: (1, 1, 2s), with s = sin φ, 0 < s < 1.
 ///
 /// Paper, (6), with the denominator 2(1+s)cosθ in f₀; with s = ½ it is (7). At s = 0 the γ lines carry nothing: that is
 /// the pile of discs.
@@ -52,7 +53,7 @@ pub fn increments<T: Ring>(s: &T) -> [T; 3] {
     [T::one(), T::one(), s.clone() + s]
 }
 
-/// W, the sum of the increments: the weight of the sphere that adds them, in f₀ cosθ = mg/W.
+/// Returns W, the sum of the increments: the weight of the sphere that adds them, in f₀ cosθ = mg/W.
 ///
 /// Paper, (5), the third equation: Δα + Δβ + Δγ = mg/cosθ. There is one increment for each line, in any dimension.
 ///
@@ -67,7 +68,7 @@ pub fn weight<T: Ring>(increments: &[T]) -> T {
     increments.iter().fold(T::zero(), |sum, w| sum + w)
 }
 
-/// What `n` spheres on a line add to it, n·w in f₀, with w the increment of each.
+/// Returns what `n` spheres on a line add to it, n·w in f₀, with w the increment of each.
 ///
 /// Paper, (8): α′ = N_α Δα. As w = mg/W is the increment of a sphere of weight mg, n may be a weight in mg too.
 ///
@@ -82,7 +83,7 @@ pub fn force<T: Ring>(n: T, increment: &T) -> T {
     n * increment
 }
 
-/// What a line carries below a sphere, or several, that receives `received` on it and adds `own`: their sum.
+/// Returns what a line carries below a sphere, or several, that receives `received` on it and adds `own`: their sum.
 ///
 /// Paper, (4) and (5): α = α′ + Δα. A load on a sphere is passed on as its weight is.
 ///
@@ -99,7 +100,7 @@ pub fn passed_on<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
     received + own
 }
 
-/// The sum of the forces from above on a sphere, each along its direction: a′ + b′ + c′ = −(α′ê_a + β′ê_b + γ′ê_c).
+/// Returns the sum of the forces from above on a sphere, each along its direction: a′ + b′ + c′ = −(α′ê_a + β′ê_b + γ′ê_c).
 ///
 /// Paper, (1): `from_above` are α′, β′, γ′ in any unit of force; the answer is in that unit, in the basis of `directions`.
 ///
@@ -115,7 +116,7 @@ pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> V
     -Vector::combination(from_above, directions)
 }
 
-/// What a sphere presses with on what it stands on, the forces from above and its weight: F_s = a′ + b′ + c′ + w.
+/// Returns what a sphere presses with on what it stands on, the forces from above and its weight: F_s = a′ + b′ + c′ + w.
 ///
 /// Paper, (11); with (10) it is (12), whose vertical part over W is the normal force on the floor (13), and whose
 /// horizontal part over W is the shear (14). `weight` is w in the unit of forces: [`weight`] in f₀, times the scale of
@@ -143,7 +144,7 @@ pub fn handed_on<T: Ring>(
     resultant(from_above, directions) + &weight
 }
 
-/// The sum of all forces on a sphere that stands on others: the zero vector in equilibrium.
+/// Returns the sum of all forces on a sphere that stands on others: the zero vector in equilibrium.
 ///
 /// Paper, (3), with the terms a′ + b′ + c′ that are missing there in print: the supports push with `to_below` along the
 /// directions `below`, the spheres above with `from_above` along the directions `above`, and there is the weight, as for

@@ -47,29 +47,44 @@
 //! Forces in newtons and positions in metres carry roots. They are exact too: a [`Packing`] answers in
 //! numbers c·√n ([`scalar::Surd`]), which round to the nearest float.
 //!
-//! # Map
-//! Each room may use those above it, and [`Error`], which has a word for all of them. [`Pile`] names [`Forces`]
-//! to hand it out.
+//! # What to call
 //!
-//! | room | what lives there |
+//! | I want | call |
 //! |---|---|
-//! | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
-//! | [`lattice`], [`stacking`] | sites, six-sided regions, neighbours, symmetries, rows, counts; stackings in four notations |
-//! | [`geometry`] | a/R, θ, φ, the symbolic basis, overlap, positions |
-//! | [`formula`] | the paper's equations, each once, under its printed number, and the step across a sign change |
-//! | [`Pile`], [`Forces`] | a validated pile, of any stacking, on any region, under loads; its forces in pile units, in any scalar |
-//! | [`Question`], [`Plan`], [`Counters`] | what is asked; how it is answered and what that takes at most; what it took |
-//! | [`Standing`], [`BaseExtremes`] | whether a pile stands; what its base feels at most |
-//! | [`Packing`] | the same in SI, exactly |
-//! | [`Strengths`] | all contact forces of a straight pile, written into slices |
-//! | [`Sweep`], [`ExactSweep`] | those of any pile, layer after layer: plainly in any scalar, and in the exact engine |
-//! | [`theorem`], [`census`] | what is proved for every pile, and how; which stackings stand |
-//! | [`scene`] | a pile as a user describes it, and the parsers; as a TOML file (feature `toml`) |
-//! | `serde` | the data types with `Serialize` and `Deserialize` (feature `serde`) |
-//! | `table` | tables as csv, json and text (feature `export`) |
-//! | `dem` | piles as files for LAMMPS, ParaView, YADE (feature `export`) |
-//! | `verify` | measured forces against the exact ones (feature `export`) |
-//! | `figure` | the paper's figures and more, as SVG (feature `plot`) |
+//! | one contact force, in any scalar, in multiples of f₀ | [`pile.forces::<T>()`](Pile::forces)[`.contact(site, direction)`](Forces::contact) |
+//! | the force of one sphere on the floor | [`.on_floor(site)`](Forces::on_floor) |
+//! | all of them, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
+//! | many, fast, into slices | [`.layers(part)`](Forces::layers), and of these the [nearest floats](Layers::nearest) or [exact integers](Layers::numerators) |
+//! | the same in newtons and metres | a [`Packing`] |
+//! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
+//! | which stackings stand | [`census`] |
+//! | what is proved for every pile | [`theorem`] |
+//! | how a question is answered, and what that takes | [`Pile::plan`], [`Counters`] |
+//! | a pile as a user describes it | [`scene::Scene`] |
+//! | tables; files for LAMMPS, YADE, ParaView; a comparison with measured forces; figures | `table`, `dem`, `verify`, `figure` |
+//!
+//! No one has to choose a method: the plan does. A pile equal to another is the same pile.
+//!
+//! # Map
+//! Five storeys. Each room may use those above it, never one below; a test reads the `use` lines and holds it.
+//!
+//! | storey | room | what lives there |
+//! |---|---|---|
+//! | numbers | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
+//! | places | [`lattice`] | sites, directions, the Hägg sign, six-sided regions, counts along lines |
+//! | | [`stacking`] | runs of signs, in four notations |
+//! | | [`shape`] | a stacking on a region: layers, neighbours, rows, the numbers of spheres |
+//! | | [`geometry`] | a/R, θ, φ, the symbolic basis, positions, overlap |
+//! | physics | [`formula`] | the paper's equations, each once, under its printed number, and the step across a change of sign |
+//! | | [`Pile`] | a validated pile, of any stacking, on any region, under loads |
+//! | answers | `engine` (private) | the [`Plan`], and the engines it chooses among |
+//! | | [`Forces`], [`Packing`] | the one thing to ask, in pile units and in SI |
+//! | | [`Standing`], [`census`] | which piles stand |
+//! | | [`theorem`] | what is proved for every pile: of [`formula`], and of nothing else |
+//! | tools | [`scene`], `serde`, `table`, `dem`, `verify`, `figure` | files in and out, pictures; each behind a feature |
+//! | roof | [`Error`] | what can be wrong with a question, and [which input](Culprit) is to blame |
+//!
+//! From the paper to the code: [`paper`] lists its equations by their printed numbers, and the mathematics that goes beyond.
 //!
 //! # Guarantees
 //! * Exact scalars and [`scalar::Surd`] are exact: nothing wraps, nothing loses a digit silently, for up to
@@ -78,7 +93,7 @@
 //!   else decided in integers.
 //! * What [`theorem`] states is proved for every pile, by running the formulas on polynomials.
 //! * `f32` and `f64` as scalars round each operation; an answer takes a handful. What is a difference (shear,
-//!   positions) is as exact as its greatest term, and no more where the terms cancel. [`Sweep::error_bound`] bounds
+//!   positions) is as exact as its greatest term, and no more where the terms cancel. [`Layer::error_bound`] bounds
 //!   what a way down through changes of sign can cost.
 //! * Nothing is computed that a question does not need: [`Pile::plan`] says what it takes at most, and [`Counters`]
 //!   count what it took.
@@ -88,11 +103,10 @@
 //! * No `unsafe`; `no_std` with `alloc` (switch off the default feature `std`).
 //!
 //! # Notation
-//! θ is the angle of a contact with the vertical, φ the azimuth of the paper's eq. (1), s = sin φ, a half the
+//! θ is the angle of a contact with the vertical, φ the azimuth in (1) of the paper, s = sin φ, a half the
 //! distance of horizontal neighbours, R the radius, q = (a/R)², L the number of layers, k the layer counted
-//! from the top. f₀ = mg/(3 cosθ) is the unit of contact force, mg/(2(1+s) cosθ) in general. "THEORY §n" in
-//! these pages are the notes on the paper's mathematics that the crate is written after; the statements used
-//! are repeated where they are used.
+//! from the top. f₀ = mg/(3 cosθ) is the unit of contact force, mg/(2(1+s) cosθ) in general.
+//! "Paper, (8)" names a printed equation: [`paper`] lists them all, and the mathematics behind the rest.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -113,6 +127,8 @@ pub mod formula;
 pub mod geometry;
 pub mod lattice;
 mod packing;
+#[doc = include_str!("paper.md")]
+pub mod paper {}
 mod pile;
 pub mod scalar;
 pub mod scene;

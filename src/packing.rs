@@ -454,7 +454,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 
     /// The constant of the central force, mg/(6R cosθ) on an equilateral base: the three upper forces on
-    /// a sphere sum to this times its position from the apex (THEORY §2). In general f₀/(2R), and a
+    /// a sphere sum to this times its position from the apex ([`paper`](crate::paper#closed-form)). In general f₀/(2R), and a
     /// central force only where all directions are alike.
     ///
     /// # Examples
@@ -596,8 +596,24 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(self.floor_force(self.forces.on_floor(site)?))
     }
 
-    /// A force on the floor, from pile units.
-    fn floor_force(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
+    /// Returns a force on the floor in SI, from its multiples of mg and mg·tanθ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let site = Site { i: 0, j: 0, k: 9 };
+    /// let multiples = packing.forces().on_floor(site)?;
+    /// assert_eq!(packing.floor_force(multiples), packing.on_floor(site)?);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn floor_force(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
         let site = force.site;
         let force = Vector {
             x: force.shear_x,
@@ -636,16 +652,6 @@ impl<'p, M: Meter> Packing<'p, M> {
         let mut centre = upwards(self.forces.position(site)?);
         centre.z += BigRational::from_i128(self.pile().layers() - 1);
         Ok(centre)
-    }
-
-    /// A vector in the symbolic basis, z as it is, times a rational unit.
-    #[cfg(feature = "plot")]
-    pub(crate) fn displacement(
-        &self,
-        vector: Vector<BigRational>,
-        unit: &BigRational,
-    ) -> [Surd; 3] {
-        on_basis(self.roots.lengths(), vector, unit)
     }
 
     fn diameter(&self) -> BigRational {

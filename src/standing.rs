@@ -1,7 +1,7 @@
 //! Which piles stand.
 //!
 //! Spheres push, they do not pull. Where α, β and γ are the only contacts, the forces are unique: one that is negative
-//! means that no frictionless equilibrium exists, and the pile cannot stand (THEORY §3, "Tension"). A force of zero
+//! means that no frictionless equilibrium exists, and the pile cannot stand ([`paper`](crate::paper#tension)). A force of zero
 //! stands. Where further spheres touch (q = 1, q = 9/4 with a change of sign, q = 8/3 without), forces that are nowhere
 //! negative still prove that it stands, and a negative one proves nothing.
 //!
@@ -348,7 +348,7 @@ fn least_passed_on(
     sweep: &mut Descent<'_, BigRational, Planes>,
     lines: &Lines<'_, BigRational>,
 ) -> Result<ContactForce<BigRational>, Error> {
-    sweep.add_extras_here();
+    sweep.add_extras_here()?;
     let (least, k) = (sweep.least()?, sweep.k());
     let changes = sweep.turned_already();
     let [i, j] = least.place;

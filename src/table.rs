@@ -2,7 +2,20 @@
 //!
 //! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
 //! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
-//! against the extremes of the table before the first byte is written.
+//! against a bound of all numbers before the first byte is written.
+//!
+//! # Units
+//! csv and json have no place for units: [`Column::unit`] has them, and the text table shows them. In pile units
+//! ([`Units::of_pile`])
+//!
+//! | column | unit |
+//! |---|---|
+//! | `force` of a contact | f₀ = mg/(3cosθ); mg/(2(1+sinφ)cosθ) in general, mg/(2cosθ) for discs |
+//! | `normal` | mg |
+//! | `shear_x` | mg·tanθ |
+//! | `shear_y` | √3·mg·tanθ; 2cosφ·mg·tanθ in general |
+//!
+//! so that all are rational. In SI ([`Units::of_packing`]) forces are in N, lengths in m, masses in kg.
 //!
 //! # Examples
 //! ```
@@ -22,94 +35,34 @@
 //! ```
 
 mod cell;
+mod distinct;
+mod error;
 mod explain;
 mod file;
 mod json;
+mod line;
+mod progress;
 mod rows;
 mod summary;
 mod tables;
 mod text;
 mod unfinished;
+mod units;
+mod write;
 
-pub use cell::{Cell, NumberFormat};
+pub use cell::NumberFormat;
+pub use cell::{Cell, Shown};
+pub(crate) use distinct::{Forces, Places};
+pub use error::WriteError;
 pub use explain::Explanation;
 pub(crate) use file::Aside;
 pub use file::write_aside;
+pub(crate) use progress::Progress;
 pub use rows::{Column, Table};
 pub use summary::Summary;
 pub(crate) use tables::refuse_beyond;
-pub use tables::{MAX_ROWS, Units, base, census, contacts, spheres, theorems};
-pub(crate) use unfinished::Begun;
+pub use tables::{MAX_ROWS, base, census, contacts, spheres, theorems};
 pub use unfinished::remove_unfinished;
-
-use std::io;
-use std::path::PathBuf;
-
-use crate::Error;
-
-/// How a table is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FileFormat {
-    /// Aligned text with units and totals, for people.
-    Text,
-    /// Comma-separated values with one line of headers.
-    Csv,
-    /// An array of objects, one a row.
-    Json,
-}
-
-/// Why a table was not written, or not to its end.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum WriteError {
-    /// An answer was refused: see [`Error`].
-    Answer(Error),
-    /// The output was.
-    Io(io::Error),
-    /// One of several files was.
-    File {
-        /// Where it was to be written.
-        path: PathBuf,
-        /// Why it was not.
-        error: io::Error,
-    },
-}
-
-impl core::fmt::Display for WriteError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Answer(error) => error.fmt(f),
-            Self::Io(error) => error.fmt(f),
-            Self::File { path, error } => write!(f, "{}: {error}", path.display()),
-        }
-    }
-}
-
-impl std::error::Error for WriteError {}
-
-impl From<Error> for WriteError {
-    fn from(error: Error) -> Self {
-        Self::Answer(error)
-    }
-}
-
-impl From<io::Error> for WriteError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl From<csv::Error> for WriteError {
-    fn from(error: csv::Error) -> Self {
-        Self::Io(match error.into_kind() {
-            csv::ErrorKind::Io(error) => error,
-            kind => io::Error::other(format!("{kind:?}")),
-        })
-    }
-}
-
-impl From<serde_json::Error> for WriteError {
-    fn from(error: serde_json::Error) -> Self {
-        Self::Io(error.into())
-    }
-}
+pub(crate) use unfinished::{Pending, remove_leftovers};
+pub use units::Units;
+pub use write::FileFormat;

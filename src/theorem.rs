@@ -1,9 +1,9 @@
 //! What is proved for every pile, and how.
 //!
-//! # ProofKind
+//! # Kinds of proof
 //! A test shows that an identity holds for the piles tried. The formulas of this crate are polynomials in
 //! i, j, k, L and s = sin φ, and they are written over any [`Algebra`](crate::scalar::Algebra). So they are run
-//! here with [`Polynomial`]s for their numbers: the very functions that a user calls return polynomials, and if
+//! here with [`Polynomial`]s for their numbers: the very functions that engines and answers call return polynomials, and if
 //! the difference of the two sides of an identity is the zero polynomial, it holds for **every** i, j, k, L
 //! and s at once. There are three kinds of proof ([`ProofKind`]):
 //!
@@ -11,6 +11,8 @@
 //! * *sum*: one side is a sum over a layer or the pile. Sums of a polynomial between polynomial bounds are
 //!   polynomials again (Faulhaber), so the sum is formed in closed form and compared;
 //! * *induction*: the base case and the step from k to k+1 are identities.
+//!
+//! A statement says no more than its steps show; what is argued from them in words is marked so.
 //!
 //! # What that proves, and what not
 //! Proved is what the formulas *as implemented* compute over ℚ: with exact scalars, the equations hold for every
@@ -21,6 +23,8 @@
 //! * that the equations are the right ones. They are the paper's, written out in each statement.
 //! * what is not polynomial: overlap and rounding have their own exact tests.
 //! * that the input was turned into counts i, j, k correctly: exhaustive tests of piles up to 40 layers see to it.
+//! * the engines' bookkeeping, which spheres they find on which line and where they keep a number. With what they find they
+//!   call these functions; tests compare them with each other and with an oracle.
 //!
 //! # Faults
 //! A proof that cannot fail proves nothing. Every theorem takes the [`Formulas`] it is about as an argument:
@@ -78,7 +82,7 @@ pub enum ProofKind {
 }
 
 impl ProofKind {
-    /// `identity`, `sum`, `induction`.
+    /// Returns its name: `identity`, `sum`, `induction`.
     ///
     /// # Examples
     /// ```
@@ -114,7 +118,7 @@ pub struct Theorem {
 }
 
 impl Theorem {
-    /// The proof for the crate's own formulas.
+    /// Returns the proof for the crate's own formulas.
     ///
     /// # Examples
     /// ```
@@ -130,7 +134,7 @@ impl Theorem {
         self.prove_for(&Formulas::LIBRARY)
     }
 
-    /// The proof, or refutation, for formulas of any kind.
+    /// Returns the proof, or refutation, for formulas of any kind.
     ///
     /// # Examples
     /// ```
@@ -159,7 +163,7 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// Whether every step holds.
+    /// Returns whether every step holds.
     ///
     /// # Examples
     /// ```
@@ -217,7 +221,7 @@ impl Step {
         }
     }
 
-    /// `left` − `right`.
+    /// Returns `left` − `right`.
     ///
     /// # Examples
     /// ```
@@ -235,7 +239,7 @@ impl Step {
         self.left.clone() - &self.right
     }
 
-    /// Whether the claim holds.
+    /// Returns whether the claim holds.
     ///
     /// # Examples
     /// ```
@@ -254,7 +258,7 @@ impl Step {
     }
 }
 
-/// Every theorem, in the order in which one would read them.
+/// Returns every theorem, in the order in which one would read them.
 ///
 /// # Examples
 /// ```
@@ -277,7 +281,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
     .flatten()
 }
 
-/// The theorem of this name.
+/// Returns the theorem of this name.
 ///
 /// # Examples
 /// ```

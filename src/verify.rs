@@ -19,8 +19,10 @@
 //!   largest exact force of the pile.
 //! * A contact whose exact force is not 0 and that is not in the list, or is there with a force of 0, is missing.
 //! * A pair that is no contact of the pile is extra if it has a force over the accepted error times the largest exact
-//!   force; below that it is noise. This goes for neighbours that touch beside the contacts too, as in a layer at a = R.
+//!   force; below that it is noise. This goes for neighbours that touch besides the contacts too, as in a layer at a = R.
 //! * Two spheres of the bottom layer are fixed: such pairs are counted, and not judged.
+//! * Where all measured forces are the exact ones times one factor, that factor is named: 9.81 for a simulation with
+//!   another gravity, −1 for forces with the other sign.
 //!
 //! # Examples
 //! A test of a simulation in three lines:
@@ -45,9 +47,10 @@ mod comparison;
 mod csv_file;
 mod difference;
 mod dump;
-mod exact;
 mod lines;
+mod measured;
 mod pairs;
+mod read;
 mod reading;
 mod refusal;
 mod report;
@@ -57,97 +60,8 @@ pub use comparison::Comparison;
 pub use csv_file::read_csv;
 pub use difference::{Difference, Extra};
 pub use dump::read_dump;
-pub use reading::{Reading, read};
+pub use measured::{MAX_ENTRIES, Measured};
+pub use read::{read, read_for};
+pub use reading::Reading;
 pub use refusal::{Fault, Refusal};
 pub use report::Report;
-
-/// The most entries that are read, and the most contacts of a pile that they are compared with.
-pub const MAX_ENTRIES: u64 = 100_000_000;
-
-/// The force that was measured between two spheres.
-///
-/// # Examples
-/// ```
-/// use cannonpile::verify::Measured;
-///
-/// let push = Measured::new([1, 4], 2.0).with_vector([-1.2, 0.0, 1.6]);
-/// assert_eq!(push.reversed(), Measured::new([4, 1], 2.0).with_vector([1.2, 0.0, -1.6]));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
-    /// The numbers of the two spheres, from 1.
-    pub ids: [u64; 2],
-    /// The force along the line between their centres; positive is push.
-    pub force: f64,
-    /// The force on the first of them, z up, if it was measured.
-    pub vector: Option<[f64; 3]>,
-}
-
-impl Measured {
-    /// A force of which the magnitude is known.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::verify::Measured;
-    ///
-    /// let pull = Measured::new([1, 4], -2.0);
-    /// assert_eq!((pull.ids, pull.force, pull.vector), ([1, 4], -2.0, None));
-    /// ```
-    #[must_use]
-    pub const fn new(ids: [u64; 2], force: f64) -> Self {
-        Self {
-            ids,
-            force,
-            vector: None,
-        }
-    }
-
-    /// With the force on the first of the two spheres as a vector.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::verify::Measured;
-    ///
-    /// // The magnitude stays what was measured, that of the vector or not.
-    /// let turned = Measured::new([1, 4], 2.0).with_vector([0.0, 0.0, 2.5]);
-    /// assert_eq!((turned.force, turned.vector), (2.0, Some([0.0, 0.0, 2.5])));
-    /// ```
-    #[must_use]
-    pub const fn with_vector(mut self, vector: [f64; 3]) -> Self {
-        self.vector = Some(vector);
-        self
-    }
-
-    /// The same, told of the other sphere: the vector is turned round.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::verify::Measured;
-    ///
-    /// let pull = Measured::new([1, 4], -2.0).with_vector([1.2, 0.0, -1.6]);
-    /// // Pull is pull, seen from either sphere.
-    /// assert_eq!((pull.reversed().ids, pull.reversed().force), ([4, 1], -2.0));
-    /// assert_eq!(pull.reversed().reversed(), pull);
-    /// ```
-    #[must_use]
-    pub fn reversed(self) -> Self {
-        let [first, second] = self.ids;
-        Self {
-            ids: [second, first],
-            // 0 stays 0, not -0.
-            vector: self.vector.map(|vector| vector.map(|x| 0.0 - x)),
-            ..self
-        }
-    }
-
-    /// Whether there is no force at all: the two do not touch.
-    fn is_zero(&self) -> bool {
-        self.magnitude() == 0.0
-    }
-
-    /// The greater of the magnitude and that of the vector.
-    fn magnitude(&self) -> f64 {
-        let vector = self.vector.map_or(0.0, difference::norm);
-        self.force.abs().max(vector)
-    }
-}

@@ -3,7 +3,7 @@
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
 use cannonpile::shape::Selection;
-use cannonpile::{Packing, Pile, Forces, Strengths};
+use cannonpile::{Forces, Packing, Pile, Strengths};
 use num_rational::BigRational;
 
 use crate::Bench;

@@ -3,7 +3,8 @@
 //! `cargo bench --manifest-path benches/Cargo.toml --bench work_precision`
 //! computes all contact forces of some piles in every way there is, prints a table, and
 //! writes it as CSV and as a log–log chart, to `work_precision.csv` and `work_precision.svg` in the directory of targets or to
-//! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes to `smoke.csv` and `smoke.svg` there.
+//! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes to `smoke.csv` and `smoke.svg` there;
+//! with `-- --draw` it measures nothing, and draws the CSV that is there.
 //!
 //! The error is the greatest difference of a contact force from the exact one, in rational arithmetic, over the
 //! greatest exact force; the exact forces are proved to be in equilibrium. 0 means that every force is exact. It is
@@ -12,6 +13,7 @@
 //! and where they are, is given.
 
 mod cases;
+mod chart;
 mod library;
 mod others;
 #[path = "../peers/mod.rs"]
@@ -20,11 +22,9 @@ mod reference;
 mod run;
 mod table;
 
-use std::error::Error;
+use std::env;
 use std::path::{Path, PathBuf};
-use std::{env, fs};
 
-use cannonpile::figure::WorkPrecision;
 use cases::Case;
 use peers::network::Network;
 use reference::Reference;
@@ -32,6 +32,15 @@ use run::{Measured, Method, Run};
 
 fn main() {
     let options = Options::read(env::args().skip(1));
+    if !options.draw {
+        measure(&options);
+    }
+    // From the table as it was written.
+    chart::draw(&options.csv, &options.svg).expect("a table, and a place for the chart");
+    println!("\n{}\n{}", options.csv.display(), options.svg.display());
+}
+
+fn measure(options: &Options) {
     let mut runs = Vec::new();
     for case in cases::cases(options.smoke) {
         let bench = Bench::new(case, if options.smoke { 1 } else { 3 });
@@ -41,41 +50,38 @@ fn main() {
         table::print(&runs[first..]);
     }
     table::write(&options.csv, &runs).expect("a place for the table");
-    draw(&options).expect("a place for the chart");
-    println!("\n{}\n{}", options.csv.display(), options.svg.display());
-}
-
-/// The chart, from the table as it was written.
-fn draw(options: &Options) -> Result<(), Box<dyn Error>> {
-    let table = fs::read_to_string(&options.csv)?;
-    let chart = WorkPrecision::read(&table)?.drawing();
-    Ok(fs::write(&options.svg, chart.to_string())?)
 }
 
 struct Options {
     smoke: bool,
+    /// Only the chart, from a table that is there.
+    draw: bool,
     csv: PathBuf,
     svg: PathBuf,
 }
 
 impl Options {
     fn read(mut arguments: impl Iterator<Item = String>) -> Self {
-        let (mut smoke, mut csv, mut svg) = (false, None, None);
+        let (mut smoke, mut draw, mut csv, mut svg) = (false, false, None, None);
         while let Some(argument) = arguments.next() {
             let mut file = || PathBuf::from(arguments.next().expect("a file after its option"));
             match argument.as_str() {
                 "--smoke" => smoke = true,
+                "--draw" => draw = true,
                 "--csv" => csv = Some(file()),
                 "--svg" => svg = Some(file()),
                 // Cargo's own.
                 "--bench" => {}
-                other => panic!("{other}: the options are --smoke, --csv FILE and --svg FILE"),
+                other => {
+                    panic!("{other}: the options are --smoke, --draw, --csv FILE and --svg FILE")
+                }
             }
         }
         let name = if smoke { "smoke" } else { "work_precision" };
         let default = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         Self {
             smoke,
+            draw,
             csv: csv.unwrap_or_else(|| default.with_extension("csv")),
             svg: svg.unwrap_or_else(|| default.with_extension("svg")),
         }

@@ -1,49 +1,38 @@
 //! Several files that are all there, or none.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::{PileExport, PileFormat, Written};
-use crate::table::Aside;
-use crate::table::{Begun, WriteError};
+use crate::table::{Aside, Pending, WriteError, remove_leftovers};
 
-pub(super) fn write(
-    export: &PileExport<'_>,
-    formats: &[PileFormat],
+/// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
+///
+/// `write` is called once for each file, in their order.
+pub(super) fn write_all<'f>(
     folder: &Path,
-    progress: &mut dyn FnMut(u64),
-) -> Result<Vec<Written>, WriteError> {
-    let mut formats = formats.to_vec();
-    formats.sort_unstable();
-    formats.dedup();
-    let made = Made::folder(folder).map_err(|error| of(folder, error))?;
+    files: impl Iterator<Item = &'f PathBuf>,
+    mut write: impl FnMut(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<Vec<u64>, WriteError> {
+    let mut new = New::default();
+    new.folder(folder).map_err(|error| of(folder, error))?;
+    remove_leftovers(folder);
     let mut written = Vec::new();
-    for file in formats.iter().flat_map(|format| format.files()) {
-        let path = folder.join(file.name());
-        let aside = Aside::write(&path, |out| export.write_file(*file, out, progress));
-        let aside = aside.map_err(|error| match error {
-            WriteError::Io(error) => of(&path, error),
+    for path in files {
+        let aside = Aside::write(path, |out| write(out)).map_err(|error| match error {
+            WriteError::Io(error) => of(path, error),
             answer => answer,
         })?;
-        written.push((*file, path, aside));
+        written.push((path, aside));
     }
     // Not one of them is there yet; a folder of the same name, or the like, is found out here.
-    let (mut kept, mut new) = (Vec::new(), New::default());
-    for (file, path, aside) in written {
-        new.expect(aside.target());
-        let bytes = aside.keep().map_err(|error| of(&path, error))?;
-        let rows = export.rows(file);
-        kept.push(Written {
-            file,
-            path,
-            rows,
-            bytes,
-        });
+    let mut bytes = Vec::new();
+    for (path, aside) in written {
+        let kept = new.expect(aside.target()).and_then(|()| aside.keep());
+        bytes.push(kept.map_err(|error| of(path, error))?);
     }
-    new.keep();
-    made.keep();
-    Ok(kept)
+    new.0.clear();
+    Ok(bytes)
 }
 
 fn of(path: &Path, error: io::Error) -> WriteError {
@@ -51,40 +40,14 @@ fn of(path: &Path, error: io::Error) -> WriteError {
     WriteError::File { path, error }
 }
 
-/// Files that were not there before, removed again unless all are kept.
+/// Folders and files that were not there before, in the order in which they are made, removed again unless all are
+/// kept.
 #[derive(Default)]
-struct New(Vec<PathBuf>);
+struct New(Vec<Pending>);
 
 impl New {
-    fn expect(&mut self, path: &Path) {
-        if fs::symlink_metadata(path).is_err() {
-            self.0.push(path.to_owned());
-        }
-    }
-
-    fn keep(mut self) {
-        self.0.clear();
-    }
-}
-
-impl Drop for New {
-    fn drop(&mut self) {
-        for path in &self.0 {
-            // The failure that led here is the one to tell.
-            let _ = fs::remove_file(path);
-        }
-    }
-}
-
-/// Folders that were not there before, the innermost first, removed again unless they are kept.
-struct Made {
-    folders: Vec<PathBuf>,
-    /// Of the folders, the outermost first.
-    begun: Vec<Begun>,
-}
-
-impl Made {
-    fn folder(folder: &Path) -> io::Result<Self> {
+    /// Makes a folder, and those that it is in.
+    fn folder(&mut self, folder: &Path) -> io::Result<()> {
         // What is there and is no folder would be said to exist already.
         if folder.exists() && !folder.is_dir() {
             return Err(io::ErrorKind::NotADirectory.into());
@@ -92,27 +55,26 @@ impl Made {
         let missing = folder
             .ancestors()
             .take_while(|path| *path != Path::new("") && !path.exists());
-        let mut made = Self {
-            folders: missing.map(Path::to_owned).collect(),
-            begun: Vec::new(),
-        };
-        fs::create_dir_all(folder)?;
-        for folder in made.folders.iter().rev() {
-            made.begun.push(Begun::new(folder)?);
+        let missing: Vec<&Path> = missing.collect();
+        for path in missing.into_iter().rev() {
+            self.expect(path)?;
         }
-        Ok(made)
+        fs::create_dir_all(folder)
     }
 
-    fn keep(mut self) {
-        self.folders.clear();
+    /// A path that is made next.
+    fn expect(&mut self, path: &Path) -> io::Result<()> {
+        if fs::symlink_metadata(path).is_err() {
+            self.0.push(Pending::new(path)?);
+        }
+        Ok(())
     }
 }
 
-impl Drop for Made {
+impl Drop for New {
     fn drop(&mut self) {
-        for folder in &self.folders {
-            // One that has something in it by now stays.
-            let _ = fs::remove_dir(folder);
+        for pending in self.0.iter().rev() {
+            pending.remove();
         }
     }
 }

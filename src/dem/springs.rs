@@ -3,8 +3,8 @@
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::PileExport;
-use super::rounded::{Centres, nearest, nearest_rational};
+use super::numbered::NumberedPile;
+use super::weights::{checked, nearest_rational, normal};
 use crate::Error;
 use crate::lattice::Site;
 use crate::scalar::Ring;
@@ -33,12 +33,12 @@ pub(super) struct Springs {
 }
 
 impl Springs {
-    pub(super) fn of(export: &PileExport<'_>) -> Result<Self, Error> {
-        let (pile, packing) = (export.pile(), &export.packing);
+    pub(super) fn of(numbered: &NumberedPile<'_>) -> Result<Self, Error> {
+        let (pile, packing) = (numbered.pile(), numbered.packing());
         let loading = pile.loading();
         let layers = BigRational::from_i128(pile.layers());
         let most = loading.extras().map(|(_, extra)| extra.abs()).max();
-        let most = most.unwrap_or_default();
+        let most = most.unwrap_or_else(BigRational::zero);
         // In mg. Of spheres that weigh nothing only the loads matter, and without any nothing does.
         let greatest = match (pile.is_weightless(), most.is_zero()) {
             (true, false) => layers.clone() * most,
@@ -51,11 +51,11 @@ impl Springs {
         let mass = normal(packing.mass(), "mass")?;
         let gravity = loading.ordinary() * packing.gravity();
         let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-        let mut centres = Centres::new(packing);
+        let mut centres = numbered.centres();
         // Layers are convex: their corners are their extremes.
         for k in 0..pile.layers() {
             for [i, j] in pile.shape().layer(k)?.corners() {
-                for (bound, x) in bounds.iter_mut().zip(centres.of(Site { i, j, k })?) {
+                for (bound, x) in bounds.iter_mut().zip(centres.centre(Site { i, j, k })?) {
                     *bound = [bound[0].min(x), bound[1].max(x)];
                 }
             }
@@ -97,42 +97,6 @@ impl Springs {
     }
 }
 
-/// What acts on a sphere beside the weight of its mass.
-pub(super) struct Burden {
-    pub(super) id: u64,
-    /// Downwards, in N.
-    pub(super) force: f64,
-}
-
-/// The mass that a sphere has in a code in which nothing may have none: its own, or m if it weighs nothing.
-pub(super) fn inertia(export: &PileExport<'_>, site: Site) -> Result<BigRational, Error> {
-    let mass = export.packing.mass_of(site)?;
-    Ok(if mass.is_positive() {
-        mass
-    } else {
-        export.packing.mass().clone()
-    })
-}
-
-/// The spheres off the floor on which more or less acts than the weight of their mass.
-pub(super) fn burdens(export: &PileExport<'_>) -> Result<Vec<Burden>, Error> {
-    let (pile, packing) = (export.pile(), &export.packing);
-    let loading = pile.loading();
-    let floor = pile.layers() - 1;
-    let mut burdens = Vec::new();
-    for site in loading.special_sites().filter(|site| site.k < floor) {
-        let pulled = inertia(export, site)? * packing.gravity() * loading.ordinary();
-        let force = loading.total(site) * packing.sphere_weight() - pulled;
-        if !force.is_zero() {
-            burdens.push(Burden {
-                id: export.numbering.id(site)?,
-                force: nearest_rational(&force, "a load")?,
-            });
-        }
-    }
-    Ok(burdens)
-}
-
 /// ρ of a sphere of this mass: m/(4/3·πR³).
 pub(super) fn density(mass: f64, radius: f64) -> Result<f64, Error> {
     let volume = 4.0 / 3.0 * core::f64::consts::PI * radius * radius * radius;
@@ -140,16 +104,4 @@ pub(super) fn density(mass: f64, radius: f64) -> Result<f64, Error> {
         mass / checked(volume, "the volume of a sphere")?,
         "a density",
     )
-}
-
-/// The nearest float, if it is positive and has all its digits.
-pub(super) fn normal(number: &BigRational, quantity: &'static str) -> Result<f64, Error> {
-    checked(nearest(&number.clone().into(), quantity)?, quantity)
-}
-
-fn checked(number: f64, quantity: &'static str) -> Result<f64, Error> {
-    let scalar = "f64";
-    let fits = number.is_normal() && number.is_sign_positive();
-    fits.then_some(number)
-        .ok_or(Error::Overflow { quantity, scalar })
 }

@@ -2,23 +2,22 @@
 
 use std::io::Write;
 
-use super::PileExport;
+use super::numbered::{NumberedPile, Touch, nearest};
 use super::polydata::{Array, Kind, PolyData, Section};
-use super::progress::Progress;
-use super::rounded::{Centres, Forces, Touch, Touches, contacts, nearest, nearest_rational};
+use super::weights::{PerSphere, nearest_rational};
 use crate::Error;
-use crate::lattice::Site;
+use crate::lattice::Direction;
+use crate::scalar::Surd;
 use crate::shape::Selection;
 use crate::table::WriteError;
 
 /// A point and a vertex for each sphere.
 pub(super) fn write_spheres(
-    export: &PileExport<'_>,
+    pile: &NumberedPile<'_>,
     out: &mut dyn Write,
-    progress: &mut Progress<'_>,
+    row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    let (pile, packing) = (export.pile(), &export.packing);
-    let n = export.numbering.spheres();
+    let n = pile.numbering().spheres();
     let sections = [
         Section {
             tag: "PointData",
@@ -41,45 +40,31 @@ pub(super) fn write_spheres(
         },
     ];
     let mut data = PolyData::begin(out, n, [n, 0], &sections)?;
-    let sites = || Ok::<_, Error>(pile.rows(Selection::All)?.flatten());
 
     data.array()?;
     (1..=n).try_for_each(|id| data.integer(id))?;
     data.array()?;
-    for site in sites()? {
-        // Numbered, and so a small number.
-        data.integer(u64::try_from(site.k).unwrap_or_default())?;
+    for site in pile.sites()? {
+        // Not more layers than spheres, which are numbered.
+        let layer = u64::try_from(site.k).map_err(std::io::Error::other)?;
+        data.integer(layer)?;
     }
     data.array()?;
-    let radius = nearest_rational(packing.radius(), "radius")?;
+    let radius = nearest_rational(pile.packing().radius(), "radius")?;
     (0..n).try_for_each(|_| data.float(radius))?;
-    let mg = packing.sphere_weight();
-    data.array()?;
-    let ordinary = nearest_rational(&(pile.loading().ordinary() * &mg), "weight")?;
-    for site in sites()? {
-        if pile.loading().is_ordinary(site) {
-            data.float(ordinary)?;
-        } else {
-            data.float(nearest_rational(
-                &(pile.loading().weight(site) * &mg),
-                "weight",
-            )?)?;
+    for forces in [PerSphere::weights(pile)?, PerSphere::loads(pile)?] {
+        data.array()?;
+        for site in pile.sites()? {
+            data.float(forces.of(site))?;
         }
     }
     data.array()?;
-    for site in sites()? {
-        data.float(nearest_rational(
-            &(pile.loading().load(site) * &mg),
-            "load",
-        )?)?;
-    }
+    write_reactions(pile, &mut data)?;
     data.array()?;
-    write_reactions(export, &mut data)?;
-    data.array()?;
-    let mut centres = Centres::new(packing);
-    for site in sites()? {
-        data.vector(centres.of(site)?)?;
-        progress.row();
+    let mut centres = pile.centres();
+    for site in pile.sites()? {
+        data.vector(centres.centre(site)?)?;
+        row();
     }
     data.array()?;
     data.count_up(n)?;
@@ -89,11 +74,11 @@ pub(super) fn write_spheres(
 }
 
 /// The force of the floor on each sphere: none off it.
-fn write_reactions(export: &PileExport<'_>, data: &mut PolyData<'_>) -> Result<(), WriteError> {
-    for _ in 1..export.numbering.first_on_floor() {
+fn write_reactions(pile: &NumberedPile<'_>, data: &mut PolyData<'_>) -> Result<(), WriteError> {
+    for _ in 1..pile.numbering().first_on_floor() {
         data.vector([0.0; 3])?;
     }
-    for force in export.packing.base(Selection::Base)? {
+    for force in pile.packing().base(Selection::Base)? {
         let force = force?;
         let quantity = "a reaction";
         data.vector([
@@ -108,13 +93,12 @@ fn write_reactions(export: &PileExport<'_>, data: &mut PolyData<'_>) -> Result<(
 /// A line for each contact, with two points of its own, so that the force can be at both ends: tubes are as wide as
 /// what their points say.
 pub(super) fn write_contacts(
-    export: &PileExport<'_>,
+    pile: &NumberedPile<'_>,
     out: &mut dyn Write,
-    progress: &mut Progress<'_>,
+    row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    let (packing, numbering) = (&export.packing, &export.numbering);
     // Not more than the most rows.
-    let n = u64::try_from(export.pile().contacts()).unwrap_or_default();
+    let n = u64::try_from(pile.pile().contacts()).map_err(std::io::Error::other)?;
     let sections = [
         Section {
             tag: "PointData",
@@ -142,35 +126,49 @@ pub(super) fn write_contacts(
     let mut data = PolyData::begin(out, 2 * n, [0, n], &sections)?;
 
     data.array()?;
-    each_force(export, |[force, ..]| {
+    each_force(pile, |[force, ..]| {
         data.float(force)?;
         data.float(force)
     })?;
     data.array()?;
-    each_force(export, |[force, ..]| data.float(force))?;
+    each_force(pile, |[force, ..]| data.float(force))?;
     data.array()?;
-    each_force(export, |[_, x, y, z]| data.vector([x, y, z]))?;
+    each_force(pile, |[_, x, y, z]| data.vector([x, y, z]))?;
     data.array()?;
-    for touch in Touches::new(numbering)? {
-        let place = touch?.direction.index();
-        data.byte(u8::try_from(place).unwrap_or_default())?;
+    for touch in pile.touches()? {
+        data.byte(match touch?.direction {
+            Direction::Alpha => 0,
+            Direction::Beta => 1,
+            Direction::Gamma => 2,
+        })?;
     }
     data.array()?;
-    for touch in Touches::new(numbering)? {
-        data.integer(touch?.upper)?;
+    for touch in pile.touches()? {
+        data.integer(touch?.ids[0])?;
     }
     data.array()?;
-    for touch in Touches::new(numbering)? {
-        data.integer(touch?.lower)?;
+    for touch in pile.touches()? {
+        data.integer(touch?.ids[1])?;
     }
     data.array()?;
-    // Two of them: each keeps the row that it is in.
-    let (mut upper, mut lower) = (Centres::new(packing), Lower::new(export));
-    for touch in Touches::new(numbering)? {
-        let touch = touch?;
-        data.vector(upper.of(touch.site)?)?;
-        data.vector(lower.of(&touch)?)?;
-        progress.row();
+    // Each keeps the row that it is in.
+    let mut upper = pile.centres();
+    let mut lower = [pile.centres(), pile.centres(), pile.centres()];
+    for touch in pile.touches()? {
+        let Touch {
+            site, direction, ..
+        } = touch?;
+        let below = pile.pile().shape().below(site, direction);
+        let below = below.ok_or(Error::OnFloor { site })?;
+        data.vector(upper.centre(site)?)?;
+        let [alpha, beta, gamma] = &mut lower;
+        let lower = match direction {
+            Direction::Alpha => alpha,
+            Direction::Beta => beta,
+            Direction::Gamma => gamma,
+        };
+        data.vector(lower.centre(below)?)?;
+        row();
     }
     data.array()?;
     data.count_up(2 * n)?;
@@ -183,43 +181,17 @@ pub(super) fn write_contacts(
 ///
 /// Once for each array, because an array is written to its end before the next, and none has room in memory.
 fn each_force(
-    export: &PileExport<'_>,
+    pile: &NumberedPile<'_>,
     mut write: impl FnMut([f64; 4]) -> std::io::Result<()>,
 ) -> Result<(), WriteError> {
-    let mut forces = Forces::new(&export.packing, |force, [x, y, z]| [force, x, y, z]);
-    for contact in contacts(&export.packing, &export.numbering)? {
-        let (touch, multiple) = contact?;
-        write(*forces.of(&touch, multiple)?)?;
+    let round = |x: &Surd| nearest(x, "a contact force");
+    let forces =
+        pile.contacts_as(|force, [x, y, z]| Ok([round(force)?, round(x)?, round(y)?, round(z)?]))?;
+    for contact in forces {
+        let (_, force) = contact?;
+        write(force)?;
     }
     Ok(())
-}
-
-/// The centres of lower spheres: along each direction they follow each other in a row.
-struct Lower<'a, 'p> {
-    export: &'a PileExport<'p>,
-    centres: [Centres<'a, 'p>; 3],
-}
-
-impl<'a, 'p> Lower<'a, 'p> {
-    fn new(export: &'a PileExport<'p>) -> Self {
-        let centres = [(); 3].map(|()| Centres::new(&export.packing));
-        Self { export, centres }
-    }
-
-    fn of(&mut self, touch: &Touch) -> Result<[f64; 3], Error> {
-        let Touch {
-            site, direction, ..
-        } = *touch;
-        let below = self.export.pile().shape().below(site, direction);
-        let below: Site = below.ok_or(Error::OnFloor { site })?;
-        let [alpha, beta, gamma] = &mut self.centres;
-        match direction {
-            crate::lattice::Direction::Alpha => alpha,
-            crate::lattice::Direction::Beta => beta,
-            crate::lattice::Direction::Gamma => gamma,
-        }
-        .of(below)
-    }
 }
 
 /// The points of cells, and where those of each end.

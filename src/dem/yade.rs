@@ -2,131 +2,65 @@
 
 use std::io::Write;
 
-use super::PileExport;
-use super::progress::Progress;
-use super::rounded::Centres;
-use super::springs::{Springs, burdens, density, inertia, normal};
+use super::numbered::NumberedPile;
+use super::springs::{Springs, density};
+use super::template::fill;
+use super::weights::{burdens, inertias, normal};
 use crate::lattice::Dimension;
-use crate::shape::Selection;
 use crate::table::WriteError;
 
-/// What `ymport.text` reads: `x y z r`, a sphere a line.
+/// Writes what `ymport.text` reads: `x y z r`, a sphere a line.
 pub(super) fn write_spheres(
-    export: &PileExport<'_>,
+    pile: &NumberedPile<'_>,
     out: &mut dyn Write,
-    progress: &mut Progress<'_>,
+    row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    let radius = normal(export.packing.radius(), "radius")?;
-    let mut centres = Centres::new(&export.packing);
-    for site in export.pile().rows(Selection::All)?.flatten() {
-        let [x, y, z] = centres.of(site)?;
+    let radius = normal(pile.packing().radius(), "radius")?;
+    let mut centres = pile.centres();
+    for site in pile.sites()? {
+        let [x, y, z] = centres.centre(site)?;
         writeln!(out, "{x:?} {y:?} {z:?} {radius:?}")?;
-        progress.row();
+        row();
     }
     Ok(())
 }
 
-/// A script that lets the pile relax, and writes the forces of the last state.
-pub(super) fn write_script(export: &PileExport<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
-    let springs = Springs::of(export)?;
-    let flat = export.pile().dimension() == Dimension::Two;
-    write!(
-        out,
-        "# cannonpile: relaxes spheres.txt and writes the forces of its contacts to forces.csv.
-# Run: yade -n -x pile.py
-# Frictionless spheres on springs; the exact pile is stiff, so forces differ by some 1e-6 of the greatest.
-import csv
-import os
-import sys
-
-from yade import ymport
-
-FIRST_ON_FLOOR = {first}  # ids are cannonpile's, from 1; those of YADE begin with 0
-STIFFNESS = {stiffness:?}  # N/m; a contact of two spheres has E*R
-RADIUS = {radius:?}
-REST = {rest:?}  # N, on a sphere: what the last digits of coordinates make of nothing
-MOST_STEPS = {most_steps}
-# Newtons downwards beside the weight, by id.
-LOADS = {{
-",
-        first = export.numbering.first_on_floor(),
-        stiffness = springs.stiffness,
-        radius = springs.radius,
-        rest = 2.0 * springs.rest(),
-        most_steps = springs.most_steps,
-    )?;
-    for burden in burdens(export)? {
-        writeln!(out, "    {}: {:?},", burden.id, burden.force)?;
+/// Writes a script that lets the pile relax, and writes the forces of the last state.
+pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
+    let springs = Springs::of(pile)?;
+    let loads = burdens(pile)?.into_iter();
+    let loads = by_id(loads.map(|burden| (burden.id, burden.force)));
+    let mut masses = Vec::new();
+    for (site, mass) in inertias(pile)? {
+        masses.push((pile.numbering().id(site)?, mass));
     }
-    writeln!(
-        out,
-        "}}\n# Masses other than that of an ordinary sphere, by id.\nMASSES = {{"
-    )?;
-    for site in export.pile().loading().special_weights() {
-        let mass = normal(&inertia(export, site)?, "mass")?;
-        writeln!(out, "    {}: {mass:?},", export.numbering.id(site)?)?;
-    }
-    write!(
-        out,
-        "}}
+    // Rotations do nothing without friction.
+    let blocked = match pile.pile().dimension() {
+        Dimension::Two => "yXYZ",
+        Dimension::Three => "XYZ",
+    };
+    let number = |x: f64| format!("{x:?}");
+    let script = fill(
+        include_str!("pile.py"),
+        &[
+            ("first", pile.numbering().first_on_floor().to_string()),
+            ("stiffness", number(springs.stiffness)),
+            ("radius", number(springs.radius)),
+            ("rest", number(2.0 * springs.rest())),
+            ("most_steps", springs.most_steps.to_string()),
+            ("loads", loads),
+            ("masses", by_id(masses.into_iter())),
+            ("density", number(density(springs.mass, springs.radius)?)),
+            ("blocked", blocked.to_owned()),
+            ("gravity", number(springs.gravity)),
+            ("timestep", number(springs.timestep)),
+        ],
+    );
+    Ok(out.write_all(script.as_bytes())?)
+}
 
-# YADE keeps the path of this script there; __file__ is its own.
-here = os.path.dirname(os.path.abspath(sys.argv[0])) if sys.argv else os.getcwd()
-material = FrictMat(young=STIFFNESS / RADIUS, poisson=0.3, frictionAngle=0.0, density={density:?})
-O.materials.append(material)
-ids = O.bodies.append(ymport.text(os.path.join(here, 'spheres.txt'), material=material))
-
-for body_id in ids:
-    body = O.bodies[body_id]
-    number = body_id - ids[0] + 1
-    if number >= FIRST_ON_FLOOR:
-        body.state.blockedDOFs = 'xyzXYZ'
-    else:
-        body.state.blockedDOFs = '{blocked}'
-        if number in LOADS:
-            O.forces.setPermF(body_id, (0, 0, -LOADS[number]))
-    if number in MASSES:
-        body.state.mass = MASSES[number]
-
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb()]),
-    InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom()],
-        [Ip2_FrictMat_FrictMat_FrictPhys()],
-        [Law2_ScGeom_FrictPhys_CundallStrack()],
-    ),
-    NewtonIntegrator(gravity=(0, 0, -{gravity:?}), damping=0.3),
-]
-O.dt = {timestep:?}
-
-
-def at_rest():
-    # YADE gives the greatest force on a sphere in parts of the mean force of a contact.
-    forces = [contact.phys.normalForce.norm() for contact in O.interactions if contact.isReal]
-    return not forces or unbalancedForce(True) * sum(forces) / len(forces) < REST
-
-
-while O.iter < MOST_STEPS:
-    O.run(1000, True)
-    if at_rest():
-        break
-print('cannonpile: the pile is ' + ('at rest' if at_rest() else 'NOT at rest; run it longer, or it does not stand'))
-
-with open(os.path.join(here, 'forces.csv'), 'w', newline='') as file:
-    rows = csv.writer(file)
-    rows.writerow(['id1', 'id2', 'force', 'fx', 'fy', 'fz'])
-    for contact in O.interactions:
-        if contact.isReal:
-            numbers = [contact.id1 - ids[0] + 1, contact.id2 - ids[0] + 1]
-            on_second = contact.phys.normalForce
-            rows.writerow([*numbers, on_second.norm(), *-on_second])
-",
-        density = density(springs.mass, springs.radius)?,
-        // Rotations do nothing without friction.
-        blocked = if flat { "yXYZ" } else { "XYZ" },
-        gravity = springs.gravity,
-        timestep = springs.timestep,
-    )?;
-    Ok(())
+/// A dictionary of Python.
+fn by_id(numbers: impl Iterator<Item = (u64, f64)>) -> String {
+    let entries = numbers.map(|(id, number)| format!("    {id}: {number:?},\n"));
+    format!("{{\n{}}}", entries.collect::<String>())
 }

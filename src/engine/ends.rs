@@ -1,12 +1,8 @@
 //! Where the forces of a layer take their extremes.
 //!
-//! Along a row the count of spheres on a line rises, is level, and falls, and so the forces are linear between few
-//! places, but where a line comes from a change of sign, or a sphere weighs more. A function that is linear in the
-//! three forces takes its extremes over the row at the ends of those pieces, and so does, as far as its maximum goes, the
-//! ratio of the length of a linear function to a positive linear one: that ratio is quasiconvex. (The normal force is
-//! positive between the ends: every sphere that a change of sign or an extra weight reaches is an end itself, and the
-//! others count ordinary weights only; where those are zero there is no force at all.) A layer has as many rows as a
-//! side has spheres: far fewer places than spheres.
+//! Along a row the forces are linear between few places, and what is looked for is greatest at the ends of such pieces:
+//! a linear function of the three forces, and the ratio of shear to normal force. The lemma and its reason are in
+//! [`paper`](crate::paper#extremes). A layer has as many rows as a side has spheres: far fewer places than spheres.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;

@@ -1,6 +1,6 @@
 //! What the lines of contacts of a pile add up to, run by run: the methods *closed* and *tree*.
 //!
-//! Within a run of steps of one sign a line just counts up (THEORY §3, "Lines"): a sphere m layers into a run receives
+//! Within a run of steps of one sign a line just counts up, see [`paper`](crate::paper#lines): a sphere m layers into a run receives
 //! along a line the increments of the N spheres above it on the line, N ≤ m by
 //! [`Region::spheres_above`](crate::lattice::Region::spheres_above). If N < m the line begins at a surface, with
 //! nothing. If N = m it begins at the change of sign, with what the sphere there passes on across it, which needs the
@@ -121,12 +121,16 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
     pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
-        let ordinary = formula::weight(&self.ordinary);
-        let weight = match self.extra_weights.get(&site) {
-            Some(extra) => ordinary + extra,
+        let ordinary = self.ordinary_weight(changes);
+        match self.extra_weights.get(&site) {
+            Some(extra) => self.scaled(extra.clone(), changes) + &ordinary,
             None => ordinary,
-        };
-        self.scaled(weight, changes)
+        }
+    }
+
+    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after so many changes.
+    pub(crate) fn ordinary_weight(&self, changes: usize) -> T::Numerator {
+        self.scaled(formula::weight(&self.ordinary), changes)
     }
 
     /// Returns what `n` ordinary spheres add to a line of a direction, over the first denominator.

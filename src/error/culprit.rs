@@ -131,10 +131,8 @@ impl Error {
             Self::SiteOutside { .. } | Self::OnFloor { .. } | Self::NotOnFloor { .. } => {
                 Culprit::Site
             }
-            Self::LayerOutside { .. } | Self::SweepElsewhere { .. } | Self::NoSuchRow { .. } => {
-                Culprit::Layer
-            }
-            Self::NoSuchMethod { .. } | Self::NotStraight => Culprit::Method,
+            Self::LayerOutside { .. } | Self::OtherLayer { .. } => Culprit::Layer,
+            Self::NoSuchMethod { .. } => Culprit::Method,
             Self::Overflow { .. } => Culprit::Number,
             Self::InFile { error, .. } => error.culprit().unwrap_or(Culprit::File),
             Self::NotToml { .. } | Self::UnknownKey { .. } => Culprit::File,

@@ -124,29 +124,24 @@ impl Error {
                 f,
                 "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
             ),
-            Self::NotStraight => f.write_str(
-                "only a straight pile of spheres, all of weight mg, has its forces in a table: use a Sweep or Forces",
-            ),
             Self::NoSuchMethod { method } => write!(
                 f,
                 "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
                  spheres and not of discs; use another, or none to have the cheapest"
             ),
-            Self::SweepElsewhere { layer, at, last } => write!(
+            Self::OtherLayer { layer, at } => write!(
                 f,
-                "a sweep at layer {at} answers for that layer and goes down to layer {last} at most, not to layer {layer}: \
-                 begin a new one for a layer above"
+                "a sphere of layer {layer} is not in layer {at}: ask its own layer"
             ),
             Self::NeedsUnits { quantity } => write!(
                 f,
                 "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
             ),
-            Self::NoSuchRow { k, j } => write!(
-                f,
-                "no row j={j} of layer k={k} lies above the floor: ask for a row of the pile (Pile::rows), not of the bottom layer"
-            ),
             Self::Length { needed, given } => {
-                write!(f, "a slice of {given} places for {needed} forces: make it as long")
+                write!(
+                    f,
+                    "a slice of {given} places for {needed} forces: make it as long"
+                )
             }
             Self::NegativeLoad {
                 quantity,

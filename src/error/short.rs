@@ -40,3 +40,35 @@ fn shortened(text: &str, unit: &str) -> String {
     let end: String = text.chars().skip(length - last).collect();
     format!("{beginning}…[{length} {unit}]…{end}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_texts_lose_their_middle_and_keep_their_length() {
+        let text = "9".repeat(LONGEST);
+        assert_eq!(quoted(&text), text);
+        let long = format!("a{}z", "'\n ".repeat(50_000));
+        let short = quoted(&long);
+        assert!(short.starts_with("a\\'") && short.ends_with('z'), "{short}");
+        assert!(
+            short.contains("…[150002 characters]…") && short.len() < 200,
+            "{short}"
+        );
+    }
+
+    #[test]
+    fn only_long_numbers_are_shortened() {
+        for message in ["", "not 7", "7/3 of 12", "{}"] {
+            assert_eq!(numbers(message), message);
+        }
+        let message = format!("not {}/{}", "1".repeat(5_000), "2".repeat(LONGEST + 1));
+        let [ones, twos] = ["1", "2"].map(|digit| [30, 12].map(|n| digit.repeat(n)));
+        let want = format!(
+            "not {}…[5000 digits]…{}/{}…[61 digits]…{}",
+            ones[0], ones[1], twos[0], twos[1]
+        );
+        assert_eq!(numbers(&message), want);
+    }
+}

@@ -1,136 +1,113 @@
-//! A layer seen from above.
+//! A layer seen from above: x to the right and y upwards, as every program shows the exported files. Discs lie along x.
 
-use super::canvas::Canvas;
-use super::panel::{Bounds, Panel};
-use super::subject::nearest;
-use super::{Subject, canvas};
+use super::caption::readable;
+use super::mark::Point;
+use super::page::Axes;
+use super::panel::{Margins, Panel};
+use super::subject::Subject;
 use crate::Error;
 use crate::lattice::Site;
 use crate::shape::Selection;
 
-/// Where the spheres of a layer are, seen from above: u to the right, v upwards, in R.
-///
-/// Where z points down, as in the paper, x is upwards and y to the right. Discs lie along x, to the right.
+/// Where the spheres of a layer are, in R from the first of them.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
-    pub(super) places: Vec<Place>,
-    pub(super) caption: String,
+    /// In row order.
+    pub(super) spheres: Vec<(Site, Point)>,
     /// i → i+1 and j → j+1.
-    pub(super) steps: [[f64; 2]; 2],
+    pub(super) steps: [Point; 2],
     discs: bool,
-    /// Of (u, v) = (0, 0), in the unit of lengths.
-    origin: [f64; 2],
-    /// R in the unit of lengths.
-    radius: f64,
-    unit: &'static str,
-}
-
-/// A sphere of a layer.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    pub(super) site: Site,
-    /// In R.
-    pub(super) at: [f64; 2],
 }
 
 impl Layer {
-    /// All spheres of layer `k`, in row order. How many there are is for the caller to check.
-    pub(super) fn new(subject: &Subject<'_>, k: i128) -> Result<Self, Error> {
-        let discs = subject.is_of_discs();
-        let mut places: Vec<Place> = Vec::new();
-        let mut first = None;
-        for site in subject.pile().rows(Selection::Layer(k))?.flatten() {
-            let origin = *first.get_or_insert(site);
-            let at = seen(discs, subject.from(origin, site)?);
-            places.push(Place { site, at });
+    /// Returns layer `k`, if it has no more spheres than `limit`.
+    pub(super) fn new(
+        subject: &Subject<'_>,
+        k: i128,
+        limit: u32,
+        remedy: &'static str,
+    ) -> Result<Self, Error> {
+        let pile = subject.pile();
+        let count = pile.shape().layer(k)?.sites();
+        if k == pile.layers() - 1 {
+            readable(&count, limit, "bottom spheres", remedy)?;
+        } else {
+            readable(&count, limit, "spheres of a layer", remedy)?;
         }
-        let mut origin = [0.0; 2];
-        if let Some(site) = first {
-            let [x, y, _] = subject.packing().position(site)?;
-            let place = [nearest(&x, "a position")?, nearest(&y, "a position")?, 0.0];
-            origin = seen(discs, place);
+        let mut layer = Self {
+            spheres: Vec::new(),
+            steps: subject.steps()?,
+            discs: subject.is_of_discs(),
+        };
+        for site in pile.rows(Selection::Layer(k))?.flatten() {
+            let at = layer.place(subject, site)?;
+            layer.spheres.push((site, at));
         }
-        Ok(Self {
-            places,
-            caption: subject.caption(),
-            steps: subject.steps()?.map(|step| seen(discs, step)),
-            discs,
-            origin,
-            radius: subject.radius()?,
-            unit: subject.length_unit(),
-        })
+        Ok(layer)
     }
 
-    /// Where a sphere of any layer is seen.
-    pub(super) fn above(&self, subject: &Subject<'_>, site: Site) -> Result<[f64; 2], Error> {
-        let first = self.places.first().map_or(site, |place| place.site);
-        Ok(seen(self.discs, subject.from(first, site)?))
+    /// Returns where a sphere of any layer is seen.
+    pub(super) fn place(&self, subject: &Subject<'_>, site: Site) -> Result<Point, Error> {
+        let origin = self.spheres.first().map_or(site, |(first, _)| *first);
+        let [x, y, _] = subject.from(origin, site)?;
+        Ok([x, y])
     }
 
-    /// A horizontal vector as it is seen.
-    pub(super) fn seen(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        seen(self.discs, [x, y, 0.0])
-    }
-
-    pub(super) fn is_of_discs(&self) -> bool {
-        self.discs
-    }
-
-    /// The distance of neighbours in a row, in R.
+    /// Returns the distance of neighbours in a row, in R.
     pub(super) fn apart(&self) -> f64 {
         let [[u, v], _] = self.steps;
         u.hypot(v)
     }
 
-    /// Around its spheres with a margin in R, and wide enough to be a figure.
-    pub(super) fn bounds(&self, margin: f64) -> Bounds {
-        let centres = self.places.iter().map(|place| place.at);
+    /// Returns a panel around the spheres with a margin in R, large enough to be a figure.
+    pub(super) fn panel(&self, margin: f64, margins: Margins) -> Panel {
+        let centres = self.spheres.iter().map(|(_, at)| *at);
         let height = if self.discs { 4.0 } else { 8.0 };
-        Bounds::around(centres, margin).at_least(10.0, height)
+        Panel::around(centres, margin, [10.0, height], margins)
     }
 
-    /// The axes, with ticks in the unit of lengths; discs have none across.
-    pub(super) fn axes(&self, panel: &Panel, canvas: &mut Canvas) {
-        let named = |axis: &str| format!("{axis} in {}", self.unit);
-        let names = if self.discs {
-            [named("x"), String::new()]
+    /// Returns the axes x and y; discs have none across.
+    pub(super) fn axes(&self, subject: &Subject<'_>) -> Result<Axes, Error> {
+        let mut origin = [0.0; 2];
+        if let Some((first, _)) = self.spheres.first() {
+            let [x, y, _] = subject.position(*first)?;
+            origin = [x, y];
+        }
+        let unit = subject.length_unit();
+        let y = if self.discs {
+            String::new()
         } else {
-            [named("y"), named("x")]
+            format!("y in {unit}")
         };
-        let [across, up] = &names;
-        panel.axes(canvas, [across, up], self.origin, self.radius);
+        Ok(Axes {
+            names: [format!("x in {unit}"), y],
+            origin,
+            unit: subject.radius()?,
+        })
     }
 
-    /// The corners of the cell around a site: six cells meet where three spheres would be as far apart.
+    /// Returns the corners of the cell around a place: six cells meet where three spheres would be as far apart.
     ///
     /// On an equilateral base it is a regular hexagon. Discs have a strip of their plane.
-    pub(super) fn cell(&self, panel: &Panel, [u, v]: [f64; 2]) -> Vec<canvas::Point> {
-        let [i, j] = self.steps;
-        let corner = |a: f64, b: f64| {
-            panel.at([
-                u + (a * i[0] + b * j[0]) / 3.0,
-                v + (a * i[1] + b * j[1]) / 3.0,
-            ])
-        };
+    pub(super) fn cell(&self, panel: &Panel, [u, v]: Point) -> Vec<Point> {
+        const HEXAGON: [Point; 6] = [
+            [1.0, 1.0],
+            [-1.0, 2.0],
+            [-2.0, 1.0],
+            [-1.0, -1.0],
+            [1.0, -2.0],
+            [2.0, -1.0],
+        ];
         if self.discs {
             let half = self.apart() / 2.0;
-            let strip = [(-half, -1.0), (half, -1.0), (half, 1.0), (-half, 1.0)];
-            return strip.map(|(a, b)| panel.at([u + a, v + b])).to_vec();
+            let strip = [[-half, -1.0], [half, -1.0], [half, 1.0], [-half, 1.0]];
+            return strip.map(|[a, b]| panel.at([u + a, v + b])).to_vec();
         }
-        [
-            (1.0, 1.0),
-            (-1.0, 2.0),
-            (-2.0, 1.0),
-            (-1.0, -1.0),
-            (1.0, -2.0),
-            (2.0, -1.0),
-        ]
-        .map(|(a, b)| corner(a, b))
-        .to_vec()
+        let [i, j] = self.steps;
+        let corner = |[a, b]: Point| {
+            let [x, y] = [0, 1].map(|n| (a * i[n] + b * j[n]) / 3.0);
+            panel.at([u + x, v + y])
+        };
+        HEXAGON.map(corner).to_vec()
     }
-}
-
-/// From above, where z points down; discs from the side.
-fn seen(discs: bool, [x, y, _]: [f64; 3]) -> [f64; 2] {
-    if discs { [x, 0.0] } else { [y, x] }
 }

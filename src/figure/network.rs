@@ -1,336 +1,266 @@
 //! The contact forces as a network: the force chains of a pile.
 
-mod section;
+use std::collections::BTreeMap;
 
-use num_bigint::BigUint;
 use num_rational::BigRational;
+use num_traits::Signed;
 
-use super::canvas::{Canvas, Drawing, circle, line, ring};
-use super::cells::floor;
-use super::colour::{BLACK, GREY, Scale, WHITE};
+use super::caption::{LIMIT, caption, counted, readable};
+use super::colour::{BLACK, GREY, PALE, Scale};
 use super::layer::Layer;
-use super::panel::{Bounds, Margins, Panel};
+use super::mark::{Mark, Point, circle, line, ring};
+use super::page::{Axes, Bar, Figure};
+use super::panel::{BAR, Panel};
 use super::response::middle;
-use super::subject::{nearest, readable};
-use super::{Subject, of};
-use crate::lattice::{Direction, Site};
+use super::subject::{Subject, below};
+use crate::lattice::Site;
 use crate::shape::Selection;
 use crate::{ContactForce, Error};
-
-/// Contacts, and where they are in the figure.
-///
-/// # Examples
-/// ```
-/// use cannonpile::Pile;
-/// use cannonpile::figure::{Network, Subject};
-/// use cannonpile::geometry::Spacing;
-/// use num_rational::BigRational;
-///
-/// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-/// let pile = Pile::triangular(10)?;
-/// let subject = Subject::of_pile(&pile, &spacing)?;
-/// // Every sphere of a layer stands on three others.
-/// assert_eq!(Network::layer(&subject, 2)?.links.len(), 18);
-/// // In a section there are those whose supports are in it too.
-/// let section = Network::section(&subject)?;
-/// assert!(section.links.iter().all(|link| link.force > 0.0));
-/// # Ok::<(), cannonpile::Error>(())
-/// ```
-#[derive(Clone, Debug)]
-pub struct Network {
-    /// The contacts.
-    pub links: Vec<Link>,
-    /// The spheres they are between: where they are, to the right and upwards, in R.
-    pub spheres: Vec<(Site, [f64; 2])>,
-    /// The unit of the forces.
-    pub unit: &'static str,
-    /// Their colours: blue pulls, orange pushes.
-    pub scale: Scale,
-    sight: Sight,
-    caption: String,
-}
-
-/// A contact as it is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
-    /// The upper sphere.
-    pub site: Site,
-    /// Where the lower one lies.
-    pub direction: Direction,
-    /// The force, rounded once; negative is pull.
-    pub force: f64,
-    /// The centres of both, to the right and upwards, in R.
-    pub ends: [[f64; 2]; 2],
-}
-
-/// From where the contacts are seen.
-#[derive(Clone, Debug)]
-enum Sight {
-    /// From the side; spheres of discs are all in one plane.
-    Section { discs: bool },
-    /// From above.
-    Layer(Layer, i128),
-}
-
-/// The most spheres of a section or a layer.
-const LIMIT: u32 = 20_000;
 
 /// The most spheres of a pile whose forces are found all, for a section.
 const LIMIT_OF_ALL: u32 = 200_000;
 
+/// A contact as it is seen.
+struct Link {
+    contact: ContactForce<BigRational>,
+    /// Rounded once; negative is pull.
+    force: f64,
+    /// The centres of the upper and the lower sphere, to the right and upwards, in R.
+    ends: [Point; 2],
+}
+
+/// Spheres, and the contacts between them.
+struct Network {
+    /// To the right and upwards, in R.
+    spheres: BTreeMap<Site, Point>,
+    links: Vec<Link>,
+    /// How many of the contacts that were looked at pull.
+    pulling: usize,
+    axes: Axes,
+}
+
+/// Returns the contact forces in a vertical section through the middle of the pile, one row of spheres a layer thick, with y
+/// to the right; of discs the whole pile.
+///
+/// The rows are those nearest to the vertical plane across x through the middle row of the top. Below a row is either the
+/// same row, under α and β, or the next, under γ. Contacts are `<line class="contact" data-direction="…" data-force="…">`
+/// with the indices of the upper sphere; blue is pull, red is push.
+///
+/// # Errors
+/// [`Error::TooManyMarks`] for a pile of more than 200 000 spheres or a section of more than 20 000; [`Error::Overflow`] for
+/// forces beyond floats; those of the forces of the pile.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::figure::{self, Subject};
+/// use cannonpile::geometry::Spacing;
+/// use num_rational::BigRational;
+///
+/// // Of discs all are in it: 10, of which 6 have two below.
+/// let pile = Pile::discs(4)?;
+/// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+/// let svg = figure::section(&Subject::of_pile(&pile, &spacing)?)?.to_string();
+/// assert_eq!(["sphere", "contact"].map(|class| svg.matches(&format!("class=\"{class}\"")).count()), [10, 12]);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
+    let pile = subject.pile();
+    let remedy = "use fewer layers, or show one of them";
+    readable(&pile.spheres(), LIMIT_OF_ALL, "spheres", remedy)?;
+    let discs = subject.is_of_discs();
+    let across = usize::from(!discs);
+    let plane = subject.rows(middle(pile, 0)?)?;
+    let half = BigRational::new(1.into(), 2.into());
+    let mut spheres = BTreeMap::new();
+    let mut first = None;
+    for row in pile.rows(Selection::All)? {
+        let Some(site) = row.clone().into_iter().next() else {
+            continue;
+        };
+        let off = &plane - subject.rows(site)?;
+        if !discs && !(-&half..half.clone()).contains(&off) {
+            continue;
+        }
+        for site in row {
+            let place = subject.from(*first.get_or_insert(site), site)?;
+            spheres.insert(site, [place[across], place[2]]);
+        }
+    }
+    readable(&spheres.len().into(), LIMIT, "spheres of a section", remedy)?;
+    let place = |site: Site| Ok(spheres.get(&site).copied());
+    let (links, pulling) = links(subject, Selection::All, place)?;
+    let origin = first.map_or(Ok([0.0; 3]), |first| subject.position(first))?;
+    let unit = subject.length_unit();
+    let name = if discs { "x" } else { "y" };
+    let axes = Axes {
+        names: [format!("{name} in {unit}"), format!("z in {unit}")],
+        origin: [origin[across], origin[2]],
+        unit: subject.radius()?,
+    };
+    let (title, sight) = if discs {
+        ("Force network", "")
+    } else {
+        ("Force network in a vertical section", "; one row a layer")
+    };
+    let network = Network {
+        spheres,
+        links,
+        pulling,
+        axes,
+    };
+    network.figure(subject, title.into(), sight, true)
+}
+
+/// Returns the contact forces of layer `k` with the one below, seen from above; of discs from the side.
+///
+/// # Errors
+/// [`Error::LayerOutside`]; [`Error::OnFloor`] for the bottom layer; [`Error::TooManyMarks`] for more than 20 000 spheres;
+/// [`Error::Overflow`] for forces beyond floats; those of the forces of the pile.
+///
+/// # Examples
+/// ```
+/// use cannonpile::figure::{self, Subject};
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::{Error, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+/// let subject = Subject::of_pile(&pile, &spacing)?;
+/// // Every sphere of a layer stands on three others.
+/// assert_eq!(figure::layer(&subject, 2)?.to_string().matches("class=\"contact\"").count(), 18);
+/// // Nothing is below the bottom layer.
+/// assert!(matches!(figure::layer(&subject, 9), Err(Error::OnFloor { .. })));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
+    let pile = subject.pile();
+    let layer = Layer::new(subject, k, LIMIT, "choose a higher layer")?;
+    if k == pile.layers() - 1 {
+        let site = middle(pile, k)?;
+        return Err(Error::OnFloor { site });
+    }
+    let place = |site: Site| layer.place(subject, site).map(Some);
+    let (links, pulling) = links(subject, Selection::Layer(k), place)?;
+    let network = Network {
+        links,
+        pulling,
+        axes: layer.axes(subject)?,
+        spheres: layer.spheres.into_iter().collect(),
+    };
+    let title = format!("Forces of layer {k} on the next");
+    network.figure(subject, title, "; seen from above", false)
+}
+
+/// Returns the contacts of a part whose spheres both have a place, and how many of all of them pull.
+fn links(
+    subject: &Subject<'_>,
+    part: Selection,
+    place: impl Fn(Site) -> Result<Option<Point>, Error>,
+) -> Result<(Vec<Link>, usize), Error> {
+    let (mut links, mut pulling) = (Vec::new(), 0);
+    for contact in subject.contacts(part)? {
+        let contact = contact?;
+        pulling += usize::from(contact.force.is_negative());
+        let lower = below(subject.pile(), contact.site, contact.direction)?;
+        if let (Some(upper), Some(lower)) = (place(contact.site)?, place(lower)?) {
+            links.push(Link {
+                force: subject.force(&contact.force)?,
+                contact,
+                ends: [upper, lower],
+            });
+        }
+    }
+    Ok((links, pulling))
+}
+
 impl Network {
-    /// A vertical section through the middle of the pile, one row of spheres a layer thick, seen along x; of discs the
-    /// whole pile.
-    ///
-    /// The rows are those nearest to the vertical plane across x through the middle row of the top. Below a row is
-    /// either the same row, under α and β, or the next, under γ.
-    ///
-    /// # Errors
-    /// [`Error::TooManyMarks`] for a pile of more than 200 000 spheres or a section of more than 20 000;
-    /// [`Error::Overflow`] for forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::figure::{Network, Subject};
-    /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
-    ///
-    /// // Of discs all are in it: 10, of which 6 have two below.
-    /// let pile = Pile::discs(4)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let section = Network::section(&Subject::of_pile(&pile, &spacing)?)?;
-    /// assert_eq!((section.spheres.len(), section.links.len()), (10, 12));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn section(subject: &Subject<'_>) -> Result<Self, Error> {
-        let pile = subject.pile();
-        let remedy = "use fewer layers, or --layer for one of them";
-        readable(&pile.spheres(), LIMIT_OF_ALL, "spheres", remedy)?;
-        let rows = section::rows(subject)?;
-        let discs = subject.is_of_discs();
-        let mut spheres = Vec::new();
-        let mut first = None;
-        for row in pile.rows(Selection::All)? {
-            if !rows.contains(&(row.k, row.j)) {
-                continue;
-            }
-            for site in row {
-                let origin = *first.get_or_insert(site);
-                let [x, y, z] = subject.from(origin, site)?;
-                spheres.push((site, [if discs { x } else { y }, z]));
-            }
-        }
-        readable(
-            &BigUint::from(spheres.len()),
-            LIMIT,
-            "spheres of a section",
-            remedy,
-        )?;
-        let forces = subject.packing().forces().contacts(Selection::All)?;
-        let mut links = Vec::new();
-        for contact in forces {
-            let contact = contact?;
-            let ends = [Some(contact.site), below(subject, &contact)];
-            let ends = ends.map(|site| site.and_then(|site| place(&spheres, site)));
-            if let [Some(upper), Some(lower)] = ends {
-                links.push(link(subject, &contact, [upper, lower])?);
-            }
-        }
-        Ok(Self::new(subject, links, spheres, Sight::Section { discs }))
-    }
-
-    /// The contacts of layer `k` with the one below, seen from above; of discs from the side.
-    ///
-    /// # Errors
-    /// [`Error::LayerOutside`]; [`Error::OnFloor`] for the bottom layer; [`Error::TooManyMarks`] for more than 20 000
-    /// spheres; [`Error::Overflow`] for forces beyond floats; those of [`Forces::contacts`](crate::Forces::contacts).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::figure::{Network, Subject};
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Error, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let subject = Subject::of_pile(&pile, &spacing)?;
-    /// // Nothing is below the bottom layer.
-    /// assert_eq!(Network::layer(&subject, 8)?.links.len(), 135);
-    /// assert!(matches!(Network::layer(&subject, 9), Err(Error::OnFloor { .. })));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Self, Error> {
-        let pile = subject.pile();
-        let region = pile.shape().layer(k)?;
-        readable(
-            &region.sites(),
-            LIMIT,
-            "spheres of a layer",
-            "choose a higher layer",
-        )?;
-        if k == pile.layers() - 1 {
-            let site = middle(pile, k)?;
-            return Err(Error::OnFloor { site });
-        }
-        let layer = Layer::new(subject, k)?;
-        let spheres: Vec<(Site, [f64; 2])> = layer
-            .places
-            .iter()
-            .map(|place| (place.site, place.at))
-            .collect();
-        let mut links = Vec::new();
-        for contact in subject.packing().forces().contacts(Selection::Layer(k))? {
-            let contact = contact?;
-            let Some(upper) = place(&spheres, contact.site) else {
-                continue;
-            };
-            let [x, y, _] = subject.contact(contact.site, contact.direction)?;
-            let [u, v] = layer.seen([-2.0 * x, -2.0 * y]);
-            let lower = [upper[0] + u, upper[1] + v];
-            links.push(link(subject, &contact, [upper, lower])?);
-        }
-        Ok(Self::new(subject, links, spheres, Sight::Layer(layer, k)))
-    }
-
-    fn new(
+    fn figure(
+        mut self,
         subject: &Subject<'_>,
-        links: Vec<Link>,
-        spheres: Vec<(Site, [f64; 2])>,
-        sight: Sight,
-    ) -> Self {
-        Self {
-            scale: Scale::of_lines(links.iter().map(|link| link.force)),
-            links,
-            spheres,
-            unit: subject.force_unit(),
-            sight,
-            caption: subject.caption(),
-        }
-    }
-
-    /// The figure: lines as wide as the forces are great; what carries nothing is dotted.
-    ///
-    /// Contacts are `<line class="contact" data-direction="…" data-force="…">`, from the upper sphere to the lower.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::figure::{Network, Response, Subject};
-    /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Response::of_unit_load(Pile::triangular(4)?)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let svg = Network::layer(&Subject::of_pile(&pile, &spacing)?, 2)?.drawing().to_string();
-    /// // Of 18 contacts those on three lines carry the load.
-    /// assert_eq!(svg.matches("class=\"contact\"").count(), 18);
-    /// assert_eq!(svg.matches("stroke-dasharray").count(), 15);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn drawing(&self) -> Drawing {
+        title: String,
+        sight: &str,
+        floor: bool,
+    ) -> Result<Figure, Error> {
         let ends = self.links.iter().flat_map(|link| link.ends);
-        let points = self.spheres.iter().map(|(_, at)| *at).chain(ends);
-        let bounds = Bounds::around(points, 1.3).at_least(10.0, 5.0);
-        let margins = match &self.sight {
-            Sight::Section { .. } => Margins {
-                left: 40.0,
-                ..Margins::BAR
-            },
-            Sight::Layer(..) => Margins::BAR,
-        };
-        let panel = Panel::fitting(bounds, margins);
-        let (title, told) = match &self.sight {
-            Sight::Section { discs: true } => ("Force network".into(), String::new()),
-            Sight::Section { discs: false } => (
-                "Force network in a vertical section".into(),
-                "; one row a layer, seen along x".into(),
-            ),
-            Sight::Layer(_, k) => (
-                format!("Forces of layer {k} on the next"),
-                "; seen from above".into(),
-            ),
-        };
-        let caption = format!("{}{told}", self.caption);
-        let mut canvas = Canvas::new(panel.page_height().max(340.0), &title, &caption);
-        match &self.sight {
-            Sight::Section { .. } => {
-                let heights = self.spheres.iter().map(|(_, [_, v])| *v);
-                floor(&mut canvas, &panel, heights.fold(0.0, f64::min) - 1.0);
-            }
-            Sight::Layer(layer, _) => layer.axes(&panel, &mut canvas),
-        }
+        let points = self.spheres.values().copied().chain(ends);
+        let panel = Panel::around(points, 1.3, [10.0, 5.0], BAR).lowest(262.0);
         let radius = panel.length(1.0);
+        let mut marks = Vec::new();
+        if floor {
+            let heights = self.spheres.values().map(|[_, v]| *v);
+            let [_, y] = panel.at([0.0, heights.fold(0.0, f64::min) - 1.0]);
+            marks.push(line([panel.left, y], [panel.right(), y], BLACK, 1.5).class("floor"));
+        }
         for (site, at) in &self.spheres {
-            let outline = ring(panel.at(*at), radius, GREY.towards(WHITE, 0.55), 0.8);
-            canvas.add(of(*site, outline.set("class", "sphere")));
+            marks.push(
+                ring(panel.at(*at), radius, PALE, 0.8)
+                    .class("sphere")
+                    .of(*site),
+            );
         }
         // The strongest on top, and pulls over pushes.
-        let mut links: Vec<&Link> = self.links.iter().collect();
-        let order = |link: &Link| (link.force < 0.0, link.force.abs());
-        links.sort_by(|a, b| {
-            let ((a_pulls, a), (b_pulls, b)) = (order(a), order(b));
-            a_pulls.cmp(&b_pulls).then(a.total_cmp(&b))
+        self.links.sort_by(|a, b| {
+            let sides = (a.force < 0.0).cmp(&(b.force < 0.0));
+            sides.then(a.force.abs().total_cmp(&b.force.abs()))
         });
+        let scale = Scale::of_lines(self.links.iter().map(|link| link.force));
         let widest = (radius * 0.62).min(18.0);
-        for link in links {
-            canvas.add(self.line(link, &panel, widest));
-        }
+        marks.extend(
+            self.links
+                .iter()
+                .map(|link| link.mark(&panel, &scale, widest)),
+        );
         let dot = (radius * 0.13).clamp(0.6, 4.0);
-        for (_, at) in &self.spheres {
-            canvas.add(circle(panel.at(*at), dot).set("fill", BLACK.to_string()));
-        }
-        panel.bar(&mut canvas, &self.scale, "contact force", self.unit);
-        canvas.finish()
+        let dots = self.spheres.values();
+        marks.extend(dots.map(|at| circle(panel.at(*at), dot).fill(BLACK)));
+        let bar = Bar {
+            scale,
+            name: "contact force",
+            unit: subject.force_unit(),
+            remarks: self.remarks(),
+        };
+        let caption = format!("{}{sight}", caption(subject)?);
+        Ok(Figure {
+            note: if floor {
+                subject.note()
+            } else {
+                subject.note_of_part(self.pulling > 0)
+            },
+            axes: Some(self.axes),
+            bar: Some(bar),
+            ..Figure::new(title, caption, panel, marks)
+        })
     }
 
-    fn line(&self, link: &Link, panel: &Panel, widest: f64) -> svg::node::element::Line {
-        let [upper, lower] = link.ends.map(|at| panel.at(at));
-        let part = link.force.abs() / self.scale.greatest();
-        let part = if part.is_finite() { part } else { 0.0 };
-        let mark = if link.force == 0.0 {
+    /// Returns how many contacts pull, and how many of these are shown.
+    fn remarks(&self) -> Vec<String> {
+        let contacts = counted(&self.pulling.into(), "contact");
+        let shown = self.links.iter().filter(|link| link.force < 0.0).count();
+        match (self.pulling, shown) {
+            (0, _) => Vec::new(),
+            (_, 0) => vec![format!("{contacts} pull,"), "none of them here".into()],
+            (all, _) if all == shown => vec![format!("{contacts} pull")],
+            (..) => vec![format!("{contacts} pull,"), format!("{shown} of them here")],
+        }
+    }
+}
+
+impl Link {
+    /// Returns the contact as a line: dashed if it bears nothing, and never too thin for its colour if it pulls.
+    fn mark(&self, panel: &Panel, scale: &Scale, widest: f64) -> Mark {
+        let [upper, lower] = self.ends.map(|at| panel.at(at));
+        let width = widest * scale.part(self.force).abs();
+        let mark = if self.force == 0.0 {
             line(upper, lower, GREY, 1.0).set("stroke-dasharray", "2 3")
         } else {
-            let colour = self.scale.colour(link.force);
-            line(upper, lower, colour, (widest * part).max(1.0)).set("stroke-linecap", "round")
+            let least = if self.force < 0.0 { 2.0 } else { 1.0 };
+            let mark = line(upper, lower, scale.colour(self.force), width.max(least));
+            mark.set("stroke-linecap", "round")
         };
-        let mark = mark
-            .set("class", "contact")
-            .set("data-direction", link.direction.name())
-            .set("data-force", format!("{:?}", link.force));
-        of(link.site, mark)
+        let mark = mark.class("contact").of(self.contact.site);
+        let mark = mark.set("data-direction", self.contact.direction.name());
+        mark.valued("data-force", self.force)
     }
-}
-
-/// The contact as a link.
-fn link(
-    subject: &Subject<'_>,
-    contact: &ContactForce<BigRational>,
-    ends: [[f64; 2]; 2],
-) -> Result<Link, Error> {
-    let force = subject.packing().unit_force().scaled(&contact.force);
-    Ok(Link {
-        site: contact.site,
-        direction: contact.direction,
-        force: nearest(&force, "a contact force")?,
-        ends,
-    })
-}
-
-/// The sphere below.
-fn below(subject: &Subject<'_>, contact: &ContactForce<BigRational>) -> Option<Site> {
-    subject
-        .pile()
-        .shape()
-        .below(contact.site, contact.direction)
-}
-
-/// Where a sphere is, of a list in row order.
-fn place(spheres: &[(Site, [f64; 2])], site: Site) -> Option<[f64; 2]> {
-    let found = spheres
-        .binary_search_by_key(&site, |(site, _)| *site)
-        .ok()?;
-    spheres.get(found).map(|(_, at)| *at)
 }

@@ -1,210 +1,327 @@
 //! The forces on one sphere: the paper's fig. 3.
 
-mod drawing;
-
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use super::Subject;
+use super::caption::caption;
+use super::colour::{BLACK, DIM, GREY, ORANGE, PULL, PUSH, Scale};
+use super::mark::{Mark, Point, arrow, circle, line, ring, text};
+use super::page::Figure;
+use super::panel::Panel;
+use super::pile::shade;
 use super::response::middle;
-use super::subject::nearest;
-use super::view::{Vector, norm};
+use super::subject::{Subject, below, load};
+use super::ticks::{exact_or_short, short};
+use super::view::{Vector, View, moved, norm};
 use crate::lattice::Site;
-use crate::scalar::Surd;
+use crate::shape::Selection;
 use crate::{Error, Pile};
 
-/// The forces that act on one sphere, and the spheres it touches.
+/// The camera, so turned that no force hides another.
+const AZIMUTH: f64 = 190.0;
+const ELEVATION: f64 = 24.0;
+
+/// The length of the greatest force, and the greatest of the weight, in R.
+const LONGEST: f64 = 1.55;
+const WEIGHT: f64 = 0.85;
+
+/// The length below which an arrow gets a ring, in pixels.
+const SMALL: f64 = 9.0;
+
+/// Where the table is on the page.
+const TABLE: f64 = 40.0;
+const LEFT: f64 = 532.0;
+
+const UP: Vector = [0.0, 0.0, 1.0];
+const DOWN: Vector = [0.0, 0.0, -1.0];
+
+/// A force on a sphere.
+struct Force {
+    /// `a`, `b`, `c` from below, `a′`, `b′`, `c′` from above, `w` for the weight, `p` for a load, `n` for the floor.
+    name: &'static str,
+    origin: &'static str,
+    /// Negative is pull.
+    magnitude: f64,
+    /// The unit vector along it.
+    along: Vector,
+    /// Where it acts, from the centre, in R.
+    at: Vector,
+    /// A contact force in f₀.
+    multiple: Option<BigRational>,
+}
+
+/// Returns the sphere that is shown where none is chosen: one near the middle of the layer in the middle.
 ///
-/// Paper, fig. 3: **a**, **b** and **c** from the three spheres below, **a**′, **b**′ and **c**′ from those above, and
-/// the weight **w**. A load is a force of its own; under a bottom sphere is the floor, with its force **n**.
+/// # Errors
+/// None: every pile has such a sphere.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
-/// use cannonpile::figure::{SphereForces, Subject};
+/// use cannonpile::figure;
+/// use cannonpile::lattice::Site;
+///
+/// let site = figure::example(&Pile::triangular(10)?)?;
+/// assert_eq!(site, Site { i: 2, j: 2, k: 5 });
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn example(pile: &Pile) -> Result<Site, Error> {
+    middle(pile, pile.layers() / 2)
+}
+
+/// Returns the forces that act on one sphere, as arrows as long as the forces, and a table of their values.
+///
+/// Paper, fig. 3: **a**, **b** and **c** from the three spheres below, **a**′, **b**′ and **c**′ from those above, and the
+/// weight **w**. A load **p** is a force of its own; under a bottom sphere is the floor, with its force **n**. A force that
+/// pushes ends on the surface of the sphere, where it acts; one that pulls begins there. One too small for an arrow has a
+/// ring. Arrows are `<polygon class="arrow" data-name="a" data-force="…" data-x="…" …>`, with the components of the force.
+///
+/// # Errors
+/// [`Error::SiteOutside`]; [`Error::Overflow`] for forces beyond floats.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::figure::{self, Subject};
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::lattice::Site;
 /// use num_rational::BigRational;
 ///
 /// let pile = Pile::triangular(10)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-/// let subject = Subject::of_pile(&pile, &spacing)?;
-/// let sphere = SphereForces::new(&subject, Site { i: 1, j: 2, k: 5 })?;
-/// let names: Vec<&str> = sphere.forces.iter().map(|force| force.name).collect();
-/// assert_eq!(names, ["a′", "b′", "c′", "a", "b", "c", "w"]);
-/// // In equilibrium.
-/// let vertical: f64 = sphere.forces.iter().map(|force| force.magnitude * force.along[2]).sum();
-/// assert!(vertical.abs() < 1e-12);
+/// let svg = figure::sphere(&Subject::of_pile(&pile, &spacing)?, Site { i: 1, j: 2, k: 5 })?.to_string();
+/// // Six forces of neighbours, and the weight.
+/// assert_eq!(svg.matches("class=\"neighbour\"").count(), 6);
+/// assert_eq!(svg.matches("class=\"arrow\"").count(), 7);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct SphereForces {
-    /// The sphere.
-    pub site: Site,
-    /// What acts on it.
-    pub forces: Vec<SphereForce>,
-    /// The unit of the forces.
-    pub unit: &'static str,
-    /// From its centre to those of the spheres that it touches, in R.
-    neighbours: Vec<Vector>,
-    /// f₀ in that unit, and what it is.
-    unit_force: (f64, &'static str),
-    caption: String,
-    discs: bool,
-}
-
-/// A force on a sphere.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SphereForce {
-    /// `a`, `b`, `c` from below, `a′`, `b′`, `c′` from above, `w` for the weight, `p` for a load, `n` for the floor.
-    pub name: &'static str,
-    /// Its magnitude, rounded once; negative is pull.
-    pub magnitude: f64,
-    /// The unit vector along it: x and y the paper's, z up.
-    pub along: [f64; 3],
-    /// Where it acts, from the centre, in R.
-    pub at: [f64; 3],
-    /// A contact force in f₀.
-    multiple: Option<BigRational>,
-}
-
-impl SphereForces {
-    /// From the exact forces, each rounded once.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::Overflow`] for forces beyond floats.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::figure::{SphereForces, Subject};
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::lattice::Site;
-    /// use num_rational::BigRational;
-    ///
-    /// // A sphere alone: its weight, and the floor against it.
-    /// let pile = Pile::triangular(1)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let sphere = SphereForces::new(&Subject::of_pile(&pile, &spacing)?, Site::APEX)?;
-    /// let forces: Vec<_> = sphere.forces.iter().map(|force| (force.name, force.magnitude, force.along[2])).collect();
-    /// assert_eq!(forces, [("n", 1.0, 1.0), ("w", 1.0, -1.0)]);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn new(subject: &Subject<'_>, site: Site) -> Result<Self, Error> {
-        let pile = subject.pile();
-        let (packing, statics) = (subject.packing(), subject.packing().forces());
-        let site = pile.shape().check(site)?;
-        let mut neighbours = Vec::new();
-        let mut forces = Vec::new();
-        let contact = |name, multiple: BigRational, along: Vector| {
-            let force = packing.unit_force().scaled(&multiple);
-            Ok::<_, Error>(SphereForce {
-                name,
-                magnitude: nearest(&force, "a contact force")?,
-                along,
-                at: scaled(-1.0, along),
-                multiple: Some(multiple),
-            })
-        };
-        let names = ["a′", "b′", "c′"];
-        let above = statics.from_above(site)?;
-        for ((&direction, force), name) in
-            pile.dimension().directions().iter().zip(above).zip(names)
-        {
-            let Some(upper) = pile.shape().above(site, direction) else {
-                continue;
-            };
-            let down = scaled(-1.0, subject.contact(upper, direction)?);
-            neighbours.push(scaled(-2.0, down));
-            forces.push(contact(name, force, down)?);
-        }
-        if site.k == pile.layers() - 1 {
-            forces.push(floor(subject, site)?);
-        } else {
-            let directions = pile.dimension().directions().iter();
-            for (&direction, name) in directions.zip(["a", "b", "c"]) {
-                let up = subject.contact(site, direction)?;
-                neighbours.push(scaled(-2.0, up));
-                forces.push(contact(name, statics.contact(site, direction)?, up)?);
-            }
-        }
-        let loading = pile.loading();
-        let mg = packing.sphere_weight();
-        let down = |name, multiple: BigRational, at| {
-            Ok::<_, Error>(SphereForce {
-                name,
-                magnitude: nearest(&Surd::from(multiple * &mg), "a weight")?,
-                along: [0.0, 0.0, -1.0],
-                at,
-                multiple: None,
-            })
-        };
-        forces.push(down("w", loading.weight(site), [0.0; 3])?);
-        let load = loading.load(site);
-        if !load.is_zero() {
-            forces.push(down("p", load, [0.0, 0.0, 1.0])?);
-        }
-        Ok(Self {
-            site,
-            forces,
-            unit: subject.force_unit(),
-            neighbours,
-            unit_force: (
-                nearest(&packing.unit_force(), "the unit of forces")?,
-                subject.unit_force(),
-            ),
-            caption: subject.caption(),
-            discs: subject.is_of_discs(),
-        })
-    }
-
-    /// The sphere that is shown where none is chosen: one near the middle of the layer in the middle.
-    ///
-    /// # Errors
-    /// None: every pile has such a sphere.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::figure::SphereForces;
-    /// use cannonpile::lattice::Site;
-    ///
-    /// let site = SphereForces::example(&Pile::triangular(10)?)?;
-    /// assert_eq!(site, Site { i: 2, j: 2, k: 5 });
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn example(pile: &Pile) -> Result<Site, Error> {
-        middle(pile, pile.layers() / 2)
-    }
-}
-
-fn scaled(t: f64, vector: Vector) -> Vector {
-    vector.map(|part| t * part)
-}
-
-/// What the floor does to a bottom sphere: the opposite of what it feels.
-fn floor(subject: &Subject<'_>, site: Site) -> Result<SphereForce, Error> {
-    let force = subject.packing().on_floor(site)?;
-    let vector = [
-        -nearest(&force.shear_x, "a shear")?,
-        -nearest(&force.shear_y, "a shear")?,
-        nearest(&force.normal, "a normal force")?,
-    ];
-    // Divided first, for the greatest and the least of floats.
-    let greatest = vector
-        .iter()
-        .fold(0.0_f64, |most, part| most.max(part.abs()));
-    let part = if greatest > 0.0 {
-        vector.map(|part| part / greatest)
+pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
+    let site = subject.pile().shape().check(site)?;
+    let (forces, neighbours) = forces(subject, site)?;
+    let discs = subject.is_of_discs();
+    let view = if discs {
+        View::of_discs([0.0; 3])
     } else {
-        [0.0, 0.0, 1.0]
+        View::new([0.0; 3], AZIMUTH, ELEVATION, f64::INFINITY)
     };
-    let length = norm(part);
-    Ok(SphereForce {
-        name: "n",
-        magnitude: greatest * length,
-        along: part.map(|part| part / length),
-        at: [0.0, 0.0, -1.0],
-        multiple: None,
+    let around = neighbours.iter().map(|centre| view.across(*centre));
+    let centres = around.chain([[0.0; 2]]);
+    let panel = Panel::around(centres, 1.1, [6.4, 6.8], [20.0, 290.0, 24.0]);
+    let radius = panel.length(1.0);
+    let place = |vector: Vector| panel.at(view.across(vector));
+
+    // The sphere in its neighbours' midst: what is behind it first.
+    let mut marks = vec![shade("sphere", ["#ebf1f7", "#9db9d6", "#4b5661"])];
+    for centre in &neighbours {
+        let outline = ring(place(*centre), radius, GREY, 1.0).class("neighbour");
+        marks.push(outline.set("stroke-dasharray", "5 4"));
+    }
+    let lengths = lengths(&forces);
+    let shown = || {
+        forces
+            .iter()
+            .zip(&lengths)
+            .filter(|(force, _)| force.magnitude != 0.0)
+    };
+    let is_behind = |force: &Force| view.towards(force.at) < -1e-9;
+    let behind = shown().filter(|(force, _)| is_behind(force));
+    marks.extend(behind.flat_map(|(force, length)| arrows(force, *length, place)));
+    let centre = circle(place([0.0; 3]), radius).class("sphere").of(site);
+    marks.push(
+        centre
+            .fill("url(#sphere)")
+            .set("fill-opacity", 0.62)
+            .stroke(BLACK, 1.0),
+    );
+    let before = shown().filter(|(force, _)| !is_behind(force));
+    marks.extend(before.flat_map(|(force, length)| arrows(force, *length, place)));
+    let named = forces.iter().zip(&lengths);
+    marks.extend(named.flat_map(|(force, length)| letter(force, *length, place)));
+    let small = shown().any(|(force, length)| arrows(force, *length, place).len() > 1);
+    marks.extend(table(subject, &forces, small)?);
+    marks.extend(view.axes([92.0, panel.page - 34.0], discs));
+    let Site { i, j, k } = site;
+    let title = if discs {
+        format!("Forces on the disc k = {k}, i = {i}")
+    } else {
+        format!("Forces on the sphere k = {k}, i = {i}, j = {j}")
+    };
+    let title = title.replace('-', "−");
+    Ok(Figure {
+        note: subject.note_of_part(forces.iter().any(|force| force.magnitude < 0.0)),
+        ..Figure::new(title, caption(subject)?, panel, marks)
     })
+}
+
+/// Returns the forces on a sphere, and where its neighbours are from its centre, in R.
+fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>), Error> {
+    let pile = subject.pile();
+    let directions = pile.dimension().directions();
+    let mut touching = Vec::new();
+    for ((&direction, force), name) in directions
+        .iter()
+        .zip(subject.from_above(site)?)
+        .zip(["a′", "b′", "c′"])
+    {
+        if let Some(upper) = pile.shape().above(site, direction) {
+            touching.push((name, "from above", force, upper));
+        }
+    }
+    let on_floor = site.k == pile.layers() - 1;
+    if !on_floor {
+        let names = ["a", "b", "c"].into_iter();
+        for (contact, name) in subject.contacts(Selection::One(site))?.zip(names) {
+            let contact = contact?;
+            let lower = below(pile, site, contact.direction)?;
+            touching.push((name, "from below", contact.force, lower));
+        }
+    }
+    let (mut forces, mut neighbours) = (Vec::new(), Vec::new());
+    for (name, origin, multiple, other) in touching {
+        let apart = subject.from(site, other)?;
+        neighbours.push(apart);
+        let at = apart.map(|part| part / 2.0);
+        forces.push(Force {
+            name,
+            origin,
+            magnitude: subject.force(&multiple)?,
+            along: at.map(|part| -part),
+            at,
+            multiple: Some(multiple),
+        });
+    }
+    if on_floor {
+        forces.push(from_floor(subject.on_floor(site)?));
+    }
+    let mut weights = vec![("w", "weight", pile.sphere_weight(site)?, 0.0)];
+    let load = load(pile, site);
+    if !load.is_zero() {
+        weights.push(("p", "load", load, 1.0));
+    }
+    for (name, origin, weight, height) in weights {
+        forces.push(Force {
+            name,
+            origin,
+            magnitude: subject.weight(weight)?,
+            along: DOWN,
+            at: [0.0, 0.0, height],
+            multiple: None,
+        });
+    }
+    Ok((forces, neighbours))
+}
+
+/// Returns what the floor does to a bottom sphere: the opposite of what it feels, which is normal downwards.
+fn from_floor([x, y, normal]: Vector) -> Force {
+    let magnitude = x.hypot(y).hypot(normal);
+    let along = [-x, -y, normal].map(|part| part / magnitude);
+    Force {
+        name: "n",
+        origin: "from the floor",
+        magnitude,
+        along: if magnitude > 0.0 { along } else { UP },
+        at: DOWN,
+        multiple: None,
+    }
+}
+
+/// Returns how long the arrows are, in R: all in one scale, in which the weight stays within the sphere.
+fn lengths(forces: &[Force]) -> Vec<f64> {
+    let scale = Scale::around_zero(forces.iter().map(|force| force.magnitude));
+    let weight = forces.iter().find(|force| force.name == "w");
+    let weight = weight.map_or(0.0, |weight| scale.part(weight.magnitude));
+    let longest = LONGEST.min(WEIGHT / weight);
+    let length = |force: &Force| scale.part(force.magnitude) * longest;
+    forces.iter().map(length).collect()
+}
+
+/// Returns the ends of an arrow: the weight begins in the centre, what pushes ends on the surface, and what pulls begins
+/// there.
+fn ends(force: &Force, length: f64) -> [Vector; 2] {
+    let far = |length| moved(force.at, length, force.along);
+    if norm(force.at) == 0.0 || length < 0.0 {
+        [force.at, far(length)]
+    } else {
+        [far(-length), force.at]
+    }
+}
+
+/// Returns the arrow of a force, and a ring where it is too short to be seen.
+fn arrows(force: &Force, length: f64, place: impl Fn(Vector) -> Point) -> Vec<Mark> {
+    let [tail, tip] = ends(force, length).map(&place);
+    let [x, y, z] = force.along.map(|part| part * force.magnitude);
+    let mark = arrow(tail, tip, 4.0, colour(force)).set("data-name", force.name);
+    let mark = mark.valued("data-force", force.magnitude);
+    let mut marks = vec![
+        mark.valued("data-x", x)
+            .valued("data-y", y)
+            .valued("data-z", z),
+    ];
+    if (tip[0] - tail[0]).hypot(tip[1] - tail[1]) < SMALL {
+        marks.push(ring(place(force.at), 7.0, colour(force), 2.0).class("small"));
+    }
+    marks
+}
+
+/// Returns the letter of a force, at the end that is farther from the sphere; that of the weight beside it.
+fn letter(force: &Force, length: f64, place: impl Fn(Vector) -> Point) -> [Mark; 2] {
+    const BEYOND: f64 = 16.0;
+    let [tail, tip] = ends(force, length);
+    let at = if norm(force.at) == 0.0 {
+        let [[x, y], [_, below]] = [place(tail), place(tip)];
+        [x - BEYOND, y.midpoint(below)]
+    } else {
+        let far = if norm(tail) > norm(tip) { tail } else { tip };
+        let [from, to] = [place([0.0; 3]), place(force.at)];
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let beyond = BEYOND / dx.hypot(dy).max(1.0);
+        let [x, y] = place(far);
+        [x + dx * beyond, y + dy * beyond]
+    };
+    let letter = text(at, 19.0, force.name).bold().italic();
+    letter.fill(colour(force)).with_rim()
+}
+
+fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mark>, Error> {
+    let unit = subject.force_unit();
+    let [words, multiples, values] = [LEFT + 30.0, LEFT + 172.0, LEFT + 248.0];
+    let mut y = TABLE + 14.0;
+    let mut marks = vec![
+        text([multiples, TABLE], 13.0, "f₀").fill(DIM).end(),
+        text([values, TABLE], 13.0, unit).fill(DIM).end(),
+        line([LEFT, y], [values, y], GREY, 1.0),
+    ];
+    for force in forces {
+        y += 22.0;
+        let name = text([LEFT, y], 14.0, force.name).bold().italic().start();
+        marks.push(name.fill(colour(force)));
+        marks.push(text([words, y], 13.0, force.origin).start());
+        if let Some(multiple) = &force.multiple {
+            let words = exact_or_short(multiple);
+            marks.push(text([multiples, y], 14.0, words).end());
+        }
+        marks.push(text([values, y], 14.0, short(force.magnitude)).end());
+    }
+    let (value, formula) = subject.unit_force()?;
+    let unit_force = format!("f₀ = {formula} = {} {unit}", short(value));
+    let pulls = forces.iter().any(|force| force.magnitude < 0.0);
+    let remarks = [
+        (true, BLACK, unit_force.as_str()),
+        (pulls, PULL, "− is pull"),
+        (small, DIM, "○ is too small for an arrow"),
+    ];
+    y += 12.0;
+    for (_, colour, words) in remarks.into_iter().filter(|(shown, ..)| *shown) {
+        y += 22.0;
+        marks.push(text([LEFT, y], 13.0, words).fill(colour).start());
+    }
+    Ok(marks)
+}
+
+fn colour(force: &Force) -> &'static str {
+    match force.name {
+        "w" | "p" => ORANGE,
+        _ if force.magnitude < 0.0 => PULL,
+        _ => PUSH,
+    }
 }

@@ -1,30 +1,33 @@
 //! What a figure is of: a pile with a spacing, and the units of its forces and lengths.
 
-use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Zero};
 
-use crate::geometry::{Spacing, Vector, square_per_sin2};
+use super::mark::Point;
+use super::view::Vector;
+use crate::error::bug;
+use crate::geometry::{self, Spacing};
 use crate::lattice::{Dimension, Direction, Site};
-use crate::scalar::{Ring, Surd};
-use crate::{Error, Packing, Pile};
+use crate::scalar::Surd;
+use crate::shape::Selection;
+use crate::{ContactForce, Error, FloorForce, Packing, Pile};
 
 /// A pile as figures measure it.
 ///
 /// # Examples
 /// ```
-/// use cannonpile::figure::{BaseMap, Subject};
+/// use cannonpile::figure::{self, Subject};
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::{Packing, Pile};
 /// use num_rational::BigRational;
 ///
 /// let (pile, spacing) = (Pile::triangular(10)?, Spacing::new(BigRational::new(6.into(), 5.into()))?);
-/// let in_mg = Subject::of_pile(&pile, &spacing)?;
-/// assert_eq!(BaseMap::new(&in_mg)?.cells[0].value, 4.0);
+/// let in_mg = figure::base(&Subject::of_pile(&pile, &spacing)?)?.to_string();
+/// assert!(in_mg.contains("in mg") && in_mg.contains("data-value=\"4.0\""));
 ///
-/// let packing = Packing::new(&pile, &spacing)?;
-/// let in_newtons = Subject::of_packing(packing.with_gravity(BigRational::new(981.into(), 100.into()))?);
-/// assert_eq!(BaseMap::new(&in_newtons)?.cells[0].value, 39.24);
+/// let packing = Packing::new(&pile, &spacing)?.with_gravity(BigRational::new(981.into(), 100.into()))?;
+/// let in_newtons = figure::base(&Subject::of_packing(packing))?.to_string();
+/// assert!(in_newtons.contains("in N") && in_newtons.contains("data-value=\"39.24\""));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -34,7 +37,7 @@ pub struct Subject<'p> {
 }
 
 impl<'p> Subject<'p> {
-    /// In multiples of R, of mg, and for shear of mg·tanθ.
+    /// Returns the pile measured in multiples of R, of mg, and for shear of mg·tanθ.
     ///
     /// # Errors
     /// Those of [`Packing::new`].
@@ -42,36 +45,34 @@ impl<'p> Subject<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::figure::{BaseMap, Shear, Subject};
+    /// use cannonpile::figure::{self, Subject};
     /// use cannonpile::geometry::Spacing;
     /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(10)?;
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let subject = Subject::of_pile(&pile, &spacing)?;
-    /// assert_eq!((BaseMap::new(&subject)?.unit, Shear::new(&subject)?.unit), ("mg", "mg·tanθ"));
+    /// let svg = figure::shear(&Subject::of_pile(&pile, &spacing)?)?.to_string();
+    /// assert!(svg.contains("greatest 3 mg·tanθ"));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn of_pile(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
-        Ok(Self {
-            packing: Packing::new(pile, spacing)?,
-            si: false,
-        })
+        let packing = Packing::new(pile, spacing)?;
+        Ok(Self { packing, si: false })
     }
 
-    /// In metres and newtons.
+    /// Returns the pile measured in metres and newtons.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::figure::{BaseMap, Shear, Subject};
+    /// use cannonpile::figure::{self, Subject};
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::{Packing, Pile};
     /// use num_rational::BigRational;
     ///
     /// let pile = Pile::triangular(10)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let subject = Subject::of_packing(packing);
-    /// assert_eq!((BaseMap::new(&subject)?.unit, Shear::new(&subject)?.unit), ("N", "N"));
+    /// let svg = figure::shear(&Subject::of_packing(packing))?.to_string();
+    /// assert!(svg.contains("greatest 2.882 N") && svg.contains("x in m"));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -79,43 +80,7 @@ impl<'p> Subject<'p> {
         Self { packing, si: true }
     }
 
-    /// The spheres with their sizes and weights; 1 each, if they are the units.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::figure::Subject;
-    /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let subject = Subject::of_pile(&pile, &spacing)?;
-    /// assert_eq!(subject.packing().radius().to_string(), "1");
-    /// assert_eq!(subject.packing().sphere_weight().to_string(), "1");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn packing(&self) -> &Packing<'p> {
-        &self.packing
-    }
-
-    /// The pile.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::figure::Subject;
-    /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// assert_eq!(Subject::of_pile(&pile, &spacing)?.pile().layers(), 10);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn pile(&self) -> &'p Pile {
+    pub(super) fn pile(&self) -> &'p Pile {
         self.packing.pile()
     }
 
@@ -123,184 +88,205 @@ impl<'p> Subject<'p> {
         self.pile().dimension() == Dimension::Two
     }
 
-    /// The unit of forces.
+    /// Returns the unit of forces.
     pub(super) fn force_unit(&self) -> &'static str {
         if self.si { "N" } else { "mg" }
     }
 
-    /// f₀.
-    pub(super) fn unit_force(&self) -> &'static str {
-        match (self.pile().dimension(), self.pile().is_regular()) {
-            (Dimension::Two, _) => "mg/(2 cosθ)",
-            (Dimension::Three, true) => "mg/(3 cosθ)",
-            (Dimension::Three, false) => "mg/(2(1+sinφ) cosθ)",
-        }
-    }
-
-    /// The unit of shears.
+    /// Returns the unit of shears.
     pub(super) fn shear_unit(&self) -> &'static str {
         if self.si { "N" } else { "mg·tanθ" }
     }
 
-    /// The unit of lengths.
+    /// Returns the unit of lengths.
     pub(super) fn length_unit(&self) -> &'static str {
         if self.si { "m" } else { "R" }
     }
 
-    /// The radius in the unit of lengths.
+    /// Returns f₀ in the unit of forces, and its formula.
+    pub(super) fn unit_force(&self) -> Result<(f64, &'static str), Error> {
+        let formula = match (self.is_of_discs(), self.pile().is_regular()) {
+            (true, _) => "mg/(2 cosθ)",
+            (false, true) => "mg/(3 cosθ)",
+            (false, false) => "mg/(2(1+sinφ) cosθ)",
+        };
+        Ok((
+            nearest(&self.packing.unit_force(), "the unit of forces")?,
+            formula,
+        ))
+    }
+
+    /// Returns a/R.
+    pub(super) fn spacing(&self) -> Result<Spacing, Error> {
+        // (a/R)² = 2d/(d−1)·sin²θ.
+        let factor = if self.is_of_discs() { 4 } else { 3 };
+        let factor = BigRational::from_integer(factor.into());
+        Spacing::from_square(self.packing.inclination().sin2() * factor)
+    }
+
+    /// Returns R in the unit of lengths.
     pub(super) fn radius(&self) -> Result<f64, Error> {
         nearest(&self.packing.radius().clone().into(), "the radius")
     }
 
-    /// A shear from newtons into its unit, exactly.
-    pub(super) fn shear(&self, newtons: Surd) -> Surd {
-        if self.si {
-            return newtons;
-        }
-        match self.packing.inclination().tan().checked_recip() {
-            Some(cot) => newtons * &cot,
-            // θ is positive.
-            None => newtons,
-        }
+    /// Returns where a sphere is, in the unit of lengths.
+    pub(super) fn position(&self, site: Site) -> Result<Vector, Error> {
+        rounded(&self.packing.position(site)?)
     }
 
-    /// Where a sphere is from another, in R: x and y the paper's, z up. As exact for sites 10³⁰ from the apex.
-    pub(super) fn from(&self, origin: Site, site: Site) -> Result<[f64; 3], Error> {
-        let statics = self.packing.forces();
-        let apart = statics.position(site)? - &statics.position(origin)?;
-        self.in_radii(Vector {
-            z: -apart.z,
-            ..apart
-        })
+    /// Returns where a sphere is from another, in R; as exact for sites 10³⁰ from the apex.
+    pub(super) fn from(&self, origin: Site, site: Site) -> Result<Vector, Error> {
+        let radii = self.packing.radius().recip();
+        let [origin, site] = [self.packing.position(origin)?, self.packing.position(site)?];
+        let mut apart = [0.0; 3];
+        for (apart, (from, to)) in apart.iter_mut().zip(origin.iter().zip(&site)) {
+            let (from, to) = (from.scaled(&-radii.clone()), to.scaled(&radii));
+            let difference = to.checked_add(&from);
+            let difference = difference
+                .ok_or_else(|| bug("coordinates of one axis are multiples of one root"))?;
+            *apart = nearest(&difference, "a position")?;
+        }
+        Ok(apart)
     }
 
-    /// The unit vector from the sphere below `site` in a direction to `site`, z up.
-    pub(super) fn contact(&self, site: Site, direction: Direction) -> Result<[f64; 3], Error> {
-        let along = self.packing.forces().contact_direction(site, direction)?;
-        // Centres are 2R apart.
-        let half = BigRational::new(1.into(), 2.into());
-        self.in_radii(
-            Vector {
-                z: -along.z,
-                ..along
-            }
-            .scaled(&half),
+    /// Returns how many rows of its layer a sphere is from the middle of x, in the steps j → j+1.
+    pub(super) fn rows(&self, site: Site) -> Result<BigRational, Error> {
+        let x = self.packing.forces().position(site)?.x;
+        Ok(x / (BigRational::one() + self.pile().sin_phi()))
+    }
+
+    /// Returns the unit vectors from the spheres below to a sphere above a + step, up to rounding.
+    pub(super) fn directions(&self) -> Result<[Vector; 3], Error> {
+        let sin = nearest(&self.packing.inclination().sin(), "an angle")?;
+        let cos = nearest(&self.packing.inclination().cos(), "an angle")?;
+        let s = nearest(&self.pile().sin_phi().clone().into(), "an angle")?;
+        let directions = if self.is_of_discs() {
+            geometry::disc_directions()
+        } else {
+            geometry::directions(&s)
+        };
+        let basis = [sin, 2.0 * (1.0 - s * s).sqrt() * sin, -cos];
+        Ok(directions.map(|direction| direction.on(&basis)))
+    }
+
+    /// Returns the steps i → i+1 and j → j+1 in a layer, in R; of discs the second is as long, across their plane.
+    pub(super) fn steps(&self) -> Result<[Point; 2], Error> {
+        let [a, b, c] = self.directions()?;
+        let step = |to: Vector| [2.0 * (a[0] - to[0]), 2.0 * (a[1] - to[1])];
+        let [i, j] = [step(b), step(c)];
+        Ok([i, if self.is_of_discs() { [0.0, i[0]] } else { j }])
+    }
+
+    /// Returns the contacts of a part with the spheres below, in f₀.
+    pub(super) fn contacts(
+        &self,
+        part: Selection,
+    ) -> Result<impl Iterator<Item = Result<ContactForce<BigRational>, Error>> + '_, Error> {
+        self.packing.forces().contacts(part)
+    }
+
+    /// Returns the contacts of a sphere with those above it, in f₀, by direction.
+    pub(super) fn from_above(&self, site: Site) -> Result<[BigRational; 3], Error> {
+        self.packing.forces().from_above(site)
+    }
+
+    /// Returns a contact force, in its unit.
+    pub(super) fn force(&self, multiple: &BigRational) -> Result<f64, Error> {
+        nearest(
+            &self.packing.unit_force().scaled(multiple),
+            "a contact force",
         )
     }
 
-    /// The steps i → i+1 and j → j+1 in a layer, in R; of discs the second is as long, across their plane.
-    pub(super) fn steps(&self) -> Result<[[f64; 3]; 2], Error> {
-        let [a, b, c] = self.pile().directions::<BigRational>();
-        let i = self.in_radii(a.clone() - &b)?;
-        if self.is_of_discs() {
-            return Ok([i, [0.0, i[0], 0.0]]);
-        }
-        Ok([i, self.in_radii(a - &c)?])
+    /// Returns the vertical part of a contact force, in its unit: f·mg/W.
+    pub(super) fn vertical(&self, multiple: &BigRational) -> Result<Surd, Error> {
+        let sum = self.packing.forces().increment_sum()?;
+        Ok((multiple * self.packing.sphere_weight() / sum).into())
     }
 
-    /// A vector in 2R and the symbolic basis, in R.
-    pub(super) fn in_radii(&self, vector: Vector<BigRational>) -> Result<[f64; 3], Error> {
-        let two = BigRational::from_i128(2);
-        let [x, y, z] = self.packing.displacement(vector, &two);
-        Ok([
-            nearest(&x, "a position")?,
-            nearest(&y, "a position")?,
-            nearest(&z, "a position")?,
-        ])
+    /// Returns a weight, in the unit of forces.
+    pub(super) fn weight(&self, multiple: BigRational) -> Result<f64, Error> {
+        nearest(
+            &Surd::from(multiple * self.packing.sphere_weight()),
+            "a weight",
+        )
     }
 
-    /// The pile in a line: its layers, how they are stacked, what is on it, how far apart the spheres are.
-    pub(super) fn caption(&self) -> String {
-        const LONGEST: usize = 24;
-        let pile = self.pile();
-        let layers = pile.layers();
-        let mut parts = vec![counted(&layers.into(), "layer")];
-        let shape = pile.shape();
-        if self.is_of_discs() {
-            parts.push("discs".into());
-        } else {
-            let stacking = shape.stacking();
-            let name = stacking.name().map_or_else(
-                || {
-                    let spelled = stacking.to_string();
-                    let mut short: String = spelled.chars().take(LONGEST).collect();
-                    if short.len() < spelled.len() {
-                        short.push('…');
-                    }
-                    short
-                },
-                str::to_uppercase,
-            );
-            if layers > 1 {
-                parts.push(name);
+    /// Returns the force of a bottom sphere on the floor, all of it in the unit of forces.
+    pub(super) fn on_floor(&self, site: Site) -> Result<Vector, Error> {
+        let force = self.packing.on_floor(site)?;
+        rounded(&[force.shear_x, force.shear_y, force.normal])
+    }
+
+    /// Returns the forces on the floor, each in its unit.
+    pub(super) fn base(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<FloorForce<Surd>, Error>> + '_, Error> {
+        let cot = self.packing.inclination().tan().checked_recip();
+        let cot = cot.ok_or_else(|| bug("θ is positive"))?;
+        let in_units = move |force: FloorForce<Surd>| {
+            if self.si {
+                return force;
             }
-        }
-        if !pile.is_regular() && !self.is_of_discs() {
-            parts.push(format!("sin φ = {}", brief(&pile.sin_phi().to_string())));
-        }
-        if pile.is_weightless() {
-            parts.push("spheres without weight".into());
-        }
-        let mut loads = pile.loading().loads();
-        match (loads.len(), loads.next()) {
-            (1, Some((Site { i, j, k }, load))) => {
-                let place = if self.is_of_discs() {
-                    format!("{k},{i}")
-                } else {
-                    format!("{k},{i},{j}")
-                };
-                parts.push(brief(&format!("{load} mg on {place}")));
+            FloorForce {
+                shear_x: force.shear_x * &cot,
+                shear_y: force.shear_y * &cot,
+                ..force
             }
-            (0, _) => {}
-            (count, _) => parts.push(counted(&count.into(), "load")),
+        };
+        let forces = self.packing.base(Selection::Base)?;
+        Ok(forces.map(move |force| force.map(&in_units)))
+    }
+
+    /// Returns what is to be said of a pile of which a part is shown, whether a contact in it pulls.
+    pub(super) fn note_of_part(&self, pulls: bool) -> Option<String> {
+        (pulls && !self.pile().is_weightless()).then(|| {
+            "this pile does not stand without further contacts: spheres would have to pull here; no other forces of these \
+             contacts are in balance"
+                .into()
+        })
+    }
+
+    /// Returns what is to be said of a pile that cannot stand.
+    pub(super) fn note(&self) -> Option<String> {
+        if self.pile().is_weightless() {
+            return None;
         }
-        let square = self.packing.inclination().sin2() * square_per_sin2(pile.dimension());
-        if let Ok(spacing) = Spacing::from_square(square) {
-            parts.push(format!("a/R = {}", brief(&spacing.ratio().to_string())));
+        match self.pile().first_failure() {
+            Ok(failure) => failure.map(|k| {
+                format!("this pile does not stand without further contacts: below layer k = {k} spheres would have to pull")
+            }),
+            Err(error) => Some(format!("whether this pile stands is not known: {error}")),
         }
-        parts.join(", ")
     }
 }
 
-/// A text that is not too long.
-pub(super) fn brief(text: &str) -> String {
-    const LONGEST: usize = 20;
-    if text.chars().count() <= LONGEST {
-        return text.into();
-    }
-    let mut short: String = text.chars().take(LONGEST - 1).collect();
-    short.push('…');
-    short
+/// Returns the loads of a pile, in mg.
+pub(super) fn loads(pile: &Pile) -> impl ExactSizeIterator<Item = (Site, &BigRational)> {
+    pile.loads()
 }
 
-/// `1 layer`, `10 layers`.
-pub(super) fn counted(count: &num_bigint::BigInt, noun: &str) -> String {
-    let plural = if count.is_one() { "" } else { "s" };
-    format!("{count} {noun}{plural}")
+/// Returns the load on a sphere, in mg.
+pub(super) fn load(pile: &Pile, site: Site) -> BigRational {
+    let found = loads(pile).find(|(loaded, _)| *loaded == site);
+    found.map_or_else(BigRational::zero, |(_, load)| load.clone())
 }
 
-/// The nearest float.
+/// Returns the sphere below another, of the pile.
+pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Site, Error> {
+    let below = pile.shape().below(site, direction);
+    below.ok_or(Error::OnFloor { site })
+}
+
+/// Returns the nearest float.
 pub(super) fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
-    number.nearest::<f64>().ok_or(Error::Overflow {
-        quantity,
-        scalar: "f64",
-    })
+    let scalar = "f64";
+    number
+        .nearest::<f64>()
+        .ok_or(Error::Overflow { quantity, scalar })
 }
 
-/// Refuses what nobody could tell apart on a page.
-pub(super) fn readable(
-    marks: &BigUint,
-    limit: u32,
-    what: &'static str,
-    remedy: &'static str,
-) -> Result<(), Error> {
-    if marks > &limit.into() {
-        return Err(Error::TooManyMarks {
-            marks: marks.clone(),
-            what,
-            limit,
-            remedy,
-        });
-    }
-    Ok(())
+fn rounded([x, y, z]: &[Surd; 3]) -> Result<Vector, Error> {
+    let nearest = |part| nearest(part, "a coordinate");
+    Ok([nearest(x)?, nearest(y)?, nearest(z)?])
 }

@@ -1,12 +1,16 @@
 //! Round numbers along an axis, and numbers as people read them.
 
-/// Whether there is room between two numbers.
+use num_rational::BigRational;
+
+use crate::scalar::Surd;
+
+/// Returns whether there is room between two numbers.
 pub(super) fn is_range(least: f64, most: f64) -> bool {
     let span = most / 2.0 - least / 2.0;
     span.is_normal() && span > 1e-12 * least.abs().max(most.abs())
 }
 
-/// Round numbers from `least` to `most`, at most about `count` of them: the multiples of 1, 2 or 5 times a power of ten.
+/// Returns round numbers from `least` to `most`, at most about `count` of them: the multiples of 1, 2 or 5 times a power of ten.
 pub(super) fn ticks(least: f64, most: f64, count: u32) -> Vec<f64> {
     if !is_range(least, most) {
         return Vec::new();
@@ -27,7 +31,7 @@ pub(super) fn ticks(least: f64, most: f64, count: u32) -> Vec<f64> {
         .collect()
 }
 
-/// The greatest of 1, 2 or 5 times a power of ten that is not greater than a positive number; `None` of zero.
+/// Returns the greatest of 1, 2 or 5 times a power of ten that is not greater than a positive number; `None` of zero.
 pub(super) fn round_below(value: f64) -> Option<f64> {
     let power = 10_f64.powf(value.log10().floor());
     let rounds = [5.0, 2.0, 1.0, 0.5].map(|round| round * power);
@@ -35,18 +39,23 @@ pub(super) fn round_below(value: f64) -> Option<f64> {
     round.is_normal().then_some(round)
 }
 
-/// A number in four digits: `0.4622`, `12`, `1.2·10⁻⁷`.
+/// Returns a number in four digits: `0.4622`, `12`, `1.2·10⁻⁷`.
 pub(super) fn short(value: f64) -> String {
     digits(value, 4)
 }
 
-/// A number in a few digits; those before the point are never cut.
+/// Returns a number in a few digits; those before the point are never cut.
 pub(super) fn digits(value: f64, count: i32) -> String {
     if value == 0.0 {
         return "0".into();
     }
     if !(1e-3..1e5).contains(&value.abs()) {
-        let text = format!("{value:.*e}", usize::from(count > 2) + 1);
+        let decimals = match count {
+            1 => 0,
+            2 => 1,
+            _ => 2,
+        };
+        let text = format!("{value:.decimals$e}");
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{}·10{}", trimmed(digits), raised(power)).replace('-', "−");
     }
@@ -58,7 +67,7 @@ pub(super) fn digits(value: f64, count: i32) -> String {
     trimmed(&format!("{value:.places$}")).replace('-', "−")
 }
 
-/// Without zeros at the end of decimals.
+/// Returns a number without zeros at the end of its decimals.
 fn trimmed(text: &str) -> &str {
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
@@ -67,7 +76,7 @@ fn trimmed(text: &str) -> &str {
     }
 }
 
-/// An integer as an exponent.
+/// Returns an integer as an exponent.
 pub(super) fn raised(integer: &str) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',
@@ -83,13 +92,13 @@ pub(super) fn raised(integer: &str) -> String {
     integer.chars().map(raised).collect()
 }
 
-/// An exact number as it is if it is short, and in four digits otherwise.
-pub(super) fn exact_or_short(exact: &str, value: f64) -> String {
+/// Returns an exact number if it is short, and four digits of it otherwise.
+pub(super) fn exact_or_short(exact: &BigRational) -> String {
     const LONGEST: usize = 7;
-    if exact.len() <= LONGEST {
-        exact.replace('-', "−")
-    } else {
-        short(value)
+    let text = exact.to_string();
+    match Surd::from(exact.clone()).nearest() {
+        Some(value) if text.len() > LONGEST => short(value),
+        _ => text.replace('-', "−"),
     }
 }
 

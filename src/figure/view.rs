@@ -1,15 +1,14 @@
 //! Space as a camera sees it.
 
-/// A vector of space: x and y the paper's, z up.
+use super::colour::BLACK;
+use super::mark::{Mark, Point, arrow, text};
+
+/// A vector of space: x, y and z as in exported files, z up.
 pub(super) type Vector = [f64; 3];
 
-/// The sum of `a` and `t` times `b`.
+/// Returns the sum of `a` and `t` times `b`.
 pub(super) fn moved(a: Vector, t: f64, b: Vector) -> Vector {
-    let mut sum = a;
-    for (part, step) in sum.iter_mut().zip(b) {
-        *part += t * step;
-    }
-    sum
+    [0, 1, 2].map(|n| a[n] + t * b[n])
 }
 
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {
@@ -20,10 +19,7 @@ pub(super) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A camera that looks at a point.
-///
-/// Where z points down, as in the paper, a right-handed frame has y to the right of x. The camera therefore has y on its
-/// right where it looks along x, with an azimuth of 0.
+/// A camera that looks at a point. Its frame is right-handed, as that of every program that shows exported files.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     target: Vector,
@@ -31,7 +27,7 @@ pub(super) struct View {
     up: Vector,
     /// From the target to the eye.
     back: Vector,
-    /// From the target to the eye; endless for a parallel projection.
+    /// From the target to the eye; infinite for a parallel projection.
     distance: f64,
 }
 
@@ -39,42 +35,36 @@ pub(super) struct View {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     /// To the right and upwards, in units of length at the target.
-    pub(super) at: [f64; 2],
+    pub(super) at: Point,
     /// How much larger than at the target.
     pub(super) magnification: f64,
-    /// From the eye, or along the view if the eye is endlessly far.
+    /// From the eye, or along the view if the eye is infinitely far.
     pub(super) distance: f64,
 }
 
 impl View {
-    /// From above by `elevation`, turned by `azimuth` about the vertical, in degrees.
+    /// Returns a camera above the horizontal by `elevation`, over the direction `azimuth` from x towards y, in degrees.
     pub(super) fn new(target: Vector, azimuth: f64, elevation: f64, distance: f64) -> Self {
         let (sin, cos) = azimuth.to_radians().sin_cos();
         let (rise, level) = elevation.to_radians().sin_cos();
         Self {
             target,
-            right: [sin, cos, 0.0],
-            up: [cos * rise, -sin * rise, level],
-            back: [-cos * level, sin * level, rise],
+            right: [-sin, cos, 0.0],
+            up: [-cos * rise, -sin * rise, level],
+            back: [cos * level, sin * level, rise],
             distance,
         }
     }
 
-    /// From the side, across the plane of discs, from endlessly far.
+    /// Returns a camera infinitely far at the side of a plane of discs.
     pub(super) fn of_discs(target: Vector) -> Self {
-        Self {
-            target,
-            right: [1.0, 0.0, 0.0],
-            up: [0.0, 0.0, 1.0],
-            back: [0.0, 1.0, 0.0],
-            distance: f64::INFINITY,
-        }
+        Self::new(target, -90.0, 0.0, f64::INFINITY)
     }
 
     pub(super) fn see(&self, point: Vector) -> Seen {
         let apart = moved(point, -1.0, self.target);
-        let [u, v] = [dot(apart, self.right), dot(apart, self.up)];
-        let towards = dot(apart, self.back);
+        let [u, v] = self.across(apart);
+        let towards = self.towards(apart);
         if self.distance.is_infinite() {
             return Seen {
                 at: [u, v],
@@ -83,21 +73,46 @@ impl View {
             };
         }
         let magnification = self.distance / (self.distance - towards);
-        let from_eye = moved(apart, -self.distance, self.back);
         Seen {
             at: [u * magnification, v * magnification],
             magnification,
-            distance: norm(from_eye),
+            distance: norm(moved(apart, -self.distance, self.back)),
         }
     }
 
-    /// How a short vector at the target is seen, from endlessly far.
-    pub(super) fn across(&self, vector: Vector) -> [f64; 2] {
+    /// Returns how a short vector at the target is seen.
+    pub(super) fn across(&self, vector: Vector) -> Point {
         [dot(vector, self.right), dot(vector, self.up)]
     }
 
-    /// How much of a short vector points to the eye.
+    /// Returns how much of a short vector points to the eye.
     pub(super) fn towards(&self, vector: Vector) -> f64 {
         dot(vector, self.back)
+    }
+
+    /// Returns the directions x, y and z as arrows from a point of the page; y is not shown of discs.
+    pub(super) fn axes(&self, [x, y]: Point, discs: bool) -> Vec<Mark> {
+        const LENGTH: f64 = 46.0;
+        let basis = [
+            ("x", [1.0, 0.0, 0.0]),
+            ("y", [0.0, 1.0, 0.0]),
+            ("z", [0.0, 0.0, 1.0]),
+        ];
+        let shown = basis
+            .into_iter()
+            .filter(|(name, _)| !(discs && *name == "y"));
+        let axis = |(name, vector)| {
+            let [right, up] = self.across(vector);
+            let end = |length: f64| [x + right * length, y - up * length];
+            // Short ones keep their letters apart.
+            let letter = end(LENGTH + 13.0 / right.hypot(up).max(0.1));
+            let [rim, letter] = text(letter, 16.0, name).italic().with_rim();
+            [
+                arrow([x, y], end(LENGTH), 2.0, BLACK).class("axis"),
+                rim,
+                letter,
+            ]
+        };
+        shown.flat_map(axis).collect()
     }
 }

@@ -7,7 +7,7 @@ use num_traits::One;
 
 use crate::scalar::{Algebra, Exactness};
 
-/// What a sphere at a change of sign passes on of the forces g that it receives: G g, with G = (2/3)J − I and J all ones,
+/// Returns what a sphere at a change of sign passes on of the forces g that it receives: G g, with G = (2/3)J − I and J all ones,
 /// that is (2/3)(g_α + g_β + g_γ)(1, 1, 1) − g; over three times the denominator of g, 3G g, if the ring of numerators
 /// has no thirds.
 ///
@@ -41,7 +41,7 @@ pub fn half_turn<T: Algebra>(g: &[T::Numerator; 3]) -> [T::Numerator; 3] {
     }
 }
 
-/// 3G g = 2(g_α + g_β + g_γ)(1, 1, 1) − 3g: the [half-turn](half_turn) without a division, for integers whose denominator
+/// Returns 3G g = 2(g_α + g_β + g_γ)(1, 1, 1) − 3g: the [half-turn](half_turn) without a division, for integers whose denominator
 /// grows by 3 at every change of sign.
 ///
 /// No term of it is greater than 2√3·‖g‖, and |3G g| ≤ 5 max|g|. Exact wherever sums are.
@@ -61,7 +61,7 @@ where
     g.each_ref().map(|x| twice_sum.clone() - x - x - x)
 }
 
-/// 3G g as (2(g_β + g_γ) − g_α, …), where every force is named once: for bounds.
+/// Returns 3G g as (2(g_β + g_γ) − g_α, …), where every force is named once: for bounds.
 ///
 /// They widen by 5/3 over a [half-turn](half_turn). In [2Σg − 3g](tripled_half_turn) they would by 3, since an interval
 /// does not know that both g_α in it are one number.
@@ -84,7 +84,7 @@ where
     [tripled([b, c], a), tripled([a, c], b), tripled([a, b], c)]
 }
 
-/// Whether a [half-turn](half_turn) triples the denominator: the numerators of the scalar have no thirds.
+/// Returns whether a [half-turn](half_turn) triples the denominator: the numerators of the scalar have no thirds.
 pub(crate) fn triples<T: Algebra>() -> bool {
     T::divide_numerator(T::Numerator::one(), THREE).is_none()
 }

@@ -7,30 +7,10 @@
 //! and σh(n) is the squared horizontal distance. So every n sets one bound on σ, and the allowed
 //! spacings are an interval.
 //!
-//! Finitely many n suffice:
-//! * m = 0. The neighbours (1,−1,0), (1,0,−1) and (0,1,−1) of a layer are the sides of a triangle
-//!   without an obtuse angle, so no other pair of the layer is closer. They give the lower bounds.
-//! * m > 0 (n and −n are one pair). A bound arises only where h(n) < m², and from above. Let the layers
-//!   be free of overlap, and n overlap. Its horizontal part is shorter than 1 while the neighbours
-//!   (1,−1,0) are at least 1 apart, so |n_a−n_b| ≤ 1; and |s·t − n_c| < 1/sinθ ≤ √(2(1+s)) < 2 with
-//!   t = n_a+n_b. If cosθ ≥ 1/4, then m·cosθ < 1 leaves m ≤ 3, and n_c = m−t gives
-//!   |(1+s)t − m| < 2, hence −1 ≤ t ≤ 4. If cosθ < 1/4, one of (1,1,0), (1,1,1), (1,0,1) overlaps
-//!   already: for s ≤ 0.17, between, and for s ≥ 0.83, in that order. The pile has it unless L ≤ 3,
-//!   where n has sums of at most 2 anyway and lies in the same range.
-//!
-//! The same n are all that touch: for n at distance exactly 1 and m > 0 the inequalities are strict too, but
-//! for m = 4, cosθ = 1/4 and no horizontal part, which needs (1+s)t = 4 with t even: no 0 < s < 1 does, and of
-//! discs (1,1,0) overlaps there.
-//!
-//! # Other stackings
-//! With s = ½ the sites of a layer are a triangular lattice of side 2R·√3 sinθ, and each layer is shifted against the
-//! next by 2R sinθ, forwards (+) or backwards (−). Let the layers be free of overlap, 3 sin²θ ≥ 1, and let two spheres
-//! be m layers apart. If the shifts between them do not cancel modulo 3, their horizontal distance is at least 2R sinθ,
-//! and m²cos²θ + sin²θ ≥ 1 with equality for m = 1 only: the contacts α, β, γ. If they do, the closest pair is
-//! straight above each other, at 2R·m cosθ. For m = 2 that is + − or − +: 2cosθ ≥ 1, q ≤ 9/4, and then all greater m
-//! have room. A straight stacking has m = 3 first: 3cosθ ≥ 1, q ≤ 8/3, and its next is m = 6. So there is one upper
-//! bound; which bases and tops there are does not matter, since a sphere and what is straight below it on its own
-//! supports are in every pile of enough layers.
+//! Finitely many n suffice, whatever L is: the neighbours (1,−1,0), (1,0,−1), (0,1,−1) of a layer, which give the lower
+//! bounds, and those with 1 ≤ m ≤ 3, |n_a−n_b| ≤ 1 and −1 ≤ n_a+n_b ≤ 4, which give the upper ones; the same n are all that
+//! touch. Other stackings have one upper bound, from spheres straight above each other: two layers apart at a change
+//! of sign, q ≤ 9/4, else three, q ≤ 8/3. The lemma and its reason are in [`paper`](crate::paper#overlap).
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;

@@ -1,16 +1,16 @@
 //! How many: sites above on a line, spheres, contacts, contacts of a given strength.
 //!
-//! One generic body each, so that an `i128` counts, a big rational counts without end, and a
-//! polynomial proves.
+//! One generic body each, so that an `i128` counts, a big rational counts without end, and a polynomial proves.
 
 use core::num::{NonZeroI64, NonZeroU32};
 use core::ops::Sub;
 
+use super::Sign;
 use crate::scalar::Algebra;
 
-/// How many spheres lie above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
+/// Returns how many spheres lie above (i, j, k) on its lines of contacts: (N_α, N_β, N_γ) = (k−i−j, i, j).
 ///
-/// Paper, eq. (counts) and appendix. They are also the barycentric coordinates of the site: their
+/// Paper, (9) and appendix. They are also the barycentric coordinates of the site: their
 /// sum is k, and none is negative on the pile. Exact in exact scalars.
 ///
 /// # Examples
@@ -26,45 +26,54 @@ where
     [k.clone() - i - j, i.clone(), j.clone()]
 }
 
-/// What bounds the number of spheres above (i, j) on its lines α, β, γ, in a layer `steps` steps of sign + into a run
+/// Returns what bounds the number of spheres above (i, j) on its lines α, β, γ, in a layer `steps` steps of one sign into a run
 /// of any region: N is the least of each four.
 ///
-/// THEORY §3, "Lines": N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
-/// N_γ = min(m, j−y₀, x₁−i, i+j−s₀), with `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) the bounds of i, j and i+j
-/// in that layer. For − steps the same under (i, j) → (−i, −j).
+/// `lower` = (x₀, y₀, s₀) and `upper` = (x₁, y₁, s₁) bound i, j and i+j in that layer, and m = `steps`. For + steps
+/// N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀), N_γ = min(m, j−y₀, x₁−i, i+j−s₀); for − steps
+/// upper and lower bounds change places. Of the paper's pile this is (9), [`above`]. See [`paper`](crate::paper#lines).
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::count;
+/// use cannonpile::lattice::{Sign, count};
 ///
 /// // Layer 5 of the paper's pile: (k−i−j, i, j) = (2, 1, 2).
-/// let bounds = count::bounds_above(&1_i128, &2, &[0, 0, 0], &[5, 5, 5], &5);
+/// let bounds = count::bounds_above(&1_i128, &2, &[0, 0, 0], &[5, 5, 5], &5, Sign::Plus);
 /// assert_eq!(bounds.map(|bounds| bounds.into_iter().min()), [Some(2), Some(1), Some(2)]);
 /// ```
-pub fn bounds_above<T>(i: &T, j: &T, lower: &[T; 3], upper: &[T; 3], steps: &T) -> [[T; 4]; 3]
+pub fn bounds_above<T>(
+    i: &T,
+    j: &T,
+    lower: &[T; 3],
+    upper: &[T; 3],
+    steps: &T,
+    sign: Sign,
+) -> [[T; 4]; 3]
 where
     T: Clone + for<'a> Sub<&'a T, Output = T>,
 {
     let ([x0, y0, s0], [x1, y1, s1]) = (lower, upper);
-    let right = x1.clone() - i;
-    let upper = y1.clone() - j;
-    // i + j − s₀, without a sum.
-    let outer = i.clone() - &(s0.clone() - j);
+    // How far the site is inside each bound; i + j − s₀ without a sum.
+    let from_lower = [
+        i.clone() - x0,
+        j.clone() - y0,
+        i.clone() - &(s0.clone() - j),
+    ];
+    let from_upper = [x1.clone() - i, y1.clone() - j, s1.clone() - i - j];
+    let ([left, low, inner], [right, high, outer]) = match sign {
+        Sign::Plus => (from_lower, from_upper),
+        Sign::Minus => (from_upper, from_lower),
+    };
     [
-        [
-            steps.clone(),
-            right.clone(),
-            upper.clone(),
-            s1.clone() - i - j,
-        ],
-        [steps.clone(), i.clone() - x0, upper, outer.clone()],
-        [steps.clone(), j.clone() - y0, right, outer],
+        [steps.clone(), right.clone(), high.clone(), outer],
+        [steps.clone(), left, high, inner.clone()],
+        [steps.clone(), low, right, inner],
     ]
 }
 
-/// The spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
+/// Returns the number of spheres of a straight pile of `layers` layers in d dimensions: C(L+d−1, d).
 ///
-/// For d = 3 this is L(L+1)(L+2)/6 (THEORY §2). Domain: L ≥ 0.
+/// For d = 3 this is L(L+1)(L+2)/6. Domain: L ≥ 0.
 ///
 /// # Examples
 /// ```
@@ -77,7 +86,7 @@ pub fn spheres<T: Algebra>(layers: &T, d: u32) -> T {
     binomial(&shifted(layers, i128::from(d) - 1), d)
 }
 
-/// The spheres of layer k alone: C(k+d−1, d−1). Domain: k ≥ 0, d ≥ 1.
+/// Returns the number of spheres of layer k alone: C(k+d−1, d−1). Domain: k ≥ 0, d ≥ 1.
 ///
 /// # Examples
 /// ```
@@ -90,9 +99,9 @@ pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
     binomial(&shifted(k, below.into()), below)
 }
 
-/// The contacts between spheres: d below each sphere that is not on the floor, d·C(L+d−2, d).
+/// Returns the number of contacts between spheres: d below each sphere that is not on the floor, d·C(L+d−2, d).
 ///
-/// For d = 3 this is L(L−1)(L+1)/2 (THEORY §2). Domain: L ≥ 1.
+/// For d = 3 this is L(L−1)(L+1)/2. Domain: L ≥ 1.
 ///
 /// # Examples
 /// ```
@@ -105,9 +114,9 @@ pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
     spheres(&shifted(layers, -1), d) * &T::from_i128(d.into())
 }
 
-/// The contacts of one direction that carry n increments: C(L−n+d−2, d−1), for n = 1 … L−1.
+/// Returns the number of contacts of one direction that carry n increments: C(L−n+d−2, d−1), for n = 1 … L−1.
 ///
-/// For d = 3 this is (L−n)(L−n+1)/2 (THEORY §2).
+/// For d = 3 this is (L−n)(L−n+1)/2.
 ///
 /// # Examples
 /// ```
@@ -125,7 +134,7 @@ fn shifted<T: Algebra>(n: &T, by: i128) -> T {
     n.clone() + &T::from_i128(by)
 }
 
-/// The binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
+/// Returns the binomial coefficient C(x, n) = x(x−1)…(x−n+1)/n!, a polynomial in x.
 fn binomial<T: Algebra>(x: &T, n: u32) -> T {
     let mut product = T::one();
     for t in 0..n {

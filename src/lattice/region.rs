@@ -449,12 +449,12 @@ impl fmt::Display for Region {
             // Within ±10³⁶.
             let (p, q) = (x1 + 1, 1 - x0);
             let about_zero = Self::hexagon(p, q).as_ref() == Ok(self);
-            return match (about_zero, p, q) {
-                (false, ..) => write!(f, "region:{self}"),
-                (true, 2.., 1) => write!(f, "triangle:{p}"),
-                (true, ..) if p == q => write!(f, "hexagon:{p}"),
-                (true, ..) => write!(f, "hexagon:{p},{q}"),
-            };
+            match (about_zero, p, q) {
+                (true, 2.., 1) => return write!(f, "triangle:{p}"),
+                (true, ..) if p == q => return write!(f, "hexagon:{p}"),
+                (true, ..) => return write!(f, "hexagon:{p},{q}"),
+                (false, ..) => f.write_str("region:")?,
+            }
         }
         write!(f, "{x0}..{x1},{y0}..{y1},{s0}..{s1}")
     }

@@ -6,6 +6,7 @@ use crate::lattice::{Direction, Site};
 use crate::scalar::{NearestFloat, Surd};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing};
+use num_rational::BigRational;
 
 /// A contact between two spheres, in the units and the frame of a [`Packing`].
 ///
@@ -107,17 +108,42 @@ impl<'p, M: Meter> Packing<'p, M> {
     ) -> Result<impl Iterator<Item = Result<PackedContact, Error>> + use<'p, M>, Error> {
         let packing = self.clone();
         let contacts = self.forces.contacts(part)?;
-        Ok(contacts.map(move |contact| {
-            let contact = contact?;
-            let (site, direction) = (contact.site, contact.direction);
-            Ok(PackedContact {
-                site,
-                direction,
-                force: packing.magnitude(&contact.force),
-                vector: packing.vector(site, direction, &contact.force)?,
-                point: packing.contact_point(site, direction)?,
-            })
-        }))
+        Ok(contacts.map(move |contact| packing.packed(contact?)))
+    }
+
+    /// Returns a contact in SI, from its force in f₀.
+    ///
+    /// # Errors
+    /// As for [`contact_point`](Self::contact_point).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let multiples = packing.forces().contacts(Selection::All)?;
+    /// for (multiple, contact) in multiples.zip(packing.contacts(Selection::All)?) {
+    ///     assert_eq!(packing.packed(multiple?)?, contact?);
+    /// }
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn packed(&self, contact: ContactForce<BigRational>) -> Result<PackedContact, Error> {
+        let ContactForce {
+            site,
+            direction,
+            force,
+        } = contact;
+        Ok(PackedContact {
+            site,
+            direction,
+            force: self.magnitude(&force),
+            vector: self.vector(site, direction, &force)?,
+            point: self.contact_point(site, direction)?,
+        })
     }
 
     /// The magnitudes alone of the same forces, lazily: one root in all, where vectors and points take five.

@@ -3,7 +3,7 @@
 //! A rational n/d, and a root √(n/d), are scaled by a power of two until their integer part has a
 //! few bits more than the float. What lies below that integer part is summed up in one *sticky* bit:
 //! is it zero or not? Together they decide every rounding, ties to even, through the subnormals
-//! down to zero (THEORY §4). In front of that is a [screen](super::screen), which tells most floats at a glance.
+//! down to zero ([`paper`](crate::paper#exactness)). In front of that is a [screen](super::screen), which tells most floats at a glance.
 
 use num_bigint::BigUint;
 use num_integer::Integer;
@@ -93,6 +93,20 @@ pub(super) fn screened<F: NearestFloat>(
 ) -> Option<F> {
     let (ends, exponent) = enclose(n, d, r)?;
     F::between(negative, ends, exponent)
+}
+
+/// Returns the float that both ends round to once they are multiplied by 2^exponent, if it is one; they lie between 2^−20 and
+/// 2^20. `None` where a f64 or its neighbours would not be normal.
+pub(crate) fn float_between<F: NearestFloat>(
+    negative: bool,
+    ends: [f64; 2],
+    exponent: i64,
+) -> Option<F> {
+    let exponent = i32::try_from(exponent).ok()?;
+    let normal = (-1000..1000).contains(&exponent);
+    normal
+        .then(|| F::between(negative, ends, exponent))
+        .flatten()
 }
 
 macro_rules! nearest_float {

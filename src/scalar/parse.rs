@@ -182,3 +182,52 @@ fn unsigned(text: &str) -> Result<BigInt, Expected> {
     }
     BigInt::parse_bytes(text.as_bytes(), 10).ok_or(NUMBER)
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+    use alloc::string::ToString;
+
+    use super::*;
+
+    #[test]
+    fn there_is_one_limit_of_digits() {
+        let nines = |n: usize| "9".repeat(n);
+        let most = MOST_DIGITS;
+        for read in [
+            nines(most),
+            format!("-{}/{}", nines(most), nines(most - 1)),
+            format!("0.{}", nines(most - 1)),
+            format!("1e{}", most - 1),
+            format!("1e-{}", most - 1),
+            format!("{}e-10", nines(most)),
+        ] {
+            let value = rational(&read).unwrap();
+            // What is printed is read.
+            assert_eq!(rational(&value.to_string()), Ok(value));
+        }
+        for refused in [
+            nines(most + 1),
+            format!("1/{}", nines(most + 1)),
+            format!("0.{}", nines(most)),
+            format!("1e{most}"),
+            format!("10e{}", most - 1),
+            format!("1e-{most}"),
+            format!("1e{}", nines(most)),
+        ] {
+            let message = rational(&refused).unwrap_err().to_string();
+            assert!(message.ends_with("is not a number of at most 5000 digits"));
+            assert!(message.len() < 150, "{message}");
+        }
+    }
+
+    #[test]
+    fn integers_take_powers_of_ten() {
+        for (text, value) in [("1e3", 1_000), ("2.5E+3", 2_500), ("-10e-1", -1), ("+7", 7)] {
+            assert_eq!(integer(text), Ok(value), "{text}");
+        }
+        for text in ["1.0", "1/1", "1e-1", "e3", "1e", "", "1e39", "1e1e1"] {
+            assert!(integer(text).is_err(), "{text}");
+        }
+    }
+}

@@ -16,7 +16,7 @@ use crate::Error;
 /// An exact number c·√n, with c rational and n a positive integer.
 ///
 /// A contact force is n·mg/(3 cosθ) with cos²θ rational; heights carry cosθ, horizontal positions
-/// sinθ and √3 (THEORY §4): all of them are surds. Two surds multiply to a surd and compare exactly,
+/// sinθ and √3 ([`paper`](crate::paper#exactness)): all of them are surds. Two surds multiply to a surd and compare exactly,
 /// through their squares. They do not add to a surd, so this is a value and not a
 /// [scalar](super::Algebra).
 ///
@@ -98,6 +98,9 @@ impl Surd {
     ///
     /// let root = Surd::sqrt(BigRational::new(4.into(), 9.into()))?;
     /// assert_eq!(root.to_rational().unwrap().to_string(), "2/3");
+    /// // The square of a denominator comes out whatever its primes are.
+    /// let root = Surd::sqrt(BigRational::new(2.into(), (1_000_003_i64 * 1_000_003).into()))?;
+    /// assert_eq!(root.to_string(), "1/1000003*sqrt(2)");
     /// assert!(Surd::sqrt(BigRational::from_integer((-1).into())).is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```

@@ -34,6 +34,8 @@ pub struct Numbering<'p> {
     shape: &'p Shape,
     /// The spheres before each layer.
     before: Vec<u64>,
+    /// Those before the bottom layer.
+    above_floor: u64,
     spheres: u64,
 }
 
@@ -48,14 +50,16 @@ impl<'p> Numbering<'p> {
                 remedy: "use fewer layers, or a smaller top or base",
             });
         }
-        let (mut before, mut sum) = (Vec::new(), 0);
+        let (mut before, mut above_floor, mut sum) = (Vec::new(), 0, 0);
         for k in 0..shape.layers() {
             before.push(sum);
+            above_floor = sum;
             sum += few(shape.layer(k)?.sites())?;
         }
         Ok(Self {
             shape,
             before,
+            above_floor,
             spheres: sum,
         })
     }
@@ -99,9 +103,8 @@ impl<'p> Numbering<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn first_on_floor(&self) -> u64 {
-        // There is one layer at least, and before one that is alone there is no sphere.
-        1 + self.before.last().unwrap_or(&0)
+    pub const fn first_on_floor(&self) -> u64 {
+        self.above_floor + 1
     }
 
     /// Returns the number of a sphere.

@@ -2,21 +2,26 @@
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::rc::Rc;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::Column;
+use super::line::Line;
 use crate::Error;
 use crate::scalar::{NearestFloat, Surd};
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// A count or an index, shown as it is in every number format.
+    /// A count, in all number formats alike.
     Integer(BigInt),
+    /// An index, in all number formats alike.
+    Index(i128),
     /// An exact quantity, shown in the number format asked for.
-    Number(Surd),
+    Number(Box<Surd>),
+    /// A quantity that many rows share, as its text in the number format asked for.
+    Shown(Rc<Shown>),
     /// A word.
     Word(Cow<'static, str>),
     /// Yes or no: 1 and 0, in json `true` and `false`.
@@ -25,21 +30,35 @@ pub enum Cell {
     Missing,
 }
 
+/// A number and its text.
+#[derive(Debug, PartialEq)]
+pub struct Shown {
+    pub(super) text: String,
+    /// The exact number, where it is summed.
+    pub(super) exact: Option<Surd>,
+}
+
 impl From<i128> for Cell {
     fn from(value: i128) -> Self {
-        Self::Integer(value.into())
+        Self::Index(value)
     }
 }
 
 impl From<BigRational> for Cell {
     fn from(value: BigRational) -> Self {
-        Self::Number(value.into())
+        Surd::from(value).into()
     }
 }
 
 impl From<Surd> for Cell {
     fn from(value: Surd) -> Self {
-        Self::Number(value)
+        Self::Number(value.into())
+    }
+}
+
+impl From<&Rc<Shown>> for Cell {
+    fn from(shown: &Rc<Shown>) -> Self {
+        Self::Shown(Rc::clone(shown))
     }
 }
 
@@ -49,24 +68,59 @@ impl From<&'static str> for Cell {
     }
 }
 
+impl Shown {
+    /// A number as its text in a format of one column; `quantity` is named if it does not fit.
+    pub(super) fn new(
+        number: &Surd,
+        numbers: NumberFormat,
+        quantity: &'static str,
+        summed: bool,
+    ) -> Result<Rc<Self>, Error> {
+        let text = numbers.show(number, quantity)?;
+        let exact = summed.then(|| number.clone());
+        Ok(Rc::new(Self { text, exact }))
+    }
+}
+
 impl Cell {
-    /// The text of the cell, or both ends if it is an interval; the column is named if the number does not fit.
-    pub(super) fn texts(
+    /// The exact number, for a sum.
+    pub(super) fn exact(&self) -> Option<&Surd> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Shown(shown) => shown.exact.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// Adds the text of the cell to a line, so often as its column has heads, or both ends of a number if it is shown
+    /// as an interval; `column` is named if the number does not fit.
+    pub(super) fn show(
         &self,
-        format: NumberFormat,
-        column: &Column,
-    ) -> Result<Vec<String>, Error> {
-        let text = match self {
-            Self::Number(x) if format == NumberFormat::Interval => {
-                return Ok(ends(x, column.name)?.into());
+        numbers: NumberFormat,
+        column: &'static str,
+        heads: usize,
+        line: &mut Line,
+    ) -> Result<(), Error> {
+        if let (Self::Number(x), NumberFormat::Interval) = (self, numbers) {
+            ends(x, column)?.iter().for_each(|end| line.push_str(end));
+            return Ok(());
+        }
+        for _ in 0..heads {
+            match self {
+                Self::Integer(n) => line.push(n),
+                Self::Index(n) => match i64::try_from(*n) {
+                    // Written faster.
+                    Ok(n) => line.push(n),
+                    Err(_) => line.push(n),
+                },
+                Self::Number(x) => line.push_str(&numbers.show(x, column)?),
+                Self::Shown(shown) => line.push_str(&shown.text),
+                Self::Word(word) => line.push_str(word),
+                Self::Flag(flag) => line.push_str(if *flag { "1" } else { "0" }),
+                Self::Missing => line.push_str(""),
             }
-            Self::Integer(n) => n.to_string(),
-            Self::Number(x) => format.show(x, column.name)?,
-            Self::Word(word) => word.to_string(),
-            Self::Flag(flag) => u8::from(*flag).to_string(),
-            Self::Missing => String::new(),
-        };
-        Ok(vec![text; column.heads(format).len()])
+        }
+        Ok(())
     }
 }
 

@@ -2,10 +2,12 @@
 
 use num_bigint::{BigInt, BigUint};
 
-use super::rows::Layout;
-use super::{Cell, Column, Table, Units};
+use super::cell::Cell;
+use super::rows::{Column, Table};
+use super::tables::refuse_beyond;
+use super::units::Units;
 use crate::shape::Selection;
-use crate::{Counters, Error, Method, Plan, Quantity, Question};
+use crate::{Counters, Error, Plan, Quantity, Question};
 
 /// A question about a pile in some units, as a table of it would put it.
 ///
@@ -108,8 +110,10 @@ impl<'p> Explanation<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn check(&self) -> Result<(), Error> {
-        let remedy = "ask for one layer, one sphere, or the plan only";
-        super::tables::refuse_beyond(&self.plan.rows, remedy)
+        refuse_beyond(
+            &self.plan.rows,
+            "ask for one layer, one sphere, or the plan only",
+        )
     }
 
     /// Answers the question, all of it, and counts what that takes.
@@ -231,17 +235,8 @@ fn counted(counters: &Counters) -> [(&'static str, Cell); 4] {
 }
 
 fn record(entries: Vec<(&'static str, Cell)>) -> Table<'static> {
-    let (columns, row): (Vec<_>, Vec<_>) = entries
-        .into_iter()
-        .map(|(name, cell)| (Column::plain(name), cell))
-        .unzip();
-    Table {
-        columns,
-        layout: Layout::Record,
-        extremes: Vec::new(),
-        bounds: Vec::new(),
-        rows: Box::new(core::iter::once(Ok(row))),
-    }
+    let plain = |(name, cell)| (Column::plain(name), cell);
+    Table::record(entries.into_iter().map(plain).collect())
 }
 
 fn count(n: impl Into<BigInt>) -> Cell {
@@ -257,34 +252,4 @@ fn all<A>(answers: impl Iterator<Item = Result<A, Error>>) -> Result<(), Error> 
         answer?;
     }
     Ok(())
-}
-
-impl Units<'_> {
-    /// The same, found by this method.
-    ///
-    /// # Errors
-    /// As for [`Forces::by`](crate::Forces::by).
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::table::Units;
-    /// use cannonpile::{Method, Pile};
-    ///
-    /// let pile = Pile::discs(5)?;
-    /// assert!(Units::of_pile(&pile).by(Method::Sweep).is_err());
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn by(self, method: Method) -> Result<Self, Error> {
-        Ok(match self {
-            Self::Pile(forces) => Self::Pile(Box::new(forces.by(method)?)),
-            Self::Si(packing) => Self::Si(Box::new(packing.by(method)?)),
-        })
-    }
-
-    pub(super) fn method(&self) -> Option<Method> {
-        match self {
-            Self::Pile(forces) => forces.method(),
-            Self::Si(packing) => packing.method(),
-        }
-    }
 }

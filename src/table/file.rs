@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::WriteError;
-use super::unfinished::Begun;
+use super::error::WriteError;
+use super::unfinished::{PREFIX, Pending, lock, remove_leftovers};
 
 /// Writes a file aside, and renames it into place when it is complete: a failure leaves what was there.
 ///
 /// What is not a regular file, such as a pipe or a device, is written directly. A link is followed, one to
-/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. Killed on the way, it
-/// leaves a hidden file `.cannonpile-…` in the folder, unless a handler of the signal calls
-/// [`remove_unfinished`](super::remove_unfinished).
+/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. A process that is
+/// interrupted can [remove](super::remove_unfinished) what it has written aside. One that is killed leaves a hidden file
+/// `.cannonpile-…` in the folder, which the next call for that folder removes, if it is a minute old.
 ///
 /// # Errors
 /// Those of `write`, and [`WriteError::Io`].
@@ -33,6 +33,7 @@ pub fn write_aside(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
+    remove_leftovers(path.parent().unwrap_or(path));
     Aside::write(path, write)?.keep()?;
     Ok(())
 }
@@ -41,13 +42,13 @@ pub fn write_aside(
 #[derive(Debug)]
 pub(crate) struct Aside {
     /// None if it had to be written directly.
-    file: Option<(NamedTempFile, Begun)>,
+    file: Option<(NamedTempFile, Pending)>,
     target: PathBuf,
     bytes: u64,
 }
 
 impl Aside {
-    /// Writes beside the target; dropped, it leaves nothing.
+    /// Writes into the folder of the target; dropped, it leaves nothing.
     pub(crate) fn write(
         path: &Path,
         write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
@@ -85,23 +86,26 @@ impl Aside {
             // As any new file, not private as temporary files are; the umask still applies.
             aside.permissions(fs::Permissions::from_mode(0o666));
         }
-        let mut aside = aside.prefix(".cannonpile-").tempfile_in(folder)?;
-        let begun = Begun::new(aside.path())?;
+        let mut aside = aside.prefix(PREFIX).tempfile_in(folder)?;
+        let pending = Pending::new(aside.path())?;
+        lock(aside.as_file());
         let bytes = write_to(aside.as_file_mut(), write)?;
         if let Some(permissions) = permissions {
             aside.as_file().set_permissions(permissions)?;
         }
         Ok(Self {
-            file: Some((aside, begun)),
+            file: Some((aside, pending)),
             target,
             bytes,
         })
     }
 
-    /// Renames it into place, and tells how many bytes it has.
+    /// Renames it into place; returns how many bytes it has.
     pub(crate) fn keep(self) -> io::Result<u64> {
-        if let Some((file, _begun)) = self.file {
-            file.persist(&self.target).map_err(|error| error.error)?;
+        if let Some((file, pending)) = self.file {
+            let kept =
+                pending.complete(|| file.persist(&self.target).map_err(|error| error.error))?;
+            drop(kept);
         }
         Ok(self.bytes)
     }

@@ -1,29 +1,36 @@
 //! A table as a json array of objects.
 
 use std::io::Write;
-use std::str::FromStr;
 
-use serde_json::{Map, Number, Value};
-
-use super::{Cell, NumberFormat, Table, WriteError};
+use super::cell::{Cell, NumberFormat};
+use super::error::WriteError;
+use super::line::Line;
+use super::rows::{Column, RowIter, show};
 
 /// Writes `[`, an object a line, `]`.
 pub(super) fn write(
-    table: Table<'_>,
+    columns: &[Column],
+    rows: RowIter<'_>,
     numbers: NumberFormat,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
+    let keys: Vec<Vec<String>> = columns.iter().map(|column| column.heads(numbers)).collect();
+    let mut line = Line::default();
     let mut separator = "[\n";
-    for row in table.rows {
-        let mut object = Map::new();
-        for (column, cell) in table.columns.iter().zip(row?) {
-            let texts = cell.texts(numbers, column)?;
-            for (head, text) in column.heads(numbers).into_iter().zip(texts) {
-                object.insert(head, value(&cell, numbers, text));
+    for row in rows {
+        let row = row?;
+        show(columns, &row, numbers, &mut line)?;
+        out.write_all(separator.as_bytes())?;
+        let mut texts = line.fields();
+        let mut before = '{';
+        for (keys, cell) in keys.iter().zip(&row) {
+            for (key, text) in keys.iter().zip(texts.by_ref()) {
+                write!(out, "{before}\"{key}\":")?;
+                write_value(cell, numbers, text, out)?;
+                before = ',';
             }
         }
-        out.write_all(separator.as_bytes())?;
-        serde_json::to_writer(&mut *out, &object)?;
+        out.write_all(b"}")?;
         separator = ",\n";
     }
     let end = if separator == "[\n" { "[]\n" } else { "\n]\n" };
@@ -31,16 +38,22 @@ pub(super) fn write(
 }
 
 /// Integers and floats are numbers, of any size; exact quantities are strings, which lose nothing.
-fn value(cell: &Cell, numbers: NumberFormat, text: String) -> Value {
-    match cell {
-        Cell::Missing => Value::Null,
-        Cell::Flag(flag) => Value::Bool(*flag),
-        Cell::Word(_) => Value::String(text),
-        Cell::Number(_) if numbers == NumberFormat::Exact => Value::String(text),
-        Cell::Integer(_) | Cell::Number(_) => match Number::from_str(&text) {
-            Ok(number) => Value::Number(number),
-            // Every integer and finite float is a json number.
-            Err(_) => Value::String(text),
-        },
+fn write_value(
+    cell: &Cell,
+    numbers: NumberFormat,
+    text: &str,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let quoted = match cell {
+        Cell::Missing => return Ok(out.write_all(b"null")?),
+        Cell::Flag(flag) => return Ok(write!(out, "{flag}")?),
+        Cell::Word(_) => true,
+        Cell::Number(_) | Cell::Shown(_) => numbers == NumberFormat::Exact,
+        Cell::Integer(_) | Cell::Index(_) => false,
+    };
+    if quoted {
+        Ok(serde_json::to_writer(out, text)?)
+    } else {
+        Ok(out.write_all(text.as_bytes())?)
     }
 }

@@ -1,8 +1,10 @@
 //! Columns, and rows made as they are asked for.
 
-use std::io::Write;
+use num_bigint::BigUint;
 
-use super::{Cell, FileFormat, NumberFormat, WriteError, json, text};
+use super::cell::{Cell, NumberFormat};
+use super::line::Line;
+use super::progress::Progress;
 use crate::Error;
 
 /// A column of a table.
@@ -32,36 +34,54 @@ impl Column {
     /// A quantity in a unit.
     pub(crate) fn measured(name: &'static str, unit: &'static str) -> Self {
         Self {
-            name,
             unit,
-            summed: false,
             quantity: true,
+            ..Self::plain(name)
         }
     }
 
     /// A quantity in a unit whose sum means something.
     pub(super) fn summed(name: &'static str, unit: &'static str) -> Self {
         Self {
-            name,
-            unit,
             summed: true,
-            quantity: true,
+            ..Self::measured(name, unit)
         }
     }
 
-    /// Its headers: two for the ends of intervals.
+    /// How many headers it has: two for the ends of intervals.
+    pub(super) fn places(&self, numbers: NumberFormat) -> usize {
+        1 + usize::from(self.quantity && numbers == NumberFormat::Interval)
+    }
+
+    /// Its headers.
     pub(super) fn heads(&self, numbers: NumberFormat) -> Vec<String> {
         let name = self.name;
-        if self.quantity && numbers == NumberFormat::Interval {
-            vec![format!("{name}_lo"), format!("{name}_hi")]
-        } else {
-            vec![name.to_owned()]
+        match self.places(numbers) {
+            1 => vec![name.to_owned()],
+            _ => vec![format!("{name}_lo"), format!("{name}_hi")],
         }
     }
 }
 
 /// A row, or why it could not be made.
 pub(crate) type Row = Result<Vec<Cell>, Error>;
+
+/// Writes the texts of a row over a line.
+pub(super) fn show(
+    columns: &[Column],
+    row: &[Cell],
+    numbers: NumberFormat,
+    line: &mut Line,
+) -> Result<(), Error> {
+    line.clear();
+    for (column, cell) in columns.iter().zip(row) {
+        cell.show(numbers, column.name, column.places(numbers), line)?;
+    }
+    Ok(())
+}
+
+/// Rows, one after the other.
+pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
 /// How a text table is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,15 +92,17 @@ pub(super) enum Layout {
     Record,
 }
 
-/// A table: columns, and rows made as they are asked for. [`base`](super::base), [`contacts`](super::contacts) and others make them.
+/// A table: columns, and rows made as they are asked for. [`base`](super::base), [`contacts`](super::contacts) and
+/// others make them.
 pub struct Table<'a> {
     pub(super) columns: Vec<Column>,
     pub(super) layout: Layout,
-    /// The rows in which every column takes its extremes.
-    pub(super) extremes: Vec<Row>,
-    /// A row that no row exceeds, where the extremes are not known.
+    /// A row that no row exceeds, as far as quantities may leave the floats.
     pub(super) bounds: Vec<Cell>,
-    pub(crate) rows: Box<dyn Iterator<Item = Row> + 'a>,
+    /// How many rows there are, if that is known.
+    count: Option<BigUint>,
+    /// The rows, made for one number format.
+    pub(super) rows: Box<dyn FnOnce(NumberFormat) -> RowIter<'a> + 'a>,
 }
 
 impl Table<'static> {
@@ -88,11 +110,9 @@ impl Table<'static> {
     pub(crate) fn record(entries: Vec<(Column, Cell)>) -> Self {
         let (columns, row): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
         Self {
-            columns,
             layout: Layout::Record,
-            extremes: vec![Ok(row.clone())],
-            bounds: Vec::new(),
-            rows: Box::new(core::iter::once(Ok(row))),
+            bounds: row.clone(),
+            ..Self::of_rows(columns, "rows", core::iter::once(Ok(row)))
         }
     }
 }
@@ -103,11 +123,11 @@ impl<'a> Table<'a> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::export::{FileFormat, NumberFormat, Units, tables};
     /// use cannonpile::shape::Selection;
+    /// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
     ///
     /// let (pile, mut seen) = (Pile::triangular(10)?, 0);
-    /// let table = tables::base(&Units::of_pile(&pile), Selection::Base)?.inspect(|_| seen += 1);
+    /// let table = table::base(&Units::of_pile(&pile), Selection::Base)?.inspect(|_| seen += 1);
     /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut Vec::new())?;
     /// assert_eq!(seen, 55);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -117,30 +137,53 @@ impl<'a> Table<'a> {
     where
         'a: 'b,
     {
-        let rows = self.rows.inspect(move |row| {
-            if let Ok(row) = row {
-                look(row);
-            }
-        });
+        let rows = self.rows;
         Table {
             columns: self.columns,
             layout: self.layout,
-            extremes: self.extremes,
             bounds: self.bounds,
-            rows: Box::new(rows),
+            count: self.count,
+            rows: Box::new(move |numbers| {
+                let rows = rows(numbers);
+                Box::new(rows.inspect(move |row| {
+                    if let Ok(row) = row {
+                        look(row);
+                    }
+                }))
+            }),
         }
     }
-}
 
-impl Table<'_> {
     /// A table of these rows, a line a row; `noun` says in the plural what they are.
-    pub(crate) fn of_rows(columns: Vec<Column>, noun: &'static str, rows: Vec<Row>) -> Self {
+    pub(crate) fn of_rows(
+        columns: Vec<Column>,
+        noun: &'static str,
+        rows: impl Iterator<Item = Row> + 'a,
+    ) -> Self {
+        Self::made_for(columns, noun, |_| Box::new(rows))
+    }
+
+    /// A table whose rows are made for the number format in which they are shown.
+    pub(super) fn made_for(
+        columns: Vec<Column>,
+        noun: &'static str,
+        rows: impl FnOnce(NumberFormat) -> RowIter<'a> + 'a,
+    ) -> Self {
         Self {
             columns,
             layout: Layout::Rows(noun),
-            extremes: Vec::new(),
             bounds: Vec::new(),
-            rows: Box::new(rows.into_iter()),
+            count: None,
+            rows: Box::new(rows),
+        }
+    }
+
+    /// With so many rows, none of which exceeds `bounds`.
+    pub(super) fn bounded(self, count: BigUint, bounds: Vec<Cell>) -> Self {
+        Self {
+            bounds,
+            count: Some(count),
+            ..self
         }
     }
 
@@ -149,8 +192,8 @@ impl Table<'_> {
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::table::{self, Units};
     /// use cannonpile::shape::Selection;
+    /// use cannonpile::table::{self, Units};
     ///
     /// let pile = Pile::triangular(10)?;
     /// let table = table::base(&Units::of_pile(&pile), Selection::Base)?;
@@ -163,69 +206,51 @@ impl Table<'_> {
         &self.columns
     }
 
-    /// Writes the table. Memory does not grow with the number of rows.
-    ///
-    /// # Errors
-    /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit the format: found before
-    /// anything is written. [`WriteError::Io`] if the output refuses.
+    /// How many rows the table has; `None` where that is known only when all are made, as in a census.
     ///
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
-    /// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
     /// use cannonpile::shape::Selection;
+    /// use cannonpile::table::{self, Units};
     ///
-    /// let pile = Pile::discs(1)?;
-    /// let table = table::base(&Units::of_pile(&pile), Selection::Base)?;
-    /// let mut json = Vec::new();
-    /// table.write(FileFormat::Json, NumberFormat::F64, &mut json)?;
-    /// let json = String::from_utf8(json)?;
-    /// assert_eq!(json.lines().nth(1), Some(r#"{"i":0,"normal":1.0,"shear_x":0.0}"#));
+    /// let pile = Pile::triangular(10)?;
+    /// let table = table::contacts(&Units::of_pile(&pile), Selection::All)?;
+    /// assert_eq!(table.row_count(), Some(495_u32.into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn row_count(&self) -> Option<BigUint> {
+        self.count.clone()
+    }
+
+    /// The table with an observer, which is called from time to time with how many more rows have been made, the last
+    /// of them included.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::table::{self, FileFormat, NumberFormat, Units};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let mut rows = 0;
+    /// table::contacts(&Units::of_pile(&pile), Selection::All)?
+    ///     .observed(|more| rows += more)
+    ///     .write(FileFormat::Csv, NumberFormat::Exact, &mut std::io::sink())?;
+    /// assert_eq!(rows, 495);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn write(
-        self,
-        format: FileFormat,
-        numbers: NumberFormat,
-        out: &mut dyn Write,
-    ) -> Result<(), WriteError> {
-        for row in &self.extremes {
-            self.texts(row.as_ref().map_err(Clone::clone)?, numbers)?;
-        }
-        if self.extremes.is_empty() {
-            self.texts(&self.bounds, numbers)?;
-        }
-        match format {
-            FileFormat::Text => text::write(self, numbers, out),
-            FileFormat::Csv => self.write_csv(numbers, out),
-            FileFormat::Json => json::write(self, numbers, out),
+    #[must_use]
+    pub fn observed(self, observer: impl FnMut(u64) + 'a) -> Self {
+        let rows = self.rows;
+        let observed = move |numbers| -> RowIter<'a> {
+            let mut progress = Progress::new(observer);
+            Box::new(rows(numbers).inspect(move |_| progress.row()))
+        };
+        Self {
+            rows: Box::new(observed),
+            ..self
         }
     }
-
-    fn write_csv(self, numbers: NumberFormat, out: &mut dyn Write) -> Result<(), WriteError> {
-        let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(self.columns.iter().flat_map(|column| column.heads(numbers)))?;
-        let columns = self.columns;
-        for row in self.rows {
-            csv.write_record(texts(&columns, &row?, numbers)?)?;
-        }
-        Ok(csv.flush()?)
-    }
-
-    fn texts(&self, row: &[Cell], numbers: NumberFormat) -> Result<Vec<String>, Error> {
-        texts(&self.columns, row, numbers)
-    }
-}
-
-/// The texts of a row.
-pub(super) fn texts(
-    columns: &[Column],
-    row: &[Cell],
-    numbers: NumberFormat,
-) -> Result<Vec<String>, Error> {
-    let texts = columns
-        .iter()
-        .zip(row)
-        .map(|(column, cell)| cell.texts(numbers, column));
-    Ok(texts.collect::<Result<Vec<_>, _>>()?.concat())
 }

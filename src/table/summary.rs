@@ -1,10 +1,11 @@
 //! A pile in one row.
 
-use num_bigint::BigInt;
+use num_bigint::BigUint;
 use num_rational::BigRational;
 
-use super::rows::Layout;
-use super::{Cell, Column, Table, Units};
+use super::cell::Cell;
+use super::rows::{Column, Table};
+use super::units::Units;
 use crate::geometry::Apart;
 use crate::lattice::Dimension;
 use crate::scalar::Surd;
@@ -38,7 +39,7 @@ pub struct Summary<'p> {
 }
 
 impl<'p> Summary<'p> {
-    /// The summary of the pile of `units`; `touching` is what touches beside the contacts at the spacing in question,
+    /// Sums up the pile of `units`; `touching` is what touches besides the contacts at the spacing in question,
     /// if there is one, and nothing if there is none.
     ///
     /// # Errors
@@ -113,7 +114,7 @@ impl<'p> Summary<'p> {
     /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn table(&self) -> Result<Table<'p>, Error> {
+    pub fn table(&self) -> Result<Table<'static>, Error> {
         let (units, pile) = (&self.units, self.units.pile());
         let (mass, tan) = match units {
             Units::Pile(_) => (None, None),
@@ -144,60 +145,44 @@ impl<'p> Summary<'p> {
             Err(Error::TooLarge { .. }) => Cell::Missing,
             plan => Cell::Word(plan?.method.to_string().into()),
         };
+        let plain = |name, cell: Cell| (Column::plain(name), cell);
+        let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
+        let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
+        let word = |word: String| Cell::Word(word.into());
+        let stands = self.verdict().map(|verdict| verdict.name().into());
+        let touching = self.touching.as_deref().map(describe);
         let entries = [
-            (Column::plain("layers"), pile.layers().into()),
-            (Column::plain("stacking"), Cell::Word(stacking(pile).into())),
-            (
-                Column::plain("spheres"),
-                Cell::Integer(pile.spheres().into()),
-            ),
-            (
-                Column::plain("contacts"),
-                Cell::Integer(pile.contacts().into()),
-            ),
-            (
-                Column::measured("weight", units.normal()),
-                in_units(&pile.weight()),
-            ),
-            (
-                Column::plain("stands"),
-                self.verdict()
-                    .map_or(Cell::Missing, |verdict| verdict.name().into()),
-            ),
-            (
-                Column::measured("min_contact", units.force()),
+            plain("layers", pile.layers().into()),
+            plain("stacking", word(stacking(pile))),
+            count("spheres", pile.spheres()),
+            count("contacts", pile.contacts()),
+            measured("weight", units.normal(), in_units(&pile.weight())),
+            plain("stands", stands.unwrap_or(Cell::Missing)),
+            measured(
+                "min_contact",
+                units.force(),
                 least.map_or(Cell::Missing, Cell::from),
             ),
-            (
-                Column::plain("base_spheres"),
-                Cell::Integer(BigInt::from(pile.base_spheres())),
-            ),
-            (
-                Column::measured("normal_min", units.normal()),
+            count("base_spheres", pile.base_spheres()),
+            measured(
+                "normal_min",
+                units.normal(),
                 of_base(|base| &base.normal_min),
             ),
-            (
-                Column::measured("normal_max", units.normal()),
+            measured(
+                "normal_max",
+                units.normal(),
                 of_base(|base| &base.normal_max),
             ),
-            (
-                Column::measured("max_shear_ratio", ratio_unit),
+            measured(
+                "max_shear_ratio",
+                ratio_unit,
                 ratio.map_or(Cell::Missing, Cell::from),
             ),
-            (
-                Column::plain("touching"),
-                self.touching.as_deref().map_or(Cell::Missing, describe),
-            ),
-            (Column::plain("plan"), plan),
+            plain("touching", touching.unwrap_or(Cell::Missing)),
+            plain("plan", plan),
         ];
-        let (columns, row): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
-        Ok(Table {
-            columns,
-            layout: Layout::Record,
-            extremes: vec![Ok(row.clone())],
-            bounds: Vec::new(),
-            rows: Box::new(core::iter::once(Ok(row))),
-        })
+        Ok(Table::record(entries.into()))
     }
 
     fn least(&self, contact: &ContactForce<BigRational>) -> Result<Surd, Error> {
@@ -222,7 +207,7 @@ pub(super) fn steps(pile: &Pile) -> String {
     as_read(pile).to_string()
 }
 
-/// The stacking as it is read: from the base up, if the pile was grown so.
+/// The stacking in the order in which it is written: from the base up, if the pile was grown so.
 fn as_read(pile: &Pile) -> Stacking {
     let stacking = pile.shape().stacking();
     if pile.shape().is_grown_from_base() {

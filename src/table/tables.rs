@@ -4,157 +4,20 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::rows::{Layout, Row};
+use super::cell::{Cell, NumberFormat, Shown};
+use super::distinct::{Distinct, Forces, Places};
+use super::rows::{Column, Row, RowIter, Table};
 use super::summary::steps;
-use super::{Cell, Column, Table};
+use super::units::Units;
 use crate::census::Entry;
 use crate::lattice::{Dimension, Direction, Site};
-use crate::scalar::{Ring, Surd};
-use crate::shape::{Rows, Selection};
+use crate::scalar::Surd;
+use crate::shape::Selection;
 use crate::theorem::{Proof, Theorem};
-use crate::{ContactForce, Error, FloorForce, Forces, Packing, Pile};
+use crate::{Base, ContactForce, Contacts, Error, FloorForce, Packing, Pile};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;
-
-/// The units of a table.
-#[derive(Clone, Debug)]
-pub enum Units<'p> {
-    /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
-    Pile(Box<Forces<'p, BigRational>>),
-    /// Newtons and metres, for radius, mass and gravity in SI units.
-    Si(Box<Packing<'p>>),
-}
-
-impl<'p> Units<'p> {
-    /// Pile units.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::table::{self, Units};
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let table = table::contacts(&Units::of_pile(&pile), Selection::All)?;
-    /// assert_eq!(table.columns()[4].unit, "mg/(3cosθ)");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn of_pile(pile: &'p Pile) -> Self {
-        Self::Pile(Box::new(pile.forces()))
-    }
-
-    /// SI units.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::table::{self, Units};
-    /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::shape::Selection;
-    /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let units = Units::of_packing(Packing::new(&pile, &spacing)?);
-    /// assert_eq!(table::base(&units, Selection::Base)?.columns()[2].unit, "N");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn of_packing(packing: Packing<'p>) -> Self {
-        Self::Si(Box::new(packing))
-    }
-
-    pub(super) fn pile(&self) -> &'p Pile {
-        match self {
-            Self::Pile(forces) => forces.pile(),
-            Self::Si(packing) => packing.pile(),
-        }
-    }
-
-    /// The forces of the bottom spheres of these rows on the floor.
-    fn base(
-        &self,
-        part: Selection,
-    ) -> Result<Box<dyn Iterator<Item = Result<FloorForce<Surd>, Error>> + 'p>, Error> {
-        Ok(match self {
-            Self::Pile(forces) => {
-                Box::new(forces.base(part)?.map(|force| Ok(force?.map(Surd::from))))
-            }
-            Self::Si(packing) => Box::new(packing.base(part)?),
-        })
-    }
-
-    /// The contacts of the spheres of these rows, as the cells of a table.
-    fn contacts(&self, part: Selection) -> Result<Box<dyn Iterator<Item = Row> + 'p>, Error> {
-        let pile = self.pile();
-        let first = move |site: Site, direction: Direction, force: Cell| {
-            let mut cells = vec![site.k.into()];
-            cells.extend(places(pile, site));
-            cells.extend([direction.name().into(), force]);
-            cells
-        };
-        Ok(match self {
-            Self::Pile(forces) => Box::new(forces.contacts(part)?.map(move |contact| {
-                let contact = contact?;
-                Ok(first(contact.site, contact.direction, contact.force.into()))
-            })),
-            Self::Si(packing) => Box::new(packing.contacts(part)?.map(move |contact| {
-                let contact = contact?;
-                let mut cells = first(contact.site, contact.direction, contact.force.into());
-                cells.extend(contact.vector.map(Cell::from));
-                cells.extend(contact.point.map(Cell::from));
-                Ok(cells)
-            })),
-        })
-    }
-
-    /// A number that no force of the pile exceeds, in mg or f₀: in ℓ² over a layer, no more is passed on than √3 times
-    /// the sum of all weights (THEORY §3).
-    fn greatest_force(&self) -> Surd {
-        let bound = self.pile().weight() * BigRational::from_i128(3);
-        match self {
-            Self::Pile(_) => bound.into(),
-            // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.
-            Self::Si(packing) => {
-                let unit = packing.sphere_weight() * bound;
-                let cos2 = packing.inclination().cos2();
-                // 1/cosθ and tanθ are both at most this; a rational bound is enough.
-                (unit / cos2).into()
-            }
-        }
-    }
-
-    pub(super) fn force(&self) -> &'static str {
-        match self {
-            Self::Si(_) => "N",
-            Self::Pile(_) if self.pile().dimension() == Dimension::Two => "mg/(2cosθ)",
-            Self::Pile(_) if self.pile().is_regular() => "mg/(3cosθ)",
-            Self::Pile(_) => "mg/(2(1+sinφ)cosθ)",
-        }
-    }
-
-    pub(super) fn normal(&self) -> &'static str {
-        if let Self::Si(_) = self { "N" } else { "mg" }
-    }
-
-    fn shear_x(&self) -> &'static str {
-        if let Self::Si(_) = self {
-            "N"
-        } else {
-            "mg·tanθ"
-        }
-    }
-
-    fn shear_y(&self) -> &'static str {
-        match self {
-            Self::Si(_) => "N",
-            Self::Pile(_) if self.pile().is_regular() => "√3·mg·tanθ",
-            Self::Pile(_) => "2cosφ·mg·tanθ",
-        }
-    }
-}
 
 /// The force of each bottom sphere on the floor: `i, j, normal, shear_x, shear_y`; for discs
 /// `i, normal, shear_x`.
@@ -180,36 +43,36 @@ impl<'p> Units<'p> {
 pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = units.pile();
     let rows = pile.rows(selection)?;
-    refuse_beyond(&rows.sites(), "ask for one sphere with --at")?;
+    refuse_beyond(&rows.sites(), "ask for one sphere")?;
     // What cannot be done is refused before a row is written.
-    let forces = units.base(selection)?;
+    let forces = units.forces().base(selection)?;
     let mut columns = indices(pile, &[]);
     columns.push(Column::summed("normal", units.normal()));
     columns.push(Column::summed("shear_x", units.shear_x()));
     if pile.dimension() == Dimension::Three {
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
-    let row = move |force: Result<FloorForce<Surd>, Error>| -> Row {
-        let force = force?;
-        let mut cells = places(pile, force.site);
+    let (count, bounds) = (rows.sites(), bounds(&columns, units));
+    let table = Table::of_rows(columns, "bottom spheres", base_rows(units, forces));
+    Ok(table.bounded(count, bounds))
+}
+
+fn base_rows<'p>(units: &Units<'p>, forces: Base<'p, BigRational>) -> RowIter<'p> {
+    fn cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
+        let mut cells: Vec<Cell> = places(pile, force.site).collect();
         cells.extend([force.normal.into(), force.shear_x.into()]);
         if pile.dimension() == Dimension::Three {
             cells.push(force.shear_y.into());
         }
-        Ok(cells)
-    };
-    let corners = corners(pile, &rows);
-    let mut extremes = Vec::new();
-    for corner in corners {
-        extremes.extend(units.base(corner)?.map(row));
+        cells
     }
-    Ok(Table {
-        bounds: bounds(&columns, units),
-        columns,
-        layout: Layout::Rows("bottom spheres"),
-        extremes,
-        rows: Box::new(forces.map(row)),
-    })
+    let pile = units.pile();
+    match units.clone() {
+        Units::Pile(_) => Box::new(forces.map(|force| Ok(cells(pile, force?)))),
+        Units::Si(packing) => {
+            Box::new(forces.map(move |force| Ok(cells(pile, packing.floor_force(force?)))))
+        }
+    }
 }
 
 /// The contacts between spheres: `k, i, j, direction, force`, and in SI the force on the upper sphere
@@ -238,11 +101,9 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
     let pile = units.pile();
     let directions = pile.dimension().directions();
     let rows = pile.rows(selection)?.off_the_floor();
-    refuse_beyond(
-        &(rows.sites() * directions.len()),
-        "ask for --layer or --at",
-    )?;
-    let contacts = units.contacts(selection)?;
+    let count = rows.sites() * directions.len();
+    refuse_beyond(&count, narrower(selection))?;
+    let forces = units.forces().contacts(selection)?;
     let mut columns = indices(pile, &["k"]);
     columns.push(Column::plain("direction"));
     columns.push(Column::summed("force", units.force()));
@@ -250,41 +111,124 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         columns.extend(["fx", "fy", "fz"].map(|name| Column::measured(name, "N")));
         columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
     }
-    let corners = corners(pile, &rows);
-    let mut extremes = Vec::new();
-    for corner in corners {
-        extremes.extend(units.contacts(corner)?);
-    }
-    Ok(Table {
-        bounds: bounds(&columns, units),
-        columns,
-        layout: Layout::Rows("contacts"),
-        extremes,
-        rows: contacts,
-    })
-}
-
-/// The single spheres in which the columns of a table take their extremes, of a pile that the paper solved.
-fn corners(pile: &Pile, rows: &Rows<'_>) -> impl Iterator<Item = Selection> + use<> {
-    let corners: Vec<Site> = if pile.is_paper_pile() {
-        rows.corners().collect()
-    } else {
-        Vec::new()
+    let bounds = bounds(&columns, units);
+    let units = units.clone();
+    let rows = move |numbers| match numbers {
+        NumberFormat::Exact | NumberFormat::Interval => exact_contacts(&units, forces),
+        NumberFormat::F64 | NumberFormat::F32 => rounded_contacts(&units, forces, numbers),
     };
-    corners.into_iter().map(Selection::One)
+    Ok(Table::made_for(columns, "contacts", rows).bounded(count, bounds))
 }
 
-/// A row that no row of the table exceeds, for the columns that hold forces.
-fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
-    let greatest = units.greatest_force();
-    let bound = |column: &Column| {
-        if column.unit.is_empty() || column.unit == "m" {
-            Cell::Missing
-        } else {
-            greatest.clone().into()
+/// Where a contact is, and the first cells of its row.
+fn contact_cells(pile: &Pile, site: Site, direction: Direction) -> Vec<Cell> {
+    let mut cells = Vec::with_capacity(11);
+    cells.push(site.k.into());
+    cells.extend(places(pile, site));
+    cells.push(direction.name().into());
+    cells
+}
+
+fn exact_contacts<'p>(units: &Units<'p>, forces: Contacts<'p, BigRational>) -> RowIter<'p> {
+    let pile = units.pile();
+    match units.clone() {
+        Units::Pile(_) => Box::new(forces.map(|contact| {
+            let contact = contact?;
+            let mut cells = contact_cells(pile, contact.site, contact.direction);
+            cells.push(contact.force.into());
+            Ok(cells)
+        })),
+        Units::Si(packing) => Box::new(forces.map(move |contact| {
+            let contact = packing.packed(contact?)?;
+            let mut cells = contact_cells(pile, contact.site, contact.direction);
+            cells.push(contact.force.into());
+            cells.extend(contact.vector.map(Cell::from));
+            cells.extend(contact.point.map(Cell::from));
+            Ok(cells)
+        })),
+    }
+}
+
+/// The contacts with floats: each distinct number is rounded and written out once.
+fn rounded_contacts<'p>(
+    units: &Units<'p>,
+    contacts: Contacts<'p, BigRational>,
+    numbers: NumberFormat,
+) -> RowIter<'p> {
+    let pile = units.pile();
+    let shown_force = move |force: &Surd| Shown::new(force, numbers, "force", true);
+    match units {
+        Units::Pile(_) => {
+            let mut forces = Distinct::new();
+            Box::new(contacts.map(move |contact| {
+                let ContactForce {
+                    site,
+                    direction,
+                    force,
+                } = contact?;
+                let force = forces.of(force, |force| shown_force(&force.clone().into()))?;
+                let mut cells = contact_cells(pile, site, direction);
+                cells.push(force.into());
+                Ok(cells)
+            }))
         }
+        Units::Si(packing) => {
+            let mut forces = Forces::new(packing, move |force: &Surd, [x, y, z]: &[Surd; 3]| {
+                let component = |x, name| Shown::new(x, numbers, name, false);
+                let force = shown_force(force)?;
+                Ok([
+                    force,
+                    component(x, "fx")?,
+                    component(y, "fy")?,
+                    component(z, "fz")?,
+                ])
+            });
+            let mut points = Places::new(packing, move |x: &Surd| {
+                Shown::new(x, numbers, "a position", false)
+            });
+            Box::new(contacts.map(move |contact| {
+                let ContactForce {
+                    site,
+                    direction,
+                    force,
+                } = contact?;
+                let mut cells = contact_cells(pile, site, direction);
+                cells.extend(forces.of(site, direction, force)?.iter().map(Cell::from));
+                cells.extend(points.point(site, direction)?.map(Cell::Shown));
+                Ok(cells)
+            }))
+        }
+    }
+}
+
+/// The question that has fewer answers, unless it is the narrowest.
+pub(crate) fn narrower(selection: Selection) -> &'static str {
+    match selection {
+        Selection::Layer(_) | Selection::Base => "ask for one sphere",
+        _ => "ask for one layer or one sphere",
+    }
+}
+
+/// A row that no row of the table exceeds, for the columns that hold forces and places.
+fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
+    let force = units.greatest_force();
+    let bound = |column: &Column| match (column.unit, units) {
+        ("", _) => Cell::Missing,
+        ("m", Units::Si(packing)) => greatest_place(packing).into(),
+        _ => force.clone().into(),
     };
     columns.iter().map(bound).collect()
+}
+
+/// A length that no coordinate of a centre exceeds: from the origin on it takes as many steps of 2R as layers, and as
+/// i and j of the base count.
+fn greatest_place(packing: &Packing<'_>) -> BigRational {
+    let shape = packing.pile().shape();
+    let corners = shape.base().corners();
+    let farthest = corners.iter().flatten().map(|x| x.unsigned_abs()).max();
+    let steps = BigUint::from(farthest.unwrap_or(0)) * 2_u32
+        + BigUint::from(shape.layers().unsigned_abs()) * 3_u32;
+    packing.radius() * BigRational::from(BigInt::from(steps * 2_u32))
 }
 
 /// The spheres, in SI: `id, k, i, j, x, y, z, radius, mass, fixed`; for discs without `j`.
@@ -317,38 +261,55 @@ fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
 pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = packing.pile();
     let rows = pile.rows(selection)?;
-    refuse_beyond(&rows.sites(), "ask for --layer or --at")?;
+    let count = rows.sites();
+    refuse_beyond(&count, narrower(selection))?;
     let mut columns = indices(pile, &["id", "k"]);
     columns.extend(["x", "y", "z", "radius"].map(|name| Column::measured(name, "m")));
     columns.push(Column::summed("mass", "kg"));
     columns.push(Column::plain("fixed"));
+    let bound = |column: &Column| match column.unit {
+        "m" => greatest_place(packing).into(),
+        "kg" => (pile.weight() * packing.mass()).into(),
+        _ => Cell::Missing,
+    };
+    let bounds = columns.iter().map(bound).collect();
+    // Rows follow each other, and so do numbers.
+    let first = match rows.clone().flatten().next() {
+        Some(site) => BigInt::from(pile.shape().before(site)?) + 1,
+        None => BigInt::one(),
+    };
+    let ids = core::iter::successors(Some(first), |id| Some(id + 1));
+    let spheres = ids.zip(rows.flatten());
     let packing = packing.clone();
-    let row = move |(id, site): (BigInt, Site)| -> Row {
+    let rows = move |numbers| -> RowIter<'p> {
+        if matches!(numbers, NumberFormat::Exact | NumberFormat::Interval) {
+            let centre =
+                move |packing: &Packing<'_>, site| Ok(packing.position(site)?.map(Cell::from));
+            return Box::new(sphere_rows(packing, spheres, centre));
+        }
+        let shown = move |x: &Surd| Shown::new(x, numbers, "a position", false);
+        let mut places = Places::new(&packing, shown);
+        Box::new(sphere_rows(packing, spheres, move |_, site| {
+            Ok(places.centre(site)?.map(Cell::Shown))
+        }))
+    };
+    Ok(Table::made_for(columns, "spheres", rows).bounded(count, bounds))
+}
+
+fn sphere_rows<'p>(
+    packing: Packing<'p>,
+    spheres: impl Iterator<Item = (BigInt, Site)> + 'p,
+    mut centre: impl FnMut(&Packing<'p>, Site) -> Result<[Cell; 3], Error> + 'p,
+) -> impl Iterator<Item = Row> + 'p {
+    spheres.map(move |(id, site)| {
+        let pile = packing.pile();
         let mut cells = vec![Cell::Integer(id), site.k.into()];
         cells.extend(places(pile, site));
-        cells.extend(packing.position(site)?.map(Cell::from));
-        cells.extend([
-            packing.radius().clone().into(),
-            packing.mass_of(site)?.into(),
-        ]);
+        cells.extend(centre(&packing, site)?);
+        cells.push(packing.radius().clone().into());
+        cells.push(packing.mass_of(site)?.into());
         cells.push(Cell::Flag(site.k + 1 == pile.layers()));
         Ok(cells)
-    };
-    let id = |site| Ok((BigInt::from(pile.shape().before(site)?) + 1, site));
-    let extremes = rows.corners().map(|site| row(id(site)?)).collect();
-    // Rows follow each other, and so do numbers.
-    let first = rows
-        .clone()
-        .flatten()
-        .next()
-        .map_or(Ok(BigInt::one()), |site| Ok(id(site)?.0));
-    let numbers = core::iter::successors(Some(first?), |id| Some(id + 1));
-    Ok(Table {
-        columns,
-        layout: Layout::Rows("spheres"),
-        extremes,
-        bounds: Vec::new(),
-        rows: Box::new(numbers.zip(rows.flatten()).map(row)),
     })
 }
 
@@ -378,13 +339,7 @@ pub fn theorems<'t>(proved: impl Iterator<Item = (&'t Theorem, Proof)> + 't) -> 
             Cell::Flag(proof.holds()),
         ])
     };
-    Table {
-        columns: columns.into(),
-        layout: Layout::Rows("theorems"),
-        extremes: Vec::new(),
-        bounds: Vec::new(),
-        rows: Box::new(proved.map(row)),
-    }
+    Table::of_rows(columns.into(), "theorems", proved.map(row))
 }
 
 /// The most layers of a stacking whose normal forces a census has.
@@ -452,13 +407,7 @@ pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> T
         });
         Ok(cells)
     };
-    Table {
-        columns,
-        layout: Layout::Rows("stackings"),
-        extremes: Vec::new(),
-        bounds: Vec::new(),
-        rows: Box::new(entries.map(row)),
-    }
+    Table::of_rows(columns, "stackings", entries.map(row))
 }
 
 /// The columns that say where a sphere is: those named first, then i, and j in space.
@@ -477,11 +426,9 @@ fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
 }
 
 /// i, and j in space.
-fn places(pile: &Pile, site: Site) -> Vec<Cell> {
-    match pile.dimension() {
-        Dimension::Two => vec![site.i.into()],
-        Dimension::Three => vec![site.i.into(), site.j.into()],
-    }
+fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
+    let j = (pile.dimension() == Dimension::Three).then_some(site.j);
+    core::iter::once(site.i).chain(j).map(Cell::from)
 }
 
 pub(crate) fn refuse_beyond(rows: &BigUint, remedy: &'static str) -> Result<(), Error> {

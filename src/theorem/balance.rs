@@ -5,19 +5,21 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, above, int, symbol};
+use super::setting::{P, Setting, above, by_component, int, passed_on, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
-use crate::lattice::Direction;
+use crate::lattice::{Direction, Sign};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "paper-system",
-        statement: "The increments Δα = Δβ = 1, Δγ = 2s in the unit mg/(2(1+s)cosθ) solve the paper's system, \
-                    denominators cleared: s(Δα+Δβ) − Δγ = 0, Δα − Δβ = 0, Δα+Δβ+Δγ = 2(1+s); for every φ; an identity",
+        statement: "(3) is the paper's system (4), for any forces, and the increments (6), Δα = Δβ = 1, Δγ = 2s in the \
+                    unit mg/(2(1+s)cosθ), solve (5), denominators cleared: s(Δα+Δβ) − Δγ = 0, Δα − Δβ = 0, \
+                    Δα+Δβ+Δγ = 2(1+s), which is the weight W; for every φ. No others do: the determinant of the \
+                    three directions is 1+s, which is not 0; an identity",
         hypotheses: "0 < s < 1",
         method: ProofKind::Identity,
-        symbols: "s",
+        symbols: "s, w, α, β, γ, α', β', γ'",
         derive: paper_system,
     },
     Theorem {
@@ -31,11 +33,12 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "equilibrium",
-        statement: "Equilibrium of every sphere, at the surface too: the three supports push with what the forces \
-                    from above and the weight press, in all three components, for every φ; an identity",
-        hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j, 0 < s < 1",
+        statement: "Equilibrium of every sphere of the paper's pile, at the surface too: the three supports push with what the \
+                    forces from above and the weight press, in all three components, for every φ; and of every \
+                    sphere of any weight n·mg that receives any forces under steps of one sign; an identity",
+        hypotheses: "0 ≤ j ≤ k, 0 ≤ i ≤ k−j, 0 < s < 1; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
-        symbols: "i, j, k, s",
+        symbols: "i, j, k, s, n, g_1, g_2, g_3",
         derive: equilibrium,
     },
     Theorem {
@@ -59,7 +62,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "central-force",
         statement: "Central force: the forces from above on a sphere of a pile with equilateral base sum to \
-                    mg/(6R cosθ)·r, r its position from the apex; in f₀ and 2R they are equal; an identity",
+                    mg/(6R cosθ)·r, r its position from the apex: in f₀ and 2R both are ((3j−k)/2, (2i+j−k)/2, k), y with \
+                    √3 in its unit; an identity",
         hypotheses: "s = 1/2",
         method: ProofKind::Identity,
         symbols: "i, j, k",
@@ -76,28 +80,43 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
 ];
 
-/// One step for each component of two vectors.
-fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
-    let sides = left.into_array().into_iter().zip(right.into_array());
-    ["x", "y", "z"]
-        .into_iter()
-        .zip(sides)
-        .map(|(axis, (left, right))| Step::equal(format!("{axis}: {claim}"), left, right))
-        .collect()
-}
-
 fn paper_system(f: &Formulas) -> Vec<Step> {
-    let s = symbol("s");
-    let increments = (f.increments)(&s);
-    let [alpha, beta, gamma] = &increments;
+    let setting = Setting::isosceles(f);
+    let s = &setting.s;
+    let up @ [a, b, c] = &["α", "β", "γ"].map(symbol);
+    let down @ [a1, b1, c1] = &["α'", "β'", "γ'"].map(symbol);
+    let (e, weight) = (&setting.directions, symbol("w"));
+    let sum = (f.unbalanced)(up, e, down, e, &weight);
+    let [delta_a, delta_b, delta_c] = [a.clone() - a1, b.clone() - b1, c.clone() - c1];
+    let along_x = s.clone() * &(delta_a.clone() + &delta_b) - &delta_c;
+    let along_z = weight - &delta_a - &delta_b - &delta_c;
+    let [alpha, beta, gamma] = &setting.increments;
     let horizontal = s.clone() * &(alpha.clone() + beta) - gamma;
     let vertical = alpha.clone() + beta + gamma;
-    let weight = int(2) * &(int(1) + &s);
+    let double = int(2) * &(int(1) + s);
+    let [e_a, e_b, e_c] = e;
+    let cross = |v: &Vector<P>, w: &Vector<P>| {
+        [
+            v.y.clone() * &w.z - &(v.z.clone() * &w.y),
+            v.z.clone() * &w.x - &(v.x.clone() * &w.z),
+            v.x.clone() * &w.y - &(v.y.clone() * &w.x),
+        ]
+    };
+    let [x, y, z] = cross(e_b, e_c);
+    let determinant = e_a.x.clone() * &x + &(e_a.y.clone() * &y) + &(e_a.z.clone() * &z);
     Vec::from([
+        Step::equal("(4a), x: s(α−α'+β−β') − γ+γ'", sum.x, along_x),
+        Step::equal(
+            "(4b), twice y: α−α' − β+β'",
+            sum.y * &int(2),
+            delta_a - &delta_b,
+        ),
+        Step::equal("(4c), z: w − (α−α') − (β−β') − (γ−γ')", sum.z, along_z),
         Step::equal("along x: s(Δα+Δβ) − Δγ = 0", horizontal, P::zero()),
         Step::equal("along y: Δα − Δβ = 0", alpha.clone() - beta, P::zero()),
-        Step::equal("along z: Δα+Δβ+Δγ = 2(1+s)", vertical, weight.clone()),
-        Step::equal("W = 2(1+s)", (f.weight)(&increments), weight),
+        Step::equal("along z: Δα+Δβ+Δγ = 2(1+s)", vertical, double.clone()),
+        Step::equal("W = 2(1+s)", setting.weight.clone(), double),
+        Step::equal("ê_a·(ê_b × ê_c) = 1+s", determinant, int(1) + s),
     ])
 }
 
@@ -136,6 +155,20 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
         left,
         Vector::zero(),
     ));
+    let (g, (own, weight)) = (
+        ["g_1", "g_2", "g_3"].map(symbol),
+        setting.loaded(f, &symbol("n")),
+    );
+    let to_below = passed_on(f, g.clone(), &own);
+    for (sign, e) in [
+        ("+", setting.directions.clone()),
+        ("−", setting.turned_directions(f)),
+    ] {
+        let left = (f.unbalanced)(&to_below, &e, &g, &e, &weight);
+        let claim =
+            format!("under {sign}, nothing remains of any forces on a sphere of any weight");
+        steps.extend(by_component(&claim, left, Vector::zero()));
+    }
     steps
 }
 
@@ -172,8 +205,12 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
         .zip(given)
         .enumerate()
         .map(|(line, (direction, given))| {
-            let [di, dj, dk] = (f.descent)(direction).map(int);
-            let below = (f.above)(&(i.clone() + &di), &(j.clone() + &dj), &(k.clone() + &dk));
+            let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
+            let below = (f.above)(
+                &(i.clone() + &di),
+                &(j.clone() + &dj),
+                &(k.clone() + &int(1)),
+            );
             let received = setting.from_above(f, &below).into_iter().nth(line);
             let claim = format!("{direction}: given above = received below");
             Step::equal(claim, given, received.unwrap_or_else(P::zero))
@@ -183,13 +220,26 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
 
 fn central_force(f: &Formulas) -> Vec<Step> {
     let (setting, here) = (Setting::equilateral(f), above(f));
-    let directions = &setting.directions;
-    let force = (f.resultant)(&setting.from_above(f, &here), directions);
-    by_component(
-        "resultant from above = r/(2R)",
-        force,
-        (f.position)(&here, directions),
-    )
+    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    let force = (f.resultant)(&setting.from_above(f, &here), &setting.directions);
+    let at = (f.position)(&here, &setting.directions);
+    let across = int(3) * &j - &k;
+    let along = int(2) * &i + &j - &k;
+    let twice = |v: Vector<P>| v.map(|part| part * &int(2));
+    let written = Vector {
+        x: across,
+        y: along,
+        z: int(2) * &k,
+    };
+    let written_out = "(3j−k, 2i+j−k, 2k)";
+    let mut steps = by_component(
+        &format!("twice the resultant from above is {written_out}"),
+        twice(force),
+        written.clone(),
+    );
+    let claim = format!("twice the position r is {written_out}");
+    steps.extend(by_component(&claim, twice(at), written));
+    steps
 }
 
 fn half_turn(f: &Formulas) -> Vec<Step> {

@@ -80,17 +80,20 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "shear-on-axis",
         statement: "The shear of a bottom sphere is its horizontal position from the axis, in f₀ and 2R, on an \
-                    equilateral base: so it vanishes on the axis and nowhere else; an identity",
-        hypotheses: "s = 1/2",
+                    equilateral base. It vanishes on the axis and nowhere else: with L−1 = 3n+p, twice the shear is \
+                    (3(j−n) − p, 2(i−n) + (j−n) − p), which is zero at i = j = n if p = 0, and nowhere if p is 1 or 2, \
+                    where (in words) 3 does not divide p; an identity",
+        hypotheses: "s = 1/2; p = 0, 1, 2",
         method: ProofKind::Identity,
-        symbols: "L, i, j",
+        symbols: "L, i, j, n",
         derive: shear_on_axis,
     },
     Theorem {
         name: "shear-ratio",
-        statement: "Largest shear/normal ratio: tanθ(L−1)/(L+2), at the three corners and nowhere else, on an equilateral \
-                    base, since the normal force is uniform and (L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α) ≥ 0; \
-                    an identity",
+        statement: "Largest shear/normal ratio: tanθ(L−1)/(L+2) on an equilateral base, since the normal force is L+2 \
+                    everywhere, |shear|² is (L−1)² at the three corners, and (L−1)² − |shear|² = \
+                    3(N_αN_β + N_βN_γ + N_γN_α), which (in words) is 0 where two of the counts are 0, at the corners, \
+                    and positive everywhere else; an identity",
         hypotheses: "s = 1/2, N ≥ 0",
         method: ProofKind::Identity,
         symbols: "L, i, j",
@@ -227,22 +230,52 @@ fn shear_on_axis(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
     let force = on_floor(f, &setting);
     let at = (f.position)(&above_floor(f), &setting.directions);
-    Vec::from([
+    let [i, j, n] = ["i", "j", "n"].map(symbol);
+    let [from_i, from_j] = [i.clone() - &n, j.clone() - &n];
+    let twice = force.clone().map(|part| part * &int(2));
+    let mut steps = Vec::from([
+        Step::equal(
+            "twice x is 3j − (L−1)",
+            at.x.clone() * &int(2),
+            int(3) * &j - &last_layer(),
+        ),
+        Step::equal(
+            "twice y is 2i+j − (L−1)",
+            at.y.clone() * &int(2),
+            int(2) * &i + &j - &last_layer(),
+        ),
         Step::equal("F_x = x", force.x, at.x),
         Step::equal("F_y = y", force.y, at.y),
-    ])
+    ]);
+    for p in 0..3 {
+        let layers = int(3) * &n + &int(p + 1);
+        let [along_x, along_y] =
+            [&twice.x, &twice.y].map(|part| part.substitute(Symbol("L"), &layers));
+        steps.push(Step::equal(
+            format!("L−1 = 3n+{p}: along x, 3(j−n) − {p}"),
+            along_x,
+            int(3) * &from_j - &int(p),
+        ));
+        steps.push(Step::equal(
+            format!("L−1 = 3n+{p}: along y, 2(i−n) + (j−n) − {p}"),
+            along_y,
+            int(2) * &from_i + &from_j - &int(p),
+        ));
+    }
+    steps
 }
 
 fn shear_ratio(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
     let force = on_floor(f, &setting);
     let [a, b, c] = above_floor(f);
-    let last = last_layer();
+    let (last, zero) = (last_layer(), P::zero());
+    let square = last.clone() * &last;
     let pairs = a.clone() * &b + &(b * &c) + &(c * &a);
     let mut steps = Vec::from([
         Step::equal(
             "(L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α)",
-            last.clone() * &last - &setting.horizontal_square(&force),
+            square.clone() - &setting.horizontal_square(&force),
             int(3) * &pairs,
         ),
         Step::equal(
@@ -251,17 +284,12 @@ fn shear_ratio(f: &Formulas) -> Vec<Step> {
             symbol("L") + &int(2),
         ),
     ]);
-    for (line, direction) in Direction::ALL.into_iter().enumerate() {
-        let mut corner = [P::zero(), P::zero(), P::zero()];
-        corner[line] = last.clone();
-        let there = setting.handed_on(f, &corner);
+    let corners = [(&zero, &zero), (&last, &zero), (&zero, &last)];
+    for (direction, (i, j)) in Direction::ALL.into_iter().zip(corners) {
+        let there = setting.handed_on(f, &(f.above)(i, j, &last));
         let claim = format!("|shear|² at the {direction} corner is (L−1)²");
-        let square = last.clone() * &last;
-        steps.push(Step::equal(
-            claim,
-            setting.horizontal_square(&there),
-            square,
-        ));
+        let shear = setting.horizontal_square(&there);
+        steps.push(Step::equal(claim, shear, square.clone()));
     }
     steps
 }

@@ -9,7 +9,7 @@ use super::setting::{
     P, above, int, last_layer, sum_off_floor, sum_over_layer, sum_over_pile, symbol,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
-use crate::lattice::Direction;
+use crate::lattice::{Direction, Sign};
 use crate::scalar::Symbol;
 
 pub(super) const THEOREMS: &[Theorem] = &[
@@ -25,8 +25,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "rotation",
-        statement: "The rotation {j → k−i−j, i → j} about the axis carries N_α → N_β → N_γ → N_α, and three times \
-                    it is the identity; an identity",
+        statement: "The rotation {j → k−i−j, i → j} about the axis carries N_α → N_β → N_γ → N_α; an identity",
         hypotheses: "any site",
         method: ProofKind::Identity,
         symbols: "i, j, k",
@@ -42,8 +41,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "contacts",
-        statement: "A pile has L(L−1)(L+1)/2 contacts, three below each sphere that is not on the floor; by \
-                    summing over the layers",
+        statement: "A pile has L(L−1)(L+1)/2 contacts: one in each of three directions below each sphere that is not on \
+                    the floor, and, counted from below, one above each sphere on each line on which N ≥ 1; by \
+                    summing over the spheres",
         hypotheses: "L ≥ 1",
         method: ProofKind::Sum,
         symbols: "L",
@@ -75,8 +75,12 @@ fn counts(f: &Formulas) -> Vec<Step> {
         ));
     }
     for (line, direction) in Direction::ALL.into_iter().enumerate() {
-        let [di, dj, dk] = (f.descent)(direction).map(int);
-        let below = (f.above)(&(i.clone() + &di), &(j.clone() + &dj), &(k.clone() + &dk));
+        let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
+        let below = (f.above)(
+            &(i.clone() + &di),
+            &(j.clone() + &dj),
+            &(k.clone() + &int(1)),
+        );
         for (other, (name, n)) in names.iter().zip(below).enumerate() {
             let more = if other == line {
                 P::one()
@@ -105,39 +109,19 @@ fn counts(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// The rotation of the site (i, j) of layer k.
-fn rotated([i, j]: [P; 2], k: &P) -> [P; 2] {
-    let image = k.clone() - &i - &j;
-    [j, image]
-}
-
 fn rotation(f: &Formulas) -> Vec<Step> {
-    let k = symbol("k");
-    let site = || [symbol("i"), symbol("j")];
+    let [i, j, k] = ["i", "j", "k"].map(symbol);
     let [n_alpha, n_beta, n_gamma] = above(f);
-    let [i, j] = rotated(site(), &k);
-    let image = (f.above)(&i, &j, &k);
+    let image = (f.above)(&j, &(k.clone() - &i - &j), &k);
     let carried = [
         ("N_α of the image is N_β", n_beta),
         ("N_β of the image is N_γ", n_gamma),
         ("N_γ of the image is N_α", n_alpha),
     ];
     let carried = carried.into_iter().zip(image);
-    let mut steps: Vec<Step> = carried
+    carried
         .map(|((claim, right), left)| Step::equal(claim, left, right))
-        .collect();
-    let thrice = rotated(rotated(rotated(site(), &k), &k), &k);
-    let [i, j] = &thrice;
-    let names = ["N_α", "N_β", "N_γ"].into_iter();
-    let back = names.zip((f.above)(i, j, &k)).zip(above(f));
-    steps.extend(back.map(|((name, left), right)| {
-        Step::equal(
-            format!("three times the rotation leaves {name}"),
-            left,
-            right,
-        )
-    }));
-    steps
+        .collect()
 }
 
 fn spheres(f: &Formulas) -> Vec<Step> {
@@ -162,10 +146,39 @@ fn spheres(f: &Formulas) -> Vec<Step> {
 fn contacts(f: &Formulas) -> Vec<Step> {
     let l = symbol("L");
     let closed = l.clone() * &(l.clone() - &P::one()) * &(l.clone() + &P::one());
-    Vec::from([
+    // A site with a sphere above it on a line is the image of one off the floor: the site N = 0 of each line is left out.
+    let [j, k] = ["j", "k"].map(symbol);
+    let (zero, one) = (P::zero(), P::one());
+    let rows = k.clone() - &j;
+    let above = [
+        // (j from, i from, i to)
+        ("N_α = k−i−j ≥ 1", &zero, &zero, rows.clone() - &one),
+        ("N_β = i ≥ 1", &zero, &one, rows.clone()),
+        ("N_γ = j ≥ 1", &one, &zero, rows),
+    ];
+    let mut in_all = P::zero();
+    let mut steps = Vec::new();
+    for (claim, first_row, first, last) in above {
+        let row = P::one().sum(Symbol("i"), first, &last);
+        let layer = row.sum(Symbol("j"), first_row, &k);
+        let touched = layer.sum(Symbol("k"), &zero, &last_layer());
+        in_all = in_all + &touched;
+        let off_floor = (f.spheres)(&last_layer(), 3);
+        let claim = format!("spheres with {claim}: as many as off the floor");
+        steps.push(Step::equal(claim, touched, off_floor));
+    }
+    let below = Direction::ALL
+        .iter()
+        .fold(P::zero(), |sum, _| sum + &sum_off_floor(&P::one()));
+    steps.extend([
         Step::equal(
-            "Σ 3 over the spheres off the floor",
-            sum_off_floor(&int(3)),
+            "Σ over the spheres off the floor of the contacts below",
+            below,
+            (f.contacts)(&l, 3),
+        ),
+        Step::equal(
+            "Σ over all spheres of the contacts above",
+            in_all,
             (f.contacts)(&l, 3),
         ),
         Step::equal(
@@ -173,7 +186,8 @@ fn contacts(f: &Formulas) -> Vec<Step> {
             (f.contacts)(&l, 3) * &int(2),
             closed,
         ),
-    ])
+    ]);
+    steps
 }
 
 fn strengths(f: &Formulas) -> Vec<Step> {

@@ -22,12 +22,14 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "dimensions",
-        statement: "In d = 2 … 6 dimensions, with barycentric counts n_1 + … + n_d = L−1: the normal force on the floor is \
-                    mg(L+d−1)/d under every bottom sphere, one increment is added on every line, the spheres number \
+        statement: "In d = 2 … 6 dimensions a sphere stands on d others, in the directions of the corners of a regular \
+                    simplex, and adds 1 to each line. It is in equilibrium whatever it receives, and what it passes on \
+                    after n_m spheres of a line is what the sphere below receives after n_m + 1. With n_1 + … + n_d = L−1 \
+                    the normal force on the floor is mg(L+d−1)/d under every bottom sphere, the spheres number \
                     C(L+d−1, d), and the normal forces sum to their weight; identities, and by summing over the layers",
-        hypotheses: "n_m ≥ 0, L ≥ 1",
+        hypotheses: "n_m ≥ 0, L ≥ 1; any g_1 … g_d",
         method: ProofKind::Sum,
-        symbols: "L, k, n_1 … n_d",
+        symbols: "L, k, n_1 … n_d, g_1 … g_d",
         derive: dimensions,
     },
 ];
@@ -81,39 +83,69 @@ fn dimensions(f: &Formulas) -> Vec<Step> {
 }
 
 const COUNTS: [&str; 6] = ["n_1", "n_2", "n_3", "n_4", "n_5", "n_6"];
+const FORCES: [&str; 6] = ["g_1", "g_2", "g_3", "g_4", "g_5", "g_6"];
 
 fn in_dimension<const D: usize>(f: &Formulas, steps: &mut Vec<Step>) {
     let d = u32::try_from(D).unwrap_or(u32::MAX);
     let dimension = int(d.into());
     let (l, k) = (symbol("L"), symbol("k"));
+    let named = |names: [&'static str; 6]| -> [P; D] {
+        core::array::from_fn(|m| symbol(names.get(m).copied().unwrap_or("n")))
+    };
     let own: [P; D] = core::array::from_fn(|_| P::one());
+    let weight = (f.weight)(&own);
+    let claim = |text: &str| format!("d = {d}: {text}");
+    // A sphere passes on one increment more than it receives along each of its lines, whatever that is.
+    let received = named(FORCES).into_iter().zip(&own);
+    let added: Vec<P> = received
+        .map(|(g, w)| (f.passed_on)(g.clone(), w) - &g)
+        .collect();
+    let vertical = added.iter().fold(P::zero(), |sum, more| sum + more);
+    steps.push(Step::equal(
+        claim("what the supports push more than the spheres above is the weight"),
+        vertical,
+        weight.clone(),
+    ));
+    // d times the horizontal part of a direction in d coordinates that sum to zero: d−1 along its own, −1 along the others.
+    for coordinate in 0..D {
+        let components = added.iter().enumerate().map(|(line, more)| {
+            let part = if line == coordinate {
+                dimension.clone() - &P::one()
+            } else {
+                -P::one()
+            };
+            part * more
+        });
+        let sideways = components.fold(P::zero(), |sum, part| sum + &part);
+        let claim = claim(&format!(
+            "no push to the side, coordinate {}",
+            coordinate + 1
+        ));
+        steps.push(Step::equal(claim, sideways, P::zero()));
+    }
     // The last count is what the others leave of L−1.
-    let mut counts: [P; D] =
-        core::array::from_fn(|m| symbol(COUNTS.get(m).copied().unwrap_or("n")));
+    let mut counts = named(COUNTS);
     let others = counts.iter().skip(1).fold(P::zero(), |sum, n| sum + n);
     if let Some(first) = counts.first_mut() {
         *first = last_layer() - &others;
     }
-    let normal = l.clone() + &(dimension.clone() - &int(1));
-    let claim = |text: &str| format!("d = {d}: {text}");
-    let weight = (f.weight)(&own);
-    let above = counts
-        .iter()
-        .zip(&own)
-        .map(|(n, w)| (f.force)(n.clone(), w));
-    let carried = above.fold(weight, |sum, force| sum + &force);
-    steps.push(Step::equal(
-        claim("normal force, in mg/d, is L+d−1"),
-        carried,
-        normal.clone(),
-    ));
     for (n, w) in counts.iter().zip(&own) {
         steps.push(Step::equal(
-            claim("one increment more on each line"),
+            claim("what is passed on is received below"),
             (f.passed_on)((f.force)(n.clone(), w), w),
             (f.force)(n.clone() + &P::one(), w),
         ));
     }
+    let normal = l.clone() + &(dimension.clone() - &int(1));
+    let above = counts
+        .iter()
+        .zip(&own)
+        .map(|(n, w)| (f.force)(n.clone(), w));
+    steps.push(Step::equal(
+        claim("normal force, in mg/d, is L+d−1"),
+        above.fold(weight, |sum, force| sum + &force),
+        normal.clone(),
+    ));
     steps.push(Step::equal(
         claim("Σ over the layers of their spheres"),
         (f.spheres_in_layer)(&k, d).sum(Symbol("k"), &P::zero(), &last_layer()),

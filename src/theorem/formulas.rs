@@ -2,24 +2,26 @@
 
 use crate::formula;
 use crate::geometry::{self, Vector};
-use crate::lattice::{Direction, count};
+use crate::lattice::{Direction, Sign, count};
 use crate::scalar::Polynomial;
 
 type P = Polynomial;
+/// By direction α, β, γ; of bounds, those of i, j and i+j.
+type Three = [P; 3];
 /// ê_a, ê_b, ê_c.
 type Directions = [Vector<P>; 3];
-/// Lower or upper bounds of i, j and i+j.
-type Bounds = [P; 3];
-/// Of the lines α, β, γ.
-type Three = [P; 3];
 
-/// The formulas of the crate, run on polynomials. What each one means is said where it links to.
+/// The formulas of the crate, run on polynomials: what each one means is said where it links to.
+///
+/// They are exactly the functions that engines and answers call: a test reads the sources for it.
 #[derive(Clone, Copy, Debug)]
 pub struct Formulas {
     /// [`count::above`].
-    pub above: fn(&P, &P, &P) -> [P; 3],
-    /// [`Direction::descent`].
-    pub descent: fn(Direction) -> [i128; 3],
+    pub above: fn(&P, &P, &P) -> Three,
+    /// [`count::bounds_above`].
+    pub bounds_above: fn(&P, &P, &Three, &Three, &P, Sign) -> [[P; 4]; 3],
+    /// [`Sign::descent`].
+    pub descent: fn(Sign, Direction) -> [i128; 2],
     /// [`count::spheres`].
     pub spheres: fn(&P, u32) -> P,
     /// [`count::spheres_in_layer`].
@@ -28,16 +30,16 @@ pub struct Formulas {
     pub contacts: fn(&P, u32) -> P,
     /// [`count::contacts_of_strength`].
     pub contacts_of_strength: fn(&P, &P, u32) -> P,
-    /// [`count::bounds_above`].
-    pub bounds_above: fn(&P, &P, &Bounds, &Bounds, &P) -> [[P; 4]; 3],
     /// [`geometry::directions`].
     pub directions: fn(&P) -> Directions,
     /// [`geometry::disc_directions`].
     pub disc_directions: fn() -> Directions,
+    /// [`Vector::turned_about_z`].
+    pub turned_about_z: fn(Vector<P>) -> Vector<P>,
     /// [`geometry::position`].
-    pub position: fn(&[P; 3], &Directions) -> Vector<P>,
+    pub position: fn(&Three, &Directions) -> Vector<P>,
     /// [`geometry::squared_distance`].
-    pub squared_distance: fn(&[P; 3], &P, &P) -> P,
+    pub squared_distance: fn(&Three, &P, &P) -> P,
     /// [`formula::increments`].
     pub increments: fn(&P) -> Three,
     /// [`formula::weight`].
@@ -61,17 +63,18 @@ pub struct Formulas {
 }
 
 impl Formulas {
-    /// The functions that users call.
+    /// The functions that engines and answers call.
     pub const LIBRARY: Self = Self {
         above: count::above,
-        descent: Direction::descent,
+        bounds_above: count::bounds_above,
+        descent: Sign::descent,
         spheres: count::spheres,
         spheres_in_layer: count::spheres_in_layer,
         contacts: count::contacts,
         contacts_of_strength: count::contacts_of_strength,
-        bounds_above: count::bounds_above,
         directions: geometry::directions,
         disc_directions: geometry::disc_directions,
+        turned_about_z: Vector::turned_about_z,
         position: geometry::position,
         squared_distance: geometry::squared_distance,
         increments: formula::increments,

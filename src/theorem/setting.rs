@@ -1,8 +1,11 @@
 //! Symbols, sums over piles, and what a pile is made of, for the proofs.
 
+use alloc::format;
+use alloc::vec::Vec;
+
 use num_traits::{One, Zero};
 
-use super::Formulas;
+use super::{Formulas, Step};
 use crate::geometry::Vector;
 use crate::scalar::{Algebra, Polynomial, Ring, Symbol};
 
@@ -75,13 +78,18 @@ impl Setting {
 
     /// What a sphere passes on of the forces from above.
     pub(super) fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
-        let [w_a, w_b, w_c] = &self.increments;
-        let [a, b, c] = from_above;
-        [
-            (f.passed_on)(a, w_a),
-            (f.passed_on)(b, w_b),
-            (f.passed_on)(c, w_c),
-        ]
+        passed_on(f, from_above, &self.increments)
+    }
+
+    /// What a sphere of weight `n` adds to its lines, and that weight in the unit of forces.
+    pub(super) fn loaded(&self, f: &Formulas, n: &P) -> ([P; 3], P) {
+        let own = self.from_above(f, &[n.clone(), n.clone(), n.clone()]);
+        (own, (f.force)(n.clone(), &self.weight))
+    }
+
+    /// The unit vectors along contacts under − steps.
+    pub(super) fn turned_directions(&self, f: &Formulas) -> [Vector<P>; 3] {
+        self.directions.clone().map(f.turned_about_z)
     }
 
     /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
@@ -102,6 +110,25 @@ impl Setting {
         let across = int(4) * &(P::one() - &(self.s.clone() * &self.s));
         v.x.clone() * &v.x + &(across * &(v.y.clone() * &v.y))
     }
+}
+
+/// What a sphere passes on along its three lines, from what it receives and adds.
+pub(super) fn passed_on(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
+    let [own_a, own_b, own_c] = own;
+    [
+        (f.passed_on)(a, own_a),
+        (f.passed_on)(b, own_b),
+        (f.passed_on)(c, own_c),
+    ]
+}
+
+/// One step for each component of two vectors.
+pub(super) fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
+    let sides = left.into_array().into_iter().zip(right.into_array());
+    let sides = ["x", "y", "z"].into_iter().zip(sides);
+    sides
+        .map(|(axis, (left, right))| Step::equal(format!("{axis}: {claim}"), left, right))
+        .collect()
 }
 
 /// The counts of spheres above (i, j, k), all symbols.

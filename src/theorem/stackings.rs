@@ -5,126 +5,205 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, int, symbol};
+use super::setting::{P, Setting, by_component, int, passed_on, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::formula::THREE;
 use crate::geometry::Vector;
-use crate::lattice::Direction;
-use crate::scalar::Algebra;
+use crate::lattice::{Direction, Sign};
+use crate::scalar::{Algebra, Symbol};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "region-counts",
         statement: "Any base under straight steps: m steps into a run, in a layer x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, \
                     s₀ ≤ i+j ≤ s₁, the spheres above (i, j) are min(m, x₁−i, y₁−j, s₁−i−j) along α, \
-                    min(m, i−x₀, y₁−j, i+j−s₀) along β, min(m, j−y₀, x₁−i, i+j−s₀) along γ: each argument is 0 at \
-                    its surface, or at the first layer of the run, and one more at the sphere below on the line; by \
-                    induction, for − steps under (i, j) → (−i, −j)",
-        hypotheses: "bounds tight",
+                    min(m, i−x₀, y₁−j, i+j−s₀) along β, min(m, j−y₀, x₁−i, i+j−s₀) along γ, and under − steps the \
+                    same with upper and lower bounds in each other's place. Of the next site up the line, in the layer \
+                    above, whose bounds are one tighter on the side to which the steps lead, three distances to bounds \
+                    are those of (i, j), the other three and m are one less, and these are the arguments of the min. So \
+                    (in words, by induction) if all arguments are ≥ 1 there is a sphere above, with one less above it; if \
+                    one is 0 there is none. Of the paper's pile they are (9), and others no less; by induction",
+        hypotheses: "(i, j) within the bounds, m ≥ 0, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
         method: ProofKind::Induction,
-        symbols: "i, j, m, x_0, x_1, y_0, y_1, s_0, s_1",
+        symbols: "i, j, k, m, x_0, x_1, y_0, y_1, s_0, s_1",
         derive: region_counts,
     },
     Theorem {
         name: "run",
         statement: "Within a run of one sign a line of contacts that carries f at its first sphere carries f + m w \
-                    after m spheres more, w an increment: one jump is as good as m steps; by induction",
+                    after m spheres more, each of which passes on an increment w more than it receives: one jump is as \
+                    good as m steps, and what some spheres add besides may be added in any order; by induction",
         hypotheses: "m ≥ 0",
         method: ProofKind::Induction,
-        symbols: "f, m, s",
+        symbols: "f, m, e, s",
         derive: run,
     },
     Theorem {
         name: "tripled-half-turn",
-        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, which the exact engine computes, is 3Gg; an identity",
+        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, which the exact engine computes, and (2(g_2+g_3) − g_1, …), which bounds \
+                    are computed by, are 3Gg; an identity",
         hypotheses: "any forces",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
         derive: tripled,
     },
     Theorem {
-        name: "edge",
-        statement: "A run of m steps begins with a sphere on the edge that passes on f along its one loaded line; m \
-                    steps further down the line ends at a sphere that receives f + m − 1 along it and nothing else. \
-                    If the sign changes there, that sphere passes on 1 − (f+m−1)/3 along it, which is negative if \
-                    f + m > 4: so no run of five steps or more, after which the sign changes, stands; an identity",
-        hypotheses: "f ≥ 0, m ≥ 1, weights of mg",
+        name: "change-of-sign",
+        statement: "Equilibrium at a change of sign: a sphere of weight n·mg that receives any forces g along the \
+                    directions of one sign, and passes on Gg + n(1, 1, 1) along those of the other, is in equilibrium, \
+                    from + to − and from − to +; on an equilateral base; an identity",
+        hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
         method: ProofKind::Identity,
-        symbols: "f, m",
+        symbols: "g_1, g_2, g_3, n",
+        derive: change_of_sign,
+    },
+    Theorem {
+        name: "edge",
+        statement: "Under + steps spheres on the edge i+j = s₀ of a layer receive nothing along β and γ, those on i = x₁ \
+                    nothing along γ and α, those on j = y₁ nothing along α and β, and under − steps those on the edges \
+                    opposite. The third line stays on the edge (theorem region-counts): so if its first sphere in a run \
+                    of m steps passes on f, the last receives f + m − 1 along it and nothing else. If the sign changes \
+                    there, it passes on 1 − (f+m−1)/3 along it, a third of 4 − f − m: of −(1+f+p) if m = 5+p. So (in \
+                    words) no run of five steps or more, after which the sign changes, stands; an identity",
+        hypotheses: "f ≥ 0, m ≥ 1, p ≥ 0, weights of mg",
+        method: ProofKind::Identity,
+        symbols: "f, i, j, m, p, x_0, x_1, y_0, y_1, s_0, s_1",
         derive: edge,
     },
     Theorem {
         name: "point-load",
         statement: "A unit load on a wide flat top, in any stacking: at depth n the vertical parts v of the contact \
                     forces have Σv = 1, Σv² = 1/3, Σv r = 0 and Σv r² = n²ρ², r from the load's line to the lower \
-                    sphere, ρ = 2R sinθ. The first layer has them, and every sphere passes them on, with C = Σv r·d, \
-                    d the horizontal step of a contact: Σv r² grows by 2C + ρ² and C = nρ² by ρ², across a change of \
-                    sign or not. Loads add up, and a weight is a load: so under gravity, of every stacking and base, \
-                    ΣF_z is the weight, ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ); by induction",
-        hypotheses: "s = 1/2, no other weights",
+                    sphere, ρ = 2R sinθ. The first layer has them, under either sign. With d the horizontal step of a \
+                    contact, Σv, Σv² and Σv d of the contacts below any sphere are those of the contacts above it, while \
+                    C = Σv r·d grows by ρ²Σv and Σv r² by 2C + ρ²Σv, whatever the two signs are: so (in words) C = nρ² \
+                    and Σv r² = n²ρ². Spheres pass on the sum of what two loads bring, and a weight is a load: so (in \
+                    words, by summing over the spheres) under gravity, of every stacking and base, ΣF_z is the weight, \
+                    ΣF_z r_b = Σ mg r_s and ΣF_z r_b² = Σ mg (r_s² + H_s² tan²θ); by induction",
+        hypotheses: "s = 1/2",
         method: ProofKind::Induction,
-        symbols: "g_1, g_2, g_3, x, y",
+        symbols: "g_1, g_2, g_3, h_1, h_2, h_3, x, y",
         derive: point_load,
     },
 ];
 
+const SIGNS: [(&str, Sign); 2] = [("+", Sign::Plus), ("−", Sign::Minus)];
+
+/// How far a site is inside the bounds: from x₁, y₁, s₁, x₀, y₀, s₀.
+fn distances(i: &P, j: &P, lower: &[P; 3], upper: &[P; 3]) -> [P; 6] {
+    let ([x0, y0, s0], [x1, y1, s1]) = (lower, upper);
+    let sum = i.clone() + j;
+    [
+        x1.clone() - i,
+        y1.clone() - j,
+        s1.clone() - &sum,
+        i.clone() - x0,
+        j.clone() - y0,
+        sum - s0,
+    ]
+}
+
+/// Which of the [`distances`] are the arguments of a line.
+const fn arguments(sign: Sign, direction: Direction) -> [usize; 3] {
+    match (sign, direction) {
+        (Sign::Plus, Direction::Alpha) => [0, 1, 2],
+        (Sign::Plus, Direction::Beta) => [3, 1, 5],
+        (Sign::Plus, Direction::Gamma) => [4, 0, 5],
+        (Sign::Minus, Direction::Alpha) => [3, 4, 5],
+        (Sign::Minus, Direction::Beta) => [0, 4, 2],
+        (Sign::Minus, Direction::Gamma) => [1, 3, 2],
+    }
+}
+
 fn region_counts(f: &Formulas) -> Vec<Step> {
+    const NAMES: [&str; 6] = ["x₁−i", "y₁−j", "s₁−i−j", "i−x₀", "j−y₀", "i+j−s₀"];
     let [i, j, m] = ["i", "j", "m"].map(symbol);
     let lower = ["x_0", "y_0", "s_0"].map(symbol);
     let upper = ["x_1", "y_1", "s_1"].map(symbol);
-    let names = [
-        ["m", "x₁−i", "y₁−j", "s₁−i−j"],
-        ["m", "i−x₀", "y₁−j", "i+j−s₀"],
-        ["m", "j−y₀", "x₁−i", "i+j−s₀"],
-    ];
-    let here = (f.bounds_above)(&i, &j, &lower, &upper, &m);
-    let wider = upper.each_ref().map(|bound| bound.clone() + &P::one());
+    let here = distances(&i, &j, &lower, &upper);
     let mut steps = Vec::new();
-    for (line, direction) in Direction::ALL.into_iter().enumerate() {
-        let [di, dj, dk] = (f.descent)(direction).map(int);
-        let (below_i, below_j) = (i.clone() + &di, j.clone() + &dj);
-        let below = (f.bounds_above)(&below_i, &below_j, &lower, &wider, &(m.clone() + &dk));
-        let sides = here[line].iter().zip(&below[line]).zip(names[line]);
-        for ((here, below), name) in sides {
-            let claim = format!("step along {direction}: {name} grows by one");
-            steps.push(Step::equal(claim, below.clone(), here.clone() + &P::one()));
+    for (name, sign) in SIGNS {
+        let bounds = (f.bounds_above)(&i, &j, &lower, &upper, &m, sign);
+        let tighter = |bounds: &[P; 3], by: i128| bounds.each_ref().map(|b| b.clone() + &int(by));
+        let (lower, upper) = match sign {
+            Sign::Plus => (lower.clone(), tighter(&upper, -1)),
+            Sign::Minus => (tighter(&lower, 1), upper.clone()),
+        };
+        for (direction, bounds) in Direction::ALL.into_iter().zip(bounds) {
+            let of_line = arguments(sign, direction);
+            let [most, a, b, c] = bounds;
+            let claim = |what: &str| format!("{direction} under {name}: {what}");
+            steps.push(Step::equal(claim("an argument is m"), most, m.clone()));
+            for (argument, n) in [a, b, c].into_iter().zip(of_line) {
+                let claim = claim(&format!("an argument is {}", NAMES[n]));
+                steps.push(Step::equal(claim, argument, here[n].clone()));
+            }
+            let [di, dj] = (f.descent)(sign, direction).map(int);
+            let above = distances(&(i.clone() - &di), &(j.clone() - &dj), &lower, &upper);
+            for (n, above) in above.into_iter().enumerate() {
+                let (less, text) = if of_line.contains(&n) {
+                    (1, "is one less above")
+                } else {
+                    (0, "is the same above")
+                };
+                let claim = claim(&format!("{} {text}", NAMES[n]));
+                steps.push(Step::equal(claim, above, here[n].clone() - &int(less)));
+            }
         }
     }
-    // At each surface, and above the first step, the argument that belongs to it vanishes.
-    let [x0, y0, s0] = lower.clone();
-    let [x1, y1, s1] = upper.clone();
-    let surfaces = [
-        ("i = x₁", &x1, &j, &m, [Some(1), None, Some(2)]),
-        ("j = y₁", &i, &y1, &m, [Some(2), Some(2), None]),
-        ("i+j = s₁", &(s1 - &j), &j, &m, [Some(3), None, None]),
-        ("i = x₀", &x0, &j, &m, [None, Some(1), None]),
-        ("j = y₀", &i, &y0, &m, [None, None, Some(1)]),
-        ("i+j = s₀", &(s0 - &j), &j, &m, [None, Some(3), Some(3)]),
-        ("m = 0", &i, &j, &P::zero(), [Some(0); 3]),
+    // The paper's pile, 0 ≤ i, j, i+j ≤ k: each argument is N and something that is not negative.
+    let k = symbol("k");
+    let (none, all) = ([(); 3].map(|()| P::zero()), [(); 3].map(|()| k.clone()));
+    let bounds = (f.bounds_above)(&i, &j, &none, &all, &k, Sign::Plus);
+    let counts = (f.above)(&i, &j, &k);
+    let (sum, rest) = (i.clone() + &j, k - &i - &j);
+    let more = [
+        [sum.clone(), j.clone(), i.clone(), P::zero()],
+        [sum_of(&rest, &j), P::zero(), rest.clone(), j],
+        [sum_of(&rest, &i), P::zero(), rest, i],
     ];
-    for (surface, i, j, m, arguments) in surfaces {
-        let bounds = (f.bounds_above)(i, j, &lower, &upper, m);
-        for ((bounds, argument), direction) in bounds.iter().zip(arguments).zip(Direction::ALL) {
-            if let Some(bound) = argument.and_then(|argument| bounds.get(argument)) {
-                let claim = format!("base case: {direction} begins at {surface}");
-                steps.push(Step::equal(claim, bound.clone(), P::zero()));
-            }
+    let lines = Direction::ALL.into_iter().zip(bounds).zip(counts).zip(more);
+    for (((direction, bounds), count), more) in lines {
+        for (bound, more) in bounds.into_iter().zip(more) {
+            let claim =
+                format!("the paper's pile: an argument along {direction} less (9) is {more}");
+            steps.push(Step::equal(claim, bound - &count, more));
         }
     }
     steps
 }
 
+fn sum_of(a: &P, b: &P) -> P {
+    a.clone() + b
+}
+
 fn run(f: &Formulas) -> Vec<Step> {
-    let (force, m) = (symbol("f"), symbol("m"));
+    let (force, m, extra) = (symbol("f"), symbol("m"), symbol("e"));
     let increments = (f.increments)(&symbol("s"));
     let mut steps = Vec::new();
     for (direction, w) in Direction::ALL.into_iter().zip(&increments) {
         let after = |m: P| (f.passed_on)(force.clone(), &(f.force)(m, w));
         let claim = format!("base case along {direction}: f after no sphere");
         steps.push(Step::equal(claim, after(P::zero()), force.clone()));
-        let one_more = (f.passed_on)(after(m.clone()), w);
         let claim = format!("step along {direction}: an increment more after one sphere more");
-        steps.push(Step::equal(claim, after(m.clone() + &P::one()), one_more));
+        steps.push(Step::equal(
+            claim,
+            after(m.clone() + &P::one()),
+            (f.passed_on)(after(m.clone()), w),
+        ));
+        let claim = format!("along {direction}: f + m w after m spheres");
+        let sum = force.clone() + &(m.clone() * w);
+        steps.push(Step::equal(claim, after(m.clone()), sum));
+        let claim = format!("along {direction}: e before m spheres, or after");
+        let before = (f.passed_on)(
+            (f.passed_on)(force.clone(), &extra),
+            &(f.force)(m.clone(), w),
+        );
+        steps.push(Step::equal(
+            claim,
+            before,
+            (f.passed_on)(after(m.clone()), &extra),
+        ));
     }
     steps
 }
@@ -132,8 +211,8 @@ fn run(f: &Formulas) -> Vec<Step> {
 fn tripled(f: &Formulas) -> Vec<Step> {
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let ways = [
-        ("2Σg − 3g", (f.tripled_half_turn)(&g)),
-        ("each once", (f.tripled_apart)(&g)),
+        ("2(g_1+g_2+g_3) − 3g = 3Gg", (f.tripled_half_turn)(&g)),
+        ("each force once: 3Gg", (f.tripled_apart)(&g)),
     ];
     let mut steps = Vec::new();
     for (claim, tripled) in ways {
@@ -143,124 +222,203 @@ fn tripled(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-fn edge(f: &Formulas) -> Vec<Step> {
-    let received = symbol("f") + &symbol("m") - &P::one();
-    let third = received.clone().div_int(THREE);
+fn change_of_sign(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::equilateral(f);
+    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let (own, weight) = setting.loaded(f, &symbol("n"));
+    let to_below = passed_on(f, (f.half_turn)(&g), &own);
+    let (plus, minus) = (setting.directions.clone(), setting.turned_directions(f));
     let mut steps = Vec::new();
-    for (line, direction) in Direction::ALL.into_iter().enumerate() {
-        let mut g = [P::zero(), P::zero(), P::zero()];
-        g[line] = received.clone();
-        let [alpha, beta, gamma] = (f.half_turn)(&g).map(|force| force + &P::one());
-        let along = match direction {
-            Direction::Alpha => alpha,
-            Direction::Beta => beta,
-            Direction::Gamma => gamma,
-        };
-        let claim = format!("{direction}: 1 − (f+m−1)/3");
-        steps.push(Step::equal(claim, along, P::one() - &third));
+    for (claim, above, below) in [
+        ("from + to −, nothing remains", &plus, &minus),
+        ("from − to +, nothing remains", &minus, &plus),
+    ] {
+        let left = (f.unbalanced)(&to_below, below, &g, above, &weight);
+        steps.extend(by_component(claim, left, Vector::zero()));
     }
     steps
 }
 
+fn edge(f: &Formulas) -> Vec<Step> {
+    let [i, j, m] = ["i", "j", "m"].map(symbol);
+    let lower @ [x0, y0, s0] = &["x_0", "y_0", "s_0"].map(symbol);
+    let upper @ [x1, y1, s1] = &["x_1", "y_1", "s_1"].map(symbol);
+    let mut steps = Vec::new();
+    for (name, sign) in SIGNS {
+        let (sum, column, row) = match sign {
+            Sign::Plus => (s0, x1, y1),
+            Sign::Minus => (s1, x0, y0),
+        };
+        let edges = [
+            (sum.clone() - &j, j.clone()),
+            (column.clone(), j.clone()),
+            (i.clone(), row.clone()),
+        ];
+        for (direction, (i, j)) in Direction::ALL.into_iter().zip(edges) {
+            let bounds = (f.bounds_above)(&i, &j, lower, upper, &m, sign);
+            // Where the distance to that edge stands among the arguments of the other two lines.
+            let others = match direction {
+                Direction::Alpha => [(1, 3), (2, 3)],
+                Direction::Beta => [(0, 1), (2, 2)],
+                Direction::Gamma => [(0, 2), (1, 2)],
+            };
+            for (line, argument) in others {
+                let other = Direction::ALL[line];
+                let claim =
+                    format!("on the edge of {direction} under {name}, nothing along {other}");
+                let least = bounds[line][argument].clone();
+                steps.push(Step::equal(claim, least, P::zero()));
+            }
+        }
+    }
+    let setting = Setting::equilateral(f);
+    let force = symbol("f");
+    for (line, direction) in Direction::ALL.into_iter().enumerate() {
+        let w = &setting.increments[line];
+        let received = (f.passed_on)(force.clone(), &(f.force)(m.clone() - &P::one(), w));
+        let sum = force.clone() + &m - &P::one();
+        let claim = format!("{direction}: f + m − 1 at the end of the run");
+        steps.push(Step::equal(claim, received.clone(), sum.clone()));
+        let mut g = [P::zero(), P::zero(), P::zero()];
+        g[line] = received;
+        let passed = passed_on(f, (f.half_turn)(&g), &setting.increments);
+        let passed = passed[line].clone();
+        let claim = format!("{direction}: 1 − (f+m−1)/3 passed on");
+        steps.push(Step::equal(
+            claim,
+            passed.clone(),
+            P::one() - &sum.div_int(THREE),
+        ));
+        let tripled = passed * &int(3);
+        let claim = format!("{direction}: three times that is 4 − f − m");
+        steps.push(Step::equal(claim, tripled.clone(), int(4) - &force - &m));
+        let p = symbol("p");
+        let long = tripled.substitute(Symbol("m"), &(int(5) + &p));
+        let claim = format!("{direction}: −(1+f+p) with m = 5+p");
+        steps.push(Step::equal(claim, long, -(P::one() + &force + &p)));
+    }
+    steps
+}
+
+/// Σ of what three contacts give.
+fn sum(forces: &[P; 3], of: impl Fn(usize) -> P) -> P {
+    let terms = forces.iter().enumerate();
+    let terms = terms.map(|(line, force)| of(line) * force);
+    terms.fold(P::zero(), |sum, term| sum + &term)
+}
+
+/// The product of two horizontal vectors, in ρ².
+fn dot(a: &Vector<P>, b: &Vector<P>) -> P {
+    a.x.clone() * &b.x + &(int(3) * &(a.y.clone() * &b.y))
+}
+
+fn horizontal([x, y]: [P; 2]) -> Vector<P> {
+    Vector { x, y, z: P::zero() }
+}
+
 fn point_load(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
-    let sum = |forces: &[P; 3], of: &dyn Fn(usize) -> P| {
-        let terms = forces
-            .iter()
-            .enumerate()
-            .map(|(line, force)| of(line) * force);
-        terms.fold(P::zero(), |sum, term| sum + &term)
+    // The step of a contact: from a sphere to the next one down its line.
+    let steps_under = |directions: &[Vector<P>; 3]| -> [Vector<P>; 3] {
+        core::array::from_fn(|line| {
+            let mut one = [P::zero(), P::zero(), P::zero()];
+            one[line] = P::one();
+            let Vector { x, y, .. } = (f.position)(&one, directions);
+            horizontal([x, y])
+        })
     };
-    let dot = |a: &Vector<P>, b: &Vector<P>| a.x.clone() * &b.x + &(int(3) * &(a.y.clone() * &b.y));
-    let flat = |v: &Vector<P>, sign: i128| Vector {
-        x: v.x.clone() * &int(sign),
-        y: v.y.clone() * &int(sign),
-        z: P::zero(),
-    };
-    let r = Vector {
-        x: symbol("x"),
-        y: symbol("y"),
-        z: P::zero(),
-    };
+    let signs = [
+        ("+", steps_under(&setting.directions)),
+        ("−", steps_under(&setting.turned_directions(f))),
+    ];
     let mut steps = Vec::new();
-    // A contact leads down against ê.
-    let down: [Vector<P>; 3] = setting.directions.each_ref().map(|e| flat(e, -1));
     // What the loaded sphere adds to its lines, in the unit of the load: W = 3.
     let thirds = setting.increments.clone().map(|w| w.div_int(THREE));
-    let first = [
-        ("Σv = 1", sum(&thirds, &|_| P::one()), P::one()),
-        (
-            "Σv² = 1/3",
-            sum(&thirds, &|line| thirds[line].clone()),
-            P::one().div_int(THREE),
-        ),
-        (
-            "Σv r along x = 0",
-            sum(&thirds, &|line| down[line].x.clone()),
-            P::zero(),
-        ),
-        (
-            "Σv r along y = 0",
-            sum(&thirds, &|line| down[line].y.clone()),
-            P::zero(),
-        ),
-        (
-            "Σv r² = ρ²",
-            sum(&thirds, &|line| dot(&down[line], &down[line])),
-            P::one(),
-        ),
-    ];
-    let claims = first.into_iter();
-    steps.extend(
-        claims
-            .map(|(claim, left, right)| Step::equal(format!("first layer: {claim}"), left, right)),
-    );
-
-    let g = ["g_1", "g_2", "g_3"].map(symbol);
-    for (case, passed, sign) in [
-        ("same sign", g.clone(), 1),
-        ("change", (f.half_turn)(&g), -1),
-    ] {
-        let next: [Vector<P>; 3] = down.each_ref().map(|d| flat(d, sign));
-        let below = |line: usize| r.clone() + &next[line];
-        let whole = sum(&g, &|_| P::one());
-        let c = sum(&g, &|line| dot(&r, &down[line]));
-        // Under the same sign they are what they were.
-        let kept = [
-            ("Σv stays", sum(&passed, &|_| P::one()), whole.clone()),
+    for (name, down) in &signs {
+        let third = P::one().div_int(THREE);
+        let first = [
+            ("Σv = 1", sum(&thirds, |_| P::one()), P::one()),
             (
-                "Σv² stays",
-                sum(&passed, &|line| passed[line].clone()),
-                sum(&g, &|line| g[line].clone()),
+                "Σv² = 1/3",
+                sum(&thirds, |line| thirds[line].clone()),
+                third,
             ),
             (
-                "Σv d along x stays",
-                sum(&passed, &|line| next[line].x.clone()),
-                sum(&g, &|line| down[line].x.clone()),
+                "Σv r along x = 0",
+                sum(&thirds, |line| down[line].x.clone()),
+                P::zero(),
             ),
             (
-                "Σv d along y stays",
-                sum(&passed, &|line| next[line].y.clone()),
-                sum(&g, &|line| down[line].y.clone()),
+                "Σv r along y = 0",
+                sum(&thirds, |line| down[line].y.clone()),
+                P::zero(),
+            ),
+            (
+                "Σv r² = ρ²",
+                sum(&thirds, |line| dot(&down[line], &down[line])),
+                P::one(),
             ),
         ];
-        let grown = [
-            (
-                "C grows by ρ²Σv",
-                sum(&passed, &|line| dot(&below(line), &next[line])),
-                c.clone() + &whole,
-            ),
-            (
-                "Σv r² grows by 2C + ρ²Σv",
-                sum(&passed, &|line| dot(&below(line), &below(line))),
-                sum(&g, &|_| dot(&r, &r)) + &(int(2) * &c) + &whole,
-            ),
-        ];
-        let kept = kept.into_iter().filter(|_| sign < 0);
-        let claims = kept.chain(grown);
-        steps.extend(
-            claims.map(|(claim, left, right)| Step::equal(format!("{case}: {claim}"), left, right)),
-        );
+        steps.extend(first.map(|(claim, left, right)| {
+            Step::equal(format!("first layer, {name}: {claim}"), left, right)
+        }));
     }
+    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let r = horizontal(["x", "y"].map(symbol));
+    for (above, from) in &signs {
+        for (below, to) in &signs {
+            let passed = if above == below {
+                g.clone()
+            } else {
+                (f.half_turn)(&g)
+            };
+            let (whole, c) = (sum(&g, |_| P::one()), sum(&g, |line| dot(&r, &from[line])));
+            let lower = |line: usize| r.clone() + &to[line];
+            let claims = [
+                ("Σv stays", sum(&passed, |_| P::one()), whole.clone()),
+                (
+                    "Σv² stays",
+                    sum(&passed, |line| passed[line].clone()),
+                    sum(&g, |line| g[line].clone()),
+                ),
+                (
+                    "Σv d along x stays",
+                    sum(&passed, |line| to[line].x.clone()),
+                    sum(&g, |line| from[line].x.clone()),
+                ),
+                (
+                    "Σv d along y stays",
+                    sum(&passed, |line| to[line].y.clone()),
+                    sum(&g, |line| from[line].y.clone()),
+                ),
+                (
+                    "C grows by ρ²Σv",
+                    sum(&passed, |line| dot(&lower(line), &to[line])),
+                    c.clone() + &whole,
+                ),
+                (
+                    "Σv r² grows by 2C + ρ²Σv",
+                    sum(&passed, |line| dot(&lower(line), &lower(line))),
+                    sum(&g, |_| dot(&r, &r)) + &(int(2) * &c) + &whole,
+                ),
+            ];
+            // Where the sign does not change, sums of the same terms say nothing.
+            let kept = if above == below { 4 } else { 0 };
+            steps.extend(claims.into_iter().skip(kept).map(|(claim, left, right)| {
+                Step::equal(
+                    format!("{above} above, {below} below: {claim}"),
+                    left,
+                    right,
+                )
+            }));
+        }
+    }
+    let h = ["h_1", "h_2", "h_3"].map(symbol);
+    let both = passed_on(f, g.clone(), &h);
+    let turned = passed_on(f, (f.half_turn)(&g), &(f.half_turn)(&h));
+    let sides = (f.half_turn)(&both).into_iter().zip(turned);
+    steps.extend(
+        sides.map(|(left, right)| Step::equal("G(g+h) = Gg + Gh, for two loads", left, right)),
+    );
     steps
 }

@@ -3,10 +3,11 @@
 use core::fmt;
 
 use super::difference::{Difference, Extra};
-use super::exact;
-use super::pairs::Pairs;
-use super::tally::Tally;
-use super::{MAX_ENTRIES, Measured, Refusal};
+use super::measured::Measured;
+use super::pairs::{Pairs, Scope};
+use super::refusal::Refusal;
+use super::tally::{Judged, Tally};
+use crate::dem::NumberedPile;
 use crate::{Error, Packing};
 
 /// What was measured, compared with the exact forces of a pile: see [`verify`](super) for what that means.
@@ -34,19 +35,7 @@ use crate::{Error, Packing};
 /// # Ok::<(), cannonpile::verify::Refusal>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
-    pub(super) contacts: u64,
-    pub(super) matched: u64,
-    pub(super) missing: u64,
-    pub(super) first_missing: Vec<Difference>,
-    pub(super) fixed: u64,
-    pub(super) largest_force: f64,
-    /// What pairs without a contact carry, over the largest force, from the greatest down.
-    pub(super) strays: Vec<f64>,
-    pub(super) greatest_strays: Vec<Extra>,
-    pub(super) worst: Option<Difference>,
-    pub(super) rms: f64,
-}
+pub struct Comparison(Judged);
 
 impl Comparison {
     /// Compares measured forces with those of a packing. Their order does not matter, nor which sphere of a pair is named
@@ -70,7 +59,7 @@ impl Comparison {
     /// let [one, other] = [Measured::new([1, 2], 0.46), Measured::new([3, 1], 0.47)];
     /// let comparison = Comparison::new(&packing, [one, other])?;
     /// assert_eq!(Comparison::new(&packing, [other.reversed(), one.reversed()])?, comparison);
-    /// // A pair is not told twice, whichever sphere is named first.
+    /// // A pair is listed once, whichever sphere is named first.
     /// assert!(Comparison::new(&packing, [one, one.reversed()]).is_err());
     /// # Ok::<(), cannonpile::verify::Refusal>(())
     /// ```
@@ -78,26 +67,25 @@ impl Comparison {
         packing: &Packing<'_>,
         measured: impl IntoIterator<Item = Measured>,
     ) -> Result<Self, Refusal> {
-        let pile = packing.pile();
-        let contacts = pile.contacts();
-        let count = u64::try_from(&contacts).ok();
-        let Some(count) = count.filter(|count| *count <= MAX_ENTRIES) else {
-            return Err(Refusal::Scene(Error::TooLarge {
-                quantity: "a comparison of all contacts",
-                needed: contacts,
-                limit: MAX_ENTRIES,
-                remedy: "use fewer layers, or a smaller top or base",
-            }));
-        };
-        let numbering = pile.numbering()?;
-        let mut pairs = Pairs::new(measured, &numbering)?;
-        let mut tally = Tally::new(pile.dimension());
-        for exact in exact::contacts(packing, &numbering, pairs.has_vectors())? {
-            let exact = exact?;
-            let measured = pairs.meet(exact.ids);
-            tally.add(&exact, measured);
+        let mut scope = Scope::new(packing)?;
+        let numbered = NumberedPile::new(packing)?;
+        let mut pairs = Pairs::default();
+        for (entry, measured) in (1..).zip(measured) {
+            let admitted = scope.admit(&measured, entry);
+            admitted.map_err(|fault| Refusal::Entry { entry, fault })?;
+            pairs.add(measured);
         }
-        Ok(tally.close(count, &pairs, &numbering))
+        drop(scope);
+        pairs.sort();
+        let mut tally = Tally::new(packing.pile().dimension(), pairs.has_vectors());
+        for contact in numbered.contacts()? {
+            let contact = contact.map_err(|error| match error {
+                Error::Overflow { .. } => Refusal::OutOfRange,
+                error => error.into(),
+            })?;
+            tally.add(&contact, pairs.meet(contact.ids));
+        }
+        Ok(Self(tally.close(&pairs, numbered.numbering())))
     }
 
     /// How many contacts the pile has.
@@ -116,7 +104,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn contacts(&self) -> u64 {
-        self.contacts
+        self.0.contacts
     }
 
     /// How many of them were measured.
@@ -136,7 +124,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn matched(&self) -> u64 {
-        self.matched
+        self.0.matched()
     }
 
     /// How many have a force and were not measured.
@@ -150,14 +138,14 @@ impl Comparison {
     /// # use num_rational::BigRational;
     /// let pile = Pile::triangular(3)?.weightless().with_load(Site::APEX, BigRational::from_integer(1.into()))?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// // The load goes down on three lines; the contacts beside them have no force.
+    /// // The load goes down on three lines; the other contacts have no force.
     /// let comparison = Comparison::new(&packing, [])?;
     /// assert_eq!((comparison.missing(), comparison.contacts()), (6, 12));
     /// # Ok::<(), cannonpile::verify::Refusal>(())
     /// ```
     #[must_use]
     pub fn missing(&self) -> u64 {
-        self.missing
+        self.0.missing
     }
 
     /// The first thousand of the missing contacts, from the top.
@@ -177,7 +165,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn missing_contacts(&self) -> &[Difference] {
-        &self.first_missing
+        &self.0.first_missing
     }
 
     /// How many pairs that are no contacts of the pile carry more than `tolerance` times the largest exact force.
@@ -197,8 +185,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn extra(&self, tolerance: f64) -> u64 {
-        let extra = self.strays.partition_point(|stray| *stray > tolerance);
-        u64::try_from(extra).unwrap_or(u64::MAX)
+        Judged::over(&self.0.strays, tolerance)
     }
 
     /// How many pairs that are no contacts of the pile carry something, but no more than that.
@@ -218,8 +205,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn noise(&self, tolerance: f64) -> u64 {
-        let all = u64::try_from(self.strays.len()).unwrap_or(u64::MAX);
-        all - self.extra(tolerance)
+        self.0.strays.len() as u64 - self.extra(tolerance)
     }
 
     /// The thousand pairs that carry the most without being contacts, from the greatest down, noise included.
@@ -240,7 +226,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn extra_pairs(&self) -> &[Extra] {
-        &self.greatest_strays
+        &self.0.greatest_strays
     }
 
     /// How many pairs of spheres of the bottom layer were left out.
@@ -261,7 +247,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn fixed(&self) -> u64 {
-        self.fixed
+        self.0.fixed
     }
 
     /// The largest exact force, by magnitude.
@@ -281,7 +267,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn largest_force(&self) -> f64 {
-        self.largest_force
+        self.0.largest_force
     }
 
     /// The largest relative error of a contact that was measured; infinite if there is a force where the whole pile has
@@ -302,7 +288,49 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn largest_error(&self) -> f64 {
-        self.worst.as_ref().map_or(0.0, |worst| worst.error)
+        self.0.worst.as_ref().map_or(0.0, |worst| worst.error)
+    }
+
+    /// How many of the contacts that were measured have a relative error over `tolerance`.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let measured = [([1, 2], 0.46225), ([1, 3], 0.462), ([1, 4], 0.5)];
+    /// let comparison = Comparison::new(&packing, measured.map(|(ids, force)| Measured::new(ids, force)))?;
+    /// assert_eq!([1e-2, 1e-4, 0.0].map(|tolerance| comparison.beyond(tolerance)), [1, 2, 3]);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn beyond(&self, tolerance: f64) -> u64 {
+        Judged::over(&self.0.errors, tolerance)
+    }
+
+    /// The factor by which all measured forces differ from the exact ones, if there is one other than 1: they are the
+    /// exact ones times this, with relative errors up to `tolerance`. None for fewer than two contacts with a force.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // A simulation at g = 9.81 m/s², compared with a pile at 1 m/s².
+    /// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 9.81 * 0.462250163));
+    /// let comparison = Comparison::new(&packing, measured)?;
+    /// assert!((comparison.common_factor(1e-6).unwrap() - 9.81).abs() < 1e-6);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn common_factor(&self, tolerance: f64) -> Option<f64> {
+        self.0.common_factor(tolerance)
     }
 
     /// The root of the mean square of the relative errors of the contacts that were measured, to some 1e-8 of itself.
@@ -323,7 +351,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn rms_error(&self) -> f64 {
-        self.rms
+        self.0.rms_error()
     }
 
     /// The contact with the largest relative error, the first of several; none if there was no contact measured.
@@ -344,7 +372,7 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn worst(&self) -> Option<&Difference> {
-        self.worst.as_ref()
+        self.0.worst.as_ref()
     }
 
     /// Whether nothing is missing, nothing extra, and no error over `tolerance`.
@@ -364,33 +392,30 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn accepted(&self, tolerance: f64) -> bool {
-        self.missing == 0 && self.extra(tolerance) == 0 && self.largest_error() <= tolerance
+        self.missing() == 0 && self.extra(tolerance) == 0 && self.largest_error() <= tolerance
     }
 }
 
 impl fmt::Display for Comparison {
     /// One line, for the message of an assertion.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            contacts,
-            matched,
-            missing,
-            rms,
-            ..
-        } = self;
-        let (extra, largest) = (self.strays.len(), self.largest_error());
+        let Judged {
+            contacts, missing, ..
+        } = self.0;
+        let (matched, rms) = (self.matched(), self.rms_error());
+        let (extra, largest) = (self.0.strays.len(), self.largest_error());
         write!(
             f,
-            "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs beside them; \
+            "{matched} of {contacts} contacts measured, {missing} missing, {extra} pairs besides them; \
              largest error {largest:e}, rms {rms:e}"
         )?;
         if let Some(worst) = self.worst() {
             write!(f, "; worst: {worst}")?;
         }
-        if let Some(missing) = self.first_missing.first() {
+        if let Some(missing) = self.0.first_missing.first() {
             write!(f, "; missing: {missing}")?;
         }
-        if let Some(extra) = self.greatest_strays.first() {
+        if let Some(extra) = self.0.greatest_strays.first() {
             write!(f, "; extra: {extra}")?;
         }
         Ok(())

@@ -1,18 +1,20 @@
 //! Measured forces from comma-separated values.
 
-use std::borrow::Cow;
-use std::io::BufRead;
+use std::io::{self, BufRead, Read};
+
+use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 
 use super::columns::Columns;
 use super::lines::Lines;
-use super::{Fault, Reading, Refusal};
+use super::reading::Reading;
+use super::refusal::{Fault, Refusal};
 
-/// A csv table: a line with the names of the columns, and a line a contact.
+/// Reads a csv table: a line with the names of the columns, and a line a contact.
 ///
-/// Columns are found by name, in any order: `id1`, `id2`, `force`, and `fx`, `fy`, `fz` if there are vectors; `patom1` and
-/// `patom2`, or `natom1` and `natom2`, stand for `id1` and `id2`. Others are passed over. Fields may be quoted; blanks
+/// Columns are found by name, in any order: `id1`, `id2`, `force`, and `fx`, `fy`, `fz` if there are vectors, where `force`
+/// may be left out; `patom1` and `patom2`, or `natom1` and `natom2`, stand for `id1` and `id2`. Others are passed over. Fields may be quoted; blanks
 /// around them and empty lines do not count. A force is any finite decimal, and read as the nearest `f64`. The last line
-/// need not end: what is cut off a csv table cannot be told from it, and shows as missing contacts.
+/// need not end: what is cut off a csv table cannot be seen, and shows as missing contacts.
 ///
 /// # Errors
 /// [`Refusal::Line`]; [`Refusal::Io`].
@@ -28,113 +30,110 @@ use super::{Fault, Reading, Refusal};
 /// # Ok::<(), cannonpile::verify::Refusal>(())
 /// ```
 pub fn read_csv(input: impl BufRead) -> Result<Reading, Refusal> {
-    read_rows(Lines::new(input))
+    read_rows(Lines::new(input), Reading::default())
 }
 
-pub(super) fn read_rows(mut lines: Lines<impl BufRead>) -> Result<Reading, Refusal> {
-    let columns = loop {
-        let Some(line) = lines.next()? else {
-            return Err(Fault::Empty.at(lines.number()));
-        };
-        if !line.text.trim().is_empty() {
-            let columns = fields(line.text).and_then(Columns::new);
-            break columns.map_err(|fault| fault.at(line.number))?;
-        }
-    };
-    let mut reading = Reading::default();
-    while let Some(line) = lines.next()? {
-        if line.text.trim().is_empty() {
-            continue;
-        }
-        let measured = fields(line.text).and_then(|fields| columns.read(fields));
-        let pushed = measured.and_then(|measured| reading.push(measured, line.number));
-        pushed.map_err(|fault| fault.at(line.number))?;
-    }
-    Ok(reading)
-}
-
-/// The fields of a line, without quotes and without blanks around them.
-fn fields(line: &str) -> Result<Vec<Cow<'_, str>>, Fault> {
-    if !line.contains('"') {
-        return Ok(line.split(',').map(|field| field.trim().into()).collect());
-    }
-    let mut fields = Vec::new();
-    let mut rest = line;
+pub(super) fn read_rows(
+    lines: Lines<impl BufRead>,
+    mut reading: Reading,
+) -> Result<Reading, Refusal> {
+    let mut csv = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(Trim::All)
+        .from_reader(LineByLine::new(lines));
+    let mut row = StringRecord::new();
+    let mut columns = None;
     loop {
-        let (field, after) = match rest.trim_start().strip_prefix('"') {
-            Some(quoted) => unquoted(quoted)?,
-            None => match rest.split_once(',') {
-                Some((field, after)) => (field.trim().into(), Some(after)),
-                None => (rest.trim().into(), None),
-            },
-        };
-        fields.push(field);
-        match after {
-            Some(after) => rest = after,
-            None => return Ok(fields),
+        let read = csv.read_record(&mut row);
+        let source = csv.get_mut();
+        if let Some(refusal) = source.refusal.take() {
+            return Err(refusal);
         }
-    }
-}
-
-/// What is within quotes, which stand doubled for themselves, and what follows the comma after it.
-fn unquoted(text: &str) -> Result<(Cow<'_, str>, Option<&str>), Fault> {
-    let mut field = String::new();
-    let mut rest = text;
-    loop {
-        let (part, after) = rest.split_once('"').ok_or(Fault::Quote)?;
-        field.push_str(part);
-        if let Some(doubled) = after.strip_prefix('"') {
-            field.push('"');
-            rest = doubled;
+        // A row is a line: it has been read whole, and no more.
+        let line = source.lines.number();
+        if !read.map_err(io_error)? {
+            break;
+        }
+        let Some(columns) = &columns else {
+            let header = Columns::new(&row).map_err(|fault| fault.at(line))?;
+            columns = Some(header);
             continue;
-        }
-        let field = Cow::Owned(field.trim().to_owned());
-        return match after.trim_start() {
-            "" => Ok((field, None)),
-            after => match after.strip_prefix(',') {
-                Some(after) => Ok((field, Some(after))),
-                None => Err(Fault::Quote),
-            },
         };
+        let pushed = columns
+            .read(&row)
+            .and_then(|measured| reading.push(measured, line));
+        pushed.map_err(|fault| fault.at(line))?;
+    }
+    match columns {
+        Some(_) => Ok(reading),
+        None => Err(Fault::Empty.at(csv.get_ref().lines.number())),
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// A source that gives no more than a line at a time, and refuses those that are no rows of a table.
+struct LineByLine<R> {
+    lines: Lines<R>,
+    /// The line that is being given, with its end, and how much of it has been.
+    line: Vec<u8>,
+    given: usize,
+    /// Why there are no more.
+    refusal: Option<Refusal>,
+}
 
-    /// The csv crate as the judge, on lines made of a few pieces.
-    #[test]
-    fn fields_are_those_of_any_csv_reader() {
-        let pieces = [
-            "1",
-            "2.5",
-            "",
-            "\"\"",
-            "\"a\"",
-            "\"a,b\"",
-            "\"say \"\"a\"\"\"",
-            "é",
-        ];
-        for first in pieces {
-            for second in pieces {
-                for third in pieces {
-                    let line = [first, second, third].join(",");
-                    let mut reader = ::csv::ReaderBuilder::new()
-                        .has_headers(false)
-                        .from_reader(line.as_bytes());
-                    let want = reader.records().next().unwrap().unwrap();
-                    let got = fields(&line).unwrap();
-                    assert!(want.iter().eq(got.iter().map(|field| &**field)), "{line}");
+impl<R: BufRead> LineByLine<R> {
+    fn new(lines: Lines<R>) -> Self {
+        Self {
+            lines,
+            line: Vec::new(),
+            given: 0,
+            refusal: None,
+        }
+    }
+
+    /// Goes to the next line that is not blank; false at the end.
+    fn advance(&mut self) -> Result<bool, Refusal> {
+        while let Some(line) = self.lines.next()? {
+            if line.text.trim().is_empty() {
+                continue;
+            }
+            // A quoted field that ends on another line would take what follows with it.
+            if line.text.bytes().filter(|byte| *byte == b'"').count() % 2 == 1 {
+                return Err(Fault::Quote.at(line.number));
+            }
+            self.line.clear();
+            self.line.extend_from_slice(line.text.as_bytes());
+            self.line.push(b'\n');
+            self.given = 0;
+            return Ok(true);
+        }
+        Ok(false)
+    }
+}
+
+impl<R: BufRead> Read for LineByLine<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.given == self.line.len() {
+            match self.advance() {
+                Ok(true) => {}
+                Ok(false) => return Ok(0),
+                Err(refusal) => {
+                    self.refusal = Some(refusal);
+                    return Err(io::ErrorKind::InvalidData.into());
                 }
             }
         }
+        let mut rest = self.line.get(self.given..).unwrap_or(&[]);
+        let read = rest.read(buffer)?;
+        self.given += read;
+        Ok(read)
     }
+}
 
-    #[test]
-    fn quotes_that_do_not_end_are_refused() {
-        for line in ["\"1,2", "1,\"2", "\"1\"2,3", "1,\"\"\""] {
-            assert_eq!(fields(line), Err(Fault::Quote), "{line}");
-        }
+/// What the reader of csv cannot read is not text, or not there; text has been checked.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        ErrorKind::Io(error) => error,
+        kind => io::Error::other(format!("{kind:?}")),
     }
 }

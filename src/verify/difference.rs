@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::Measured;
-use super::exact::Exact;
+use super::measured::{Measured, distance};
+use crate::dem::NumberedContact;
 use crate::lattice::{Dimension, Direction, Site};
 
 /// A contact of the pile, what its force is, and what was measured.
@@ -17,9 +17,9 @@ pub struct Difference {
     pub direction: Direction,
     /// The nearest float to the exact force; positive is push.
     pub exact: f64,
-    /// The same of the force on the upper sphere, where vectors were measured.
+    /// The nearest floats to the force on the upper sphere, where vectors were measured.
     pub exact_vector: Option<[f64; 3]>,
-    /// What was measured, told of the upper sphere; nothing for a missing contact.
+    /// What was measured, with the force on the upper sphere; nothing for a missing contact.
     pub measured: Option<Measured>,
     /// The relative error; 1 for a missing contact.
     pub error: f64,
@@ -42,14 +42,19 @@ pub struct Extra {
 }
 
 impl Difference {
-    pub(super) fn new(exact: &Exact, measured: Option<Measured>, dimension: Dimension) -> Self {
+    /// A contact that was not measured.
+    pub(super) fn missing(
+        exact: &NumberedContact,
+        with_vectors: bool,
+        dimension: Dimension,
+    ) -> Self {
         Self {
             ids: exact.ids,
             site: exact.site,
             direction: exact.direction,
             exact: exact.force,
-            exact_vector: exact.vector,
-            measured,
+            exact_vector: with_vectors.then_some(exact.vector),
+            measured: None,
             error: 1.0,
             dimension,
         }
@@ -61,22 +66,6 @@ impl Difference {
         let vectors = measured.vector.zip(self.exact_vector)?;
         (distance(vectors.0, vectors.1) > (measured.force - self.exact).abs()).then_some(vectors)
     }
-}
-
-/// |a − b|.
-pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let [[x, y, z], [u, v, w]] = [a, b];
-    norm([x - u, y - v, z - w])
-}
-
-/// √(x² + y² + z²), without squares that leave the floats.
-pub(super) fn norm(vector: [f64; 3]) -> f64 {
-    let scale = vector.iter().fold(0.0, |scale: f64, x| scale.max(x.abs()));
-    if scale == 0.0 || !scale.is_finite() {
-        return scale;
-    }
-    let squares = vector.map(|x| (x / scale) * (x / scale));
-    scale * squares.iter().sum::<f64>().sqrt()
 }
 
 impl fmt::Display for Difference {

@@ -4,10 +4,12 @@ use std::io::BufRead;
 
 use super::columns::Columns;
 use super::lines::{Line, Lines};
-use super::{Fault, Measured, Reading, Refusal};
+use super::measured::Measured;
+use super::reading::Reading;
+use super::refusal::{Fault, Refusal};
 use crate::Error;
 
-/// A LAMMPS `dump local` file; of several snapshots the last is kept.
+/// Reads a LAMMPS `dump local` file; of several snapshots the last is kept.
 ///
 /// ```text
 /// compute      ids all property/local patom1 patom2
@@ -36,14 +38,16 @@ use crate::Error;
 /// # Ok::<(), cannonpile::verify::Refusal>(())
 /// ```
 pub fn read_dump(input: impl BufRead) -> Result<Reading, Refusal> {
-    read_snapshots(Lines::new(input))
+    read_snapshots(Lines::new(input), Reading::default())
 }
 
 /// What a line begins with that announces others.
 pub(super) const ITEM: &str = "ITEM:";
 
-pub(super) fn read_snapshots(mut lines: Lines<impl BufRead>) -> Result<Reading, Refusal> {
-    let mut reading = Reading::default();
+pub(super) fn read_snapshots(
+    mut lines: Lines<impl BufRead>,
+    mut reading: Reading,
+) -> Result<Reading, Refusal> {
     let mut header = Header::default();
     while let Some((number, item)) = next_item(&mut lines, &header)? {
         match &*item {
@@ -60,7 +64,7 @@ pub(super) fn read_snapshots(mut lines: Lines<impl BufRead>) -> Result<Reading, 
                     header.entries = integer(&mut lines, "a number of entries such as 495")?;
                 }
                 (_, Some(names)) => {
-                    let names = names.split_whitespace().map(Into::into);
+                    let names = names.split_whitespace();
                     let columns = Columns::new(names).map_err(|fault| fault.at(number))?;
                     reading.begin_snapshot(header.timestep);
                     entries(&mut lines, &columns, header.entries, &mut reading)?;
@@ -164,7 +168,7 @@ fn entries(
         if !line.ended {
             return Err(Fault::Cut.at(line.number));
         }
-        let fields = line.text.split_whitespace().map(Into::into);
+        let fields = line.text.split_whitespace();
         let measured: Result<Measured, Fault> = columns.read(fields);
         let pushed = measured.and_then(|measured| reading.push(measured, line.number));
         pushed.map_err(|fault| fault.at(line.number))?;

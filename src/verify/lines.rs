@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Read};
 
-use super::{Fault, Refusal};
+use super::refusal::{Fault, Refusal};
 
 /// The longest line, in bytes.
 const LONGEST: usize = 1 << 16;

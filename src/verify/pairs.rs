@@ -1,70 +1,112 @@
 //! Measured pairs, each once, with the sphere of the lesser number first.
 
-use super::{Fault, MAX_ENTRIES, Measured, Refusal};
-use crate::shape::Numbering;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
-/// What was measured, sorted by pairs.
+use super::measured::{MAX_ENTRIES, Measured};
+use super::refusal::{Fault, Refusal};
+use crate::{Error, Packing};
+
+/// How many pairs a list may have for each sphere. No more than twelve spheres touch one, and each pair is listed once:
+/// this leaves room for neighbours that do not touch.
+const PAIRS_A_SPHERE: u64 = 20;
+
+/// What entries a scene can have: pairs of its spheres, each once.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Scope {
+    spheres: u64,
+    limit: u64,
+    /// The pairs so far, and where they stand.
+    seen: HashMap<[u64; 2], u64>,
+}
+
+impl Scope {
+    pub(super) fn new(packing: &Packing<'_>) -> Result<Self, Refusal> {
+        let contacts = packing.pile().contacts();
+        if u64::try_from(&contacts).is_ok_and(|contacts| contacts <= MAX_ENTRIES) {
+            let spheres = packing.pile().numbering()?.spheres();
+            return Ok(Self {
+                spheres,
+                limit: spheres.saturating_mul(PAIRS_A_SPHERE).min(MAX_ENTRIES),
+                seen: HashMap::new(),
+            });
+        }
+        Err(Refusal::Scene(Error::TooLarge {
+            quantity: "a comparison of all contacts",
+            needed: contacts,
+            limit: MAX_ENTRIES,
+            remedy: "use fewer layers, or a smaller top or base",
+        }))
+    }
+
+    /// Forgets what it has seen.
+    pub(super) fn clear(&mut self) {
+        self.seen.clear();
+    }
+
+    /// Admits the entry at a place, if it is of two spheres of the pile, with a finite force, and was not there before.
+    pub(super) fn admit(&mut self, measured: &Measured, place: u64) -> Result<(), Fault> {
+        let [first, second] = measured.ids;
+        let spheres = self.spheres;
+        let stranger = measured
+            .ids
+            .into_iter()
+            .find(|id| *id == 0 || *id > spheres);
+        if let Some(id) = stranger {
+            return Err(Fault::NoSuchSphere { id, spheres });
+        }
+        if first == second {
+            return Err(Fault::OneSphere { id: first });
+        }
+        let [x, y, z] = measured.vector.unwrap_or([0.0; 3]);
+        let numbers = [("force", measured.force), ("fx", x), ("fy", y), ("fz", z)];
+        if let Some((column, value)) = numbers.into_iter().find(|(_, x)| !x.is_finite()) {
+            return Err(Fault::NotFinite { column, value });
+        }
+        let ids = [first.min(second), first.max(second)];
+        let count = self.seen.len() as u64;
+        match self.seen.entry(ids) {
+            Entry::Occupied(seen) => Err(Fault::Twice {
+                ids,
+                first: *seen.get(),
+            }),
+            Entry::Vacant(_) if count >= self.limit => Err(Fault::TooMany { limit: self.limit }),
+            Entry::Vacant(unseen) => {
+                unseen.insert(place);
+                Ok(())
+            }
+        }
+    }
+}
+
+/// What was measured, each pair with the lesser number first.
+#[derive(Default)]
 pub(super) struct Pairs(Vec<Pair>);
 
-/// One pair.
-pub(super) struct Pair {
-    /// The force on the sphere of the lesser number.
-    pub(super) measured: Measured,
+struct Pair {
+    measured: Measured,
     /// Whether the pile has this contact.
-    pub(super) met: bool,
-    /// Where it stands in what was given, from 1.
-    entry: u64,
+    met: bool,
 }
 
 impl Pairs {
-    /// All of them, if each is of two spheres of the pile, and none is there twice.
-    pub(super) fn new(
-        measured: impl IntoIterator<Item = Measured>,
-        numbering: &Numbering<'_>,
-    ) -> Result<Self, Refusal> {
-        let spheres = numbering.spheres();
-        let mut pairs = Vec::new();
-        for (entry, measured) in (1..).zip(measured) {
-            if let Some(fault) = fault(&measured, spheres) {
-                return Err(Refusal::Entry { entry, fault });
-            }
-            if entry > MAX_ENTRIES {
-                let fault = Fault::TooMany;
-                return Err(Refusal::Entry { entry, fault });
-            }
-            let [first, second] = measured.ids;
-            pairs.push(Pair {
-                measured: if first < second {
-                    measured
-                } else {
-                    measured.reversed()
-                },
-                met: false,
-                entry,
-            });
-        }
-        pairs.sort_unstable_by_key(|pair| (pair.measured.ids, pair.entry));
-        // Of all that are there twice, the one that stands first.
-        let twice = pairs
-            .windows(2)
-            .filter_map(|two| match two {
-                [a, b] if a.measured.ids == b.measured.ids => Some((b, a.entry)),
-                _ => None,
-            })
-            .min_by_key(|(pair, _)| pair.entry);
-        match twice {
-            None => Ok(Self(pairs)),
-            Some((pair, first)) => Err(Refusal::Entry {
-                entry: pair.entry,
-                fault: Fault::Twice {
-                    ids: pair.measured.ids,
-                    first,
-                },
-            }),
-        }
+    pub(super) fn add(&mut self, measured: Measured) {
+        let [first, second] = measured.ids;
+        self.0.push(Pair {
+            measured: if first < second {
+                measured
+            } else {
+                measured.reversed()
+            },
+            met: false,
+        });
     }
 
-    /// What was measured of a contact of the pile, if anything.
+    pub(super) fn sort(&mut self) {
+        self.0.sort_unstable_by_key(|pair| pair.measured.ids);
+    }
+
+    /// What was measured of a contact of the pile, if anything; all must be [sorted](Self::sort).
     pub(super) fn meet(&mut self, ids: [u64; 2]) -> Option<Measured> {
         let place = self.0.binary_search_by_key(&ids, |pair| pair.measured.ids);
         let pair = place.ok().and_then(|place| self.0.get_mut(place))?;
@@ -82,22 +124,4 @@ impl Pairs {
         let left = self.0.iter().filter(|pair| !pair.met);
         left.map(|pair| &pair.measured)
     }
-}
-
-/// What is wrong with an entry by itself.
-fn fault(measured: &Measured, spheres: u64) -> Option<Fault> {
-    let [first, second] = measured.ids;
-    for id in measured.ids {
-        if id == 0 || id > spheres {
-            return Some(Fault::NoSuchSphere { id, spheres });
-        }
-    }
-    if first == second {
-        return Some(Fault::OneSphere { id: first });
-    }
-    let [x, y, z] = measured.vector.unwrap_or_default();
-    [("force", measured.force), ("fx", x), ("fy", y), ("fz", z)]
-        .into_iter()
-        .find(|(_, value)| !value.is_finite())
-        .map(|(column, value)| Fault::NotFinite { column, value })
 }

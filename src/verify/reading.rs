@@ -1,11 +1,9 @@
 //! What was read from a file, and from which lines.
 
-use std::io::BufRead;
-
-use super::csv_file::read_rows;
-use super::dump::{ITEM, read_snapshots};
-use super::lines::Lines;
-use super::{Comparison, Fault, MAX_ENTRIES, Measured, Refusal};
+use super::comparison::Comparison;
+use super::measured::{MAX_ENTRIES, Measured};
+use super::pairs::Scope;
+use super::refusal::{Fault, Refusal};
 use crate::Packing;
 
 /// Measured forces read from a file.
@@ -16,32 +14,8 @@ pub struct Reading {
     jumps: Vec<(usize, u64)>,
     snapshots: u64,
     timestep: Option<i64>,
-}
-
-/// Measured forces from a file of either kind: a LAMMPS dump if its first line begins with `ITEM:`, else csv.
-///
-/// # Errors
-/// Those of [`read_csv`](super::read_csv) and [`read_dump`](super::read_dump).
-///
-/// # Examples
-/// ```
-/// use cannonpile::verify;
-///
-/// let reading = verify::read(&b"id1,id2,force\n1,2,0.5\n"[..])?;
-/// assert_eq!((reading.entries().len(), reading.snapshots()), (1, 0));
-/// # Ok::<(), cannonpile::verify::Refusal>(())
-/// ```
-pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
-    let mut lines = Lines::new(input);
-    let is_dump = lines
-        .next()?
-        .is_some_and(|line| line.text.starts_with(ITEM));
-    lines.put_back();
-    if is_dump {
-        read_snapshots(lines)
-    } else {
-        read_rows(lines)
-    }
+    /// What the scene admits, if it was known, while entries are read.
+    scope: Option<Scope>,
 }
 
 impl Reading {
@@ -111,7 +85,7 @@ impl Reading {
     pub fn line(&self, entry: usize) -> u64 {
         let after = self.jumps.partition_point(|(first, _)| *first <= entry);
         let jump = after.checked_sub(1).and_then(|last| self.jumps.get(last));
-        let (first, line) = jump.copied().unwrap_or_default();
+        let (first, line) = jump.copied().unwrap_or((0, 0));
         let below = u64::try_from(entry.saturating_sub(first)).unwrap_or(u64::MAX);
         line.saturating_add(below)
     }
@@ -155,18 +129,40 @@ impl Reading {
         })
     }
 
+    /// Nothing yet, of a scene if it is known.
+    pub(super) fn begin(scope: Option<Scope>) -> Self {
+        Self {
+            scope,
+            ..Self::default()
+        }
+    }
+
+    /// Forgets what was needed while it was read.
+    pub(super) fn end(self) -> Self {
+        let scope = None;
+        Self { scope, ..self }
+    }
+
     /// Forgets the entries of the snapshot before.
     pub(super) fn begin_snapshot(&mut self, timestep: Option<i64>) {
         self.entries.clear();
         self.jumps.clear();
+        if let Some(scope) = &mut self.scope {
+            scope.clear();
+        }
         self.snapshots += 1;
         self.timestep = timestep;
     }
 
     pub(super) fn push(&mut self, measured: Measured, line: u64) -> Result<(), Fault> {
         let entry = self.entries.len();
-        if u64::try_from(entry).is_ok_and(|entries| entries >= MAX_ENTRIES) {
-            return Err(Fault::TooMany);
+        match &mut self.scope {
+            Some(scope) => scope.admit(&measured, line)?,
+            None if entry as u64 >= MAX_ENTRIES => {
+                let limit = MAX_ENTRIES;
+                return Err(Fault::TooMany { limit });
+            }
+            None => {}
         }
         if entry == 0 || self.line(entry) != line {
             self.jumps.push((entry, line));

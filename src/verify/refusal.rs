@@ -3,7 +3,6 @@
 use core::fmt;
 use std::io;
 
-use super::MAX_ENTRIES;
 use crate::Error;
 
 /// Why measured forces were not compared.
@@ -73,7 +72,7 @@ pub enum Fault {
     Field {
         /// The column.
         column: &'static str,
-        /// The field, as far as it is quoted, with what was expected.
+        /// The field, as far as it is shown, with what was expected.
         error: Box<Error>,
     },
     /// A force beyond the floats, or none.
@@ -126,7 +125,10 @@ pub enum Fault {
     /// A dump that ends within a line, or within its header.
     Cut,
     /// More entries than are read.
-    TooMany,
+    TooMany {
+        /// The most that are.
+        limit: u64,
+    },
 }
 
 impl fmt::Display for Refusal {
@@ -200,9 +202,9 @@ impl fmt::Display for Fault {
                 "the snapshot ends after {found} of {announced} entries: it is not complete"
             ),
             Self::Cut => f.write_str("the dump ends here, within a line or a header: it is not complete"),
-            Self::TooMany => write!(
+            Self::TooMany { limit } => write!(
                 f,
-                "more than {MAX_ENTRIES} entries: leave out pairs that do not touch"
+                "more than {limit} entries: leave out pairs that do not touch"
             ),
         }
     }

@@ -5,7 +5,8 @@ use std::io::Write;
 use num_rational::BigRational;
 use serde_json::{Map, Value, json};
 
-use super::{Comparison, Difference, Extra};
+use super::comparison::Comparison;
+use super::difference::{Difference, Extra};
 use crate::lattice::{Dimension, Site};
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 
@@ -15,7 +16,7 @@ const SHOWN: usize = 5;
 /// What a comparison says at an accepted error.
 ///
 /// As text and csv one row: `accepted, accept, contacts, matched, missing, extra, noise, fixed, largest_error, rms_error,
-/// worst`; the text goes on with the first of the missing and the greatest of the extra contacts. As json an array of one
+/// worst, beyond, factor`; in the text what they count stands behind them, and it goes on with the first of the missing and the greatest of the extra contacts. As json an array of one
 /// object with the same keys and `largest_force`; `worst` is an object, and up to a thousand of each are in the arrays
 /// `missing_contacts` and `extra_pairs`. An infinite error is `inf`, in json `null`.
 ///
@@ -124,20 +125,54 @@ impl<'c> Report<'c> {
         };
         let worst = comparison.worst().map(ToString::to_string);
         let worst = worst.map_or(Cell::Missing, |words| Cell::Word(words.into()));
-        let count = |name, count: u64| (Column::plain(name), Cell::Integer(count.into()));
-        let error = |name, error: f64| (Column::measured(name, ""), float(error));
+        let count = |name, count: u64, meaning| (said(name, meaning), Cell::Integer(count.into()));
+        let error = |name, error: f64, meaning| (Column::measured(name, meaning), float(error));
+        let relative = "of the exact force, of the largest one where that is 0";
+        let factor = comparison.common_factor(accept);
         Table::record(vec![
             (Column::plain("accepted"), accepted.into()),
-            error("accept", accept),
-            count("contacts", comparison.contacts()),
-            count("matched", comparison.matched()),
-            count("missing", comparison.missing()),
-            count("extra", comparison.extra(accept)),
-            count("noise", comparison.noise(accept)),
-            count("fixed", comparison.fixed()),
-            error("largest_error", comparison.largest_error()),
-            error("rms_error", comparison.rms_error()),
+            error("accept", accept, ""),
+            count("contacts", comparison.contacts(), ""),
+            count(
+                "matched",
+                comparison.matched(),
+                "contacts that were measured",
+            ),
+            count(
+                "missing",
+                comparison.missing(),
+                "contacts with a force that were not",
+            ),
+            count(
+                "extra",
+                comparison.extra(accept),
+                "other pairs with a force over accept times the largest",
+            ),
+            count(
+                "noise",
+                comparison.noise(accept),
+                "other pairs with a lesser force",
+            ),
+            count(
+                "fixed",
+                comparison.fixed(),
+                "pairs of the bottom layer, which are not judged",
+            ),
+            error("largest_error", comparison.largest_error(), relative),
+            error("rms_error", comparison.rms_error(), relative),
             (Column::plain("worst"), worst),
+            count(
+                "beyond",
+                comparison.beyond(accept),
+                "contacts with an error over accept",
+            ),
+            (
+                Column::measured(
+                    "factor",
+                    "times the exact force is every one that was measured",
+                ),
+                factor.map_or(Cell::Missing, float),
+            ),
         ])
     }
 
@@ -157,6 +192,8 @@ impl<'c> Report<'c> {
             "largest_error": comparison.largest_error(),
             "rms_error": comparison.rms_error(),
             "worst": comparison.worst().map(contact),
+            "beyond": comparison.beyond(accept),
+            "factor": comparison.common_factor(accept),
             "missing_contacts": missing.iter().map(contact).collect::<Vec<_>>(),
             "extra_pairs": self.extra_pairs().iter().map(pair).collect::<Vec<_>>(),
         }])
@@ -186,6 +223,14 @@ fn list<T: ToString>(
         writeln!(out, "{what}: {left} more")?;
     }
     Ok(())
+}
+
+/// A column with what it counts.
+fn said(name: &'static str, meaning: &'static str) -> Column {
+    Column {
+        quantity: false,
+        ..Column::measured(name, meaning)
+    }
 }
 
 /// A float as the exact number it is.

@@ -1,9 +1,9 @@
-//! Contacts counted, and errors summed, while they go by.
+//! Contacts counted, and their errors kept, while they go by.
 
-use super::difference::{Difference, Extra, distance};
-use super::exact::Exact;
+use super::difference::{Difference, Extra};
+use super::measured::{Measured, distance};
 use super::pairs::Pairs;
-use super::{Comparison, Measured};
+use crate::dem::NumberedContact;
 use crate::lattice::Dimension;
 use crate::shape::Numbering;
 
@@ -13,97 +13,106 @@ const KEPT: usize = 1000;
 /// What is known while contacts go by.
 pub(super) struct Tally {
     dimension: Dimension,
-    matched: u64,
-    missing: u64,
-    first_missing: Vec<Difference>,
-    largest_force: f64,
-    /// The worst of those with a force, and the worst of those without: their errors have the largest force below, which
-    /// is known at the end only.
-    worst: [Option<Difference>; 2],
-    squares: [Squares; 2],
+    with_vectors: bool,
+    judged: Judged,
+    /// Of contacts without a force: their errors are relative to the largest force, which is known at the end only.
+    idle: Vec<f64>,
+    worst_idle: Option<Difference>,
+}
+
+/// What is known of a comparison.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Judged {
+    pub(super) contacts: u64,
+    pub(super) missing: u64,
+    pub(super) first_missing: Vec<Difference>,
+    pub(super) fixed: u64,
+    pub(super) largest_force: f64,
+    /// The relative errors of the contacts that were measured, from the greatest down.
+    pub(super) errors: Vec<f64>,
+    /// What pairs without a contact carry, over the largest force, from the greatest down.
+    pub(super) strays: Vec<f64>,
+    pub(super) greatest_strays: Vec<Extra>,
+    pub(super) worst: Option<Difference>,
+    /// The least and the greatest of measured over exact, and of how many contacts.
+    ratios: Option<([f64; 2], u64)>,
 }
 
 impl Tally {
-    pub(super) fn new(dimension: Dimension) -> Self {
+    pub(super) fn new(dimension: Dimension, with_vectors: bool) -> Self {
         Self {
             dimension,
-            matched: 0,
-            missing: 0,
-            first_missing: Vec::new(),
-            largest_force: 0.0,
-            worst: [None, None],
-            squares: [Squares::default(), Squares::default()],
+            with_vectors,
+            judged: Judged::default(),
+            idle: Vec::new(),
+            worst_idle: None,
         }
     }
 
-    /// One more contact of the pile, with what was measured of it.
-    pub(super) fn add(&mut self, exact: &Exact, measured: Option<Measured>) {
-        self.largest_force = self.largest_force.max(exact.force.abs());
+    /// Adds a contact of the pile, with what was measured of it.
+    pub(super) fn add(&mut self, exact: &NumberedContact, measured: Option<Measured>) {
+        let judged = &mut self.judged;
+        judged.contacts += 1;
+        judged.largest_force = judged.largest_force.max(exact.force.abs());
+        let difference = || Difference::missing(exact, self.with_vectors, self.dimension);
         let loaded = exact.force != 0.0;
         let Some(measured) = measured.filter(|measured| !(loaded && measured.is_zero())) else {
             if loaded {
-                self.missing += 1;
-                if self.first_missing.len() < KEPT {
-                    let missing = Difference::new(exact, None, self.dimension);
-                    self.first_missing.push(missing);
+                judged.missing += 1;
+                if judged.first_missing.len() < KEPT {
+                    judged.first_missing.push(difference());
                 }
             }
             return;
         };
-        self.matched += 1;
-        let vectors = measured.vector.zip(exact.vector);
-        let apart = vectors.map_or(0.0, |(measured, exact)| distance(measured, exact));
-        let apart = apart.max((measured.force - exact.force).abs());
-        let [of_loaded, of_others] = &mut self.worst;
-        let [squares, other_squares] = &mut self.squares;
-        let (error, worst, squares) = if loaded {
-            (relative(apart, exact.force.abs()), of_loaded, squares)
+        let vector = measured.vector.map(|vector| distance(vector, exact.vector));
+        let apart = vector
+            .unwrap_or(0.0)
+            .max((measured.force - exact.force).abs());
+        let (error, errors, worst) = if loaded {
+            judged.add_ratio(measured.force / exact.force);
+            let error = relative(apart, exact.force.abs());
+            (error, &mut judged.errors, &mut judged.worst)
         } else {
-            (apart, of_others, other_squares)
+            (apart, &mut self.idle, &mut self.worst_idle)
         };
-        squares.add(error);
+        errors.push(error);
         if worst.as_ref().is_none_or(|worst| worst.error < error) {
             *worst = Some(Difference {
                 error,
-                ..Difference::new(exact, Some(measured), self.dimension)
+                measured: Some(measured),
+                ..difference()
             });
         }
     }
 
-    /// With all contacts seen, and what is left of the pairs.
-    pub(super) fn close(
-        self,
-        contacts: u64,
-        pairs: &Pairs,
-        numbering: &Numbering<'_>,
-    ) -> Comparison {
-        let Self {
-            largest_force,
-            dimension,
-            matched,
-            ..
-        } = self;
-        let [of_loaded, of_others] = self.worst;
-        let of_others = of_others.map(|worst| Difference {
-            error: relative(worst.error, largest_force),
+    /// Judges what was seen, with all contacts seen, and the pairs that are none.
+    pub(super) fn close(self, pairs: &Pairs, numbering: &Numbering<'_>) -> Judged {
+        let mut judged = self.judged;
+        let largest = judged.largest_force;
+        let idle = self.idle.into_iter();
+        judged
+            .errors
+            .extend(idle.map(|error| relative(error, largest)));
+        judged.errors.sort_unstable_by(|a, b| b.total_cmp(a));
+        let worst_idle = self.worst_idle.map(|worst| Difference {
+            error: relative(worst.error, largest),
             ..worst
         });
-        let worst = match (of_loaded, of_others) {
+        judged.worst = match (judged.worst, worst_idle) {
             (Some(a), Some(b)) => Some(if b.error > a.error { b } else { a }),
             (a, b) => a.or(b),
         };
-        let [squares, others] = self.squares;
-        let rms = squares
-            .with(others.over(largest_force))
-            .root_of_mean(matched);
         let first_fixed = numbering.first_on_floor();
-        let is_fixed = |stray: &&Measured| stray.ids.iter().all(|id| *id >= first_fixed);
-        let fixed = pairs.left().filter(is_fixed).count();
-        let free = pairs.left().filter(|stray| !is_fixed(stray));
-        let mut strays: Vec<(f64, &Measured)> = free
-            .filter(|stray| !stray.is_zero())
-            .map(|stray| (relative(stray.magnitude(), largest_force), stray))
-            .collect();
+        let is_fixed = |stray: &Measured| stray.ids.iter().all(|id| *id >= first_fixed);
+        let mut strays = Vec::new();
+        for stray in pairs.left() {
+            if is_fixed(stray) {
+                judged.fixed += 1;
+            } else if !stray.is_zero() {
+                strays.push((relative(stray.magnitude(), largest), stray));
+            }
+        }
         // The greatest first, of equals the one with the lesser numbers.
         strays.sort_by(|(a, one), (b, other)| b.total_cmp(a).then(one.ids.cmp(&other.ids)));
         let kept = strays.iter().take(KEPT);
@@ -114,20 +123,49 @@ impl Tally {
                 sites: [one?, other?],
                 force: stray.magnitude(),
                 error: *error,
-                dimension,
+                dimension: self.dimension,
             })
         });
-        Comparison {
-            contacts,
-            matched,
-            missing: self.missing,
-            first_missing: self.first_missing,
-            fixed: u64::try_from(fixed).unwrap_or(u64::MAX),
-            largest_force,
-            greatest_strays: greatest_strays.collect(),
-            strays: strays.into_iter().map(|(error, _)| error).collect(),
-            worst,
-            rms,
+        judged.greatest_strays = greatest_strays.collect();
+        judged.strays = strays.into_iter().map(|(error, _)| error).collect();
+        judged
+    }
+}
+
+impl Judged {
+    /// How many numbers, sorted from the greatest down, are over a limit.
+    pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
+        sorted.partition_point(|error| *error > limit) as u64
+    }
+
+    pub(super) fn matched(&self) -> u64 {
+        self.errors.len() as u64
+    }
+
+    fn add_ratio(&mut self, ratio: f64) {
+        let ([least, greatest], count) = self.ratios.unwrap_or(([ratio; 2], 0));
+        self.ratios = Some(([least.min(ratio), greatest.max(ratio)], count + 1));
+    }
+
+    pub(super) fn common_factor(&self, tolerance: f64) -> Option<f64> {
+        let ([least, greatest], count) = self.ratios?;
+        let factor = least + (greatest - least) / 2.0;
+        let alike = factor.is_finite() && (greatest - least) / 2.0 <= tolerance * factor.abs();
+        let is_other = (factor - 1.0).abs() > tolerance;
+        (count > 1 && alike && is_other).then_some(factor)
+    }
+
+    /// The root of the mean square of the errors.
+    #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
+    pub(super) fn rms_error(&self) -> f64 {
+        // Over the greatest, so that no square leaves the floats.
+        match self.errors.first() {
+            None | Some(0.0) => 0.0,
+            Some(greatest) if greatest.is_infinite() => *greatest,
+            Some(greatest) => {
+                let squares = self.errors.iter().map(|x| (x / greatest) * (x / greatest));
+                greatest * (squares.sum::<f64>() / self.errors.len() as f64).sqrt()
+            }
         }
     }
 }
@@ -138,46 +176,5 @@ fn relative(difference: f64, force: f64) -> f64 {
         0.0
     } else {
         (difference / force).max(f64::from_bits(1))
-    }
-}
-
-/// A sum of squares, as sum·scale², so that none leaves the floats.
-#[derive(Clone, Copy, Default)]
-struct Squares {
-    scale: f64,
-    sum: f64,
-}
-
-impl Squares {
-    fn add(&mut self, x: f64) {
-        *self = self.with(Self { scale: x, sum: 1.0 });
-    }
-
-    fn with(self, other: Self) -> Self {
-        let scale = self.scale.max(other.scale);
-        if scale == 0.0 || scale.is_infinite() {
-            return Self { scale, sum: 1.0 };
-        }
-        let part = |part: Self| part.sum * (part.scale / scale) * (part.scale / scale);
-        Self {
-            scale,
-            sum: part(self) + part(other),
-        }
-    }
-
-    /// Each number over a force.
-    fn over(self, force: f64) -> Self {
-        Self {
-            scale: relative(self.scale, force),
-            ..self
-        }
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
-    fn root_of_mean(self, count: u64) -> f64 {
-        if self.scale == 0.0 || count == 0 {
-            return 0.0;
-        }
-        self.scale * (self.sum / count as f64).sqrt()
     }
 }

@@ -105,7 +105,7 @@ fn text(export: &PileExport<'_>, file: PileFile) -> String {
     String::from_utf8(bytes(export, file)).expect("text")
 }
 
-/// The columns of a csv, as floats.
+/// The columns of a csv that hold numbers, as floats.
 fn columns(csv: &str) -> BTreeMap<String, Vec<f64>> {
     let mut lines = csv.lines();
     let heads: Vec<&str> = lines.next().expect("a head").split(',').collect();
@@ -116,7 +116,9 @@ fn columns(csv: &str) -> BTreeMap<String, Vec<f64>> {
     for line in lines {
         for (head, cell) in heads.iter().zip(line.split(',')) {
             let column = columns.get_mut(*head).expect("a column");
-            column.push(cell.parse().expect("a number"));
+            if *head != "direction" {
+                column.push(cell.parse().expect("a number"));
+            }
         }
     }
     columns

@@ -6,6 +6,7 @@
 
 mod no_silent_default;
 mod storeys;
+mod what_answers;
 
 use std::fs;
 use std::path::Path;

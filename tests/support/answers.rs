@@ -1,6 +1,6 @@
 //! All that is said about one pile, as plain data: it can be compared, and corrupted.
 //!
-//! The sites are those of THEORY §1, listed here by its definition and not by the library.
+//! The sites are those of `paper`, "Notation", listed here by its definition and not by the library.
 
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
@@ -85,7 +85,7 @@ impl Shape {
         }
     }
 
-    /// THEORY §1: 0 ≤ k ≤ L−1, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j; of discs, those with j = 0.
+    /// By `paper`, "Notation": 0 ≤ k ≤ L−1, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j; of discs, those with j = 0.
     pub(crate) fn sites(&self, layers: i128) -> Vec<Site> {
         let mut sites = Vec::new();
         for k in 0..layers {
@@ -101,7 +101,7 @@ impl Shape {
     }
 }
 
-/// The site below (i, j, k) in a direction, in a pile without end: A, B or C of THEORY §1.
+/// The site below (i, j, k) in a direction, in a pile without end: A, B or C of the paper.
 pub(crate) fn below(site: Site, direction: Direction) -> Site {
     let Site { i, j, k } = site;
     match direction {
@@ -119,7 +119,7 @@ pub(crate) fn below(site: Site, direction: Direction) -> Site {
     }
 }
 
-/// The site above (i, j, k) in a direction, in a pile without end: A′, B′ or C′ of THEORY §1.
+/// The site above (i, j, k) in a direction, in a pile without end: A′, B′ or C′ of the paper.
 pub(crate) fn above(site: Site, direction: Direction) -> Site {
     let Site { i, j, k } = site;
     match direction {

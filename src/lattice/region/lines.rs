@@ -1,6 +1,7 @@
 //! How many spheres lie on the lines above a site, within a run.
 
-use core::ops::Range;
+use core::cmp::Ordering;
+use core::ops::{Range, Sub};
 
 use super::Region;
 use crate::lattice::{Sign, count};
@@ -8,9 +9,8 @@ use crate::lattice::{Sign, count};
 impl Region {
     /// Returns how many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
     ///
-    /// For + steps N_α = min(m, x₁−i, y₁−j, s₁−i−j), N_β = min(m, i−x₀, y₁−j, i+j−s₀),
-    /// N_γ = min(m, j−y₀, x₁−i, i+j−s₀), with the bounds of the layer of (i, j); for − steps the same under
-    /// (i, j) → (−i, −j). Each argument grows by one per step down and vanishes at its surface. None outside the region.
+    /// The least of [`count::bounds_above`], each of which grows by one per step down and vanishes at its surface. None
+    /// outside the region.
     ///
     /// # Examples
     /// ```
@@ -27,41 +27,45 @@ impl Region {
         if !self.contains(i, j) {
             return [0; 3];
         }
-        let (lower, upper) = (&self.lower, &self.upper);
-        let bounds = match sign {
-            Sign::Plus => count::bounds_above(&i, &j, lower, upper, &steps),
-            Sign::Minus => {
-                let [lower, upper] = [upper, lower].map(|bounds| bounds.map(|bound| -bound));
-                count::bounds_above(&-i, &-j, &lower, &upper, &steps)
-            }
-        };
+        let bounds = count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
         bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
-    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction.
+    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction, as functions of i.
     pub(crate) fn row_counts(&self, j: i128, sign: Sign, steps: i128) -> [Trapezoid; 3] {
-        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
-        let (rises, falls) = (x0.max(s0 - j), x1.min(s1 - j));
-        let (up, down) = (steps.min(y1 - j), steps.min(j - y0));
-        match sign {
-            Sign::Plus => [
-                Trapezoid::falling(up, falls),
-                Trapezoid::rising(up, rises),
-                Trapezoid {
-                    cap: down,
-                    rises: Some(s0 - j),
-                    falls: Some(x1),
-                },
-            ],
-            Sign::Minus => [
-                Trapezoid::rising(down, rises),
-                Trapezoid::falling(down, falls),
-                Trapezoid {
-                    cap: up,
-                    rises: Some(x0),
-                    falls: Some(s1 - j),
-                },
-            ],
+        let constant = |at_zero| Linear { at_zero, slope: 0 };
+        let i = Linear {
+            at_zero: 0,
+            slope: 1,
+        };
+        let (lower, upper) = (self.lower.map(constant), self.upper.map(constant));
+        let (j, most) = (constant(j), constant(steps));
+        let bounds = count::bounds_above(&i, &j, &lower, &upper, &most, sign);
+        bounds.map(|bounds| {
+            let count = Trapezoid {
+                cap: steps,
+                rises: None,
+                falls: None,
+            };
+            bounds.into_iter().fold(count, Trapezoid::bounded_by)
+        })
+    }
+}
+
+/// A function of the place along a row, `at_zero` + `slope`·i.
+#[derive(Clone, Copy)]
+struct Linear {
+    at_zero: i128,
+    slope: i128,
+}
+
+impl Sub<&Self> for Linear {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        Self {
+            at_zero: self.at_zero - rhs.at_zero,
+            slope: self.slope - rhs.slope,
         }
     }
 }
@@ -75,19 +79,21 @@ pub(crate) struct Trapezoid {
 }
 
 impl Trapezoid {
-    const fn rising(cap: i128, rises: i128) -> Self {
-        Self {
-            cap,
-            rises: Some(rises),
-            falls: None,
-        }
-    }
-
-    const fn falling(cap: i128, falls: i128) -> Self {
-        Self {
-            cap,
-            rises: None,
-            falls: Some(falls),
+    /// The lesser of the count and a function that rises by one along the row, falls by one, or is level.
+    fn bounded_by(self, Linear { at_zero, slope }: Linear) -> Self {
+        match slope.cmp(&0) {
+            Ordering::Equal => Self {
+                cap: self.cap.min(at_zero),
+                ..self
+            },
+            Ordering::Greater => Self {
+                rises: self.rises.max(Some(-at_zero)),
+                ..self
+            },
+            Ordering::Less => Self {
+                falls: Some(self.falls.map_or(at_zero, |until| until.min(at_zero))),
+                ..self
+            },
         }
     }
 

@@ -2,22 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use cannonpile::figure::{
-    BaseMap, Drawing, Indexing, Network, Picture, Response, Shear, SphereForces, Subject,
-};
+use cannonpile::figure::{self, Figure, Layout, Subject};
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, parse};
 use cannonpile::table::WriteError;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
 
-use super::{Command, note_if_it_falls, note_of_part};
+use super::Command;
 use crate::args::{SceneOptions, UnitSystem, one, target};
-use crate::output::{Failure, Refused, write_to};
+use crate::output::{Failure, Refused, complain, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-z points down in figures, as in the paper.
+z points up in figures, as in exported files.
 
 Examples:
   cannonpile plot shear --output shear.svg
@@ -99,14 +97,32 @@ struct ToFile {
     /// Write to an SVG file, which is replaced only when all is written [default: stdout]
     #[arg(long = "output", value_name = "FILE.svg")]
     file: Option<PathBuf>,
+    /// The width of the figure, in pixels; all in it grows with it
+    #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    width: u32,
+    /// Leave out the title and the line below it
+    #[arg(long)]
+    no_title: bool,
 }
 
 impl Command for Plot {
     fn run(&self) -> Result<bool, Failure> {
-        let file = self.of().output.file.as_deref();
-        keep_to_svg(file)?;
-        let drawing = self.draw()?;
-        write_to(file, |out| drawing.write(out).map_err(WriteError::from))?;
+        let ToFile {
+            file,
+            width,
+            no_title,
+        } = &self.of().output;
+        keep_to_svg(file.as_deref())?;
+        let figure = self.draw()?.laid_out(Layout {
+            width: f64::from(*width),
+            title: !no_title,
+        });
+        write_to(file.as_deref(), |out| {
+            figure.write(out).map_err(WriteError::from)
+        })?;
+        if let Some(note) = figure.note() {
+            complain(&format!("note: {note}"));
+        }
         Ok(true)
     }
 
@@ -156,54 +172,42 @@ impl Plot {
         }
     }
 
-    fn draw(&self) -> Result<Drawing, Failure> {
+    fn draw(&self) -> Result<Figure, Failure> {
         match self {
             Self::Pile(of) => {
                 let (scene, pile) = of.scene.read_or(PICTURED)?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
-                Ok(Picture::new(&subject)?.drawing())
+                Ok(figure::pile(&subject)?)
             }
             Self::Indexing { of, layer } => {
                 let (scene, pile) = of.scene.read()?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
                 let layer = layer.unwrap_or_else(|| INDEXED.min(pile.layers() - 1));
-                let figure = Indexing::new(&subject, layer).map_err(of_layer)?;
-                Ok(figure.drawing())
+                Ok(figure::indexing(&subject, layer).map_err(of_layer)?)
             }
             Self::Sphere { of, at } => of.draw(|subject, pile| {
                 let site = match one(at.as_deref(), pile)? {
                     Some(site) => site,
-                    None => SphereForces::example(pile)?,
+                    None => figure::example(pile)?,
                 };
-                let figure = SphereForces::new(subject, site)?;
-                let pulls = figure.forces.iter().any(|force| force.magnitude < 0.0);
-                Ok((figure.drawing(), Seen::Part { pulls }))
+                Ok(figure::sphere(subject, site)?)
             }),
             Self::Network { of, layer } => of.draw(|subject, _| match layer {
-                Some(k) => {
-                    let figure = Network::layer(subject, *k).map_err(of_layer)?;
-                    let pulls = figure.links.iter().any(|link| link.force < 0.0);
-                    Ok((figure.drawing(), Seen::Part { pulls }))
-                }
-                None => Ok((Network::section(subject)?.drawing(), Seen::All)),
+                Some(k) => figure::layer(subject, *k).map_err(of_layer),
+                None => Ok(figure::section(subject)?),
             }),
-            Self::Shear(of) => {
-                of.draw(|subject, _| Ok((Shear::new(subject)?.drawing(), Seen::All)))
-            }
-            Self::Base(of) => {
-                of.draw(|subject, _| Ok((BaseMap::new(subject)?.drawing(), Seen::All)))
-            }
+            Self::Shear(of) => of.draw(|subject, _| Ok(figure::shear(subject)?)),
+            Self::Base(of) => of.draw(|subject, _| Ok(figure::base(subject)?)),
             Self::Response { of, layer } => {
                 let (mut scene, mut pile) = of.of.scene.read()?;
                 if needs_a_top(&scene) {
                     scene.anchor = Some(Anchor::Top(Region::hexagon(WIDE, WIDE)?));
                     pile = scene.pile()?;
                 }
-                let pile = Response::of_unit_load(pile)?;
+                let pile = figure::of_unit_load(pile)?;
                 let layer = layer.unwrap_or(pile.layers() - 1);
                 of.draw_pile(&scene, &pile, |subject, _| {
-                    let figure = Response::new(subject, layer).map_err(of_layer)?;
-                    Ok((figure.drawing(), Seen::All))
+                    figure::response(subject, layer).map_err(of_layer)
                 })
             }
         }
@@ -229,40 +233,29 @@ fn needs_a_top(scene: &Scene) -> bool {
 impl Measured {
     fn draw(
         &self,
-        figure: impl FnOnce(&Subject<'_>, &Pile) -> Result<(Drawing, Seen), Refused>,
-    ) -> Result<Drawing, Failure> {
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+    ) -> Result<Figure, Failure> {
         let (scene, pile) = self.of.scene.read()?;
-        self.draw_pile(&scene, &pile, figure)
+        self.draw_pile(&scene, &pile, draw)
     }
 
     fn draw_pile(
         &self,
         scene: &Scene,
         pile: &Pile,
-        figure: impl FnOnce(&Subject<'_>, &Pile) -> Result<(Drawing, Seen), Refused>,
-    ) -> Result<Drawing, Failure> {
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+    ) -> Result<Figure, Failure> {
         let subject = match self.units {
             UnitSystem::Pile => Subject::of_pile(pile, &scene.spacing()?)?,
             UnitSystem::Si => Subject::of_packing(scene.packing(pile)?),
         };
         let progress = Progress::begin("drawing");
-        let drawn = figure(&subject, pile);
+        let drawn = draw(&subject, pile);
         drop(progress);
         // A figure has no other numbers than floats.
-        let (drawing, seen) = drawn.map_err(|refused| match refused.error {
+        drawn.map_err(|refused| match refused.error {
             error @ Error::Overflow { .. } => self.of.scene.beyond_floats(error, scene),
             _ => refused.into(),
-        })?;
-        match seen {
-            Seen::All => note_if_it_falls(pile),
-            Seen::Part { pulls } => note_of_part(pile, pulls),
-        }
-        Ok(drawing)
+        })
     }
-}
-
-/// Which forces are in a figure, where the verdict on the whole pile may take longer than the figure.
-enum Seen {
-    All,
-    Part { pulls: bool },
 }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
+use cannonpile::Packing;
 use cannonpile::scene::Scene;
 use cannonpile::verify::{self, Reading, Refusal, Report};
 use clap::Args;
@@ -50,7 +51,7 @@ impl Command for Verify {
         let format = self.output.format()?;
         let refused = |refusal| self.refused(refusal, &scene);
         let progress = Progress::begin("reading FILE");
-        let reading = self.read().map_err(refused)?;
+        let reading = self.read(&packing).map_err(refused)?;
         drop(progress);
         let progress = Progress::begin("comparing with the exact forces");
         let comparison = reading.compare(&packing).map_err(refused)?;
@@ -75,11 +76,11 @@ impl Command for Verify {
 }
 
 impl Verify {
-    fn read(&self) -> Result<Reading, Refusal> {
+    fn read(&self, packing: &Packing<'_>) -> Result<Reading, Refusal> {
         if self.measured == Path::new("-") {
-            verify::read(io::stdin().lock())
+            verify::read_for(packing, io::stdin().lock())
         } else {
-            verify::read(BufReader::new(File::open(&self.measured)?))
+            verify::read_for(packing, BufReader::new(File::open(&self.measured)?))
         }
     }
 

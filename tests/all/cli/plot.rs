@@ -97,6 +97,8 @@ fn refusals_name_the_option() {
         ("shear --output shear.png", "shear.svg"),
         ("network --layer 9", "--layer"),
         ("indexing --layer 1000 --layers 1001", "--layer"),
+        ("shear --width 0", "--width"),
+        ("work-precision", "work-precision"),
         ("shear --format csv", "--format"),
         ("cake", "cake"),
     ] {
@@ -121,6 +123,15 @@ fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
 }
 
 #[test]
+fn the_page_can_be_wide_and_without_a_title() {
+    let whole = stdout("plot shear");
+    assert_eq!(whole, stdout("plot shear --width 800"));
+    assert!(whole.contains("width=\"800\"") && whole.contains("font-weight=\"bold\""));
+    let bare = stdout("plot shear --width 1200 --no-title");
+    assert!(bare.contains("width=\"1200\"") && !bare.contains("font-weight=\"bold\""));
+}
+
+#[test]
 fn the_figures_of_readme_are_those_of_the_commands() {
     for (command, figure) in [
         (
@@ -136,7 +147,7 @@ fn the_figures_of_readme_are_those_of_the_commands() {
             include_str!("../../../examples/figures/response.svg"),
         ),
     ] {
-        assert!(stdout(command) == figure, "draw it anew: {command}");
+        assert!(stdout(command) == figure, "draw it again: {command}");
         assert!(
             include_str!("../../../README.md").contains(command),
             "{command}"

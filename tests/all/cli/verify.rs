@@ -72,9 +72,14 @@ fn no(arguments: &str) -> String {
     String::from_utf8(stdout).expect("text")
 }
 
+/// The value on a line, without what it means.
 fn value<'t>(table: &'t str, name: &str) -> &'t str {
     let line = table.lines().find(|line| line.starts_with(name));
-    line.map(|line| line[name.len()..].trim()).expect("a line")
+    let value = line.map(|line| line[name.len()..].trim()).expect("a line");
+    match name {
+        "worst" => value,
+        _ => value.split(' ').next().expect("a word"),
+    }
 }
 
 #[test]
@@ -106,8 +111,7 @@ fn a_simulation_is_accepted_as_far_as_its_springs_are_stiff() {
     } = cannonpile(&format!("verify {LAMMPS} --layers 4 --format csv"));
     assert_eq!(status.code(), Some(0));
     let csv = String::from_utf8(stdout).expect("text");
-    let header =
-        "accepted,accept,contacts,matched,missing,extra,noise,fixed,largest_error,rms_error,worst";
+    let header = "accepted,accept,contacts,matched,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor";
     assert_eq!(csv.lines().next(), Some(header));
     assert!(
         csv.lines()
@@ -162,6 +166,40 @@ fn a_wrong_a_missing_and_an_extra_contact_are_named() {
     assert_eq!(row["missing_contacts"][0]["direction"], "alpha");
     assert_eq!(row["extra_pairs"][0]["sites"][1]["i"], 1);
     assert_eq!(row["worst"]["error"], 0.0);
+}
+
+#[test]
+fn another_gravity_is_named_as_a_factor() {
+    let file = Temporary::new("g.csv", &exact("--layers 3 --gravity 9.81"));
+    let table = no(&format!("verify {} --layers 3", file.path()));
+    assert_eq!(value(&table, "beyond"), value(&table, "contacts"));
+    let factor: f64 = value(&table, "factor").parse().expect("a number");
+    assert!((factor - 9.81).abs() < 1e-12);
+    let right = stdout(&format!("verify {} --layers 3 --gravity 9.81", file.path()));
+    assert_eq!(
+        (value(&right, "beyond"), value(&right, "factor")),
+        ("0", "-")
+    );
+}
+
+#[test]
+fn an_endless_list_is_refused_where_it_repeats_itself() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(["verify", "-"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let mut stdin = child.stdin.take().expect("piped");
+    stdin.write_all(b"id1,id2,force\n").expect("read");
+    // Until it is read no more.
+    while stdin.write_all(b"1,2,0.5\n").is_ok() {}
+    let output = child.wait_with_output().expect("ends");
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(
+        String::from_utf8(output.stderr).expect("text"),
+        "error: FILE: stdin, line 3: spheres 1 and 2 again, after line 2: list each pair once\n"
+    );
 }
 
 #[test]

@@ -8,6 +8,18 @@ use cannonpile::table::{self, FileFormat, NumberFormat, Table, Units};
 
 use super::{bytes, columns, for_each_pile, packing, text};
 
+fn ratio(n: i64) -> num_rational::BigRational {
+    num_rational::BigRational::from_integer(n.into())
+}
+
+/// A csv without its last column.
+fn without_last(csv: &str) -> String {
+    let lines = csv
+        .lines()
+        .map(|line| line.rsplit_once(',').expect("columns").0);
+    lines.fold(String::new(), |text, line| text + line + "\n")
+}
+
 fn csv_of(table: Table<'_>) -> String {
     let mut csv = Vec::new();
     table
@@ -21,18 +33,21 @@ fn spheres_and_base_are_the_tables() {
     for_each_pile(|scene, export| {
         let packing = export.packing();
         let spheres = table::spheres(packing, Selection::All).expect("a table");
-        assert!(
-            text(export, PileFile::SpheresCsv) == csv_of(spheres),
-            "{scene:?}"
-        );
+        let written = text(export, PileFile::SpheresCsv);
+        assert!(without_last(&written) == csv_of(spheres), "{scene:?}");
         let units = Units::of_packing(packing.clone());
         let base = table::base(&units, Selection::Base).expect("a table");
-        assert!(text(export, PileFile::BaseCsv) == csv_of(base), "{scene:?}");
+        let written = text(export, PileFile::BaseCsv);
+        assert!(without_last(&written) == csv_of(base), "{scene:?}");
+        let first = export.numbering().first_on_floor();
+        for (id, line) in (first..).zip(written.lines().skip(1)) {
+            assert!(line.ends_with(&format!(",{id}")), "{line}");
+        }
     });
 }
 
 #[test]
-fn contacts_are_the_table_with_numbers_for_sites() {
+fn contacts_are_the_table_with_numbers_besides() {
     for_each_pile(|scene, export| {
         let units = Units::of_packing(export.packing().clone());
         let table = table::contacts(&units, Selection::All).expect("a table");
@@ -41,15 +56,60 @@ fn contacts_are_the_table_with_numbers_for_sites() {
         let wanted = csv_of(table);
         let wanted = wanted.lines().map(|line| {
             let cells: Vec<&str> = line.split(',').collect();
-            cells[places..places + 4].join(",")
+            [&cells[places..places + 4], &cells[..places]]
+                .concat()
+                .join(",")
         });
         let found = text(export, PileFile::ContactsCsv);
         let found = found.lines().map(|line| {
             let cells: Vec<&str> = line.split(',').collect();
-            assert_eq!(cells.len(), 6);
+            assert_eq!(cells.len(), 6 + places);
             cells[2..].join(",")
         });
         assert!(found.eq(wanted), "{scene:?}");
+    });
+}
+
+#[test]
+fn loads_are_in_the_csv() {
+    let at = |i, j, k| Site { i, j, k };
+    let pile = Pile::triangular(3).expect("a pile");
+    let pile = pile.with_load(at(0, 0, 0), ratio(5)).expect("a sphere");
+    let pile = pile.with_load(at(1, 1, 2), ratio(7)).expect("a sphere");
+    let packing = packing(&pile);
+    let export = PileExport::new(&packing).expect("files");
+    let spheres = columns(&text(&export, PileFile::SpheresCsv));
+    assert_eq!(
+        spheres["load"],
+        [5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 7.0, 0.0]
+    );
+    assert!(
+        spheres["mass"]
+            .iter()
+            .all(|mass| mass.to_bits() == 1.0_f64.to_bits())
+    );
+}
+
+#[test]
+fn every_column_is_described() {
+    for_each_pile(|scene, export| {
+        let described = text(export, PileFile::ColumnsCsv);
+        let mut described = described.lines();
+        assert_eq!(described.next(), Some("file,column,unit,meaning"));
+        let files = [
+            PileFile::SpheresCsv,
+            PileFile::ContactsCsv,
+            PileFile::BaseCsv,
+        ];
+        for file in files {
+            let csv = text(export, file);
+            for column in csv.lines().next().expect("a head").split(',') {
+                let begin = format!("{},{column},", file.name());
+                let line = described.next().expect("a line");
+                assert!(line.starts_with(&begin), "{line} of {scene:?}");
+            }
+        }
+        assert_eq!(described.next(), None);
     });
 }
 

@@ -66,11 +66,12 @@ fn all_files_or_none() {
             "spheres.csv",
             "contacts.csv",
             "base.csv",
+            "columns.csv",
             "spheres.txt",
             "pile.py"
         ]
     );
-    assert_eq!(fs::read_dir(&inside).expect("a folder").count(), 5);
+    assert_eq!(fs::read_dir(&inside).expect("a folder").count(), 6);
     for written in written {
         let content = fs::read(&written.path).expect("a file");
         assert_eq!(content, bytes(&export, written.file));

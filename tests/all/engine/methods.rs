@@ -283,11 +283,7 @@ fn layers_say_what_they_do_not_do() {
     let elsewhere = layer.to_below(Site::APEX);
     assert!(matches!(
         elsewhere,
-        Err(Error::SweepElsewhere {
-            layer: 0,
-            at: 2,
-            ..
-        })
+        Err(Error::OtherLayer { layer: 0, at: 2 })
     ));
     assert!(matches!(
         layer.on_floor(Site { i: 0, j: 0, k: 2 }),

@@ -1,9 +1,12 @@
 //! The shear field, arrow by arrow.
 
 use super::{corners, number, of_class, piles, site, subject};
-use cannonpile::Pile;
-use cannonpile::figure::{Shear, Subject};
+use cannonpile::figure::{self, Subject};
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::Site;
 use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
 use roxmltree::{Document, Node};
 
@@ -27,7 +30,7 @@ fn scale(document: &Document<'_>) -> f64 {
     x / number(key, "data-force")
 }
 
-/// Whether every arrow of a document is as long and leads where the paper says, eq. (result-shear), for `layers` layers;
+/// Whether every arrow of a document is as long and leads where the paper says, (14), for `layers` layers;
 /// an oracle in floats.
 fn is_the_papers(svg: &str, layers: i32) -> bool {
     let document = Document::parse(svg).unwrap();
@@ -45,7 +48,7 @@ fn is_the_papers(svg: &str, layers: i32) -> bool {
             vector(mark)
         };
         // Two coordinates, each rounded to a ten thousandth of a pixel.
-        (right - y * pixels).abs() < 4e-4 && (up - x * pixels).abs() < 4e-4
+        (right - x * pixels).abs() < 4e-4 && (up - y * pixels).abs() < 4e-4
     })
 }
 
@@ -53,7 +56,7 @@ fn is_the_papers(svg: &str, layers: i32) -> bool {
 fn arrows_are_as_long_as_the_papers_formula_says() {
     for layers in [2, 3, 4, 7, 10, 19] {
         let pile = Pile::triangular(layers.into()).unwrap();
-        let svg = Shear::new(&subject(&pile)).unwrap().drawing().to_string();
+        let svg = figure::shear(&subject(&pile)).unwrap().to_string();
         assert!(is_the_papers(&svg, layers), "{layers} layers");
         // A test that could not fail would be none.
         assert!(!is_the_papers(&svg, layers + 1));
@@ -74,48 +77,49 @@ fn arrows_are_as_long_as_the_papers_formula_says() {
     }
 }
 
+/// The forces that are drawn, by sphere.
+fn forces(document: &Document<'_>) -> Vec<(Site, [f64; 2])> {
+    let marks = document
+        .descendants()
+        .filter(|node| node.has_attribute("data-x"));
+    let force = |node: Node<'_, '_>| {
+        (
+            site(&node),
+            ["data-x", "data-y"].map(|name| number(&node, name)),
+        )
+    };
+    marks.map(force).collect()
+}
+
 #[test]
 fn arrows_of_any_pile_are_the_exact_forces() {
     for pile in piles() {
-        let subject = subject(&pile);
-        let shear = Shear::new(&subject).unwrap();
+        let svg = figure::shear(&subject(&pile)).unwrap().to_string();
+        let document = Document::parse(&svg).unwrap();
+        let forces = forces(&document);
+        let sites = pile.rows(Selection::Base).unwrap().flatten();
+        assert!(forces.iter().map(|(site, _)| *site).eq(sites));
         let statics = pile.forces::<BigRational>();
         let cos2 = BigRational::from_integer(1.into()) - pile.sin_phi() * pile.sin_phi();
         let across = Surd::sqrt(cos2 * BigRational::from_integer(4.into())).unwrap();
-        for arrow in &shear.arrows {
-            let exact = statics.on_floor(arrow.site).unwrap();
-            let y = across.scaled(&exact.shear_y);
-            assert_eq!(
-                Some(arrow.force),
-                Some([
-                    Surd::from(exact.shear_x).nearest().unwrap(),
-                    y.nearest().unwrap()
-                ])
-            );
+        for (site, force) in &forces {
+            let exact = statics.on_floor(*site).unwrap();
+            let [x, y] = [Surd::from(exact.shear_x), across.scaled(&exact.shear_y)];
+            assert_eq!(*force, [x, y].map(|part| part.nearest::<f64>().unwrap()));
         }
-        let svg = shear.drawing().to_string();
-        let document = Document::parse(&svg).unwrap();
-        if shear.greatest() == 0.0 {
-            assert!(
-                of_class(&document, "key").is_empty() && of_class(&document, "arrow").is_empty()
-            );
+        let drawn = of_class(&document, "arrow");
+        let acting = forces.iter().filter(|(_, force)| *force != [0.0; 2]);
+        assert_eq!(drawn.len(), acting.count());
+        if drawn.is_empty() {
+            assert!(of_class(&document, "key").is_empty());
             continue;
         }
         let pixels = scale(&document);
-        let discs = pile.shape().dimension().number() == 2;
-        let forces = shear
-            .arrows
-            .iter()
-            .filter(|arrow| arrow.force.iter().any(|part| *part != 0.0));
-        let drawn = of_class(&document, "arrow");
-        assert_eq!(drawn.len(), forces.clone().count());
-        for (arrow, drawn) in forces.zip(drawn) {
-            assert_eq!(site(&drawn), arrow.site);
-            let [x, y] = arrow.force;
-            let expected = if discs { [x, 0.0] } else { [y, x] };
+        for drawn in drawn {
+            let [x, y] = ["data-x", "data-y"].map(|name| number(&drawn, name));
             let [right, up] = vector(&drawn);
-            assert!((right - expected[0] * pixels).abs() < 4e-4);
-            assert!((up - expected[1] * pixels).abs() < 4e-4);
+            assert!((right - x * pixels).abs() < 4e-4);
+            assert!((up - y * pixels).abs() < 4e-4);
         }
     }
 }
@@ -123,13 +127,16 @@ fn arrows_of_any_pile_are_the_exact_forces() {
 #[test]
 fn units_are_newtons_if_they_are_asked_for() {
     let pile = Pile::triangular(10).unwrap();
-    let packing = subject(&pile).packing().clone();
+    let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).unwrap();
+    let packing = Packing::new(&pile, &spacing).unwrap();
     let tan: f64 = packing.inclination().tan().nearest().unwrap();
-    let [multiples, newtons] =
-        [subject(&pile), Subject::of_packing(packing)].map(|s| Shear::new(&s).unwrap());
-    assert_eq!((multiples.unit, newtons.unit), ("mg·tanθ", "N"));
-    for (a, b) in multiples.arrows.iter().zip(&newtons.arrows) {
-        for (a, b) in a.force.iter().zip(b.force) {
+    let svgs = [subject(&pile), Subject::of_packing(packing)]
+        .map(|s| figure::shear(&s).unwrap().to_string());
+    assert!(svgs[0].contains("greatest 3 mg·tanθ") && svgs[1].contains("greatest 2.882 N"));
+    let [multiples, newtons] = svgs.map(|svg| forces(&Document::parse(&svg).unwrap()));
+    assert_eq!(multiples.len(), 55);
+    for ((_, a), (_, b)) in multiples.iter().zip(&newtons) {
+        for (a, b) in a.iter().zip(b) {
             assert!((a * tan - b).abs() <= 1e-15 * b.abs());
         }
     }

@@ -1,4 +1,4 @@
-//! What holds of every stacking on every region (THEORY §3): weight, first and second moments, no torsion.
+//! What holds of every stacking on every region (`paper`, "Invariants"): weight, first and second moments, no torsion.
 //!
 //! Horizontal positions are taken in thirds of the two lattice vectors of a layer, where all of it is rational: the
 //! lattice vectors are √3·2R sinθ long and at 60° to each other, so (p, q) is √((p² + pq + q²)/3)·2R sinθ from the axis.

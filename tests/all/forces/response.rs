@@ -1,4 +1,4 @@
-//! The response to a unit load on spheres that weigh nothing (THEORY §3): Σv = 1, Σv² = 1/3, Σvr² = n² at depth n,
+//! The response to a unit load on spheres that weigh nothing (`paper`, "Invariants"): Σv = 1, Σv² = 1/3, Σvr² = n² at depth n,
 //! v the vertical part of a contact force, r the distance of the lower sphere from the line of the load, in 2R sinθ.
 
 use std::collections::BTreeMap;

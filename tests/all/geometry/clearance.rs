@@ -155,7 +155,7 @@ fn known_bounds_of_discs() {
     }
 }
 
-/// q ≥ max(3/(2(1+s)), 3/(4(1−s²))), and from three layers on s ≤ 5/6 (THEORY §2).
+/// q ≥ max(3/(2(1+s)), 3/(4(1−s²))), and from three layers on s ≤ 5/6 (`paper`, "Overlap").
 #[test]
 fn known_bounds_of_isosceles_bases() {
     for shape in Shape::isosceles() {

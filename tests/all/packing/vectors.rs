@@ -10,7 +10,7 @@ use crate::forces::invariants::position;
 use crate::support::cases::{Bounds, Case, Random, all_signs};
 use crate::support::oracles::naive::{Naive, Place, direction, ratio, site};
 
-/// A horizontal way in thirds of lattice vectors, and layers down, in the basis of the paper's eq. (1): 2R times sinθ,
+/// A horizontal way in thirds of lattice vectors, and layers down, in the basis of the paper's (1): 2R times sinθ,
 /// √3·sinθ, cosθ. The lattice vectors are (0, 1) and (3/2, 1/2) in it.
 fn vector([p, q]: &[BigInt; 2], down: i128) -> Vector<BigRational> {
     Vector {

@@ -108,15 +108,15 @@ fn no_invalid_pile_comes_in() {
     read(&text(3, "1/2", "++", base, &load(2, "1"))).expect("a pile");
     for (text, said) in [
         (text(3, "1/2", "+++", base, "[]"), "at most 3"),
-        (text(3, "1/3", "+-", site, "[]"), "sin_phi"),
-        (text(3, "1/3", "++", base, "[]"), "sin_phi"),
+        (text(3, "1/3", "+-", site, "[]"), "sin-phi"),
+        (text(3, "1/3", "++", base, "[]"), "sin-phi"),
         (text(3, "1", "++", site, "[]"), "between 0 and 1"),
-        (text(2, "1/2", "++", site, "[]"), "sin_phi"),
+        (text(2, "1/2", "++", site, "[]"), "sin-phi"),
         (
             text(2, "0", "+-", site, "[]"),
             "stacking has no meaning beside dimension 2",
         ),
-        (text(2, "0", "++", base, "[]"), "anchor"),
+        (text(2, "0", "++", base, "[]"), "no meaning beside"),
         (text(3, "1/2", "++", base, &load(3, "1")), "no layer 3"),
         (
             text(3, "1/2", "++", base, &load(2, "-1")),

@@ -30,9 +30,16 @@ fn columns_are_found_by_name() {
         "note,id1,id2,force\n\"a, \"\"b\"\"\",1,2,5e-1\n,3,1,2.0e-07\n",
         " id1 , id2 , force \n 1 , 2 , +0.5 \n 003 , 1 , 20e-8 \n",
         "patom1,patom2,force\n1.0,2.000,0.5\n3.,1,2e-7\n",
+        "id1,id2,force\n1.000000000000000000e+00,2.0e0,0.5\n0.3e+1,1.0E0,2e-7\n",
     ] {
         assert_eq!(read(text), want, "{text:?}");
     }
+    let alone = "id1,id2,fx,fy,fz\n1,2,2,1,2\n4,1,0,3,4\n";
+    let want = [
+        Measured::new([1, 2], 3.0).with_vector([2.0, 1.0, 2.0]),
+        Measured::new([4, 1], -5.0).with_vector([0.0, 3.0, 4.0]),
+    ];
+    assert_eq!(read(alone), want);
     let vectors = "fz,force,id1,id2,fx,fy\n3,0.5,1,2,1,-2\n";
     let want = Measured::new([1, 2], 0.5).with_vector([1.0, -2.0, 3.0]);
     assert_eq!(read(vectors), [want]);
@@ -255,7 +262,11 @@ fn what_does_not_fit_the_pile_is_said_with_its_line() {
     let packing = packing(&pile, ratio(6, 5));
     let compared = |text: &str| {
         let reading = verify::read(text.as_bytes()).unwrap();
-        reading.compare(&packing).unwrap_err().to_string()
+        let compared = reading.compare(&packing).unwrap_err().to_string();
+        // Where the scene is known, while it is read.
+        let read = verify::read_for(&packing, text.as_bytes()).unwrap_err();
+        assert_eq!(read.to_string(), compared);
+        compared
     };
     let spheres = "the spheres of this scene are numbered 1 to 4, from the top";
     for (text, want) in [

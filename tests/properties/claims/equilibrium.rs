@@ -1,6 +1,6 @@
 //! Every sphere is in exact equilibrium, action is reaction, and the floor bears the weight.
 //!
-//! The paper's equations of equilibrium with the terms that it leaves out (THEORY §2), summed from what the
+//! The paper's equations of equilibrium with the terms that it leaves out (`paper`, "Errata"), summed from what the
 //! library tells each sphere, not from the formula that it uses.
 
 use arbitrary::Unstructured;
@@ -136,7 +136,7 @@ fn bears_the_weight(base: &[FloorForce<BigRational>], weight: &BigRational) -> C
     same("the shears' sum along y", &total(|f| &f.shear_y), &zero)
 }
 
-/// The normal force on the base in mg: (L+2)/3 on an equilateral base (paper, eq. (result-normal)), (L+1)/2 for
+/// The normal force on the base in mg: (L+2)/3 on an equilateral base (paper, (13)), (L+1)/2 for
 /// discs, 1 + ((L−1−j) + 2sj)/(2(1+s)) in general.
 fn normal(pile: &Pile, site: Site) -> BigRational {
     let integer = |n: i128| BigRational::from_integer(n.into());
@@ -152,7 +152,7 @@ fn normal(pile: &Pile, site: Site) -> BigRational {
 }
 
 /// The shear on an equilateral base, in mg·tanθ and √3·mg·tanθ: −(L−1−3j)/6, −(L−1−2i−j)/6 (paper, eq.
-/// (result-shear)).
+/// (14)).
 fn equilateral_shear(pile: &Pile, site: Site) -> [BigRational; 2] {
     let steps = pile.layers() - 1;
     [steps - 3 * site.j, steps - 2 * site.i - site.j]

@@ -28,7 +28,7 @@
 //! | `measured` | measured forces are read as written, and a planted fault is found (feature `export`) |
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
 //!
-//! An oracle has a file of its own: `handed_on`, forces sphere by sphere.
+//! `handed_on` has the oracle's forces of what a generator describes.
 
 pub(crate) mod engine;
 pub(crate) mod equilibrium;

@@ -97,7 +97,7 @@ fn agrees(verdict: &Result<Vec<Apart>, Error>, pile: &Pile, spacing: &Spacing) -
 
 /// Squared distances by coordinates, x² + y² + z², each square in integers over one denominator.
 ///
-/// Of eq. (1), with s = p/r: x = ((n_a+n_b) s − n_c) sinθ, y = (n_a−n_b) cosφ sinθ, z = (n_a+n_b+n_c) cosθ.
+/// Of the paper, (1), with s = p/r: x = ((n_a+n_b) s − n_c) sinθ, y = (n_a−n_b) cosφ sinθ, z = (n_a+n_b+n_c) cosθ.
 struct Distances {
     p: BigInt,
     r: BigInt,

@@ -1,6 +1,6 @@
 //! Answers in SI are the roots that the geometry makes them, and are rounded to the nearest float.
 //!
-//! The oracle knows only the angles by their squares, sin²θ = q/3 or q/4 and sin²φ = s², eq. (1) of the paper
+//! The oracle knows only the angles by their squares, sin²θ = q/3 or q/4 and sin²φ = s², (1) of the paper
 //! as signed squares, and counts. It takes no root: an answer is compared by sign and square, and its float
 //! with the squares of the points halfway to its neighbours.
 
@@ -73,7 +73,7 @@ fn squared_length(v: &[Surd; 3]) -> BigRational {
         .fold(BigRational::zero(), |sum, c| sum + c.square())
 }
 
-/// The formulas, in squares. z points up here, so the ê of eq. (1) have z = +cosθ.
+/// The formulas, in squares. z points up here, so the ê of (1) have z = +cosθ.
 struct Oracle<'a> {
     pile: &'a Pile,
     /// ê_a, ê_b, ê_c in the basis (sinθ, cosφ sinθ, cosθ): (s, 1, 1), (s, −1, 1), (−1, 0, 1).
@@ -124,7 +124,7 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// The spheres above on the three lines (paper, eq. (counts)).
+    /// The spheres above on the three lines (paper, (9)).
     fn counts(site: Site) -> [BigRational; 3] {
         [site.k - site.i - site.j, site.i, site.j].map(integer)
     }

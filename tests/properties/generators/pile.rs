@@ -140,7 +140,7 @@ pub(crate) fn spacing(u: &mut Unstructured<'_>, clearance: &Clearance) -> Result
     Ok(Spacing::from_square(square).expect("positive"))
 }
 
-/// A pile whose spheres have room at some spacing: s ≤ 5/6 from three layers on (THEORY §2); in two layers
+/// A pile whose spheres have room at some spacing: s ≤ 5/6 from three layers on (`paper`, "Overlap"); in two layers
 /// s² < 3/4, which leaves θ below 90°.
 pub(crate) fn roomy_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let pile = pile(u)?;

@@ -1,8 +1,8 @@
 //! A naive oracle: the equilibrium of one sphere after the other, from the top down, each solved as
 //! the linear system it is.
 //!
-//! It knows none of the library's formulas. It has the unit vectors of the paper's eq. (1), the
-//! weight, and who stands on whom (THEORY §1); elimination does the rest.
+//! It knows none of the library's formulas. It has the unit vectors of the paper's (1), the
+//! weight, and who stands on whom (`paper`, "Notation"); elimination does the rest.
 
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
@@ -43,7 +43,7 @@ pub(crate) fn solve(shape: &Shape, layers: i128) -> Answers {
     answers
 }
 
-/// ê_a, ê_b, ê_c of the paper's eq. (1) over (sinθ, 2cosφ·sinθ, cosθ), z down; the two of a disc
+/// ê_a, ê_b, ê_c of the paper's (1) over (sinθ, 2cosφ·sinθ, cosθ), z down; the two of a disc
 /// lie in the x–z plane.
 fn unit_vectors(shape: &Shape) -> Vec<Vector<BigRational>> {
     let vector = |x: BigRational, y| Vector {

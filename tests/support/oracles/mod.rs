@@ -3,7 +3,7 @@
 //! | file | what it has |
 //! |---|---|
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
-//! | `naive` | the forces of any stacking on any region, sphere by sphere |
+//! | `naive` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `overlap` | the distance of every two spheres |
 //! | `sets` | regions and layers as plain sets of sites |
 

@@ -1,29 +1,32 @@
-//! A naive oracle: piles as sets of sites, the equilibrium of one sphere after the other.
+//! The forces of any stacking on any region: piles as sets of sites, the equilibrium of one sphere after the other.
 //!
-//! It knows who stands on whom (THEORY §3), where the three supports of a sphere lie around it, and what a sphere
-//! weighs. No regions, no runs, no transfer matrix, no common denominators: the three supporting forces are the
-//! solution of the linear system of forces, from the geometry, in rationals. Of the library it has only the names of
-//! sites and directions, for the comparison.
+//! A sphere receives a push from each sphere that stands on it, along the line of their centres, and its weight and
+//! load. It hands all that on to its three supports. In lattice coordinates, the support m lies σ·o_m across, with
+//! o_α = (−1/3, −1/3), o_β = (2/3, −1/3), o_γ = (−1/3, 2/3) and σ = ±1 the sign of the step, and the same way down; so
+//! three forces f_m with Σ f_m = 3V and Σ σ f_m o_m = H balance a vertical force V and a horizontal one H. They are
+//! f_β = V + σH_i, f_γ = V + σH_j, and the rest of 3V for f_α. No half-turn, no line, no run comes in, and of the library
+//! no more than the names of sites, signs and directions.
 //!
-//! Units: forces in f₀, whose vertical part is mg/3; a sphere weighs 3 of them.
+//! Units: forces in f₀, whose vertical part is mg/3; weights and V in mg.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use cannonpile::lattice::{Direction, Site};
+use cannonpile::lattice::{Direction, Sign, Site};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+pub(crate) use super::sets::Sites;
+use super::sets::{dilated, eroded, supports};
+
 /// (k, j, i): ordered as tables print sites, by layer, row, place in the row.
 pub(crate) type Place = (i128, i128, i128);
-
-/// The sites (j, i) of one layer.
-pub(crate) type Sites = BTreeSet<(i128, i128)>;
 
 pub(crate) fn ratio(n: i64, d: i64) -> BigRational {
     BigRational::new(n.into(), d.into())
 }
 
-/// A pile that nothing is known of but its sites, its steps and its weights.
+/// A pile of which nothing is known but its sites, its steps and its weights.
 #[derive(Clone, Debug)]
 pub(crate) struct Naive {
     /// `+` or `-` for each step, from the top.
@@ -47,25 +50,6 @@ pub(crate) struct Forces {
     pub(crate) floor: BTreeMap<Place, [BigRational; 3]>,
 }
 
-/// Where the three supports lie, in the order α, β, γ: (Δj, Δi).
-fn supports(sign: char) -> [(i128, i128); 3] {
-    match sign {
-        '+' => [(0, 0), (0, 1), (1, 0)],
-        _ => [(0, 0), (0, -1), (-1, 0)],
-    }
-}
-
-/// The horizontal way from a sphere to its three supports, in thirds of the two lattice vectors of a layer: it sits
-/// over the middle of the three.
-fn ways(sign: char) -> [[BigRational; 2]; 3] {
-    let sites = supports(sign);
-    let middle = |pick: fn((i128, i128)) -> i128| sites.into_iter().map(pick).sum::<i128>();
-    let middle = [middle(|site| site.1), middle(|site| site.0)];
-    sites.map(|(j, i)| {
-        [3 * i - middle[0], 3 * j - middle[1]].map(|way| BigRational::from_integer(way.into()))
-    })
-}
-
 /// The place in the order of tables.
 pub(crate) fn place(site: Site) -> Place {
     (site.k, site.j, site.i)
@@ -81,18 +65,28 @@ pub(crate) fn direction(m: usize) -> Direction {
     [Direction::Alpha, Direction::Beta, Direction::Gamma][m]
 }
 
+/// The library's name of a sign.
+fn named(sign: char) -> Sign {
+    match sign {
+        '+' => Sign::Plus,
+        _ => Sign::Minus,
+    }
+}
+
+/// σ·force.
+fn signed(sign: Sign, force: BigRational) -> BigRational {
+    match sign {
+        Sign::Plus => force,
+        Sign::Minus => -force,
+    }
+}
+
 impl Naive {
     /// Every layer all supports of the one above.
     pub(crate) fn under(top: &Sites, signs: &str) -> Self {
         let mut layers = vec![top.clone()];
-        for sign in signs.chars() {
-            let above = layers.last().expect("a top");
-            let below = above.iter().flat_map(|&(j, i)| {
-                supports(sign)
-                    .into_iter()
-                    .map(move |(dj, di)| (j + dj, i + di))
-            });
-            layers.push(below.collect());
+        for (k, sign) in signs.chars().enumerate() {
+            layers.push(dilated(&layers[k], named(sign)));
         }
         Self::of(layers, signs)
     }
@@ -101,21 +95,12 @@ impl Naive {
     /// site.
     pub(crate) fn on(base: &Sites, signs: &str) -> Option<Self> {
         let mut layers = vec![base.clone()];
-        for sign in signs.chars().rev() {
-            let below = layers.last().expect("a base");
-            // A sphere stands on its α support, whichever the sign.
-            let carried = |&(j, i): &(i128, i128)| {
-                let mut supports = supports(sign).into_iter();
-                supports.all(|(dj, di)| below.contains(&(j + dj, i + di)))
-            };
-            let above: Sites = below.iter().copied().filter(carried).collect();
-            if above.is_empty() {
-                return None;
-            }
-            layers.push(above);
+        for (n, sign) in signs.chars().rev().enumerate() {
+            layers.push(eroded(&layers[n], named(sign)));
         }
         layers.reverse();
-        Some(Self::of(layers, signs))
+        let whole = layers.iter().all(|layer| !layer.is_empty());
+        whole.then(|| Self::of(layers, signs))
     }
 
     fn of(layers: Vec<Sites>, signs: &str) -> Self {
@@ -147,13 +132,13 @@ impl Naive {
 
     /// The place a sphere presses on, whether or not there is one.
     pub(crate) fn below(&self, (k, j, i): Place, m: usize) -> Option<Place> {
-        let (dj, di) = supports(self.sign(k)?)[m];
-        Some((k + 1, j + dj, i + di))
+        let (j, i) = supports((j, i), named(self.sign(k)?))[m];
+        Some((k + 1, j, i))
     }
 
     /// The sphere that presses on a place in a direction.
     pub(crate) fn above(&self, (k, j, i): Place, m: usize) -> Option<Place> {
-        let (dj, di) = supports(self.sign(k - 1)?)[m];
+        let (dj, di) = supports((0, 0), named(self.sign(k - 1)?))[m];
         Some((k - 1, j - dj, i - di)).filter(|above| self.has(*above))
     }
 
@@ -167,26 +152,42 @@ impl Naive {
         self.places().map(|place| self.weight(place)).sum()
     }
 
+    /// Horizontal position in thirds of lattice vectors, from the place (0, 0) of the top layer.
+    ///
+    /// A + step leads to a layer whose (0, 0) lies a third of both vectors back: a sphere is over the middle of (0, 0),
+    /// (1, 0) and (0, 1).
+    pub(crate) fn position(&self, (k, j, i): Place) -> [BigInt; 2] {
+        let steps = self
+            .signs
+            .chars()
+            .take(usize::try_from(k).expect("a layer"));
+        let back: i128 = steps.map(|sign| if sign == '+' { 1 } else { -1 }).sum();
+        [3 * i - back, 3 * j - back].map(BigInt::from)
+    }
+
     /// Solves the pile, from the top down.
     pub(crate) fn forces(&self) -> Forces {
-        let balances = ['+', '-'].map(|sign| (sign, inverse(&ways(sign))));
         let mut forces = Forces::default();
         for place in self.places() {
             let above = [0, 1, 2].map(|m| match self.above(place, m) {
                 Some(above) => forces.below[&above][m].clone(),
                 None => BigRational::zero(),
             });
-            let sign_above = self.sign(place.0 - 1).unwrap_or('+');
-            let across = across(&above, &ways(sign_above));
-            let pressed: BigRational = above.iter().sum();
-            let down = pressed + self.weight(place) * ratio(3, 1);
+            let third = above.iter().sum::<BigRational>() / ratio(3, 1);
+            let down = &third + self.weight(place);
+            let across = match self.sign(place.0 - 1) {
+                Some(sign) => {
+                    let [_, beta, gamma] = &above;
+                    [beta, gamma].map(|force| signed(named(sign), force - &third))
+                }
+                None => [0, 0].map(|_| BigRational::zero()),
+            };
             if let Some(sign) = self.sign(place.0) {
-                let (_, inverse) = &balances[usize::from(sign != '+')];
-                let load = [down, across[0].clone(), across[1].clone()];
-                let below = inverse.each_ref().map(|row| dot(row, &load));
-                forces.below.insert(place, below);
+                let [beta, gamma] = across.map(|across| &down + signed(named(sign), across));
+                let alpha = &down * ratio(3, 1) - &beta - &gamma;
+                forces.below.insert(place, [alpha, beta, gamma]);
             } else {
-                forces.floor.insert(place, on_floor(&down, &across));
+                forces.floor.insert(place, on_floor(down, &across));
             }
             forces.above.insert(place, above);
         }
@@ -216,60 +217,13 @@ impl Forces {
     }
 }
 
-/// The horizontal force of three contacts.
-fn across(forces: &[BigRational; 3], ways: &[[BigRational; 2]; 3]) -> [BigRational; 2] {
-    [0, 1].map(|axis| {
-        let parts = forces
-            .iter()
-            .zip(ways)
-            .map(|(force, way)| force * &way[axis]);
-        parts.sum()
-    })
-}
-
-/// Normal force and shears from forces down and across the two lattice vectors, in f₀cosθ and in thirds of
-/// lattice vectors.
+/// Normal force and shears from V and H.
 ///
-/// The lattice vectors are two spheres' distance 2a = 2√3·R sinθ long. By the paper's eq. (1) β − α lies along ê_a − ê_b,
-/// along +y, and γ − α along ê_a − ê_c, at 30° to +x: e₁ = (0, 1)·√3ℓ and e₂ = (3/2, √3/2)·ℓ, with ℓ = 2R sinθ. A third of
-/// 1 along e₁ is √3/3 sinθ f₀ along y; f₀ sinθ = mg·tanθ/3.
-fn on_floor(down: &BigRational, across: &[BigRational; 2]) -> [BigRational; 3] {
-    let [along_i, along_j] = across;
-    [
-        down / ratio(3, 1).numer(),
-        along_j * ratio(1, 2) * ratio(1, 3),
-        (along_i + along_j * ratio(1, 2)) * ratio(1, 3) * ratio(1, 3),
-    ]
-}
-
-/// The inverse of the system of a sphere's equilibrium: Σf = down, Σf·way = across. By Gauss's elimination.
-fn inverse(ways: &[[BigRational; 2]; 3]) -> [[BigRational; 3]; 3] {
-    let mut rows: Vec<Vec<BigRational>> = (0..3)
-        .map(|row| {
-            let coefficient = |way: &[BigRational; 2]| match row {
-                0 => BigRational::one(),
-                axis => way[axis - 1].clone(),
-            };
-            let unit = (0..3).map(|column| ratio((column == row).into(), 1));
-            ways.iter().map(coefficient).chain(unit).collect()
-        })
-        .collect();
-    for column in 0..3 {
-        let pivot = (column..3).find(|row| !rows[*row][column].is_zero());
-        rows.swap(column, pivot.expect("three supports around a sphere"));
-        let scale = rows[column][column].clone();
-        let pivot: Vec<_> = rows[column].iter().map(|c| c / &scale).collect();
-        for row in &mut rows {
-            let factor = row[column].clone();
-            for (c, p) in row.iter_mut().zip(&pivot) {
-                *c -= &factor * p;
-            }
-        }
-        rows[column] = pivot;
-    }
-    [0, 1, 2].map(|row| [3, 4, 5].map(|column| rows[row][column].clone()))
-}
-
-fn dot(row: &[BigRational; 3], column: &[BigRational; 3]) -> BigRational {
-    row.iter().zip(column).map(|(a, b)| a * b).sum()
+/// The lattice vectors are two spheres' distance 2a = 2√3·R sinθ long. By the paper, (1), β − α lies along ê_a − ê_b,
+/// along +y, and γ − α along ê_a − ê_c, at 30° to +x: e₁ = (0, 1)·√3ℓ and e₂ = (3/2, √3/2)·ℓ, with ℓ = 2R sinθ. A force
+/// f₀ goes 2R down its line, ℓ of them across: 1 along e₁ is √3 sinθ f₀ along y, and f₀ sinθ = mg·tanθ/3.
+fn on_floor(down: BigRational, [along_i, along_j]: &[BigRational; 2]) -> [BigRational; 3] {
+    let half = along_j * ratio(1, 2);
+    let along_y = (along_i + &half) * ratio(1, 3);
+    [down, half, along_y]
 }

@@ -1,6 +1,6 @@
 //! Overlap by brute force: the distance of every two spheres of a pile.
 //!
-//! Centres from the apex are r = −2R[(k−i−j) ê_a + i ê_b + j ê_c] (THEORY §1). All is kept over a
+//! Centres from the apex are r = −2R[(k−i−j) ê_a + i ê_b + j ê_c] (`paper`, "Notation"). All is kept over a
 //! common denominator, in machine integers that debug builds check.
 
 use std::collections::BTreeSet;

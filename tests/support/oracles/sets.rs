@@ -9,7 +9,7 @@ use cannonpile::lattice::Sign;
 /// The sites of one layer, each as (j, i).
 pub(crate) type Sites = BTreeSet<(i128, i128)>;
 
-/// Where a sphere (j, i) stands: on its supports α, β, γ (THEORY §3).
+/// Where a sphere (j, i) stands: on its supports α, β, γ (`paper`, "Stackings").
 pub(crate) fn supports((j, i): (i128, i128), sign: Sign) -> [(i128, i128); 3] {
     match sign {
         Sign::Plus => [(j, i), (j, i + 1), (j + 1, i)],

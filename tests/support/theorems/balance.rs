@@ -60,7 +60,7 @@ pub(crate) fn forces_lie_along_contacts(pile: &Answers) -> Verdict {
 }
 
 /// The resultant of the forces from above points away from the apex and grows with the distance:
-/// mg/(6R cosθ)·r, which is r/(2R) in f₀ (THEORY §2). Of an equilateral base and of discs.
+/// mg/(6R cosθ)·r, which is r/(2R) in f₀ (`paper`, "Closed form"). Of an equilateral base and of discs.
 pub(crate) fn resultants_are_central(pile: &Answers) -> Verdict {
     for (site, sphere) in &pile.spheres {
         same(site, &sphere.resultant_above, &sphere.position)?;

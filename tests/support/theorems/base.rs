@@ -51,8 +51,8 @@ fn moment(r: &Vector<BigRational>, f: &Vector<BigRational>) -> Vector<BigRationa
     }
 }
 
-/// The forces on the floor as printed: the paper's eqs. (result-normal) and (result-shear) for the
-/// equilateral base, THEORY §2 for discs and for the normal force on an isosceles base.
+/// The forces on the floor as printed: the paper's (13) and (14) for the
+/// equilateral base; for discs and for the normal force on an isosceles base see `paper`, "Closed form".
 pub(crate) fn base_is_as_published(pile: &Answers) -> Verdict {
     let integer = |n: i128| BigRational::from_integer(n.into());
     let last = pile.layers - 1;

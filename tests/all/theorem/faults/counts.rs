@@ -1,6 +1,6 @@
 //! Spheres counted wrongly, steps taken wrongly.
 
-use cannonpile::lattice::Direction;
+use cannonpile::lattice::{Direction, Sign};
 use cannonpile::scalar::Ring;
 use cannonpile::theorem::Formulas;
 use num_traits::{One, Zero};
@@ -19,34 +19,38 @@ pub(super) fn faults() -> Vec<Fault> {
             [if k.is_zero() { P::one() } else { a }, b, c]
         } => ["counts"];
         "every sphere is above itself": above = |i, j, k| (RIGHT.above)(i, j, k).map(|n| n + &P::one())
-            => ["counts", "rotation", "strengths", "surface", "base-normal", "weight", "total-moment",
-                "second-moment", "shear-ratio", "discs"];
+            => ["counts", "strengths", "surface", "central-force", "base-normal", "weight", "total-moment",
+                "second-moment", "shear-ratio", "discs", "region-counts"];
         "α for β": above = |i, j, k| swapped(&(RIGHT.above)(i, j, k))
-            => ["counts", "rotation", "surface", "action-reaction", "shear", "discs"];
+            => ["counts", "rotation", "surface", "action-reaction", "central-force", "shear", "shear-on-axis", "discs",
+                "region-counts"];
         "k for k−i−j": above = |i, j, k| [k.clone(), i.clone(), j.clone()]
-            => ["counts", "rotation", "surface", "base-normal", "uniform-base", "weight", "shear",
-                "total-shear", "total-moment", "second-moment", "shear-ratio", "discs"];
+            => ["counts", "rotation", "surface", "central-force", "base-normal", "uniform-base", "weight", "shear",
+                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
+                "region-counts"];
 
-        "β goes down along j, γ along i": descent = |direction| {
-            let [di, dj, dk] = direction.descent();
-            [dj, di, dk]
+        "β goes down along j, γ along i": descent = |sign, direction| {
+            let [di, dj] = sign.descent(direction);
+            [dj, di]
         } => ["counts", "action-reaction", "region-counts"];
-        "α goes down along j, γ straight": descent = |direction| match direction {
-            Direction::Alpha => Direction::Gamma.descent(),
-            Direction::Beta => Direction::Beta.descent(),
-            Direction::Gamma => Direction::Alpha.descent(),
-        } => ["counts", "action-reaction", "region-counts"];
-        "α goes down two layers": descent = |direction| match direction {
-            Direction::Alpha => [0, 0, 2],
-            other => other.descent(),
-        } => ["counts", "action-reaction", "region-counts"];
-        "γ goes up": descent = |direction| match direction {
-            Direction::Gamma => [0, -1, -1],
-            other => other.descent(),
-        } => ["counts", "action-reaction", "region-counts"];
+        "α goes down along j, γ straight": descent = |sign, direction| sign.descent(match direction {
+            Direction::Alpha => Direction::Gamma,
+            Direction::Beta => Direction::Beta,
+            Direction::Gamma => Direction::Alpha,
+        }) => ["counts", "action-reaction", "region-counts"];
+        "α goes down along i": descent = |sign, direction| sign.descent(match direction {
+            Direction::Alpha => Direction::Beta,
+            other => other,
+        }) => ["counts", "action-reaction", "region-counts"];
+        "two sites at a time": descent = |sign, direction| sign.descent(direction).map(|d| 2 * d)
+            => ["counts", "action-reaction", "region-counts"];
+        "− steps taken as + steps": descent = |_, direction| Sign::Plus.descent(direction)
+            => ["region-counts"];
+        "+ steps taken as − steps": descent = |_, direction| Sign::Minus.descent(direction)
+            => ["counts", "action-reaction", "region-counts"];
 
         "no spheres on the floor": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
-            => ["spheres", "weight", "discs", "dimensions"];
+            => ["spheres", "contacts", "weight", "discs", "dimensions"];
         "square pyramids in four dimensions": spheres = |l, d| {
             let right = (RIGHT.spheres)(l, d);
             if d == 4 { right + &(RIGHT.spheres)(&one_less(l), d) } else { right }
@@ -77,27 +81,30 @@ pub(super) fn faults() -> Vec<Fault> {
             over(rest.clone() * &rest, 2)
         } => ["strengths"];
 
-        "lines of α and β for each other": bounds_above = |i, j, lower, upper, m| {
-            let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m);
+        "lines of α and β for each other": bounds_above = |i, j, lower, upper, m, sign| {
+            let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             [beta, alpha, gamma]
-        } => ["region-counts"];
-        "a surface one site too far out": bounds_above = |i, j, lower, upper, m| {
+        } => ["region-counts", "edge"];
+        "a surface one site too far out": bounds_above = |i, j, lower, upper, m, sign| {
             let wider = upper.each_ref().map(|bound| bound.clone() + &P::one());
-            (RIGHT.bounds_above)(i, j, lower, &wider, m)
-        } => ["region-counts"];
-        "a surface one site too far in": bounds_above = |i, j, lower, upper, m| {
+            (RIGHT.bounds_above)(i, j, lower, &wider, m, sign)
+        } => ["region-counts", "edge"];
+        "a surface one site too far in": bounds_above = |i, j, lower, upper, m, sign| {
             let narrower = lower.each_ref().map(|bound| bound.clone() + &P::one());
-            (RIGHT.bounds_above)(i, j, &narrower, upper, m)
+            (RIGHT.bounds_above)(i, j, &narrower, upper, m, sign)
+        } => ["region-counts", "edge"];
+        "every sphere twice": bounds_above = |i, j, lower, upper, m, sign| {
+            (RIGHT.bounds_above)(i, j, lower, upper, m, sign).map(|of_line| of_line.each_ref().map(twice))
         } => ["region-counts"];
-        "every sphere twice": bounds_above = |i, j, lower, upper, m| {
-            (RIGHT.bounds_above)(i, j, lower, upper, m).map(|of_line| of_line.each_ref().map(twice))
-        } => ["region-counts"];
-        "runs without end": bounds_above = |i, j, lower, upper, m| {
-            let mut bounds = (RIGHT.bounds_above)(i, j, lower, upper, m);
+        "runs without end": bounds_above = |i, j, lower, upper, m, sign| {
+            let mut bounds = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             for of_line in &mut bounds {
                 of_line[0] = of_line[1].clone();
             }
             bounds
         } => ["region-counts"];
+        "− steps counted as + steps": bounds_above = |i, j, lower, upper, m, _| {
+            (RIGHT.bounds_above)(i, j, lower, upper, m, Sign::Plus)
+        } => ["region-counts", "edge"];
     }
 }

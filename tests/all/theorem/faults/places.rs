@@ -21,22 +21,25 @@ pub(super) fn faults() -> Vec<Fault> {
         "ê_c turned round": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, Vector { x: -c.x, ..c }]
-        } => ["unit-directions", "equilibrium", "shear", "total-shear", "total-moment", "second-moment",
-              "shear-ratio", "point-load"];
+        } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
+                "point-load"];
         "ê_c twice as long": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, c.map(|part| twice(&part))]
-        } => ["unit-directions", "equilibrium", "base-normal", "uniform-base", "weight", "shear",
-              "total-shear", "total-moment", "second-moment", "shear-ratio", "point-load"];
+        } => ["paper-system", "unit-directions", "equilibrium", "central-force", "base-normal", "uniform-base",
+                "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis",
+                "shear-ratio", "change-of-sign", "point-load"];
         "contacts point down": directions = |s| (RIGHT.directions)(s).map(|e| -e)
-            => ["equilibrium", "base-normal", "uniform-base", "weight", "shear", "total-moment",
-                "second-moment", "shear-ratio"];
+            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "weight", "shear",
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign"];
         "φ = π/6 whatever s": directions = |_| (RIGHT.directions)(&over(P::one(), 2))
-            => ["unit-directions", "equilibrium", "total-shear", "total-moment", "second-moment"];
-        "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["shear"];
+            => ["paper-system", "unit-directions", "equilibrium", "total-shear", "total-moment", "second-moment"];
+        "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["paper-system", "central-force", "shear", "shear-on-axis"];
         "y in units of cosφ": directions = |s| {
             (RIGHT.directions)(s).map(|e| Vector { y: twice(&e.y), ..e })
-        } => ["unit-directions", "shear", "second-moment", "shear-ratio", "point-load"];
+        } => ["paper-system", "unit-directions", "central-force", "shear", "second-moment", "shear-on-axis",
+                "shear-ratio", "point-load"];
 
         "both supports of a disc on one side": disc_directions = || {
             let [a, _, c] = (RIGHT.disc_directions)();
@@ -47,10 +50,15 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.disc_directions)().map(|e| Vector { y: P::one(), ..e })
         } => ["discs"];
 
+        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load"];
+        "upside down": turned_about_z = |v| -v
+            => ["equilibrium", "change-of-sign"];
+        "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load"];
+
         "above the apex": position = |above, directions| -(RIGHT.position)(above, directions)
             => ["central-force", "shear-on-axis"];
         "from a corner": position = moved!(|at| x = at.x + &P::one())
-            => ["central-force", "shear-on-axis"];
+            => ["central-force", "shear-on-axis", "point-load"];
         "mirrored": position = moved!(|at| y = -at.y) => ["central-force", "shear-on-axis"];
         "half as deep": position = moved!(|at| z = over(at.z, 2)) => ["central-force"];
         // Moments balance in every coordinate that is linear in the counts.

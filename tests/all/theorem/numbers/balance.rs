@@ -133,13 +133,14 @@ fn resultants_are_positions() {
         let statics = pile.forces::<Q>();
         for site in pile.shape().sites() {
             let force = statics.resultant_above(site).expect("a force");
-            let of_theorem =
-                ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: "), &at_site(site)));
-            assert_eq!(of_theorem, force.into_array());
-            assert_eq!(
-                of_theorem,
-                statics.position(site).expect("a position").into_array()
-            );
+            let at = statics.position(site).expect("a position");
+            for (what, vector) in [("the resultant", force), ("the position", at)] {
+                let of_theorem = ["x", "y", "z"].map(|axis| {
+                    let claim = format!("{axis}: twice {what}");
+                    value(&proof, &claim, &at_site(site)) / int(2)
+                });
+                assert_eq!(of_theorem, vector.into_array());
+            }
         }
     }
 }

@@ -137,7 +137,10 @@ fn shears() {
             assert_eq!((&shear_x, &shear_y), (&x, &y));
             // |shear|² in units of sin²θ: y has √3 in its unit.
             let square = &shear_x * &shear_x + int(3) * &shear_y * &shear_y;
-            assert_eq!(value(&ratio, "(L−1)²", &values), int(last * last) - &square);
+            assert_eq!(
+                value(&ratio, "(L−1)² − |shear|²", &values),
+                int(last * last) - &square
+            );
             assert_eq!(value(&ratio, "L+2 everywhere", &values), normal);
             greatest = greatest.max(square / (&normal * &normal));
         }

@@ -90,7 +90,7 @@ fn contacts_are_counted_by_strength() {
         let at_l = core::slice::from_ref(&l);
         let all: Q = by_strength.values().sum();
         assert_eq!(
-            value(&contacts, "Σ 3 over the spheres off the floor", at_l),
+            value(&contacts, "Σ over the spheres off the floor", at_l),
             all
         );
         assert_eq!(value(&strengths, "counts every contact", at_l), all);

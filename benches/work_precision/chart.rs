@@ -1,0 +1,284 @@
+//! The chart of the measurements: a panel for each pile, a shape for each method, a colour for each scalar.
+
+use std::error::Error;
+use std::ops::Range;
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use serde::Deserialize;
+
+/// A row of the table.
+#[derive(Deserialize)]
+struct Row {
+    pile: String,
+    contacts: u64,
+    method: String,
+    scalar: String,
+    seconds: Option<f64>,
+    relative_error: Option<f64>,
+}
+
+/// A row that has numbers.
+struct Mark<'a> {
+    row: &'a Row,
+    /// Decades of time.
+    time: f64,
+    /// Decades of error; `None` if every force is exact.
+    error: Option<f64>,
+}
+
+/// Methods: what is computed from formulas is filled, what solves equations is open.
+const METHODS: [(&str, bool, Shape); 7] = [
+    (
+        "closed form, table",
+        true,
+        Shape::Corners(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
+    ),
+    ("closed form", true, Shape::Round),
+    (
+        "transfer",
+        true,
+        Shape::Corners(&[(0, -5), (5, 4), (-5, 4)]),
+    ),
+    (
+        "exact engine",
+        true,
+        Shape::Corners(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
+    ),
+    (
+        "sparse LU",
+        false,
+        Shape::Corners(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
+    ),
+    ("CGLS", false, Shape::Round),
+    (
+        "springs",
+        false,
+        Shape::Corners(&[(-5, -4), (5, -4), (0, 5)]),
+    ),
+];
+
+/// Scalars in the colours of Okabe and Ito, which the colour-blind can tell apart.
+const SCALARS: [(&str, RGBColor); 6] = [
+    ("f32", RGBColor(230, 159, 0)),
+    ("f64", RGBColor(0, 114, 178)),
+    ("DoubleDouble", RGBColor(86, 180, 233)),
+    ("Interval", RGBColor(0, 158, 115)),
+    ("BigRational", RGBColor(213, 94, 0)),
+    ("integers", RGBColor(204, 121, 167)),
+];
+
+const NOTES: [&str; 4] = [
+    "Joined marks are one method at several settings.",
+    "Answers without an error stand in the grey column, side by side: there only the height means anything.",
+    "The table's floats are forces in mg, each the float nearest to an irrational number; all other forces are in mg/(3 cosθ),",
+    "where those of straight piles are small integers, which floats hold without an error.",
+];
+
+#[derive(Clone, Copy)]
+enum Shape {
+    Round,
+    Corners(&'static [(i32, i32)]),
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// The height of the title, of a row of panels, and of the legend.
+const HEAD: u32 = 60;
+const PANEL: u32 = 330;
+const FOOT: u32 = 160;
+
+/// The width of the column of exact answers, as a part of the decades.
+const COLUMN: f64 = 0.24;
+
+/// Draws the table at `csv` as a chart at `svg`.
+pub(crate) fn draw(csv: &Path, svg: &Path) -> Result<(), Box<dyn Error>> {
+    let mut table = csv::Reader::from_path(csv)?;
+    let rows: Vec<Row> = table.deserialize().collect::<Result<_, _>>()?;
+    let marks: Vec<Mark<'_>> = rows.iter().filter_map(Mark::of).collect();
+    let mut piles: Vec<&str> = marks.iter().map(|mark| mark.row.pile.as_str()).collect();
+    piles.dedup();
+    let times = decades(marks.iter().map(|mark| mark.time));
+
+    let height = HEAD + PANEL * u32::try_from(piles.len().div_ceil(2))? + FOOT;
+    let page = SVGBackend::new(svg, (880, height)).into_drawing_area();
+    page.fill(&WHITE)?;
+    let centred = |size| {
+        style(size).pos(plotters::style::text_anchor::Pos::new(
+            plotters::style::text_anchor::HPos::Center,
+            plotters::style::text_anchor::VPos::Top,
+        ))
+    };
+    page.draw(&Text::new("Run time against error", (440, 12), centred(22)))?;
+    let words =
+        "All contact forces of a pile; the error is that of the worst force over the greatest";
+    page.draw(&Text::new(words, (440, 38), centred(15)))?;
+    let (_, page) = page.split_vertically(HEAD);
+    let (panels, foot) = page.split_vertically(height - HEAD - FOOT);
+    let mut drawn = 0;
+    for (pile, area) in piles
+        .iter()
+        .zip(panels.split_evenly((piles.len().div_ceil(2), 2)))
+    {
+        let marks = marks.iter().filter(|mark| mark.row.pile == **pile);
+        let marks: Vec<&Mark<'_>> = marks.collect();
+        drawn += panel(&area, &marks, times.clone())?;
+    }
+    assert_eq!(drawn, marks.len(), "a mark for each run that has numbers");
+    legend(&foot)?;
+    foot.present()?;
+    Ok(())
+}
+
+impl<'a> Mark<'a> {
+    fn of(row: &'a Row) -> Option<Self> {
+        let (seconds, error) = (row.seconds?, row.relative_error?);
+        Some(Self {
+            row,
+            time: seconds.log10(),
+            error: (error > 0.0).then(|| error.log10()),
+        })
+    }
+}
+
+/// Draws the runs of one pile, and returns how many there are.
+fn panel(area: &Area<'_>, marks: &[&Mark<'_>], times: Range<f64>) -> Result<usize, Box<dyn Error>> {
+    let errors = decades(marks.iter().filter_map(|mark| mark.error));
+    let column = COLUMN * (errors.end - errors.start);
+    let exact = errors.start - column..errors.start;
+    let first = marks[0].row;
+    let title = format!("{} ({} contacts)", first.pile, first.contacts);
+    let mut chart = ChartBuilder::on(area)
+        .caption(title, style(15))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(54)
+        .build_cartesian_2d(exact.start..errors.end, times.clone())?;
+    let ends = [(exact.start, times.start), (exact.end, times.end)];
+    chart.draw_series([Rectangle::new(ends, RGBColor(236, 236, 236).filled())])?;
+    let power = |decade: &f64| format!("1e{decade:.0}");
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .axis_desc_style(style(14))
+        .label_style(style(13))
+        .x_desc("relative error")
+        .y_desc("time in s")
+        .x_label_formatter(&|decade| {
+            if *decade < exact.end {
+                String::new()
+            } else {
+                power(decade)
+            }
+        })
+        .y_label_formatter(&power)
+        .draw()?;
+    let (x, y) = chart.backend_coord(&(exact.start, times.end));
+    let (left, top) = area.get_base_pixel();
+    area.draw(&Text::new(
+        "0 (exact)",
+        (x - left + 6, y - top + 6),
+        style(12),
+    ))?;
+    let lanes: Vec<&Row> = {
+        let rows = marks.iter().filter(|mark| mark.error.is_none());
+        rows.map(|mark| mark.row).collect()
+    };
+    let place = |mark: &Mark<'_>| {
+        let lane = lanes.iter().position(|row| std::ptr::eq(*row, mark.row));
+        let part = (float(lane.unwrap_or(0)) + 1.0) / float(lanes.len() + 1);
+        let x = mark.error.unwrap_or(exact.start + column * part);
+        (x, mark.time)
+    };
+    // Those of one method in one scalar follow each other.
+    for settings in marks.chunk_by(|a, b| key(a) == key(b)) {
+        let colour = colour(&settings[0].row.scalar);
+        let line = settings.iter().map(|mark| place(mark));
+        if settings.iter().all(|mark| mark.error.is_some()) {
+            let line: Vec<(f64, f64)> = line.collect();
+            chart.draw_series([PathElement::new(line, colour.mix(0.5))])?;
+        }
+    }
+    for mark in marks {
+        let at = chart.backend_coord(&place(mark));
+        shape(area, &mark.row.method, at, colour(&mark.row.scalar))?;
+    }
+    Ok(marks.len())
+}
+
+/// Draws which shape and which colour mean what.
+fn legend(area: &Area<'_>) -> Result<(), Box<dyn Error>> {
+    let (left, top) = area.get_base_pixel();
+    let entry = |n: usize, y: i32, words: &str, method: &str, colour| {
+        let x = 34 + 120 * i32::try_from(n).unwrap_or(0) + if n > 0 { 16 } else { 0 };
+        area.draw(&Text::new(words.to_owned(), (x + 12, y - 7), style(14)))?;
+        shape(area, method, (left + x, top + y), colour)
+    };
+    for (n, (method, ..)) in METHODS.iter().enumerate() {
+        entry(n, 16, method, method, BLACK)?;
+    }
+    for (n, (scalar, colour)) in SCALARS.iter().enumerate() {
+        entry(n, 44, scalar, "closed form", *colour)?;
+    }
+    for (n, note) in NOTES.iter().enumerate() {
+        let y = 68 + 20 * i32::try_from(n)?;
+        area.draw(&Text::new(*note, (28, y), style(13)))?;
+    }
+    Ok(())
+}
+
+/// Draws a mark at a place of the page.
+fn shape(
+    area: &Area<'_>,
+    method: &str,
+    (x, y): (i32, i32),
+    colour: RGBColor,
+) -> Result<(), Box<dyn Error>> {
+    let (left, top) = area.get_base_pixel();
+    let at = (x - left, y - top);
+    let found = METHODS.iter().find(|(name, ..)| *name == method);
+    let (_, filled, shape) = found.ok_or("a method without a shape")?;
+    let inside = if *filled { colour } else { WHITE };
+    match shape {
+        Shape::Round => {
+            area.draw(&Circle::new(at, 4, inside.filled()))?;
+            area.draw(&Circle::new(at, 4, colour.stroke_width(2)))?;
+        }
+        Shape::Corners(corners) => {
+            let corner = |(dx, dy): &(i32, i32)| (at.0 + dx, at.1 + dy);
+            let mut corners: Vec<(i32, i32)> = corners.iter().map(corner).collect();
+            area.draw(&Polygon::new(corners.clone(), inside.filled()))?;
+            corners.extend_from_within(..2);
+            area.draw(&PathElement::new(corners, colour.stroke_width(2)))?;
+        }
+    }
+    Ok(())
+}
+
+fn key<'a>(mark: &Mark<'a>) -> (&'a str, &'a str) {
+    (&mark.row.method, &mark.row.scalar)
+}
+
+fn colour(scalar: &str) -> RGBColor {
+    let scalar = if scalar == "i64" { "integers" } else { scalar };
+    let found = SCALARS.iter().find(|(name, _)| *name == scalar);
+    found.map_or(BLACK, |(_, colour)| *colour)
+}
+
+fn style<'a>(size: i32) -> TextStyle<'a> {
+    ("sans-serif", size).into_font().into()
+}
+
+fn float(count: usize) -> f64 {
+    u32::try_from(count).map_or(f64::MAX, f64::from)
+}
+
+/// The decades in which some logarithms lie, with room for marks at both ends.
+fn decades(logarithms: impl Iterator<Item = f64>) -> Range<f64> {
+    let ends = logarithms
+        .map(|x| (x, x))
+        .reduce(|(a, b), (x, _)| (a.min(x), b.max(x)));
+    let (least, most) = ends.unwrap_or((-16.0, 0.0));
+    (least - 0.5).floor()..(most + 0.5).ceil()
+}

@@ -1,0 +1,205 @@
+//! `spheres.csv`, `contacts.csv`, `base.csv`, and what is in their columns.
+
+use std::io::Write;
+use std::rc::Rc;
+
+use super::numbered::{NumberedPile, nearest};
+use super::weights::{PerSphere, nearest_rational};
+use crate::lattice::{Dimension, Site};
+use crate::shape::Selection;
+use crate::table::WriteError;
+
+/// Writes where every sphere is, and what it weighs and bears.
+pub(super) fn write_spheres(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+    row: &mut dyn FnMut(),
+) -> Result<(), WriteError> {
+    write_heads(out, SPHERES, pile)?;
+    let radius = nearest_rational(pile.packing().radius(), "radius")?;
+    let (mut centres, place) = (pile.centres(), Place::of(pile));
+    let (masses, loads) = (PerSphere::masses(pile)?, PerSphere::loads(pile)?);
+    let floor = pile.pile().layers() - 1;
+    for (id, site) in (1_u64..).zip(pile.sites()?) {
+        let [x, y, z] = centres.centre(site)?;
+        let (mass, load) = (masses.of(site), loads.of(site));
+        write!(out, "{id},")?;
+        place.write(site, out)?;
+        let fixed = u8::from(site.k == floor);
+        writeln!(
+            out,
+            ",{x:?},{y:?},{z:?},{radius:?},{mass:?},{fixed},{load:?}"
+        )?;
+        row();
+    }
+    Ok(())
+}
+
+/// Writes the force of every contact.
+pub(super) fn write_contacts(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+    row: &mut dyn FnMut(),
+) -> Result<(), WriteError> {
+    write_heads(out, CONTACTS, pile)?;
+    let place = Place::of(pile);
+    let contacts = pile.contacts_as(|force, vector| {
+        let round = |x| nearest(x, "a contact force");
+        let [x, y, z] = vector.each_ref().map(round);
+        let (force, x, y, z) = (round(force)?, x?, y?, z?);
+        Ok(Rc::<str>::from(format!("{force:?},{x:?},{y:?},{z:?}")))
+    })?;
+    for contact in contacts {
+        let (touch, force) = contact?;
+        let [upper, lower] = touch.ids;
+        write!(out, "{upper},{lower},{force},")?;
+        place.write(touch.site, out)?;
+        writeln!(out, ",{}", touch.direction.name())?;
+        row();
+    }
+    Ok(())
+}
+
+/// Writes the force of every bottom sphere on the floor.
+pub(super) fn write_base(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+    row: &mut dyn FnMut(),
+) -> Result<(), WriteError> {
+    write_heads(out, BASE, pile)?;
+    let flat = pile.pile().dimension() == Dimension::Two;
+    let ids = pile.numbering().first_on_floor()..;
+    for (id, force) in ids.zip(pile.packing().base(Selection::Base)?) {
+        let force = force?;
+        let Site { i, j, .. } = force.site;
+        let (normal, x) = (
+            nearest(&force.normal, "normal")?,
+            nearest(&force.shear_x, "shear_x")?,
+        );
+        if flat {
+            writeln!(out, "{i},{normal:?},{x:?},{id}")?;
+        } else {
+            let y = nearest(&force.shear_y, "shear_y")?;
+            writeln!(out, "{i},{j},{normal:?},{x:?},{y:?},{id}")?;
+        }
+        row();
+    }
+    Ok(())
+}
+
+/// Writes a row for each column of the other files.
+pub(super) fn write_columns(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record(["file", "column", "unit", "meaning"])?;
+    for (file, columns) in [
+        ("spheres.csv", SPHERES),
+        ("contacts.csv", CONTACTS),
+        ("base.csv", BASE),
+    ] {
+        for (column, unit, meaning) in columns_of(columns, pile) {
+            csv.write_record([file, column, unit, meaning])?;
+        }
+    }
+    Ok(csv.flush()?)
+}
+
+/// A column, its unit, and what is in it.
+type Described = (&'static str, &'static str, &'static str);
+
+const SPHERES: &[Described] = &[
+    (
+        "id",
+        "",
+        "number of the sphere, from 1 in row order from the top",
+    ),
+    ("k", "", "layer, from 0 at the top"),
+    ("i", "", "place in the layer"),
+    ("j", "", "row in the layer"),
+    (
+        "x",
+        "m",
+        "centre; 0 at i = j = 0 of the top layer, of the base for a pile given by its base",
+    ),
+    ("y", "m", "centre, as x"),
+    ("z", "m", "centre, upwards; 0 in the bottom layer"),
+    ("radius", "m", "radius"),
+    ("mass", "kg", "mass, without the load"),
+    (
+        "fixed",
+        "",
+        "1 for a sphere of the bottom layer, 0 for any other",
+    ),
+    (
+        "load",
+        "N",
+        "force downwards on the sphere besides its weight",
+    ),
+];
+
+const CONTACTS: &[Described] = &[
+    ("id1", "", "number of the upper sphere"),
+    ("id2", "", "number of the lower sphere"),
+    ("force", "N", "contact force; positive is push"),
+    ("fx", "N", "force on the upper sphere along x"),
+    ("fy", "N", "force on the upper sphere along y"),
+    ("fz", "N", "force on the upper sphere upwards"),
+    ("k", "", "layer of the upper sphere, from 0 at the top"),
+    ("i", "", "place of the upper sphere in its layer"),
+    ("j", "", "row of the upper sphere in its layer"),
+    (
+        "direction",
+        "",
+        "where the lower sphere lies: alpha, beta or gamma",
+    ),
+];
+
+const BASE: &[Described] = &[
+    ("i", "", "place of the bottom sphere in its layer"),
+    ("j", "", "row of the bottom sphere in its layer"),
+    ("normal", "N", "force of the sphere on the floor, downwards"),
+    ("shear_x", "N", "force of the sphere on the floor along x"),
+    ("shear_y", "N", "force of the sphere on the floor along y"),
+    ("id", "", "number of the sphere"),
+];
+
+/// The columns that a pile has: discs have no row, and no shear out of their plane.
+fn columns_of<'c>(
+    columns: &'c [Described],
+    pile: &NumberedPile<'_>,
+) -> impl Iterator<Item = Described> + use<'c> {
+    let flat = pile.pile().dimension() == Dimension::Two;
+    let left_out = move |name: &str| flat && matches!(name, "j" | "shear_y");
+    columns
+        .iter()
+        .copied()
+        .filter(move |(name, ..)| !left_out(name))
+}
+
+fn write_heads(
+    out: &mut dyn Write,
+    columns: &[Described],
+    pile: &NumberedPile<'_>,
+) -> std::io::Result<()> {
+    let names: Vec<&str> = columns_of(columns, pile).map(|(name, ..)| name).collect();
+    writeln!(out, "{}", names.join(","))
+}
+
+/// How the place of a sphere is written: `k,i,j`, of a disc `k,i`.
+#[derive(Clone, Copy)]
+struct Place(Dimension);
+
+impl Place {
+    fn of(pile: &NumberedPile<'_>) -> Self {
+        Self(pile.pile().dimension())
+    }
+
+    fn write(self, Site { i, j, k }: Site, out: &mut dyn Write) -> std::io::Result<()> {
+        match self.0 {
+            Dimension::Two => write!(out, "{k},{i}"),
+            Dimension::Three => write!(out, "{k},{i},{j}"),
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! A pile written as files.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use num_bigint::BigUint;
+
+use super::file::{PileFile, PileFormat, Written};
+use super::numbered::NumberedPile;
+use super::{csv, folder, lammps, vtp, yade};
+use crate::shape::{Numbering, Selection};
+use crate::table::{Progress, WriteError};
+use crate::{Error, Packing};
+
+/// A pile to be written as files.
+///
+/// # Examples
+/// ```
+/// use cannonpile::dem::{PileExport, PileFormat};
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+/// let export = PileExport::new(&packing)?;
+///
+/// let folder = tempfile::tempdir()?;
+/// let written = export.write(&[PileFormat::Lammps], folder.path(), &mut |_| {})?;
+/// assert_eq!(written[0].rows, Some(220));
+/// assert!(folder.path().join("pile.in").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct PileExport<'p> {
+    pile: NumberedPile<'p>,
+    scene: Option<String>,
+}
+
+impl<'p> PileExport<'p> {
+    /// The files of this pile.
+    ///
+    /// # Errors
+    /// [`Error::TooManyRows`] for more than [`MAX_ROWS`](crate::table::MAX_ROWS) contacts, [`Error::TooLarge`] if a
+    /// layer does not fit in memory where forces have to be swept.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let pile = Pile::triangular(100_000)?;
+    /// assert!(PileExport::new(&Packing::new(&pile, &spacing)?).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn new(packing: &Packing<'p>) -> Result<Self, Error> {
+        let pile = packing.pile();
+        let numbered = NumberedPile::new(packing)?;
+        pile.plan(Selection::All)?;
+        pile.plan(Selection::Base)?;
+        Ok(Self {
+            pile: numbered,
+            scene: None,
+        })
+    }
+
+    /// The files with `scene.toml` besides, the text of the scene that the pile was made of.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::{PileExport, PileFormat};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing)?.with_scene("layers = 3\n".into());
+    /// let folder = tempfile::tempdir()?;
+    /// export.write(&[PileFormat::Yade], folder.path(), &mut |_| {})?;
+    /// assert_eq!(std::fs::read(folder.path().join("scene.toml"))?, b"layers = 3\n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_scene(self, toml: String) -> Self {
+        let scene = Some(toml);
+        Self { scene, ..self }
+    }
+
+    /// The pile with its sizes and weights.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing.with_radius(BigRational::new(1.into(), 100.into()))?)?;
+    /// assert_eq!(export.packing().radius().to_string(), "1/100");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn packing(&self) -> &Packing<'p> {
+        self.pile.packing()
+    }
+
+    /// The numbers that its spheres have in all files.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // The row n of `base.csv` is that of sphere 165 + n.
+    /// let export = PileExport::new(&packing)?;
+    /// assert_eq!(export.numbering().first_on_floor(), 166);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn numbering(&self) -> &Numbering<'p> {
+        self.pile.numbering()
+    }
+
+    /// How many spheres or contacts a file lists; `None` for one that lists neither, as a script.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::{PileExport, PileFile};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing)?;
+    /// assert_eq!(export.rows(PileFile::ContactsVtp), Some(495));
+    /// assert_eq!(export.rows(PileFile::LammpsInput), None);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn rows(&self, file: PileFile) -> Option<u64> {
+        // Not more than the most rows.
+        let few = |count: BigUint| u64::try_from(count).ok();
+        match file {
+            PileFile::SpheresCsv
+            | PileFile::LammpsData
+            | PileFile::SpheresVtp
+            | PileFile::YadeSpheres => Some(self.numbering().spheres()),
+            PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.pile().contacts()),
+            PileFile::BaseCsv => few(self.pile.pile().base_spheres()),
+            PileFile::ColumnsCsv
+            | PileFile::LammpsInput
+            | PileFile::YadeScript
+            | PileFile::Scene => None,
+        }
+    }
+
+    /// Writes one file. Memory does not grow with its rows; `progress` is called from time to time with how many
+    /// more of them are done, all of them in the end.
+    ///
+    /// # Errors
+    /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit in an `f64`; [`WriteError::Io`] if the
+    /// output refuses.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::{PileExport, PileFile};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let (mut csv, mut rows) = (Vec::new(), 0);
+    /// let export = PileExport::new(&packing)?;
+    /// export.write_file(PileFile::ContactsCsv, &mut csv, &mut |more| rows += more)?;
+    /// let csv = String::from_utf8(csv)?;
+    /// assert_eq!(
+    ///     csv.lines().nth(1),
+    ///     Some("1,2,0.46225016352102427,0.16012815380508713,0.2773500981126146,0.3333333333333333"),
+    /// );
+    /// assert_eq!(rows, 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write_file(
+        &self,
+        file: PileFile,
+        out: &mut dyn Write,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<(), WriteError> {
+        let (pile, mut row) = (&self.pile, Progress::new(progress));
+        let row = &mut || row.row();
+        match file {
+            PileFile::SpheresCsv => csv::write_spheres(pile, out, row),
+            PileFile::ContactsCsv => csv::write_contacts(pile, out, row),
+            PileFile::BaseCsv => csv::write_base(pile, out, row),
+            PileFile::ColumnsCsv => csv::write_columns(pile, out),
+            PileFile::LammpsData => lammps::write_data(pile, out, row),
+            PileFile::LammpsInput => lammps::write_input(pile, out),
+            PileFile::SpheresVtp => vtp::write_spheres(pile, out, row),
+            PileFile::ContactsVtp => vtp::write_contacts(pile, out, row),
+            PileFile::YadeSpheres => yade::write_spheres(pile, out, row),
+            PileFile::YadeScript => yade::write_script(pile, out),
+            PileFile::Scene => Ok(out.write_all(self.scene.as_deref().unwrap_or("").as_bytes())?),
+        }
+    }
+
+    /// Writes all files of some formats into a folder, which is made if it is not there.
+    ///
+    /// They are written aside and renamed when the last is complete: a failure leaves no new file and no new folder,
+    /// and what was there as it was.
+    ///
+    /// # Errors
+    /// [`WriteError::Answer`] as for [`write_file`](Self::write_file); [`WriteError::File`], which names the file or
+    /// the folder that could not be written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::{PileExport, PileFormat};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let folder = tempfile::tempdir()?;
+    /// let new = folder.path().join("new/pile");
+    /// let written = PileExport::new(&packing)?.write(&PileFormat::ALL, &new, &mut |_| {})?;
+    /// assert_eq!((written.len(), new.read_dir()?.count()), (10, 10));
+    /// for file in written {
+    ///     assert_eq!(file.path.metadata()?.len(), file.bytes);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write(
+        &self,
+        formats: &[PileFormat],
+        folder: &Path,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Vec<Written>, WriteError> {
+        let mut formats = formats.to_vec();
+        formats.sort_unstable();
+        formats.dedup();
+        let files = formats.iter().flat_map(|format| format.files());
+        let files = files
+            .copied()
+            .chain(self.scene.as_ref().map(|_| PileFile::Scene));
+        let files: Vec<(PileFile, PathBuf)> =
+            files.map(|file| (file, folder.join(file.name()))).collect();
+        let mut paths = files.iter();
+        let bytes = folder::write_all(
+            folder,
+            files.iter().map(|(_, path)| path),
+            |out| match paths.next() {
+                Some((file, _)) => self.write_file(*file, out, progress),
+                None => Ok(()),
+            },
+        )?;
+        let written = files.into_iter().zip(bytes);
+        Ok(written
+            .map(|((file, path), bytes)| Written {
+                file,
+                path,
+                rows: self.rows(file),
+                bytes,
+            })
+            .collect())
+    }
+}

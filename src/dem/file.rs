@@ -1,0 +1,157 @@
+//! The files that a pile is written to.
+
+use std::path::PathBuf;
+
+use crate::table::{Cell, Column, Table};
+
+/// The program that a pile is written for.
+///
+/// # Examples
+/// ```
+/// use cannonpile::dem::PileFormat;
+///
+/// let names = PileFormat::Lammps.files().iter().map(|file| file.name());
+/// assert!(names.eq(["pile.data", "pile.in"]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PileFormat {
+    /// Any: `spheres.csv`, `contacts.csv`, `base.csv`, and `columns.csv`, which says what is in their columns.
+    Csv,
+    /// LAMMPS: `pile.data`, and `pile.in`, which relaxes it and writes the forces.
+    Lammps,
+    /// ParaView: `spheres.vtp`, `contacts.vtp`.
+    Vtp,
+    /// YADE: `spheres.txt`, and `pile.py`, which relaxes it and writes the forces.
+    Yade,
+}
+
+impl PileFormat {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Csv, Self::Lammps, Self::Vtp, Self::Yade];
+
+    /// Its files, in the order in which they are written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::{PileFile, PileFormat};
+    ///
+    /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
+    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2]);
+    /// ```
+    #[must_use]
+    pub const fn files(self) -> &'static [PileFile] {
+        match self {
+            Self::Csv => &[
+                PileFile::SpheresCsv,
+                PileFile::ContactsCsv,
+                PileFile::BaseCsv,
+                PileFile::ColumnsCsv,
+            ],
+            Self::Lammps => &[PileFile::LammpsData, PileFile::LammpsInput],
+            Self::Vtp => &[PileFile::SpheresVtp, PileFile::ContactsVtp],
+            Self::Yade => &[PileFile::YadeSpheres, PileFile::YadeScript],
+        }
+    }
+}
+
+/// One of the files that a pile is written to.
+///
+/// All numbers are in SI, each the float nearest to the exact one, with the digits that read back the same. Spheres
+/// have the numbers of [`Numbering`](crate::shape::Numbering) in all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PileFile {
+    /// `spheres.csv`: the table of [`table::spheres`](crate::table::spheres), and `load`, the force downwards that acts
+    /// besides the weight.
+    SpheresCsv,
+    /// `contacts.csv`: `id1,id2,force,fx,fy,fz,k,i,j,direction`; id1 is the upper sphere, on which the force acts, at
+    /// k, i, j.
+    ContactsCsv,
+    /// `base.csv`: the table of [`table::base`](crate::table::base), a row for each sphere of the floor, and its `id`.
+    BaseCsv,
+    /// `columns.csv`: `file,column,unit,meaning`, a row for each column of the other three.
+    ColumnsCsv,
+    /// `pile.data`: spheres of `atom_style sphere`, those on the floor of type 2.
+    LammpsData,
+    /// `pile.in`: lets the pile relax on springs, and writes the forces to `forces.dump`.
+    LammpsInput,
+    /// `spheres.vtp`: points with `id`, `layer`, `radius`, `weight`, `load` and `reaction`, the force of the floor.
+    SpheresVtp,
+    /// `contacts.vtp`: lines between centres with `id1`, `id2`, `direction` (0, 1, 2 for α, β, γ), `force` and
+    /// `force_vector`, that on the upper sphere; `force` at the ends too, which tubes are as wide as.
+    ContactsVtp,
+    /// `spheres.txt`: `x y z r`, for `ymport.text`; sphere n is body n − 1.
+    YadeSpheres,
+    /// `pile.py`: lets the pile relax, and writes the forces to `forces.csv`.
+    YadeScript,
+    /// `scene.toml`: the scene that the pile was made of, written with any format if it is
+    /// [given](super::PileExport::with_scene).
+    Scene,
+}
+
+impl PileFile {
+    /// The name of the file.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::PileFile;
+    ///
+    /// assert_eq!(PileFile::ContactsCsv.name(), "contacts.csv");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SpheresCsv => "spheres.csv",
+            Self::ContactsCsv => "contacts.csv",
+            Self::BaseCsv => "base.csv",
+            Self::ColumnsCsv => "columns.csv",
+            Self::LammpsData => "pile.data",
+            Self::LammpsInput => "pile.in",
+            Self::SpheresVtp => "spheres.vtp",
+            Self::ContactsVtp => "contacts.vtp",
+            Self::YadeSpheres => "spheres.txt",
+            Self::YadeScript => "pile.py",
+            Self::Scene => "scene.toml",
+        }
+    }
+}
+
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Which one.
+    pub file: PileFile,
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its spheres or contacts; none in a script, a scene, or a list of columns.
+    pub rows: Option<u64>,
+    /// Its size.
+    pub bytes: u64,
+}
+
+/// Files that were written, one a row: `file, rows, bytes`.
+///
+/// # Examples
+/// ```
+/// use cannonpile::dem::{self, PileFile, Written};
+/// use cannonpile::table::{FileFormat, NumberFormat};
+///
+/// let (file, path) = (PileFile::LammpsData, "pile.data".into());
+/// let written = [Written { file, path, rows: Some(220), bytes: 20_000 }];
+/// let mut csv = Vec::new();
+/// dem::files(&written).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert_eq!(String::from_utf8(csv)?, "file,rows,bytes\npile.data,220,20000\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn files(written: &[Written]) -> Table<'_> {
+    let row = |written: &Written| {
+        let rows = written.rows.map(|rows| Cell::Integer(rows.into()));
+        Ok(vec![
+            Cell::Word(written.path.display().to_string().into()),
+            rows.unwrap_or(Cell::Missing),
+            Cell::Integer(written.bytes.into()),
+        ])
+    };
+    let columns = ["file", "rows", "bytes"].map(Column::plain).into();
+    Table::of_rows(columns, "files", written.iter().map(row))
+}

@@ -1,0 +1,118 @@
+//! A pile in a line: its layers, how they are stacked, what is on it, how far apart the spheres are.
+
+use num_bigint::{BigInt, BigUint};
+use num_traits::One;
+
+use super::subject::{Subject, loads};
+use crate::lattice::{Region, Site};
+use crate::shape::Shape;
+use crate::{Error, Pile};
+
+/// Returns the line.
+pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
+    let pile = subject.pile();
+    let discs = subject.is_of_discs();
+    let mut parts = vec![counted(&pile.layers().into(), "layer")];
+    if discs {
+        parts.push("discs".into());
+    } else {
+        parts.extend(stacking(pile));
+        parts.extend(anchor(pile.shape()));
+    }
+    if !pile.is_regular() && !discs {
+        parts.push(format!(
+            "sin φ = {}",
+            brief(&pile.sin_phi().to_string(), 20)
+        ));
+    }
+    if pile.is_weightless() {
+        parts.push("spheres without weight".into());
+    }
+    let mut loads = loads(pile);
+    match (loads.len(), loads.next()) {
+        (0, _) | (_, None) => {}
+        (1, Some((Site { i, j, k }, load))) => {
+            let j = if discs {
+                String::new()
+            } else {
+                format!(",{j}")
+            };
+            parts.push(brief(&format!("{load} mg on {k},{i}{j}"), 20));
+        }
+        (count, _) => parts.push(counted(&count.into(), "load")),
+    }
+    let spacing = subject.spacing()?.ratio().to_string();
+    parts.push(format!("a/R = {}", brief(&spacing, 20)));
+    Ok(parts.join(", "))
+}
+
+/// Returns how the layers follow each other, if there are two.
+fn stacking(pile: &Pile) -> Option<String> {
+    let stacking = pile.shape().stacking();
+    let name = || match stacking.name() {
+        Some(name) => name.to_uppercase(),
+        None => brief(&stacking.to_string(), 25),
+    };
+    (pile.layers() > 1).then(name)
+}
+
+/// Returns the layer that all others are grown from, unless it is the top and one sphere.
+fn anchor(shape: &Shape) -> Option<String> {
+    let base = shape.base();
+    let grown = Shape::on(base, shape.stacking().clone());
+    if grown.is_ok_and(|grown| grown == *shape) {
+        return Some(format!("base {}", name(&base)));
+    }
+    let top = shape.layer(0).ok().filter(|top| !top.sites().is_one())?;
+    Some(format!("top {}", name(&top)))
+}
+
+/// Returns the name of a region, as the command line takes it.
+fn name(region: &Region) -> String {
+    let (p, q) = (region.x().end() + 1, 1 - region.x().start());
+    let is_hexagon = Region::hexagon(p, q).is_ok_and(|hexagon| hexagon == *region);
+    match (is_hexagon, p == q, q == 1) {
+        (false, ..) => brief(&format!("region:{region}"), 40),
+        (true, true, _) => format!("hexagon:{p}"),
+        (true, false, true) => format!("triangle:{p}"),
+        (true, false, false) => format!("hexagon:{p},{q}"),
+    }
+}
+
+/// Returns a text without what exceeds some letters.
+fn brief(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.into();
+    }
+    let mut short: String = text.chars().take(most - 1).collect();
+    short.push('…');
+    short
+}
+
+/// Returns `1 layer`, `10 layers`.
+pub(super) fn counted(count: &BigInt, noun: &str) -> String {
+    let plural = if count.is_one() { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}
+
+/// The most spheres or cells of a figure.
+pub(super) const LIMIT: u32 = 20_000;
+
+/// Refuses what nobody could tell apart on a page.
+pub(super) fn readable(
+    marks: &BigUint,
+    limit: u32,
+    what: &'static str,
+    remedy: &'static str,
+) -> Result<(), Error> {
+    if marks <= &limit.into() {
+        return Ok(());
+    }
+    let marks = marks.clone();
+    Err(Error::TooManyMarks {
+        marks,
+        what,
+        limit,
+        remedy,
+    })
+}

@@ -1,0 +1,142 @@
+//! What numbers are in: multiples of mg, or newtons and metres.
+
+use num_rational::BigRational;
+
+use crate::lattice::Dimension;
+use crate::scalar::{Ring, Surd};
+use crate::{Error, Forces, Method, Packing, Pile};
+
+/// The units of a table.
+#[derive(Clone, Debug)]
+pub enum Units<'p> {
+    /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
+    Pile(Box<Forces<'p, BigRational>>),
+    /// Newtons and metres, for radius, mass and gravity in SI units.
+    Si(Box<Packing<'p>>),
+}
+
+impl<'p> Units<'p> {
+    /// Returns the units in which all forces are rational: f₀, mg and mg·tanθ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::table::{self, Units};
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let table = table::contacts(&Units::of_pile(&pile), Selection::All)?;
+    /// assert_eq!(table.columns()[4].unit, "mg/(3cosθ)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_pile(pile: &'p Pile) -> Self {
+        Self::Pile(Box::new(pile.forces()))
+    }
+
+    /// Returns newtons and metres, for radius, mass and gravity in SI units.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::table::{self, Units};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let units = Units::of_packing(Packing::new(&pile, &spacing)?);
+    /// assert_eq!(table::base(&units, Selection::Base)?.columns()[2].unit, "N");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_packing(packing: Packing<'p>) -> Self {
+        Self::Si(Box::new(packing))
+    }
+
+    /// The pile.
+    pub(crate) fn pile(&self) -> &'p Pile {
+        self.forces().pile()
+    }
+
+    /// Returns the forces in pile units, from which those in SI are made.
+    pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
+        match self {
+            Self::Pile(forces) => forces,
+            Self::Si(packing) => packing.forces(),
+        }
+    }
+
+    /// A number that no force of the pile exceeds. In mg or f₀: over a layer the squares of the forces add up to no more
+    /// than that of √3 times the sum of all weights.
+    pub(super) fn greatest_force(&self) -> Surd {
+        let bound = self.pile().weight() * BigRational::from_i128(3);
+        match self {
+            Self::Pile(_) => bound.into(),
+            // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.
+            Self::Si(packing) => {
+                let unit = packing.sphere_weight() * bound;
+                let cos2 = packing.inclination().cos2();
+                // 1/cosθ and tanθ are both at most this; a rational bound is enough.
+                (unit / cos2).into()
+            }
+        }
+    }
+
+    pub(super) fn force(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "N",
+            Self::Pile(_) if self.pile().dimension() == Dimension::Two => "mg/(2cosθ)",
+            Self::Pile(_) if self.pile().is_regular() => "mg/(3cosθ)",
+            Self::Pile(_) => "mg/(2(1+sinφ)cosθ)",
+        }
+    }
+
+    pub(super) fn normal(&self) -> &'static str {
+        if let Self::Si(_) = self { "N" } else { "mg" }
+    }
+
+    pub(super) fn shear_x(&self) -> &'static str {
+        if let Self::Si(_) = self {
+            "N"
+        } else {
+            "mg·tanθ"
+        }
+    }
+
+    pub(super) fn shear_y(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "N",
+            Self::Pile(_) if self.pile().is_regular() => "√3·mg·tanθ",
+            Self::Pile(_) => "2cosφ·mg·tanθ",
+        }
+    }
+}
+
+impl Units<'_> {
+    /// Returns these units, for answers that are found by one method.
+    ///
+    /// # Errors
+    /// As for [`Forces::by`](crate::Forces::by).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::table::Units;
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::discs(5)?;
+    /// assert!(Units::of_pile(&pile).by(Method::Sweep).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn by(self, method: Method) -> Result<Self, Error> {
+        Ok(match self {
+            Self::Pile(forces) => Self::Pile(Box::new(forces.by(method)?)),
+            Self::Si(packing) => Self::Si(Box::new(packing.by(method)?)),
+        })
+    }
+
+    pub(super) fn method(&self) -> Option<Method> {
+        self.forces().method()
+    }
+}

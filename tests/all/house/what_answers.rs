@@ -1,0 +1,152 @@
+//! What is proved is what answers: every formula that theorems are about is called by an engine or an answer, and every
+//! formula of the crate is one that theorems are about.
+
+use std::collections::BTreeSet;
+
+use super::{Source, code, is_of_word, sources};
+
+/// The places where `name` stands as a whole word: what is before it, and after.
+fn places<'t>(text: &'t str, name: &str) -> impl Iterator<Item = (&'t str, &'t str)> {
+    let ends = text
+        .match_indices(name)
+        .map(|(at, word)| (at, at + word.len()));
+    let places: Vec<_> = ends.map(|(at, end)| (&text[..at], &text[end..])).collect();
+    places
+        .into_iter()
+        .filter(|(before, after)| !before.ends_with(is_of_word) && !after.starts_with(is_of_word))
+}
+
+/// `count::above` and so on, of the rows `field: module::function,` of `Formulas::LIBRARY`.
+fn proved(formulas: &str) -> BTreeSet<(String, String)> {
+    let code = code(formulas);
+    let library = code
+        .split("LIBRARY: Self")
+        .nth(1)
+        .expect("the library's formulas");
+    let rows = library.lines().filter_map(|row| row.split_once(": "));
+    let paths = rows.map(|(_, path)| path.trim_end_matches(',').split("::<").next());
+    let paths = paths.filter_map(|path| path?.rsplit_once("::"));
+    paths
+        .map(|(module, name)| (module.to_owned(), name.to_owned()))
+        .collect()
+}
+
+/// Whether a file calls a function: by `module::name`, as a method, after an import, or in the module itself.
+fn calls(file: &str, code: &str, module: &str, name: &str) -> bool {
+    let home = format!("/{module}.rs");
+    let own = format!("/{file}").ends_with(&home) || file.starts_with(&format!("{module}/"));
+    let import = format!("{module}::{{");
+    let imported = code.split(&import).skip(1).any(|list| {
+        let list = list.split('}').next().unwrap_or(list);
+        places(list, name).next().is_some()
+    });
+    let is_call = |(before, after): (&str, &str)| {
+        let before = before.trim_end();
+        let called = after.starts_with('(') || after.starts_with("::<");
+        let is_type = module.starts_with(char::is_uppercase);
+        before.ends_with(&format!("{module}::")) && !after.starts_with("::{")
+            || is_type && before.ends_with('.') && called
+            || own && called && !before.ends_with("fn") && !before.ends_with('.')
+    };
+    imported || places(code, name).any(is_call)
+}
+
+/// What is proved and not called outside `theorem`, and what is a formula and not proved.
+fn missing(sources: &[Source]) -> Vec<String> {
+    let formulas = sources
+        .iter()
+        .find(|source| source.path == "theorem/formulas.rs");
+    let proved = proved(&formulas.expect("the formulas").text);
+    assert!(!proved.is_empty(), "no formulas");
+    let outside = sources.iter().filter(|source| source.room() != "theorem");
+    let outside: Vec<_> = outside
+        .map(|source| (source.path.as_str(), code(&source.text)))
+        .collect();
+    let idle = proved.iter().filter(|(module, name)| {
+        let called = |(file, code): &(&str, String)| calls(file, code, module, name);
+        !outside.iter().any(called)
+    });
+    let mut missing: Vec<_> = idle
+        .map(|(module, name)| format!("{module}::{name} is proved and never called"))
+        .collect();
+    for (file, code) in &outside {
+        let module = match *file {
+            "lattice/count.rs" => "count",
+            _ if file.starts_with("formula") => "formula",
+            _ => continue,
+        };
+        for function in code.split("pub fn ").skip(1) {
+            let name: String = function.chars().take_while(|c| is_of_word(*c)).collect();
+            if !proved.contains(&(module.to_owned(), name.clone())) {
+                missing.push(format!("{module}::{name} is a formula and not proved"));
+            }
+        }
+    }
+    missing
+}
+
+#[test]
+fn what_is_proved_is_what_answers() {
+    assert_eq!(missing(&sources()), Vec::<String>::new());
+}
+
+/// A small library: what it proves, its formulas, and an engine.
+fn small(library: &str, formula: &str, engine: &str) -> Vec<Source> {
+    let formulas = format!("const LIBRARY: Self = Self {{\n{library}\n}};");
+    [
+        ("theorem/formulas.rs", formulas.as_str()),
+        (
+            "theorem/sums.rs",
+            "use crate::formula::{force, turn};\nformula::force(n); formula::turn(g);",
+        ),
+        ("formula.rs", formula),
+        ("engine.rs", engine),
+    ]
+    .map(|(path, text)| Source::new(path, text))
+    .into()
+}
+
+#[test]
+fn what_is_amiss_is_found() {
+    let both = "force: formula::force,\nturn: formula::turn::<P>,";
+    let formula = "pub fn force(n: T) {}\npub fn turn<T>(g: T) {}";
+    let idle = vec!["formula::turn is proved and never called"];
+    for (engine, expected) in [
+        ("formula::force(n); formula::turn::<T>(g)", vec![]),
+        ("use crate::formula::{force,\n turn};", vec![]),
+        ("formula::force(n)", idle.clone()),
+        ("formula::force(n) // formula::turn(g)", idle.clone()),
+        ("/// [`formula::turn`]\nformula::force(n)", idle.clone()),
+        (
+            "formula::force(n)\n#[cfg(test)]\nmod tests { formula::turn(g) }",
+            idle.clone(),
+        ),
+        (
+            "formula::force(n); formula::turned(g); return_turn(g); turn(g)",
+            idle.clone(),
+        ),
+    ] {
+        assert_eq!(missing(&small(both, formula, engine)), expected, "{engine}");
+    }
+    // A formula that another one calls is called; one that is defined only is not.
+    let chained = "pub fn force(n: T) { turn(n) }\npub fn turn<T>(g: T) {}";
+    assert!(missing(&small(both, chained, "formula::force(n)")).is_empty());
+    let unproved = missing(&small(
+        "force: formula::force,",
+        formula,
+        "formula::force(n)",
+    ));
+    assert_eq!(unproved, ["formula::turn is a formula and not proved"]);
+    // Without one of the functions that the library itself calls.
+    let mut sources = sources();
+    for turn in sources
+        .iter_mut()
+        .filter(|source| source.path == "formula/turn.rs")
+    {
+        turn.text = turn.text.replace("= tripled_apart(g)", "= g");
+    }
+    assert_eq!(
+        missing(&sources),
+        ["formula::tripled_apart is proved and never called"]
+    );
+}
