@@ -45,6 +45,7 @@ mod surd;
 pub use double_double::DoubleDouble;
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
+pub(crate) use nearest::float_between;
 pub use nearest::{Decision, NearestFloat};
 pub use pair::{Pair, Parting};
 pub use polynomial::{Polynomial, Symbol};

@@ -348,7 +348,7 @@ fn least_passed_on(
     sweep: &mut Descent<'_, BigRational, Planes>,
     lines: &Lines<'_, BigRational>,
 ) -> Result<ContactForce<BigRational>, Error> {
-    sweep.add_extras_here();
+    sweep.add_extras_here()?;
     let (least, k) = (sweep.least()?, sweep.k());
     let changes = sweep.turned_already();
     let [i, j] = least.place;

@@ -20,7 +20,8 @@ impl Ring for Plain {
 impl Algebra for Plain {
     type Numerator = Self;
 
-    const EXACTNESS: Exactness = Exactness::Exact;
+    // An exact scalar would be swept in limbs.
+    const EXACTNESS: Exactness = Exactness::Rounded { bits: 1 << 20 };
     const NAME: &'static str = "plain rational";
 
     fn from_rational(r: &BigRational) -> Self {

@@ -23,11 +23,19 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     for (full, smoke) in [(60, 6), (200, 8), (400, 10)] {
         let pile = alternating(extent.size(full, smoke));
         check_engine(&pile);
-        let ratio = ratio(pairs, || time_exact(&pile), || time_in::<f64>(&pile));
-        results.push((format!("transfer_integer_over_f64_{full}"), ratio));
+        let over_floats = ratio(pairs, || time_exact(&pile), || time_in::<f64>(&pile));
+        results.push((format!("transfer_integer_over_f64_{full}"), over_floats));
         if full == 60 {
-            results.push(("transfer_integer_over_f64".into(), ratio));
+            results.push(("transfer_integer_over_f64".into(), over_floats));
         }
+        let mut slices = slices(&pile);
+        let memset = || {
+            let time = seconds(|| memset(&mut slices, 1.5));
+            black_box(&slices);
+            time
+        };
+        let over_memset = ratio(pairs, || time_exact(&pile), memset);
+        results.push((format!("exact_over_memset_{full}"), over_memset));
     }
 
     let pile = alternating(extent.size(60, 6));
@@ -37,21 +45,22 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     results.push(("bigrational_over_integer".into(), over_integer));
 }
 
-/// The exact sweep on one thread, against two.
+/// The sweeps in floats and in the exact engine on one thread, against two.
 #[cfg(feature = "rayon")]
 pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
-    let pile = alternating(extent.size(400, 30));
+    let pile = alternating(extent.size(200, 30));
     let pool = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build().expect("threads")
     };
     let (one, two) = (pool(1), pool(2));
-    let speedup = ratio(
-        extent.pairs,
-        || one.install(|| time_exact(&pile)),
-        || two.install(|| time_exact(&pile)),
-    );
-    results.push(("two_threads_speedup".into(), speedup));
+    let speedup = |time: &(dyn Fn() -> f64 + Sync)| {
+        ratio(extent.pairs, || one.install(time), || two.install(time))
+    };
+    let floats = speedup(&|| time_in::<f64>(&pile));
+    results.push(("two_threads_speedup_f64".into(), floats));
+    let exact = speedup(&|| time_exact(&pile));
+    results.push(("two_threads_speedup".into(), exact));
 }
 
 fn alternating(layers: i128) -> Pile {
@@ -59,16 +68,24 @@ fn alternating(layers: i128) -> Pile {
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
 
+/// A slice for each direction, a number for each sphere that is not on the floor.
+fn slices(pile: &Pile) -> [Vec<f64>; 3] {
+    let layers = pile.forces::<f64>().layers(Selection::All);
+    let spheres = layers.expect("room").spheres().expect("as many as fit");
+    [(); 3].map(|()| vec![1.5; spheres])
+}
+
 /// All contact forces by a sweep in floats, written into slices, against filling them with one value.
 fn over_memset(pile: &Pile, pairs: usize) -> f64 {
-    let rows = pile.rows(Selection::All).expect("rows").off_the_floor();
-    let spheres = rows.sites().to_usize().expect("as many as fit");
-    let mut slices = [(); 3].map(|()| vec![1.5; spheres]);
-    let mut other = slices.clone();
+    let (mut slices, mut other) = (slices(pile), slices(pile));
     let ratio = ratio(
         pairs,
         || {
-            let time = seconds(|| fill(pile, &mut slices));
+            let time = seconds(|| {
+                let layers = pile.forces::<f64>().layers(Selection::All);
+                let slices = slices.each_mut().map(Vec::as_mut_slice);
+                layers.expect("room").fill(slices).expect("forces");
+            });
             black_box(&slices);
             time
         },
@@ -78,21 +95,15 @@ fn over_memset(pile: &Pile, pairs: usize) -> f64 {
             time
         },
     );
-    let exact = pile.forces::<BigRational>();
-    let layer = pile.layers() - 2;
-    let last = pile.rows(Selection::Layer(layer)).expect("a layer");
-    let first = spheres - last.sites().to_usize().expect("few");
-    let contacts = exact
-        .contacts(last)
-        .map(|contact| contact.expect("a force"));
-    let mut sweep = pile.sweep::<f64>().expect("room");
-    sweep.advance(layer).expect("a layer");
-    let bound = sweep
-        .error_bound()
-        .expect("floats")
-        .to_f64()
-        .expect("small");
-    for (place, contact) in contacts.enumerate() {
+    let layer = Selection::Layer(pile.layers() - 2);
+    let mut layers = pile.forces::<f64>().layers(layer).expect("room");
+    let last = layers.next_layer().expect("a sweep").expect("a layer");
+    let first = slices[0].len() - last.spheres();
+    let bound = last.error_bound().expect("floats");
+    let bound = bound.to_f64().expect("small");
+    let contacts = pile.forces::<BigRational>().contacts(layer);
+    for (place, contact) in contacts.expect("a layer").enumerate() {
+        let contact = contact.expect("a force");
         let found = slices[contact.direction.index()][first + place / 3];
         let exact = contact.force.to_f64().expect("a float");
         assert!(
@@ -103,55 +114,35 @@ fn over_memset(pile: &Pile, pairs: usize) -> f64 {
     ratio
 }
 
-fn fill(pile: &Pile, slices: &mut [Vec<f64>; 3]) {
-    let mut sweep = pile.sweep::<f64>().expect("room");
-    let mut rest = slices.each_mut().map(Vec::as_mut_slice);
-    for k in 0..pile.layers() - 1 {
-        sweep.advance(k).expect("a layer");
-        let n = sweep.spheres().expect("few");
-        let layer = rest
-            .each_mut()
-            .map(|rest| rest.split_off_mut(..n).expect("as many"));
-        sweep.fill(layer).expect("forces");
-    }
-}
-
-/// The way down to the lowest contacts in a scalar.
+/// The way down to the lowest contacts in a scalar: all numbers are reached, and none is written elsewhere.
 fn time_in<T: Algebra>(pile: &Pile) -> f64 {
-    let mut sweep = pile.sweep::<T>().expect("room");
-    let time = seconds(|| sweep.advance(pile.layers() - 2).expect("a layer"));
-    black_box(&sweep);
-    time
+    seconds(|| {
+        let layer = Selection::Layer(pile.layers() - 2);
+        let mut layers = pile.forces::<T>().layers(layer).expect("room");
+        black_box(layers.next_layer().expect("a sweep"));
+    })
 }
 
-/// The same in the exact engine.
+/// The way down in the exact engine, its numbers in place as limbs.
 fn time_exact(pile: &Pile) -> f64 {
-    let mut sweep = pile.exact_sweep().expect("room");
-    let time = seconds(|| sweep.advance(pile.layers() - 2).expect("a layer"));
-    black_box(&sweep);
-    time
+    time_in::<BigRational>(pile)
 }
 
-/// The engine, the plain rationals and single questions agree, where the pile is small enough for all of them.
+/// The engine and single questions, which follow the lines up, agree where the pile is small enough for both.
 fn check_engine(pile: &Pile) {
-    let layer = pile.layers() - 2;
-    let mut engine = pile.exact_sweep().expect("room");
-    engine.advance(layer).expect("a layer");
-    let statics = pile.forces::<BigRational>();
-    let sites: Vec<Site> = pile
-        .rows(Selection::Layer(layer))
-        .expect("a layer")
-        .flatten()
-        .collect();
+    // Below more layers a single question meets too many spheres.
+    let k = (pile.layers() - 2).min(60);
+    let forces = pile.forces::<BigRational>();
+    let mut layers = forces.layers(Selection::Layer(k)).expect("room");
+    let layer = layers.next_layer().expect("a sweep").expect("a layer");
+    let rows = pile.rows(Selection::Layer(k)).expect("a layer");
+    let sites: Vec<Site> = rows.flatten().collect();
     let step = sites.len() / 3 + 1;
     for site in sites.into_iter().step_by(step) {
-        let forces = engine.passed_on(site).expect("forces");
-        for (direction, force) in Direction::ALL.into_iter().zip(forces) {
-            assert_eq!(
-                statics.contact(site, direction),
-                Ok(force),
-                "{site} {direction}"
-            );
+        let swept = layer.to_below(site).expect("forces");
+        for (direction, force) in Direction::ALL.into_iter().zip(swept) {
+            let single = forces.contact(site, direction);
+            assert_eq!(single, Ok(force), "{site} {direction}");
         }
     }
 }

@@ -1,20 +1,40 @@
-//! A number for each line of a layer.
+//! A number for each line of a layer, and the passes over them.
+//!
+//! # Rows that follow each other
+//! A sphere of row j has its lines α and β in the cells of row j, and γ in those of row j + o, o the net number of + steps
+//! down to the last layer. So of two passes that follow each other, to o and then to o′, the second may work on row j once
+//! the first has worked on the rows j and j + o′ − o. Passes that wait are therefore made together, row after row: each
+//! pass max(0, o′ − o) rows behind the one before, so that a row of cells is still in the nearest cache when the next
+//! pass comes for it. Threads take bands of rows: within a band each pass leaves out the rows that hang on the next
+//! band, one for each step of o, and what was left out around the seams is made up for afterwards.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
+use num_traits::ToPrimitive;
+
 use super::grid::{Grid, Layer, Pass};
 use super::parallel;
-use crate::formula;
 use crate::lattice::{Along, Slopes};
 use crate::scalar::{Algebra, Ring};
+use crate::{Error, formula};
 
-/// How many numbers are worth a thread of their own.
+/// How many numbers are worth a thread of their own, each time one of them is changed.
 pub(super) const WORTH_A_THREAD: usize = 1 << 13;
 
-/// A number for each line of a layer, by direction.
+/// Passes that wait for each other, at the most, where nothing else says when.
+const WAITING: usize = 8;
+
+/// A number for each line of a layer, by direction, in the cells of the last layer.
 #[derive(Clone, Debug)]
-pub(crate) struct Cells<V>(pub(super) [Vec<V>; 3]);
+pub(super) struct Plane<V>(pub(super) [Vec<V>; 3]);
+
+/// A number for each line of a layer, and the passes that were asked for and not made yet.
+#[derive(Clone, Debug)]
+pub(crate) struct Cells<V> {
+    plane: Plane<V>,
+    waiting: Vec<(Pass, [V; 3])>,
+}
 
 /// What the spheres of a pass come to on a line: `ramps[direction][n]` for n of them.
 pub(super) struct Ramps<V>([Vec<V>; 3]);
@@ -37,59 +57,29 @@ impl<V: Clone + PartialEq> Ramps<V> {
         Self([alpha, beta, gamma])
     }
 
-    /// The same of a part of each number.
-    pub(super) fn map<U>(&self, part: impl Fn(&V) -> U) -> Ramps<U> {
-        Ramps(
-            self.0
-                .each_ref()
-                .map(|ramp| ramp.iter().map(&part).collect()),
-        )
+    /// The ramps of a part of each number, if all of them have it.
+    pub(super) fn try_map<U>(&self, part: impl Fn(&V) -> Option<U>) -> Option<Ramps<U>> {
+        let of_line = |ramp: &Vec<V>| ramp.iter().map(&part).collect::<Option<Vec<U>>>();
+        let [a, b, c] = self.0.each_ref().map(of_line);
+        Some(Ramps([a?, b?, c?]))
     }
 }
 
-/// Rows of a layer with the cells of their lines in every plane, apart from all other rows.
-pub(super) struct Band<'c, V> {
-    rows: Range<i128>,
-    /// Where the slices begin among all cells.
-    starts: [usize; 3],
-    planes: Vec<[&'c mut [V]; 3]>,
-}
+impl<V: Clone> Plane<V> {
+    pub(super) fn slices_mut(&mut self) -> [&mut [V]; 3] {
+        self.0.each_mut().map(Vec::as_mut_slice)
+    }
 
-impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
-    pub(crate) fn new(grid: &Grid<'_>, zero: &V) -> Self {
+    pub(super) fn new(grid: &Grid<'_>, zero: &V) -> Self {
         Self(core::array::from_fn(
             |_| alloc::vec![zero.clone(); grid.cells],
         ))
-    }
-
-    /// Adds to the three lines of a sphere.
-    pub(super) fn add_to(&mut self, cells: [usize; 3], values: &[V; 3]) {
-        for ((line, cell), value) in self.0.iter_mut().zip(cells).zip(values) {
-            if let Some(sum) = line.get_mut(cell) {
-                *sum = formula::passed_on(sum.clone(), value);
-            }
-        }
-    }
-
-    /// All rows of the layer that a pass leads to.
-    pub(super) fn whole(&mut self, pass: &Pass) -> Band<'_, V> {
-        let rows = pass.region.y();
-        Band {
-            rows: *rows.start()..rows.end() + 1,
-            starts: [0; 3],
-            planes: alloc::vec![self.0.each_mut().map(Vec::as_mut_slice)],
-        }
     }
 
     /// What the three lines of a sphere carry.
     pub(super) fn carried(&self, [a, b, c]: [usize; 3]) -> [&V; 3] {
         let Self([alpha, beta, gamma]) = self;
         [&alpha[a], &beta[b], &gamma[c]]
-    }
-
-    /// What the lines of a row of spheres carry.
-    pub(super) fn row(&self, grid: &Grid<'_>, pass: &Pass, j: i128) -> [&[V]; 3] {
-        self.slices(grid.row(j, &pass.region.row(j), pass.shift))
     }
 
     /// What consecutive lines carry, by direction.
@@ -99,126 +89,536 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Cells<V> {
     }
 }
 
-/// The rows of the layer that a pass leads to, in as many bands as there are threads for.
-pub(super) fn bands<'c, V>(
-    planes: &'c mut [Cells<V>],
+impl<V: Clone + for<'a> Add<&'a V, Output = V>> Plane<V> {
+    /// Adds to the three lines of a sphere.
+    pub(super) fn add_to(&mut self, cells: [usize; 3], values: &[V; 3]) {
+        for ((line, cell), value) in self.0.iter_mut().zip(cells).zip(values) {
+            // A cell of the grid.
+            line[cell] = formula::passed_on(line[cell].clone(), value);
+        }
+    }
+}
+
+/// Passes that follow each other, with what each adds in every plane.
+pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
+
+/// Makes passes that follow each other in all planes: adds the increments of each, and turns what it ends at if the sign
+/// changes there. Then does with the cells of each row, given among those of all planes, what is to be done at the end.
+pub(super) fn make<V>(
+    planes: &mut [Plane<V>],
     grid: &Grid<'_>,
-    pass: &Pass,
-) -> Vec<Band<'c, V>> {
-    let rows = pass.region.y();
-    let (first, end) = (*rows.start(), rows.end() + 1);
-    let worth = grid.cells * planes.len() / WORTH_A_THREAD;
-    // More than threads: rows are not of one length, and threads not of one speed. Not asked for where they are not worth it.
-    let bands = if worth > 1 {
-        worth.min(4 * parallel::threads())
-    } else {
-        1
+    passes: &Passes<V>,
+    turn: impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
+    finish: impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
+) where
+    V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
+{
+    let number = threads_worth(passes, planes.len());
+    make_in_bands(number, planes, grid, passes, (turn, finish));
+}
+
+fn make_in_bands<V>(
+    number: usize,
+    planes: &mut [Plane<V>],
+    grid: &Grid<'_>,
+    passes: &Passes<V>,
+    (turn, finish): (
+        impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
+        impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
+    ),
+) where
+    V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
+{
+    let Some((first, _)) = passes.first() else {
+        return;
     };
-    let bands = i128::try_from(bands).unwrap_or(1).clamp(1, end - first);
-    let slices = |Cells(cells): &'c mut Cells<V>| cells.each_mut().map(Vec::as_mut_slice);
-    let mut rest: Vec<[&mut [V]; 3]> = planes.iter_mut().map(slices).collect();
-    let mut starts = [0; 3];
-    let part = |band: i128| first + (end - first) * band / bands;
-    let split = (0..bands).map(|band| {
-        let (rows, begun) = (part(band)..part(band + 1), starts);
-        if rows.end < end {
-            let next = pass.region.row(rows.end);
-            let next = grid.row(rows.end, &next, pass.shift);
-            starts = next.map(|cells| cells.start);
+    let make = |band: Band<'_, V>| band.make(grid, passes, &turn, &finish);
+    let (apart, seams) = bands(passes, number);
+    // Where γ is cut beside α and β: between the rows that the first pass takes together.
+    parallel::for_each(cut(planes, grid, first.shift, apart), make);
+    parallel::for_each(cut(planes, grid, first.shift, seams), make);
+}
+
+/// How many bands are worth the work of these passes.
+fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
+    let sites = |(pass, _): &(Pass, _)| pass.region.sites().to_usize().unwrap_or(usize::MAX);
+    let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
+    let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
+    // Threads are not asked for where they are not worth it.
+    if worth < 2 || parallel::threads() < 2 {
+        return 1;
+    }
+    // More than threads: rows are not of one length, and threads not of one speed.
+    worth.min(4 * parallel::threads())
+}
+
+/// The rows that passes take in one band.
+struct Rows {
+    /// Where the band ends: none of its passes takes this row, or one below it.
+    end: i128,
+    /// By pass.
+    taken: Vec<Range<i128>>,
+}
+
+/// The rows that each pass can take in bands by themselves, and then around the seams between them.
+fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
+    let whole: Vec<Range<i128>> = passes
+        .iter()
+        .map(|(pass, _)| {
+            let rows = pass.region.y();
+            *rows.start()..rows.end() + 1
+        })
+        .collect();
+    let (Some(first), Some(last)) = (whole.first().cloned(), whole.last().cloned()) else {
+        return (Vec::new(), Vec::new());
+    };
+    let shifts = || passes.iter().map(|(pass, _)| pass.shift);
+    let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
+    // Rows that a band loses on its way, on both sides together; around the seam they are to fit into half of two bands.
+    let lost: i128 = steps.clone().map(i128::abs).sum();
+    let height = first.end - first.start;
+    let most = height / (2 * lost + 2);
+    let number = i128::try_from(number)
+        .map_or(most, |number| number.min(most))
+        .max(1);
+    let border = |band: i128| first.start + height * band / number;
+    // What is taken up to a border, by pass, from the side before it and from the side behind it.
+    let before = |border: i128| {
+        let rest = steps.clone().scan(border, |end, step| {
+            *end = (*end).min(*end - step);
+            Some(*end)
+        });
+        core::iter::once(border).chain(rest)
+    };
+    let behind = |border: i128| {
+        let rest = steps.clone().scan(border, |start, step| {
+            *start = (*start).max(*start - step);
+            Some(*start)
+        });
+        core::iter::once(border).chain(rest)
+    };
+    let starts = |band: i128| -> Vec<i128> {
+        if band == 0 {
+            whole.iter().map(|rows| rows.start).collect()
         } else {
-            starts = [grid.cells; 3];
+            behind(border(band)).collect()
         }
-        let split_off = |rest: &mut [&'c mut [V]; 3]| {
-            let mut lengths = starts.iter().zip(begun).map(|(start, begun)| start - begun);
-            rest.each_mut().map(|rest| {
-                let n = lengths.next().unwrap_or(0);
-                rest.split_off_mut(..n).unwrap_or_default()
-            })
-        };
-        Band {
-            rows,
-            starts: begun,
-            planes: rest.iter_mut().map(split_off).collect(),
+    };
+    let ends = |band: i128| -> Vec<i128> {
+        if band == number {
+            whole.iter().map(|rows| rows.end).collect()
+        } else {
+            before(border(band)).collect()
         }
+    };
+    let rows = |end, starts: Vec<i128>, ends: Vec<i128>| Rows {
+        end,
+        taken: starts
+            .into_iter()
+            .zip(ends)
+            .map(|(start, end)| start..end)
+            .collect(),
+    };
+    let end = |band, end| {
+        if band == number {
+            last.end.max(first.end)
+        } else {
+            end
+        }
+    };
+    let apart = (0..number).map(|band| {
+        let end = end(band + 1, border(band + 1));
+        rows(end, starts(band), ends(band + 1))
     });
-    split.collect()
+    let seams = (1..number).map(|seam| {
+        let end = end(seam + 1, border(seam).midpoint(border(seam + 1)));
+        rows(end, ends(seam), starts(seam))
+    });
+    (apart.collect(), seams.collect())
+}
+
+/// The cells of all planes, cut between bands; the last band has all that is behind the one before.
+fn cut<'c, V: Clone>(
+    planes: &'c mut [Plane<V>],
+    grid: &Grid<'_>,
+    shift: i128,
+    bands: Vec<Rows>,
+) -> Vec<Band<'c, V>> {
+    let mut rest: Vec<[&mut [V]; 3]> = planes.iter_mut().map(Plane::slices_mut).collect();
+    let mut starts = [0; 3];
+    let number = bands.len();
+    let cut = bands
+        .into_iter()
+        .enumerate()
+        .map(|(band, Rows { end, taken })| {
+            let begun = starts;
+            if band + 1 < number {
+                let (own, shifted) = (grid.row_start(end), grid.row_start(end + shift));
+                starts = [own, own, shifted];
+            } else {
+                starts = [grid.cells; 3];
+            }
+            let lengths: [usize; 3] = core::array::from_fn(|line| starts[line] - begun[line]);
+            let split_off = |rest: &mut [&'c mut [V]; 3]| {
+                core::array::from_fn(|line| {
+                    let (band, behind) =
+                        core::mem::take(&mut rest[line]).split_at_mut(lengths[line]);
+                    rest[line] = behind;
+                    band
+                })
+            };
+            Band {
+                taken,
+                starts: begun,
+                planes: rest.iter_mut().map(split_off).collect(),
+            }
+        });
+    cut.collect()
+}
+
+/// Rows of a layer with the cells of their lines in every plane, apart from all other rows.
+struct Band<'c, V> {
+    /// By pass.
+    taken: Vec<Range<i128>>,
+    /// Where the slices begin among all cells.
+    starts: [usize; 3],
+    planes: Vec<[&'c mut [V]; 3]>,
 }
 
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
-    /// Adds the increments of a pass, by plane, and turns what it ends at if the sign changes there.
-    pub(super) fn add_and_turn(
-        &mut self,
+    /// Makes all passes over their rows, each as far behind the one before as it must be.
+    fn make(
+        mut self,
         grid: &Grid<'_>,
-        pass: &Pass,
-        ramps: &[Ramps<V>],
-        turn: impl Fn(&[V; 3]) -> [V; 3],
+        passes: &Passes<V>,
+        turn: &impl Fn(&[V; 3]) -> [V; 3],
+        finish: &impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]),
     ) {
-        let steps = pass.k - pass.from;
-        for j in self.rows.clone() {
-            let i = pass.region.row(j);
-            let places = grid.row(j, &i, pass.shift);
-            let (n, mut places) = (places[0].len(), places.into_iter().zip(self.starts));
-            let places: [Range<usize>; 3] = core::array::from_fn(|_| {
-                let (cells, start) = places.next().unwrap_or_default();
-                cells.start - start..cells.end - start
-            });
-            let counts = pass.region.row_counts(j, pass.run.sign, steps);
-            let [on_a, on_b, on_c] = counts.map(|count| Slopes::new(count, i.start, n));
-            for ([alpha, beta, gamma], Ramps([ramp_a, ramp_b, ramp_c])) in
-                self.planes.iter_mut().zip(ramps)
-            {
-                let [a, b, c] = places.clone();
-                let (a, b, c) = (&mut alpha[a], &mut beta[b], &mut gamma[c]);
-                add(a, &on_a, ramp_a);
-                add(b, &on_b, ramp_b);
-                add(c, &on_c, ramp_c);
-                if !pass.turns {
-                    continue;
-                }
-                for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-                    let turned = turn(&[a.clone(), b.clone(), c.clone()]);
-                    [*a, *b, *c] = turned;
+        let mut delay = 0;
+        let mut delays = Vec::with_capacity(passes.len());
+        for (place, (pass, _)) in passes.iter().enumerate() {
+            let before = place.checked_sub(1).and_then(|before| passes.get(before));
+            delay += before.map_or(0, |(before, _)| (pass.shift - before.shift).max(0));
+            delays.push(delay);
+        }
+        let filled = || {
+            self.taken
+                .iter()
+                .zip(&delays)
+                .filter(|(rows, _)| !rows.is_empty())
+        };
+        let start = filled().map(|(rows, delay)| rows.start + delay).min();
+        let end = filled().map(|(rows, delay)| rows.end + delay).max();
+        let (Some(start), Some(end)) = (start, end) else {
+            return;
+        };
+        for time in start..end {
+            for (place, (pass, ramps)) in passes.iter().enumerate() {
+                // As many delays and ranges as passes.
+                let j = time - delays[place];
+                if self.taken[place].contains(&j) {
+                    let cells = self.pass(grid, pass, ramps, j, turn);
+                    if place + 1 == passes.len() {
+                        finish(&mut self.planes, &cells);
+                    }
                 }
             }
         }
     }
+
+    /// Makes a pass over row j; where its cells are.
+    fn pass(
+        &mut self,
+        grid: &Grid<'_>,
+        pass: &Pass,
+        ramps: &[Ramps<V>],
+        j: i128,
+        turn: &impl Fn(&[V; 3]) -> [V; 3],
+    ) -> [Range<usize>; 3] {
+        let i = pass.region.row(j);
+        let mut cells = grid.row(j, &i, pass.shift);
+        for (cells, start) in cells.iter_mut().zip(self.starts) {
+            *cells = cells.start - start..cells.end - start;
+        }
+        let n = cells[0].len();
+        let counts = pass.region.row_counts(j, pass.run.sign, pass.k - pass.from);
+        let counts = counts.map(|count| Slopes::new(count, i.start, n));
+        for (plane, ramps) in self.planes.iter_mut().zip(ramps) {
+            let rows = row(plane, cells.clone());
+            if pass.turns {
+                add_and_turn(rows, &counts, ramps, turn);
+            } else {
+                for ((row, counts), ramp) in rows.into_iter().zip(&counts).zip(&ramps.0) {
+                    add(row, &counts.along(0..n, ramp));
+                }
+            }
+        }
+        cells
+    }
+}
+
+/// The cells of a row by direction.
+pub(super) fn row<'r, V>(
+    [alpha, beta, gamma]: &'r mut [&mut [V]; 3],
+    [a, b, c]: [Range<usize>; 3],
+) -> [&'r mut [V]; 3] {
+    [&mut alpha[a], &mut beta[b], &mut gamma[c]]
+}
+
+/// Adds to three rows what their counts come to, and turns them.
+fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
+    mut rows: [&mut [V]; 3],
+    counts: &[Slopes; 3],
+    Ramps(ramps): &Ramps<V>,
+    turn: &impl Fn(&[V; 3]) -> [V; 3],
+) {
+    let n = rows[0].len();
+    let along: [Along<'_, V>; 3] =
+        core::array::from_fn(|line| counts[line].along(0..n, &ramps[line]));
+    let start = along.iter().map(|along| along.up.len()).max().unwrap_or(n);
+    let end = along
+        .iter()
+        .map(|along| n - along.down.len())
+        .min()
+        .unwrap_or(0);
+    let [Some(a), Some(b), Some(c)] = along.each_ref().map(|along| along.level) else {
+        return add_then_turn(rows, &along, turn);
+    };
+    if start >= end {
+        return add_then_turn(rows, &along, turn);
+    }
+    // Where all three are level, what is added is the same everywhere; on both sides of it there is little, mostly.
+    for (row, along) in rows.iter_mut().zip(&along) {
+        add_outside(row, along, &(start..end));
+    }
+    let [alpha, beta, gamma] = rows;
+    turn_rows(
+        [&mut alpha[..start], &mut beta[..start], &mut gamma[..start]],
+        turn,
+    );
+    turn_rows(
+        [&mut alpha[end..], &mut beta[end..], &mut gamma[end..]],
+        turn,
+    );
+    let level = start..end;
+    let level = [
+        &mut alpha[level.clone()],
+        &mut beta[level.clone()],
+        &mut gamma[level],
+    ];
+    turn_rows(level, &|[x, y, z]: &[V; 3]| {
+        let add = |x: &V, w| formula::passed_on(x.clone(), w);
+        turn(&[add(x, a), add(y, b), add(z, c)])
+    });
+}
+
+fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
+    mut rows: [&mut [V]; 3],
+    along: &[Along<'_, V>; 3],
+    turn: &impl Fn(&[V; 3]) -> [V; 3],
+) {
+    for (row, along) in rows.iter_mut().zip(along) {
+        add(row, along);
+    }
+    turn_rows(rows, turn);
+}
+
+fn turn_rows<V>([a, b, c]: [&mut [V]; 3], turn: &impl Fn(&[V; 3]) -> [V; 3])
+where
+    V: Clone,
+{
+    turn_apart(a, b, c, turn);
+}
+
+/// Rows in different places, which the compiler knows of parameters.
+#[inline(never)]
+fn turn_apart<V: Clone>(a: &mut [V], b: &mut [V], c: &mut [V], turn: &impl Fn(&[V; 3]) -> [V; 3]) {
+    let n = a.len().min(b.len()).min(c.len());
+    let (a, b, c) = (&mut a[..n], &mut b[..n], &mut c[..n]);
+    for place in 0..n {
+        let turned = turn(&[a[place].clone(), b[place].clone(), c[place].clone()]);
+        [a[place], b[place], c[place]] = turned;
+    }
 }
 
 /// Adds to a row what its counts come to.
-fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], counts: &Slopes, ramp: &[V]) {
-    let Along { up, level, down } = counts.along(0..row.len(), ramp);
+fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], along: &Along<'_, V>) {
+    let Along { up, level, down } = *along;
     let (rising, rest) = row.split_at_mut(up.len());
     let (same, falling) = rest.split_at_mut(rest.len() - down.len());
-    for (sum, value) in rising.iter_mut().zip(up) {
+    add_each(rising, up.iter());
+    if let Some(value) = level {
+        add_same(same, value);
+    }
+    add_each(falling, down.iter().rev());
+}
+
+/// Adds to a row, but not between these places, where it is level.
+fn add_outside<V: Clone + for<'a> Add<&'a V, Output = V>>(
+    row: &mut [V],
+    along: &Along<'_, V>,
+    level: &Range<usize>,
+) {
+    let (left, rest) = row.split_at_mut(level.start);
+    let (_, right) = rest.split_at_mut(level.len());
+    let Along { up, level, down } = *along;
+    let (rising, same) = left.split_at_mut(up.len());
+    let (same_again, falling) = right.split_at_mut(right.len() - down.len());
+    add_each(rising, up.iter());
+    if let Some(value) = level {
+        add_same(same, value);
+        add_same(same_again, value);
+    }
+    add_each(falling, down.iter().rev());
+}
+
+fn add_each<'v, V: Clone + 'v + for<'a> Add<&'a V, Output = V>>(
+    row: &mut [V],
+    values: impl Iterator<Item = &'v V>,
+) {
+    for (sum, value) in row.iter_mut().zip(values) {
         *sum = formula::passed_on(sum.clone(), value);
     }
-    if let Some(value) = level {
-        for sum in same {
-            *sum = formula::passed_on(sum.clone(), value);
+}
+
+fn add_same<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], value: &V) {
+    for sum in row {
+        *sum = formula::passed_on(sum.clone(), value);
+    }
+}
+
+impl<V: Clone> Cells<V> {
+    pub(crate) fn new(grid: &Grid<'_>, zero: &V) -> Self {
+        Self {
+            plane: Plane::new(grid, zero),
+            waiting: Vec::new(),
         }
     }
-    for (sum, value) in falling.iter_mut().zip(down.iter().rev()) {
-        *sum = formula::passed_on(sum.clone(), value);
+
+    /// What consecutive lines carry, by direction.
+    pub(super) fn slices(&self, cells: [Range<usize>; 3]) -> [&[V]; 3] {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        self.plane.slices(cells)
     }
 }
 
 impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
-    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]) {
-        let ramps = Ramps::new(pass, increments, |w, n| {
-            formula::force(T::Numerator::from_i128(n), w)
-        });
-        let bands = bands(core::slice::from_mut(self), grid, pass);
-        parallel::for_each(bands, |mut band| {
-            let ramps = core::slice::from_ref(&ramps);
-            band.add_and_turn(grid, pass, ramps, formula::half_turn::<T>);
-        });
+    fn pass(
+        &mut self,
+        grid: &Grid<'_>,
+        pass: &Pass,
+        increments: &[T::Numerator; 3],
+    ) -> Result<(), Error> {
+        self.waiting.push((*pass, increments.clone()));
+        if self.waiting.len() == WAITING {
+            return Layer::<T>::catch_up(self, grid);
+        }
+        Ok(())
     }
 
-    fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) {
-        self.add_to(cells, values);
+    fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
+        let waiting = core::mem::take(&mut self.waiting);
+        let ramps = |pass: &Pass, increments| {
+            let times = |w: &_, n| formula::force(T::Numerator::from_i128(n), w);
+            alloc::vec![Ramps::new(pass, increments, times)]
+        };
+        let passes = waiting.iter().map(|(pass, w)| (*pass, ramps(pass, w)));
+        let passes: Vec<_> = passes.collect();
+        let plane = core::slice::from_mut(&mut self.plane);
+        make(plane, grid, &passes, formula::half_turn::<T>, |_, _| ());
+        Ok(())
+    }
+
+    fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error> {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        self.plane.add_to(cells, values);
+        Ok(())
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {
-        self.carried(cells).map(Clone::clone)
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        self.plane.carried(cells).map(Clone::clone)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Region;
+    use crate::shape::Shape;
+
+    /// All passes of a pile, so many at a time, in so many bands, with something added when rows are finished. The numbers
+    /// stay small, and no turn is like another.
+    fn swept(shape: &Shape, at_a_time: usize, number: usize, finished: i64) -> Plane<i64> {
+        let last = shape.layers() - 1;
+        let grid = Grid::new(shape, last, 1).unwrap();
+        let mut plane = [Plane::new(&grid, &0)];
+        let mut passes = Vec::new();
+        let mut k = 0;
+        while let Some(pass) = grid.pass(k, last).unwrap() {
+            let times = |w: &i64, n: i128| w * i64::try_from(n).unwrap();
+            passes.push((pass, alloc::vec![Ramps::new(&pass, &[1, 2, 5], times)]));
+            k = pass.k;
+        }
+        let turn = |[a, b, c]: &[i64; 3]| {
+            [2 * b + 3 * c - a, a + 7 * b - c, 5 * a - b + c].map(|x| x.rem_euclid(10_007))
+        };
+        let finish = |planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]| {
+            for plane in planes {
+                row(plane, cells.clone())
+                    .into_iter()
+                    .flatten()
+                    .for_each(|x| *x += finished);
+            }
+        };
+        for passes in passes.chunks(at_a_time) {
+            make_in_bands(number, &mut plane, &grid, passes, (turn, finish));
+        }
+        let [plane] = plane;
+        plane
+    }
+
+    #[test]
+    fn bands_and_their_seams_are_the_whole() {
+        let alternating = "+-".repeat(9);
+        let mut compared = 0;
+        for stacking in [
+            alternating.as_str(),
+            "-++-+---+-+-++",
+            "+++--+-----+",
+            "-+-+",
+        ] {
+            for top in [
+                Region::hexagon(25, 18),
+                Region::triangle(30),
+                Region::hexagon(2, 1),
+            ] {
+                let shape = Shape::under(top.unwrap(), stacking.parse().unwrap()).unwrap();
+                for at_a_time in [1, 2, 5, 8] {
+                    let Plane(plain) = swept(&shape, 1, 1, 0);
+                    assert_eq!(
+                        swept(&shape, at_a_time, 1, 0).0,
+                        plain,
+                        "{stacking} {at_a_time}"
+                    );
+                    let Plane(whole) = swept(&shape, at_a_time, 1, 1);
+                    for number in [2, 3, 7] {
+                        let Plane(bands) = swept(&shape, at_a_time, number, 1);
+                        assert_eq!(bands, whole, "{stacking} {at_a_time} {number}");
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert_eq!(compared, 144);
     }
 }

@@ -146,6 +146,13 @@ impl<'p> Grid<'p> {
         cell.checked_add(along).filter(|cell| *cell < end)
     }
 
+    /// Returns the first cell of row j of the last layer, and of a row behind all the end of the cells.
+    pub(super) fn row_start(&self, j: i128) -> usize {
+        let row = usize::try_from(j - self.first_row).ok();
+        let row = row.and_then(|row| self.rows.get(row));
+        row.map_or(self.cells, |(_, cell)| *cell)
+    }
+
     /// Returns the cells of consecutive lines, from the place (i, j) in the last layer on.
     fn range(&self, i: i128, j: i128, length: usize) -> Range<usize> {
         let start = self.cell(i, j);
@@ -174,14 +181,28 @@ impl<'p> Grid<'p> {
 
 /// The numbers of a layer, in one of the ways they are kept.
 pub(crate) trait Layer<T: Algebra> {
-    /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there.
-    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[T::Numerator; 3]);
+    /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there. May note it only.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for numbers wider than they can be.
+    fn pass(
+        &mut self,
+        grid: &Grid<'_>,
+        pass: &Pass,
+        increments: &[T::Numerator; 3],
+    ) -> Result<(), Error>;
 
     /// Makes the passes that were only noted: before anything else is asked of the layer.
-    fn catch_up(&mut self, _grid: &Grid<'_>) {}
+    ///
+    /// # Errors
+    /// As for [`pass`](Self::pass).
+    fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error>;
 
     /// Adds to the three lines of a sphere.
-    fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]);
+    ///
+    /// # Errors
+    /// As for [`pass`](Self::pass).
+    fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error>;
 
     /// What the three lines of a sphere carry.
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];

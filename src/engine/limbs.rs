@@ -12,42 +12,52 @@
 //! 2√3·B·D·3^(d−1), and B·D without one.
 //!
 //! # Limbs and carries
-//! A number is Σ x_p 2^(48p), one limb x_p in each of P planes, all of them `i64`. Passes are linear, so they act on
-//! each plane by itself, in the same loop; only carries lead from one plane to the next, and they can wait. Right after
-//! carrying, the lower limbs lie in [0, 2^48). Let M·2^48 bound them. A pass adds an increment's limb, below 2^48, and
-//! turns: no sum on the way exceeds 6(M+1)·2^48, and the new bound is 5(M+1). From M = 1 that is 10, 55, 280, 1405,
-//! 7030: five turns stay below 2^63, the sixth would not (6·7031 > 2^15), so carries are due after every fifth. The top
-//! limb is the number over 2^(48(P−1)) less what the lower ones still owe, which is below 2^13, and below 2^16 in the
-//! sums of a turn: P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(48(P−1)), and 2^62 + 2^16 < 2^63. With one plane
-//! nothing is ever carried. d is the number of changes so far, so there are few planes at the top of a pile and more
-//! further down.
+//! A number is Σ x_p 2^(51p), one limb x_p in each of P planes, all of them `i64`. Passes are linear, so they act on
+//! each plane by itself, in the same loop; only carries lead from one plane to the next, and they can wait.
+//!
+//! Lemma. Right after carrying the lower limbs lie in [−2^50, 2^50). Let M·2^51 bound them after some passes, M = 1/2 at
+//! first. A pass adds an increment's limb, at most 2^50, and turns by 2(b + c) − a.
+//!
+//! | after | M | because |
+//! |---|---|---|
+//! | t + 1 passes | 5(M + 1/2) | \|2(b + c) − a\| ≤ 5 max(\|a\|, \|b\|, \|c\|), and no sum on the way is greater |
+//! | 1, 2, 3, 4, 5 passes | 5, 27.5, 140, 702.5, 3515 | |
+//! | 5 passes | 3515 | 3515·2^51 + 2^50 < 2^12·2^51 = 2^63; the sixth would lead to 17578 |
+//!
+//! So carries are due after every fifth pass. The top limb is the number over 2^(51(P−1)) less what the lower ones still
+//! owe, which is below 2^12. P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(51(P−1)), and 2^62 + 2^12 < 2^63. Right
+//! after carrying the lower limbs owe less than 1, and no force is greater than √3/2 of that bound: a top limb of 2^62 or
+//! more is an error, and all of them are looked at whenever limbs carry. With one plane nothing is ever carried. d is
+//! the number of changes so far, so there are few planes at the top of a pile and more further down.
 //!
 //! # Passes that wait
-//! Between carries each plane is for itself. Passes wait until carries are due or a number is asked for; then each plane
-//! takes all of them in turn, while it is in the cache, and planes are shared out to threads.
+//! Between carries each plane is for itself. Passes wait until carries are due or a number is asked for; then they are
+//! made together, row after row ([`make`]), and each row carries when the last of them has been over it.
 
 use alloc::vec::Vec;
+use core::ops::Range;
+use core::sync::atomic::{AtomicBool, Ordering};
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::cells::{Cells, Ramps, WORTH_A_THREAD, bands};
+use super::cells::{Plane, Ramps, make, row};
 use super::grid::{Grid, Layer, Pass};
-use super::parallel;
-use crate::formula::{force, tripled_half_turn};
+use crate::Error;
+use crate::error::bug;
+use crate::formula::{force, tripled_apart};
 use crate::lattice::Direction;
 
 /// The bits of a limb below the top one.
-const LIMB: u32 = 48;
+pub(super) const LIMB: u32 = 51;
 
-/// How many turns the lower limbs bear between carries.
+/// How many passes the lower limbs bear between carries.
 const TURNS: u32 = 5;
 
-/// From so many planes for each thread on, a thread takes all passes that wait on one plane, which stays in its cache,
-/// before it takes the next plane. Fewer are shared out by rows.
-const PLANES_A_THREAD: usize = 1;
+/// The invariant that the width of the numbers rests on.
+const WIDE_ENOUGH: &str = "no force is wider than the bound on all forces";
 
 /// How wide the numbers of a sweep are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +98,7 @@ pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: 
 #[derive(Clone, Debug)]
 pub(crate) struct Planes {
     /// The planes that the numbers fill by now, the lowest first; further down they are more.
-    cells: Vec<Cells<i64>>,
+    planes: Vec<Plane<i64>>,
     /// No less than 2√3·B·D.
     bound: BigInt,
     /// Passes that were asked for and not made yet.
@@ -104,7 +114,7 @@ impl Planes {
     pub(crate) fn new(grid: &Grid<'_>, bound: BigInt) -> Self {
         let size = Size::new(&bound, 0);
         Self {
-            cells: alloc::vec![Cells::new(grid, &0); size.planes],
+            planes: alloc::vec![Plane::new(grid, &0); size.planes],
             bound,
             waiting: Vec::new(),
             passes: 0,
@@ -113,83 +123,103 @@ impl Planes {
     }
 
     /// Makes room for what the passes that wait lead to. What was the top limb is a lower one then, and carries.
-    fn grow(&mut self, grid: &Grid<'_>) {
+    fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         let planes = Size::new(&self.bound, self.changes).planes;
-        if planes > self.cells.len() {
-            self.cells.resize(planes, Cells::new(grid, &0));
-            self.carry();
-            self.passes = u32::try_from(self.waiting.len()).unwrap_or(TURNS);
+        if planes > self.planes.len() {
+            self.planes.resize(planes, Plane::new(grid, &0));
+            self.carry()?;
+            // Those that wait are at most as many as a carry is due after.
+            self.passes = self.waiting.iter().fold(0, |passes, _| passes + 1);
         }
+        Ok(())
     }
 
-    /// Brings the lower limbs into [0, 2^48).
-    fn carry(&mut self) {
-        /// Numbers of which two planes stay in the nearest cache.
-        const PIECE: usize = 1 << 10;
+    /// Makes the passes that wait, and carries if that is due.
+    fn make_waiting(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
+        self.grow(grid)?;
+        let planes = self.planes.len();
+        let waiting = core::mem::take(&mut self.waiting);
+        let mut passes = Vec::with_capacity(waiting.len());
+        for (pass, increments) in waiting {
+            let ramps = Ramps::new(&pass, &increments, |w, n| {
+                limbs(&force(n.into(), w), planes)
+            });
+            let of_plane = |p: usize| ramps.try_map(|limbs| limbs.as_ref().map(|limbs| limbs[p]));
+            let ramps: Option<Vec<_>> = (0..planes).map(of_plane).collect();
+            passes.push((pass, ramps.ok_or_else(|| bug(WIDE_ENOUGH))?));
+        }
+        if self.passes < TURNS {
+            make(&mut self.planes, grid, &passes, tripled_apart, |_, _| ());
+            return Ok(());
+        }
+        let fits = AtomicBool::new(true);
+        make(
+            &mut self.planes,
+            grid,
+            &passes,
+            tripled_apart,
+            |planes, cells| {
+                if !carry_rows(planes, cells) {
+                    fits.store(false, Ordering::Relaxed);
+                }
+            },
+        );
         self.passes = 0;
-        let worth_threads = self.is_worth_threads();
-        let mut pieces: Vec<Vec<&mut [i64]>> = Vec::new();
-        let each = self.cells.first().map_or(0, |plane| plane.0[0].len());
-        pieces.resize_with(3 * each.div_ceil(PIECE), Vec::new);
-        for Cells(directions) in &mut self.cells {
-            let numbers = directions
-                .iter_mut()
-                .flat_map(|cells| cells.chunks_mut(PIECE));
-            for (piece, numbers) in pieces.iter_mut().zip(numbers) {
-                piece.push(numbers);
-            }
-        }
-        let work = |mut planes: Vec<&mut [i64]>| {
-            for p in 1..planes.len() {
-                let (lower, upper) = planes.split_at_mut(p);
-                let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
-                    return;
-                };
-                for (x, next) in lower.iter_mut().zip(upper.iter_mut()) {
-                    carry(x, next);
-                }
-            }
-        };
-        if worth_threads {
-            parallel::for_each(pieces, work);
-        } else {
-            pieces.into_iter().for_each(work);
-        }
+        self.check(fits.into_inner())
     }
 
-    /// Whether a step over all numbers takes longer than waking threads.
-    fn is_worth_threads(&self) -> bool {
-        let each = self.cells.first().map_or(0, |plane| plane.0[0].len());
-        each * self.cells.len() > 2 * WORTH_A_THREAD
+    /// Returns what consecutive lines carry, by direction, from the top limbs down.
+    pub(super) fn slices(&self, cells: &[Range<usize>; 3]) -> Vec<[&[i64]; 3]> {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        let top_down = self.planes.iter().rev();
+        top_down.map(|plane| plane.slices(cells.clone())).collect()
     }
 
-    /// The same for the three lines of one sphere.
-    fn carry_at(&mut self, cells: [usize; 3]) {
-        for p in 1..self.cells.len() {
-            let (lower, upper) = self.cells.split_at_mut(p);
-            let (Some(lower), Some(upper)) = (lower.last_mut(), upper.first_mut()) else {
-                return;
-            };
-            for ((lower, upper), cell) in lower.0.iter_mut().zip(&mut upper.0).zip(cells) {
-                if let (Some(x), Some(next)) = (lower.get_mut(cell), upper.get_mut(cell)) {
-                    carry(x, next);
-                }
-            }
-        }
+    fn check(&self, fits: bool) -> Result<(), Error> {
+        if fits { Ok(()) } else { Err(bug(WIDE_ENOUGH)) }
     }
 
-    /// The least number on the lines of the layer that a pass led to, and the first place (i, j) and direction, in
+    /// Brings the lower limbs into [−2^50, 2^50).
+    fn carry(&mut self) -> Result<(), Error> {
+        self.passes = 0;
+        let all = self
+            .planes
+            .first()
+            .map_or([0; 3], |plane| plane.0.each_ref().map(Vec::len));
+        let mut planes: Vec<_> = self.planes.iter_mut().map(Plane::slices_mut).collect();
+        let fits = carry_rows(&mut planes, &all.map(|n| 0..n));
+        self.check(fits)
+    }
+
+    /// Brings the lower limbs of the three lines of one sphere into [−2^50, 2^50).
+    fn carry_at(&mut self, cells: [usize; 3]) -> Result<(), Error> {
+        let mut planes: Vec<_> = self.planes.iter_mut().map(Plane::slices_mut).collect();
+        let fits = carry_rows(&mut planes, &cells.map(|cell| cell..cell + 1));
+        self.check(fits)
+    }
+
+    /// Returns the least number on the lines of the layer that a pass led to, and the first place (i, j) and direction, in
     /// row order, that has it. Carries first.
-    pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Option<Least> {
-        self.carry();
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn least(&mut self, grid: &Grid<'_>, pass: &Pass) -> Result<Least, Error> {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        self.carry()?;
         let mut least: Option<(Vec<i64>, [i128; 2], Direction)> = None;
         for row in pass.region.rows(pass.k) {
-            let top_down = self.cells.iter().rev();
-            let rows: Vec<[&[i64]; 3]> =
-                top_down.map(|plane| plane.row(grid, pass, row.j)).collect();
+            let cells = grid.row(row.j, &row.i, pass.shift);
+            let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
                 for direction in Direction::ALL {
-                    // From the top limb down, limbs in [0, 2^48) compare like digits.
+                    // From the top limb down, limbs in [−2^50, 2^50) compare like digits: what is below a limb is less
+                    // than one of its units.
                     let limbs = rows.iter().map(|row| row[direction.index()][n]);
                     let less = match &least {
                         Some((least, ..)) => limbs.clone().lt(least.iter().copied()),
@@ -201,11 +231,12 @@ impl Planes {
                 }
             }
         }
-        least.map(|(limbs, place, direction)| Least {
+        let least = least.map(|(limbs, place, direction)| Least {
             numerator: value(limbs.iter()),
             place,
             direction,
-        })
+        });
+        least.ok_or_else(|| bug("a layer has a sphere"))
     }
 }
 
@@ -218,75 +249,88 @@ pub(crate) struct Least {
 }
 
 impl Layer<BigRational> for Planes {
-    fn pass(&mut self, grid: &Grid<'_>, pass: &Pass, increments: &[BigInt; 3]) {
+    fn pass(
+        &mut self,
+        grid: &Grid<'_>,
+        pass: &Pass,
+        increments: &[BigInt; 3],
+    ) -> Result<(), Error> {
         self.changes = pass.run.index + usize::from(pass.turns);
         self.waiting.push((*pass, increments.clone()));
         self.passes += 1;
         if self.passes == TURNS {
-            self.catch_up(grid);
-            self.carry();
+            return self.make_waiting(grid);
         }
+        Ok(())
     }
 
-    fn catch_up(&mut self, grid: &Grid<'_>) {
+    fn catch_up(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         if self.waiting.is_empty() {
-            return;
+            return Ok(());
         }
-        self.grow(grid);
-        let planes = self.cells.len();
-        let waiting = core::mem::take(&mut self.waiting);
-        let waiting = waiting.iter().map(|(pass, increments)| {
-            let ramps = Ramps::new(pass, increments, |w, n| limbs(&force(n.into(), w), planes));
-            let ramps: Vec<_> = (0..planes).map(|p| ramps.map(|limbs| limbs[p])).collect();
-            (pass, ramps)
-        });
-        if planes < PLANES_A_THREAD * parallel::threads() || !self.is_worth_threads() {
-            for (pass, ramps) in waiting {
-                parallel::for_each(bands(&mut self.cells, grid, pass), |mut band| {
-                    band.add_and_turn(grid, pass, &ramps, tripled_half_turn);
-                });
-            }
-            return;
-        }
-        let waiting: Vec<_> = waiting.collect();
-        let planes = self.cells.iter_mut().enumerate().collect();
-        parallel::for_each(planes, |(p, plane): (usize, &mut Cells<i64>)| {
-            for (pass, ramps) in &waiting {
-                let mut whole = plane.whole(pass);
-                whole.add_and_turn(grid, pass, &ramps[p..=p], tripled_half_turn);
-            }
-        });
+        self.make_waiting(grid)
     }
 
-    fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) {
-        let values = values
-            .each_ref()
-            .map(|value| limbs(value, self.cells.len()));
-        for (p, plane) in self.cells.iter_mut().enumerate() {
-            plane.add_to(cells, &values.each_ref().map(|limbs| limbs[p]));
-        }
+    fn add_at(&mut self, cells: [usize; 3], values: &[BigInt; 3]) -> Result<(), Error> {
         debug_assert!(
             self.waiting.is_empty(),
             "passes come before what they lead to"
         );
+        let planes = self.planes.len();
+        let [Some(a), Some(b), Some(c)] = values.each_ref().map(|value| limbs(value, planes))
+        else {
+            return Err(bug(WIDE_ENOUGH));
+        };
+        for (p, plane) in self.planes.iter_mut().enumerate() {
+            plane.add_to(cells, &[a[p], b[p], c[p]]);
+        }
         // Loads on one line may follow each other without a pass between them.
-        self.carry_at(cells);
+        self.carry_at(cells)
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {
-        let top_down = self.cells.iter().rev();
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        let top_down = self.planes.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
         [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
     }
 }
 
-/// Hands on to the next limb what is beyond [0, 2^48).
-fn carry(x: &mut i64, next: &mut i64) {
-    // x >> 48 rounded down, by way of x + 2^63: vectors of old processors shift no signed numbers.
+/// Brings the lower limbs of some cells into [−2^50, 2^50), and returns whether the top limbs are as small as the width
+/// of the numbers promises.
+fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool {
+    for p in 1..planes.len() {
+        let (below, above) = planes.split_at_mut(p);
+        if let (Some(lower), Some(upper)) = (below.last_mut(), above.first_mut()) {
+            let (lower, upper) = (row(lower, cells.clone()), row(upper, cells.clone()));
+            for (lower, upper) in lower.into_iter().zip(upper) {
+                carry(lower, upper);
+            }
+        }
+    }
+    let top = planes.last_mut().map(|top| row(top, cells.clone()));
+    top.into_iter().flatten().all(|top| are_within_2_62(top))
+}
+
+/// Hands on to the next limbs what is beyond [−2^50, 2^50).
+#[inline(never)]
+fn carry(lower: &mut [i64], upper: &mut [i64]) {
+    const HALF: i64 = 1 << (LIMB - 1);
+    // x >> 51 rounded down, by way of x + 2^63: vectors of old processors shift no signed numbers.
     const OFFSET: u64 = 1 << 63;
-    let above = (x.cast_unsigned() ^ OFFSET) >> LIMB;
-    *next += above.cast_signed() - (OFFSET >> LIMB).cast_signed();
-    *x &= (1 << LIMB) - 1;
+    for (x, next) in lower.iter_mut().zip(upper) {
+        let moved = (*x + HALF).cast_unsigned();
+        *next += ((moved ^ OFFSET) >> LIMB).cast_signed() - (OFFSET >> LIMB).cast_signed();
+        *x = (moved & ((1 << LIMB) - 1)).cast_signed() - HALF;
+    }
+}
+
+/// Whether all of these are at least −2^62 and below 2^62: their two highest bits are alike.
+fn are_within_2_62(limbs: &[i64]) -> bool {
+    limbs.iter().fold(0, |unlike, x| unlike | (x ^ (x << 1))) >= 0
 }
 
 /// The number of these limbs, from the top one down.
@@ -294,44 +338,52 @@ fn value<'a>(top_down: impl Iterator<Item = &'a i64>) -> BigInt {
     top_down.fold(BigInt::zero(), |value, limb| (value << LIMB) + *limb)
 }
 
-/// An integer as limbs, from the lowest up: all but the top one in [0, 2^48).
-fn limbs(value: &BigInt, planes: usize) -> Vec<i64> {
-    let base = BigInt::from(1_u64 << LIMB);
+/// An integer as limbs, from the lowest up: all but the top one in [−2^50, 2^50). `None` if the top one is none.
+pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
+    const BASE: i64 = 1 << LIMB;
+    let base = BigInt::from(BASE);
     let mut rest = value.clone();
     let mut limbs = Vec::with_capacity(planes);
     for _ in 1..planes {
-        let (next, limb) = rest.div_mod_floor(&base);
-        limbs.push(limb.to_i64().unwrap_or(0));
+        let (next, digit) = rest.div_mod_floor(&base);
+        let digit = digit.to_i64()?;
+        let (next, limb) = if digit < BASE / 2 {
+            (next, digit)
+        } else {
+            (next + 1, digit - BASE)
+        };
+        limbs.push(limb);
         rest = next;
     }
-    // The planes are as many as the bound on all numbers asks for.
-    debug_assert!(rest.to_i64().is_some(), "{value} in {planes} planes");
-    limbs.push(rest.to_i64().unwrap_or(0));
-    limbs
+    limbs.push(rest.to_i64()?);
+    Some(limbs)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Dimension;
+    use crate::Pile;
+    use crate::engine::{Cells, Descent, Lines, exact_sweep, plain_sweep};
+    use crate::lattice::{Dimension, Region};
     use crate::shape::Shape;
 
     fn two_planes(grid: &Grid<'_>) -> Planes {
         let planes = Planes::new(grid, BigInt::from(1) << 100);
-        assert_eq!(planes.cells.len(), 2);
+        assert_eq!(planes.planes.len(), 2);
         planes
     }
 
-    /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^48.
+    /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^50.
     #[test]
     fn loads_that_follow_each_other_do_not_fill_a_limb() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 2).unwrap();
         let (mut planes, cells) = (two_planes(&grid), grid.site(0, 0, 0));
-        let load = BigInt::from((1_u64 << LIMB) - 1);
+        let load = BigInt::from((1_u64 << (LIMB - 1)) - 1);
         let loads = 1_u32 << 16;
         for _ in 0..loads {
-            planes.add_at(cells, &[load.clone(), BigInt::zero(), -load.clone()]);
+            let values = [load.clone(), BigInt::zero(), -load.clone()];
+            planes.add_at(cells, &values).unwrap();
         }
         let sum = load * loads;
         assert_eq!(planes.at(cells), [sum.clone(), BigInt::zero(), -sum]);
@@ -342,10 +394,103 @@ mod tests {
         for power in 0..94 {
             for sign in [1, -1] {
                 let number = (BigInt::from(1) << power) * sign - 1;
-                let limbs = limbs(&number, 2);
-                assert!((0..1 << LIMB).contains(&limbs[0]), "{number}");
+                let limbs = limbs(&number, 2).unwrap();
+                let half = 1 << (LIMB - 1);
+                assert!((-half..half).contains(&limbs[0]), "{number}");
                 assert_eq!(value(limbs.iter().rev()), number);
             }
+        }
+    }
+
+    /// 2√3·B·D ≤ the bound < 2√3·B·D + 7, for B = u√(3KN) + √3·Σ|e|: squared, and so in integers.
+    #[test]
+    fn the_bound_is_what_is_proved_and_hardly_more() {
+        for (layers, spheres, ordinary, extras) in [
+            (1, 1, 1, 0),
+            (2, 4, 1, 0),
+            (7, 84, 5, 3),
+            (400, 16_100_200, 2, 1_000_000),
+        ] {
+            let bound = bound(
+                layers,
+                &BigUint::from(spheres as u64),
+                &ordinary.into(),
+                &extras.into(),
+            );
+            let own = bound.clone() - 6 * extras;
+            let exact = BigInt::from(36 * layers * spheres * ordinary * ordinary);
+            assert!(&own * &own >= exact, "{bound}");
+            let less = own - ordinary;
+            assert!(&less * &less <= exact, "{bound}");
+        }
+    }
+
+    /// The table of the lemma: M in halves, and the sixth pass that would be too much.
+    #[test]
+    fn lower_limbs_bear_five_passes_and_no_more() {
+        let half = 1_i128 << (LIMB - 1);
+        let bounds = |passes| (0..passes).fold(1, |halves, _| 5 * (halves + 1));
+        assert_eq!(bounds(TURNS), 7030);
+        assert!((bounds(TURNS) + 1) * half < 1 << 63);
+        assert!(bounds(TURNS + 1) * half >= 1 << 63);
+    }
+
+    /// Five turns of limbs that are as great as limbs can be, each with increments that are, too: 3^5 times as great at
+    /// least. Overflow is noticed in a checked run.
+    #[test]
+    fn great_limbs_do_not_overflow() {
+        let half = 1_i64 << (LIMB - 1);
+        for mut limbs in [
+            [-half, half - 1, half - 1],
+            [half - 1; 3],
+            [-half, -half, 0],
+        ] {
+            for _ in 0..TURNS {
+                limbs = tripled_apart(&limbs.map(|x| x + x.signum() * (half - 1)));
+            }
+            let greatest = limbs.iter().map(|x| x.unsigned_abs()).max();
+            assert!(greatest > Some(1 << 57), "{limbs:?}");
+        }
+    }
+
+    #[test]
+    fn a_top_limb_that_is_too_great_is_noticed() {
+        let within = 1_i64 << 62;
+        assert!(are_within_2_62(&[0, -1, within - 1, -within]));
+        assert!(!are_within_2_62(&[0, within]));
+        assert!(!are_within_2_62(&[-within - 1, 0]));
+    }
+
+    /// All lines of all layers, in limbs and in big integers, down to many planes.
+    fn compare(pile: &Pile) {
+        let (system, last) = (pile.system(), pile.layers() - 1);
+        let lines = Lines::<BigRational>::new(&system);
+        let mut exact: Descent<'_, BigRational, Planes> =
+            exact_sweep(&lines, &system, last).unwrap();
+        let mut plain: Descent<'_, BigRational, Cells<BigInt>> =
+            plain_sweep(&lines, &system, last).unwrap();
+        // Far, so that passes wait, and then one by one.
+        for k in (0..=last).filter(|k| *k % 13 == 7 || last - *k < 4) {
+            exact.advance(k, ()).unwrap();
+            plain.advance(k, ()).unwrap();
+            for site in pile.shape().layer(k).unwrap().rows(k).flatten() {
+                let [exact, plain] = [exact.received(site), plain.received(site)];
+                assert_eq!(exact.unwrap().forces, plain.unwrap().forces, "{site}");
+            }
+        }
+    }
+
+    #[test]
+    fn limbs_are_what_big_integers_are() {
+        let alternating = "+-".repeat(40);
+        let mixed = "+-++---+".repeat(6);
+        for (top, stacking) in [
+            (Region::SITE, alternating.as_str()),
+            (Region::hexagon(3, 2).unwrap(), mixed.as_str()),
+            (Region::triangle(4).unwrap(), "-+-+-+-+-++++++++-"),
+        ] {
+            let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+            compare(&pile);
         }
     }
 }

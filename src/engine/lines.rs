@@ -121,12 +121,16 @@ impl<'p, T: Algebra> Lines<'p, T> {
 
     /// Weight and load of a sphere, in mg/W, over the denominator after so many changes.
     pub(crate) fn weight(&self, site: Site, changes: usize) -> T::Numerator {
-        let ordinary = formula::weight(&self.ordinary);
-        let weight = match self.extra_weights.get(&site) {
-            Some(extra) => ordinary + extra,
+        let ordinary = self.ordinary_weight(changes);
+        match self.extra_weights.get(&site) {
+            Some(extra) => self.scaled(extra.clone(), changes) + &ordinary,
             None => ordinary,
-        };
-        self.scaled(weight, changes)
+        }
+    }
+
+    /// Returns the weight of an ordinary sphere, in mg/W, over the denominator after so many changes.
+    pub(crate) fn ordinary_weight(&self, changes: usize) -> T::Numerator {
+        self.scaled(formula::weight(&self.ordinary), changes)
     }
 
     /// Returns what `n` ordinary spheres add to a line of a direction, over the first denominator.

@@ -14,10 +14,11 @@ use super::grid::{Grid, Layer, Pass};
 use super::limbs::{Least, Planes};
 use super::lines::{Lines, Received};
 use super::meter::Meter;
+use super::nearest::Readout;
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Row, Site};
-use crate::scalar::Algebra;
+use crate::scalar::{Algebra, NearestFloat};
 
 /// A pile on its way down: the forces of one layer.
 #[derive(Clone, Debug)]
@@ -55,37 +56,41 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     /// [`Error::Bug`].
     pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) -> Result<(), Error> {
         while let Some(pass) = self.grid.pass(self.k, k)? {
-            self.add_extras_here();
-            self.add_extras(pass.from + 1..pass.k);
+            self.add_extras_here()?;
+            self.add_extras(pass.from + 1..pass.k)?;
             let increments = self.lines.increments_after(pass.run.index);
-            self.layer.pass(&self.grid, &pass, &increments);
+            self.layer.pass(&self.grid, &pass, &increments)?;
             meter.pass();
             if M::COUNTS && pass.turns {
                 meter.turn(pass.region.sites().to_usize().unwrap_or(usize::MAX));
             }
             (self.k, self.pass, self.extras_added) = (pass.k, Some(pass), false);
         }
-        self.layer.catch_up(&self.grid);
-        Ok(())
+        self.layer.catch_up(&self.grid)
     }
 
     /// Puts the extra weights and loads of this layer on its lines.
-    pub(crate) fn add_extras_here(&mut self) {
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn add_extras_here(&mut self) -> Result<(), Error> {
         if !self.extras_added {
-            self.add_extras(self.k..self.k + 1);
+            self.add_extras(self.k..self.k + 1)?;
             self.extras_added = true;
         }
+        Ok(())
     }
 
-    fn add_extras(&mut self, layers: Range<i128>) {
+    fn add_extras(&mut self, layers: Range<i128>) -> Result<(), Error> {
         let sites: Vec<Site> = self.lines.extras_in(layers).collect();
         if !sites.is_empty() {
-            self.layer.catch_up(&self.grid);
+            self.layer.catch_up(&self.grid)?;
         }
         for site in sites {
             let cells = self.grid.site(site.i, site.j, site.k);
-            self.layer.add_at(cells, &self.lines.extra(site));
+            self.layer.add_at(cells, &self.lines.extra(site))?;
         }
+        Ok(())
     }
 
     /// Returns the forces from above on a sphere of this layer, which must be the last of the sweep.
@@ -135,13 +140,31 @@ impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
 }
 
 impl Descent<'_, BigRational, Planes> {
+    /// Writes the floats nearest to what a readout makes of the lines of a row of this layer; returns whether all of them
+    /// are floats.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if the row is of another layer.
+    pub(crate) fn nearest_row<F: NearestFloat>(
+        &self,
+        row: &Row,
+        readout: &Readout,
+        out: [&mut [F]; 3],
+    ) -> Result<bool, Error> {
+        if row.k != self.k {
+            return Err(bug("a sweep is asked of the layer that it is at"));
+        }
+        let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
+        readout.write(&self.layer.slices(&cells), out)
+    }
+
     /// Returns the least number on the lines of this layer, and where it is.
     ///
     /// # Errors
     /// [`Error::Bug`] at the top, where no line has begun.
     pub(crate) fn least(&mut self) -> Result<Least, Error> {
         let pass = self.pass.as_ref();
-        let least = pass.and_then(|pass| self.layer.least(&self.grid, pass));
-        least.ok_or_else(|| bug("lines are compared below the top"))
+        let pass = pass.ok_or_else(|| bug("lines are compared below the top"))?;
+        self.layer.least(&self.grid, pass)
     }
 }

@@ -60,8 +60,8 @@ enum Way<'p, T: Algebra> {
 pub struct Layer<'l, 'p, T: Algebra, M = ()> {
     layers: &'l Layers<'p, T, M>,
     k: i128,
-    region: Region,
-    spheres: usize,
+    pub(super) region: Region,
+    pub(super) spheres: usize,
 }
 
 impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
@@ -330,7 +330,7 @@ impl<M: Meter> Layer<'_, '_, BigRational, M> {
     }
 }
 
-impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
+impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
     /// Returns the number of the layer, counted from 0 at the top.
     ///
     /// # Examples
@@ -499,6 +499,33 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         Ok(())
     }
 
+    /// Returns the sweep in limbs that is at this layer, if there is one, and what its numbers are made of.
+    pub(super) fn exact_sweep(
+        &self,
+    ) -> Option<(&Terms<'p, BigRational>, &Descent<'p, BigRational, Planes>)> {
+        match &self.layers.way {
+            Way::Exact(terms, sweep) => Some((terms, sweep)),
+            _ => None,
+        }
+    }
+
+    /// Writes the values of a sphere into slices that go over the layer.
+    pub(super) fn put_at<V>(
+        &self,
+        site: Site,
+        values: [V; 3],
+        slices: [&mut [V]; 3],
+    ) -> Result<(), Error> {
+        let place = self.region.sites_before(site.i, site.j).to_usize();
+        let place = place.filter(|place| *place < self.spheres);
+        let place = place.ok_or_else(|| bug("a loaded sphere has a place in its layer"))?;
+        for (slice, value) in slices.into_iter().zip(values) {
+            // As long as the layer.
+            slice[place] = value;
+        }
+        Ok(())
+    }
+
     /// Writes what a table says of the layer into slices.
     pub(super) fn fill_from_table<V: Clone + Send + Sync>(
         &self,
@@ -657,11 +684,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         // Spheres that weigh more or less than the others, or carry loads.
         for site in lines.extras_in(self.k..self.k + 1) {
             let forces = self.layers.terms.contacts(sweep.passed_on(site, ())?)?;
-            let place = self.region.sites_before(site.i, site.j).to_usize();
-            let place = place.filter(|place| *place < self.spheres);
-            let place = place.ok_or_else(|| bug("a loaded sphere has a place in its layer"))?;
-            let [a, b, c] = forces;
-            (alpha[place], beta[place], gamma[place]) = (a, b, c);
+            self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
         }
         if defined {
             Ok(())

@@ -2,12 +2,19 @@
 
 use core::fmt;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, ToPrimitive};
 
+use super::FloorForce;
 use super::layers::{Layer, Layers, check_lengths, split_front};
+use super::terms::Terms;
 use crate::Error;
-use crate::engine::{Meter, Table};
+use crate::engine::{Descent, Meter, Planes, Readout, Table, Unit};
+use crate::error::bug;
+use crate::formula::tripled_half_turn;
+use crate::geometry::Vector;
+use crate::lattice::Site;
 use crate::scalar::{NearestFloat, Surd};
 
 /// The units of forces in layers: what an exact multiple is multiplied by before it is rounded, once.
@@ -262,11 +269,21 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
         if let Some(table) = self.table {
             return self.layer.fill_from_table(table, slices);
         }
-        let unit = &self.units.contact;
-        self.layer.fill_with(slices, |forces| {
-            let round = |force: &BigRational| nearest("a contact force", unit, force);
-            Ok([round(&forces[0])?, round(&forces[1])?, round(&forces[2])?])
-        })
+        if let Some((terms, sweep)) = self.layer.exact_sweep() {
+            let readout = self.contacts_from_limbs(terms, sweep.turned_already());
+            return self.fill_from_limbs((terms, sweep), &readout, slices, |site| {
+                let forces = self.layer.to_below(site)?;
+                self.contacts(&forces)
+            });
+        }
+        self.layer
+            .fill_with(slices, |forces| self.contacts(&forces))
+    }
+
+    fn contacts(&self, forces: &[BigRational; 3]) -> Result<[F; 3], Error> {
+        let round = |force| nearest("a contact force", &self.units.contact, force);
+        let [a, b, c] = forces;
+        Ok([round(a)?, round(b)?, round(c)?])
     }
 
     /// Writes the forces of the bottom layer on the floor into slices, row after row: normal, shear along x and shear
@@ -290,15 +307,97 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_base(&self, slices: [&mut [F]; 3]) -> Result<(), Error> {
+        if self.is_floor()
+            && let Some((terms, sweep)) = self.layer.exact_sweep()
+            && let Some(readout) = self.floor_from_limbs(terms)
+        {
+            return self.fill_from_limbs((terms, sweep), &readout, slices, |site| {
+                let force = self.layer.on_floor(site)?;
+                self.on_floor(&force)
+            });
+        }
+        self.layer
+            .fill_base_with(slices, |force| self.on_floor(&force))
+    }
+
+    fn on_floor(&self, force: &FloorForce<BigRational>) -> Result<[F; 3], Error> {
         let [unit_x, unit_y, unit_normal] = &self.units.floor;
-        self.layer.fill_base_with(slices, |force| {
-            let round = |unit, multiple| nearest("a force on the floor", unit, multiple);
-            Ok([
-                round(unit_normal, &force.normal)?,
-                round(unit_x, &force.shear_x)?,
-                round(unit_y, &force.shear_y)?,
-            ])
+        let round = |unit, multiple| nearest("a force on the floor", unit, multiple);
+        Ok([
+            round(unit_normal, &force.normal)?,
+            round(unit_x, &force.shear_x)?,
+            round(unit_y, &force.shear_y)?,
+        ])
+    }
+
+    /// Returns what the forces below an ordinary sphere are made of, where the lines are turned across so many changes of
+    /// sign already.
+    fn contacts_from_limbs(&self, terms: &Terms<'_, BigRational>, turned: usize) -> Readout {
+        let run = terms.system.shape.stretch_to(self.k() + 1);
+        let changes = run.map_or(0, |run| run.index);
+        let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+        let unit = Unit::new(self.units.contact.clone(), terms.lines.scale(changes));
+        Readout {
+            // 3G is symmetric: its columns are its rows.
+            combination: if turned < changes {
+                lines.each_ref().map(tripled_half_turn)
+            } else {
+                lines
+            },
+            own: terms.lines.increments_after(changes),
+            units: [unit.clone(), unit.clone(), unit],
+        }
+    }
+
+    /// Returns what normal force and shear under an ordinary bottom sphere are made of, unless the factors are long.
+    fn floor_from_limbs(&self, terms: &Terms<'_, BigRational>) -> Option<Readout> {
+        let run = terms.system.shape.stretch_to(self.k());
+        let changes = run.map_or(0, |run| run.index);
+        let (lines, own) = terms.floor_factors(self.k(), changes);
+        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
+            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
+            Some([a?.into(), b?.into(), c?.into()])
+        };
+        let [unit_x, unit_y, unit_normal] = &self.units.floor;
+        let denominator = terms.floor_unit(changes);
+        let unit = |unit: &Surd| Unit::new(unit.clone(), denominator.clone());
+        Some(Readout {
+            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
+            own: [own.z, own.x, own.y],
+            units: [unit(unit_normal), unit(unit_x), unit(unit_y)],
         })
+    }
+
+    /// Writes what a readout makes of the limbs of a sweep, and what spheres with extra weights and loads have instead.
+    fn fill_from_limbs(
+        &self,
+        (terms, sweep): (&Terms<'_, BigRational>, &Descent<'_, BigRational, Planes>),
+        readout: &Readout,
+        slices: [&mut [F]; 3],
+        extra: impl Fn(Site) -> Result<[F; 3], Error>,
+    ) -> Result<(), Error> {
+        check_lengths(self.spheres(), &slices)?;
+        let [a, b, c] = slices;
+        let mut rest = [&mut *a, &mut *b, &mut *c];
+        let mut defined = true;
+        for row in self.layer.region.rows(self.k()) {
+            let spheres = (row.i.end - row.i.start).to_usize();
+            let spheres = spheres.ok_or_else(|| bug("a row of a sweep fits in memory"))?;
+            let front = split_front(&mut rest, spheres)?;
+            defined &= sweep.nearest_row(&row, readout, front)?;
+        }
+        if !defined {
+            return Err(Error::Overflow {
+                quantity: "a force",
+                scalar: core::any::type_name::<F>(),
+            });
+        }
+        for site in terms.lines.extras_in(self.k()..self.k() + 1) {
+            let values = extra(site)?;
+            self.layer
+                .put_at(site, values, [&mut *a, &mut *b, &mut *c])?;
+        }
+        Ok(())
     }
 }
 

@@ -7,7 +7,7 @@ use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, Site};
 use crate::pile::System;
-use crate::scalar::Algebra;
+use crate::scalar::{Algebra, Ring};
 
 /// A system of equations in the numerators of a scalar: what spheres add to their lines, and the lines' directions.
 #[derive(Clone, Debug)]
@@ -114,6 +114,28 @@ impl<'p, T: Algebra> Terms<'p, T> {
         let directions = self.directions_above(site.k);
         let force = formula::handed_on(forces, &directions, &self.weight(site, *changes));
         (force.scaled(&self.sum_scale), self.floor_unit(*changes))
+    }
+
+    /// Returns what the numerators of [`floor_numerators`](Self::floor_numerators) of an ordinary sphere are made of: the
+    /// factor of each force from above, and what the weight comes to.
+    pub(super) fn floor_factors(
+        &self,
+        k: i128,
+        changes: usize,
+    ) -> ([Vector<T::Numerator>; 3], Vector<T::Numerator>) {
+        let (zero, one) = (T::Numerator::from_i128(0), T::Numerator::from_i128(1));
+        let directions = self.directions_above(k);
+        let handed_on = |forces: [&T::Numerator; 3], weight| {
+            let force = formula::handed_on(&forces.map(Clone::clone), &directions, weight);
+            force.scaled(&self.sum_scale)
+        };
+        let factors = [
+            handed_on([&one, &zero, &zero], &zero),
+            handed_on([&zero, &one, &zero], &zero),
+            handed_on([&zero, &zero, &one], &zero),
+        ];
+        let weight = self.lines.ordinary_weight(changes) * &self.direction_scale;
+        (factors, handed_on([&zero; 3], &weight))
     }
 
     /// Returns the denominator of forces on the floor: mg is W of the unit of forces along lines.

@@ -95,6 +95,20 @@ pub(super) fn screened<F: NearestFloat>(
     F::between(negative, ends, exponent)
 }
 
+/// Returns the float that both ends round to once they are multiplied by 2^exponent, if it is one; they lie between 2^−20 and
+/// 2^20. `None` where a f64 or its neighbours would not be normal.
+pub(crate) fn float_between<F: NearestFloat>(
+    negative: bool,
+    ends: [f64; 2],
+    exponent: i64,
+) -> Option<F> {
+    let exponent = i32::try_from(exponent).ok()?;
+    let normal = (-1000..1000).contains(&exponent);
+    normal
+        .then(|| F::between(negative, ends, exponent))
+        .flatten()
+}
+
 macro_rules! nearest_float {
     ($float:ident, $bits:ident, $ends:expr) => {
         impl NearestFloat for $float {

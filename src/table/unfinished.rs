@@ -148,3 +148,45 @@ fn remove_leftover(entry: &fs::DirEntry) -> io::Result<()> {
     }
     Ok(())
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_killed_process_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let hour = Duration::from_secs(3600);
+        let make = |name: &str, age| {
+            let file = fs::File::create(folder.path().join(name)).unwrap();
+            let modified = std::time::SystemTime::now() - age;
+            file.set_modified(modified).unwrap();
+            file
+        };
+        make(".cannonpile-left01", hour);
+        make(".cannonpile-new001", Duration::ZERO);
+        make(".cannonpile-notours", hour);
+        make(".cannonpile-0000.x", hour);
+        make("left01", hour);
+        let locked = make(".cannonpile-locked", hour);
+        assert!(lock(&locked));
+        remove_leftovers(folder.path());
+        let names = folder.path().read_dir().unwrap();
+        let mut names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(
+            names,
+            [
+                ".cannonpile-0000.x",
+                ".cannonpile-locked",
+                ".cannonpile-new001",
+                ".cannonpile-notours",
+                "left01"
+            ]
+        );
+        // Its process has ended.
+        drop(locked);
+        remove_leftovers(folder.path());
+        assert_eq!(folder.path().read_dir().unwrap().count(), 4);
+    }
+}

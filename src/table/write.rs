@@ -48,6 +48,7 @@ impl Table<'_> {
     ) -> Result<(), WriteError> {
         let mut line = Line::default();
         show(&self.columns, &self.bounds, numbers, &mut line)?;
+        let is_counted = self.row_count().is_some();
         let rows = (self.rows)(numbers);
         let columns = &self.columns;
         match (format, self.layout) {
@@ -55,7 +56,7 @@ impl Table<'_> {
             (FileFormat::Text, Layout::Record) => text::write_record(columns, rows, numbers, out),
             (FileFormat::Text, Layout::Rows(noun)) => {
                 // Where the number of rows is not known, each of them may take long.
-                let page = if self.row_count().is_some() {
+                let page = if is_counted {
                     text::PAGE
                 } else {
                     text::SHORT_PAGE

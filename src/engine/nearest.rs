@@ -1,0 +1,315 @@
+//! The floats nearest to sums of what lines carry, straight from the limbs.
+//!
+//! An integer over a denominator times c·√r is n·v with v = c·√r/denominator. v is enclosed once, in a double-double; of n the
+//! leading bits are taken, and what is left out is bounded. If both ends of the product round to one float, so does the
+//! value between them, and no root, no gcd and no long integer is needed. Else, once in 10⁵ or at a tie, the exact
+//! [`Surd`] decides.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+use super::limbs::{LIMB, limbs};
+use crate::Error;
+use crate::error::bug;
+use crate::scalar::{DoubleDouble, NearestFloat, Surd, float_between};
+
+/// What integers are multiplied by before they are rounded: c·√r over a denominator.
+#[derive(Clone, Debug)]
+pub(crate) struct Unit {
+    surd: Surd,
+    denominator: BigInt,
+    /// None of zero.
+    factor: Option<Factor>,
+}
+
+/// A positive number, value·2^exponent to within 2^−104 of it, with 1/8 ≤ value ≤ 1.
+#[derive(Clone, Copy, Debug)]
+struct Factor {
+    value: DoubleDouble,
+    exponent: i64,
+    negative: bool,
+}
+
+/// How the three numbers of a sphere are made of what its lines carry: n_k = Σ_m combination[k][m]·x_m + own[k], in units.
+#[derive(Clone, Debug)]
+pub(crate) struct Readout {
+    pub(crate) combination: [[i64; 3]; 3],
+    pub(crate) own: [BigInt; 3],
+    pub(crate) units: [Unit; 3],
+}
+
+impl Unit {
+    /// c·√r over a positive denominator.
+    pub(crate) fn new(surd: Surd, denominator: BigInt) -> Self {
+        let factor = Factor::new(&surd, &denominator);
+        Self {
+            surd,
+            denominator,
+            factor,
+        }
+    }
+
+    fn exactly<F: NearestFloat>(&self, n: &BigInt) -> Option<F> {
+        let multiple = BigRational::new(n.clone(), self.denominator.clone());
+        self.surd.scaled(&multiple).nearest()
+    }
+
+    /// The float nearest to (n + δ)·2^exponent units for every |δ| ≤ owed, if it is one.
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_possible_wrap,
+        reason = "rounded to 53 bits, and then what is left; below 2^127 no integer wraps"
+    )]
+    fn decide<F: NearestFloat>(&self, n: i128, exponent: i64, owed: f64) -> Option<F> {
+        // 3u² + 7u² + 2^−104 of both sums and the product, u = 2^−53, is below 2^−101.
+        const SLACK: i64 = -98;
+        let factor = self.factor?;
+        let magnitude = n.unsigned_abs();
+        let bits = i64::from(u128::BITS - magnitude.leading_zeros());
+        if bits == 0 || bits > 126 {
+            return None;
+        }
+        let (scale, high) = (power_of_two(-bits), magnitude as f64);
+        let low = magnitude as i128 - (high as u128) as i128;
+        let leading = DoubleDouble::new(high * scale) + DoubleDouble::new(low as f64 * scale);
+        let product = leading * &factor.value;
+        // The factor is at most 1.
+        let slack = product.high() * power_of_two(SLACK) + 2.0 * owed * scale;
+        let ends = [product.low() - slack, product.low() + slack].map(|low| product.high() + low);
+        let negative = (n < 0) != factor.negative;
+        float_between(negative, ends, exponent + bits + factor.exponent)
+    }
+}
+
+impl Factor {
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_possible_wrap,
+        reason = "rounded to 53 bits, and then what is left; of 108 bits no integer wraps"
+    )]
+    fn new(surd: &Surd, denominator: &BigInt) -> Option<Self> {
+        // The root of 2^(2s)·(c²r/d²), of 106 to 108 bits, rounded down: to within 2^−105 of it.
+        const BITS: i64 = 214;
+        let coefficient = surd.coefficient();
+        let (c, d) = (
+            coefficient.numer().magnitude(),
+            coefficient.denom() * denominator,
+        );
+        if c.is_zero() || !d.is_positive() {
+            return None;
+        }
+        let (n, d) = (c * c * surd.radicand(), d.magnitude() * d.magnitude());
+        let bits = |n: u64| i64::try_from(n).ok();
+        let half = (BITS - (bits(n.bits())? - bits(d.bits())?)).div_euclid(2);
+        let shift = u64::try_from(2 * half.abs()).ok()?;
+        let quotient = if half >= 0 {
+            (n << shift) / d
+        } else {
+            n / (d << shift)
+        };
+        let root = quotient.sqrt().to_u128()?;
+        let (high, scale) = (root as f64, power_of_two(-108));
+        let low = root as i128 - (high as u128) as i128;
+        Some(Self {
+            value: DoubleDouble::new(high * scale) + DoubleDouble::new(low as f64 * scale),
+            exponent: 108 - half,
+            negative: coefficient.is_negative(),
+        })
+    }
+}
+
+impl Readout {
+    /// Writes the nearest floats of the spheres of a row, from the limbs of their lines by direction, the top ones first;
+    /// returns whether all of them are floats.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for more own weight than limbs can hold.
+    pub(crate) fn write<F: NearestFloat>(
+        &self,
+        top_down: &[[&[i64]; 3]],
+        out: [&mut [F]; 3],
+    ) -> Result<bool, Error> {
+        let mut defined = true;
+        let parts = out
+            .into_iter()
+            .zip(&self.combination)
+            .zip(&self.own)
+            .zip(&self.units);
+        for (((out, combination), own), unit) in parts {
+            let own = limbs(own, top_down.len());
+            let own = own.ok_or_else(|| bug("a weight is no wider than the forces"))?;
+            let limb = |place: usize, p: usize| {
+                let lines = top_down[top_down.len() - 1 - p];
+                let carried = lines.into_iter().zip(combination);
+                carried.fold(i128::from(own[p]), |sum, (line, factor)| {
+                    sum + i128::from(line[place]) * i128::from(*factor)
+                })
+            };
+            // Limbs that wait for their carries are below 2^12 of the next one's unit.
+            let factors: i64 = combination.iter().map(|factor| factor.abs()).sum();
+            let owed =
+                f64::from(i32::try_from(factors).map_or(i32::MAX >> 13, |sum| sum)) * 4096.0 + 1.0;
+            for (place, out) in out.iter_mut().enumerate() {
+                match nearest_of(&limb, place, top_down.len(), owed, unit) {
+                    Some(float) => *out = float,
+                    None => defined = false,
+                }
+            }
+        }
+        Ok(defined)
+    }
+}
+
+/// The float nearest to Σ limb(p)·2^(51p), from the top limb down as far as it takes.
+fn nearest_of<F: NearestFloat>(
+    limb: &impl Fn(usize, usize) -> i128,
+    place: usize,
+    planes: usize,
+    owed: f64,
+    unit: &Unit,
+) -> Option<F> {
+    const ENOUGH: u128 = 1 << 74;
+    let (mut leading, mut left) = (0_i128, planes);
+    while left > 0 && leading.unsigned_abs() < ENOUGH {
+        left -= 1;
+        leading = (leading << LIMB) + limb(place, left);
+    }
+    let owed = if left == 0 { 0.0 } else { owed };
+    let exponent = i64::try_from(left).ok()? * i64::from(LIMB);
+    unit.decide(leading, exponent, owed).or_else(|| {
+        let whole = (0..planes)
+            .rev()
+            .fold(BigInt::zero(), |n, p| (n << LIMB) + limb(place, p));
+        unit.exactly(&whole)
+    })
+}
+
+/// 2^e, for −1022 ≤ e ≤ 0.
+fn power_of_two(e: i64) -> f64 {
+    f64::from_bits(((1023 + e).cast_unsigned()) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use super::*;
+    use crate::Pile;
+    use crate::engine::{Lines, exact_sweep};
+    use crate::formula::tripled_half_turn;
+    use crate::lattice::Region;
+
+    fn units(denominator: &BigInt) -> [Unit; 3] {
+        let surd = |c: (i32, i32), r: (i32, i32)| {
+            let [c, r] = [c, r].map(|(n, d)| BigRational::new(n.into(), d.into()));
+            Unit::new(Surd::new(c, r).unwrap(), denominator.clone())
+        };
+        [
+            surd((1, 1), (1, 1)),
+            surd((-7, 3), (8, 17)),
+            surd((1, 1_000_003), (2, 1)),
+        ]
+    }
+
+    fn slowly<F: NearestFloat>(unit: &Unit, n: &BigInt) -> Option<F> {
+        let multiple = BigRational::new(n.clone(), unit.denominator.clone());
+        unit.surd.scaled(&multiple).nearest()
+    }
+
+    /// All lines of all layers in floats, from limbs and from exact numbers, turned or not.
+    fn compare<F: NearestFloat + PartialEq + core::fmt::Debug>(pile: &Pile) {
+        let (system, last) = (pile.system(), pile.layers() - 1);
+        let lines = Lines::<BigRational>::new(&system);
+        let mut sweep = exact_sweep(&lines, &system, last).unwrap();
+        for k in 1..=last {
+            sweep.advance(k, ()).unwrap();
+            let changes = sweep.turned_already();
+            for combination in [
+                [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                [[-1, 2, 2], [2, -1, 2], [2, 2, -1]],
+            ] {
+                let readout = Readout {
+                    combination,
+                    own: lines.increments_after(changes),
+                    units: units(&lines.scale(changes)),
+                };
+                for row in pile.shape().layer(k).unwrap().rows(k) {
+                    let zero = slowly::<F>(&readout.units[0], &BigInt::zero()).unwrap();
+                    let n = usize::try_from(row.i.end - row.i.start).unwrap();
+                    let mut out = [(); 3].map(|()| alloc::vec![zero; n]);
+                    let [a, b, c] = out.each_mut().map(Vec::as_mut_slice);
+                    assert!(sweep.nearest_row(&row, &readout, [a, b, c]).unwrap());
+                    for (place, site) in row.into_iter().enumerate() {
+                        let mut exact = sweep.received(site).unwrap().forces;
+                        if combination[0][0] < 0 {
+                            exact = tripled_half_turn(&exact);
+                        }
+                        for (line, (exact, own)) in exact.iter().zip(&readout.own).enumerate() {
+                            let exact = slowly(&readout.units[line], &(exact + own));
+                            assert_eq!(Some(out[line][place]), exact, "{site}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn floats_from_limbs_are_the_nearest() {
+        let mixed = "+-++---+".repeat(4);
+        for (top, stacking) in [
+            (Region::SITE, "+-".repeat(22).as_str()),
+            (Region::hexagon(2, 3).unwrap(), mixed.as_str()),
+        ] {
+            let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+            compare::<f64>(&pile);
+            compare::<f32>(&pile);
+        }
+    }
+
+    /// An integer in limbs, read out by itself.
+    fn read<F: NearestFloat>(unit: &Unit, n: &BigInt) -> Option<F> {
+        let limbs = limbs(n, 26).unwrap();
+        let top_down: Vec<[&[i64]; 3]> = limbs
+            .iter()
+            .rev()
+            .map(|limb| [core::slice::from_ref(limb); 3])
+            .collect();
+        let readout = Readout {
+            combination: [[1, 0, 0]; 3],
+            own: [(); 3].map(|()| BigInt::zero()),
+            units: [unit.clone(), unit.clone(), unit.clone()],
+        };
+        let zero = slowly::<F>(unit, &BigInt::zero()).unwrap();
+        let mut out = [[zero]; 3];
+        let [a, b, c] = &mut out;
+        let defined = readout.write(&top_down, [a, b, c]).unwrap();
+        defined.then(|| out[0][0])
+    }
+
+    /// Ties and their neighbours, which no enclosure decides, and the ends of the floats.
+    #[test]
+    fn what_is_not_decided_is_asked_of_the_exact_number() {
+        let mut met = 0;
+        for unit in units(&BigInt::from(1)) {
+            for power in (0..1100).step_by(21) {
+                for tie in [53, 24, 110] {
+                    for off in [-1_i32, 0, 1] {
+                        let n: BigInt = (((BigInt::from(1) << tie) + 1_i32) << power) + off;
+                        for n in [n.clone(), -n] {
+                            assert_eq!(read::<f64>(&unit, &n), slowly(&unit, &n), "{n}");
+                            assert_eq!(read::<f32>(&unit, &n), slowly(&unit, &n), "{n}");
+                            met += 1;
+                        }
+                    }
+                }
+            }
+        }
+        assert!(met > 2500);
+    }
+}
