@@ -9,17 +9,14 @@ mod support;
 mod scalar {
     mod double_double;
     mod fixed_width;
-    mod flawed;
-    mod flawed_scalars;
+    mod flaws;
     mod interval;
     mod laws;
     mod nearest;
-    mod new_scalar_laws;
     mod pair;
     mod polynomial;
     mod sums;
     mod surd;
-    mod wrong_verdicts;
 }
 
 mod lattice;

@@ -4,7 +4,7 @@
 //! points halfway to the neighbours of x, which are (2m ± 1)·2^(e−1); below a power of two the floats are twice as dense.
 //! All of these are integers over powers of two, so that a comparison takes one product and one shift.
 //!
-//! The exhaustive tests, the random ones, fuzzing and the bench of roundings share this judge; `wrong_verdicts` plants
+//! The exhaustive tests, the random ones, fuzzing and the bench of roundings share this judge; `scalar/nearest` plants
 //! its faults.
 
 #![allow(dead_code, reason = "each of those who share it uses a part")]

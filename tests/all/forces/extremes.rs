@@ -141,3 +141,61 @@ fn of_contacts() {
     }
     assert!(failures > 1);
 }
+
+/// The greatest of a few spheres is beside the end of a piece: next to one whose line begins at a change of sign, or
+/// carries more than its own weight. Both ratios were found by another program, over all spheres of the base.
+#[test]
+fn beside_the_ends_of_pieces() {
+    let top = Region::new(-3..=3, -4..=4, -2..=5).unwrap();
+    let beside_a_change = Pile::under(top, "(1,647)".parse().unwrap()).unwrap();
+    let on_top = [
+        ([3, -2], 1074),
+        ([3, -4], 1),
+        ([0, -1], 3840),
+        ([-1, 2], 61639),
+    ];
+    let beside_a_load = Pile::triangular(480).unwrap();
+    let at_the_corners = [
+        [0, 0],
+        [479, 0],
+        [0, 479],
+        [0, 1],
+        [478, 1],
+        [0, 478],
+        [1, 478],
+    ];
+    for (pile, k, loads, ratio2) in [
+        (
+            beside_a_change,
+            0,
+            on_top.to_vec(),
+            ratio(4 * 101_443, 619 * 619),
+        ),
+        (
+            beside_a_load,
+            479,
+            at_the_corners.map(|at| (at, 100)).to_vec(),
+            ratio(228_007, 482 * 482),
+        ),
+    ] {
+        let loaded = loads.iter().fold(pile, |pile, ([i, j], load)| {
+            let site = Site { i: *i, j: *j, k };
+            pile.with_load(site, ratio(*load, 1)).unwrap()
+        });
+        let extremes = loaded.base_extremes().unwrap();
+        assert_eq!(extremes.max_shear_ratio.square(), ratio2);
+    }
+}
+
+/// Where a pile fails near the top, the least contact down to there need not be the least of all: none is named.
+#[test]
+fn no_least_contact_is_named_where_not_all_were_looked_at() {
+    let small = Pile::under(Region::SITE, Stacking::hcp(12).unwrap()).unwrap();
+    let standing = small.standing().unwrap();
+    assert_eq!(standing.first_failure, Some(4));
+    let least = standing.least.unwrap();
+    assert!(least.site.k > 6, "{least:?}");
+    let tall = Pile::under(Region::SITE, Stacking::hcp(100_000).unwrap()).unwrap();
+    let standing = tall.standing().unwrap();
+    assert_eq!((standing.first_failure, standing.least), (Some(4), None));
+}

@@ -4,8 +4,10 @@ use std::collections::BTreeSet;
 
 use crate::support::answers::{Shape, ratio};
 use crate::support::oracles::overlap::{self, Difference};
-use cannonpile::Error;
-use cannonpile::geometry::Spacing;
+use cannonpile::geometry::{Clearance, Spacing};
+use cannonpile::lattice::{Region, Sign};
+use cannonpile::stacking::Stacking;
+use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
@@ -219,4 +221,77 @@ fn the_bounds_are_sharp() {
             }
         }
     }
+}
+
+/// Layers whose rows along every direction but one have a single sphere.
+#[test]
+fn two_spheres_are_neighbours_in_a_layer() {
+    let pair = |x, y, s| Region::new(0..=x, 0..=y, 0..=s).unwrap();
+    let tight = spacing(&ratio(81, 100));
+    for (base, neighbours) in [
+        (pair(1, 0, 1), true),
+        (pair(0, 1, 1), true),
+        (Region::new(0..=1, -1..=0, 0..=0).unwrap(), true),
+        (Region::SITE, false),
+    ] {
+        for signs in ["", "+", "-", "+-"] {
+            let stacking = Stacking::from_signs(
+                signs
+                    .chars()
+                    .map(|sign| if sign == '+' { Sign::Plus } else { Sign::Minus }),
+            );
+            let pile = Pile::under(base, stacking.unwrap()).unwrap();
+            // Under two spheres and under one, every layer but the first has neighbours.
+            let overlap = neighbours || !signs.is_empty();
+            let verdict = pile.clearance().check(&tight);
+            assert_eq!(
+                matches!(verdict, Err(Error::Overlap { .. })),
+                overlap,
+                "{base:?} {signs}"
+            );
+            assert_eq!(verdict.is_ok(), !overlap, "{base:?} {signs}");
+        }
+    }
+}
+
+/// The comparison with all pairs refuses wrong verdicts.
+#[test]
+fn wrong_verdicts_are_refused() {
+    const LAYERS: i128 = 5;
+    let shape = Shape::equilateral();
+    let differences = overlap::differences(&shape, LAYERS);
+    let room = |q: &BigRational| overlap::room(&shape, &differences, q);
+    let check = |clearance: &Clearance, q: &BigRational| {
+        clearance.check(&Spacing::from_square(q.clone()).unwrap())
+    };
+    let right = shape.pile(LAYERS).clearance();
+    let (tight, wide, open) = (ratio(1, 1), ratio(8, 3), ratio(3, 2));
+    for q in [&tight, &wide, &open] {
+        assert!(overlap::agree(room(q).as_ref(), &check(&right, q)));
+    }
+    // A touch too few, a touch too many, and touching spheres of other layers.
+    assert!(!overlap::agree(room(&tight).as_ref(), &Ok(vec![])));
+    assert!(!overlap::agree(
+        room(&open).as_ref(),
+        &check(&right, &tight)
+    ));
+    assert!(!overlap::agree(
+        room(&wide).as_ref(),
+        &check(&right, &tight)
+    ));
+    // Room where there is none, and the other way round.
+    assert!(!overlap::agree(room(&ratio(14, 5)).as_ref(), &Ok(vec![])));
+    let refused = Err(Error::SinPhiOfDiscs);
+    assert!(!overlap::agree(room(&open).as_ref(), &refused));
+    // The bounds of a lower pile, and of another sin φ.
+    let low = shape.pile(3).clearance();
+    assert!(!overlap::agree(
+        room(&ratio(14, 5)).as_ref(),
+        &check(&low, &ratio(14, 5))
+    ));
+    let other = Shape::Spheres(ratio(2, 5)).pile(LAYERS).clearance();
+    assert!(!overlap::agree(
+        room(&tight).as_ref(),
+        &check(&other, &tight)
+    ));
 }

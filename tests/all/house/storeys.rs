@@ -43,40 +43,6 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("theorem", &["census"]),
 ];
 
-/// TEMPORARY, while the house is being rebuilt: rooms that are there today, and the one that each will be part of.
-const TODAY: &[(&str, &str)] = &[
-    ("closed_form", "formula"),
-    ("transfer", "formula"),
-    ("load", "pile"),
-    ("lines", "engine"),
-    ("sweep", "engine"),
-    ("fill", "engine"),
-    ("plan", "engine"),
-    ("meter", "engine"),
-    ("parallel", "engine"),
-    ("query", "forces"),
-    ("reactions", "standing"),
-    ("export", "dem"),
-];
-
-/// TEMPORARY: arrows that are there today and have to go, from room to room. It may only become shorter.
-const STILL: &[(&str, &str)] = &[("fill", "packing"), ("pile", "query")];
-
-/// TEMPORARY: circles of files, likewise.
-const STILL_CIRCLES: &[&[&str]] = &[
-    &["export/table", "export/text"],
-    &["table/rows", "table/text"],
-    &["figure/canvas", "figure/label"],
-    &[
-        "main/completions",
-        "main/export",
-        "main/options",
-        "main/plot",
-        "main/scene",
-        "main/verify",
-    ],
-];
-
 /// Whether the room is of the core: all that is no tool.
 pub(super) fn is_of_core(room: &str) -> bool {
     place(room).is_some_and(|at| Some(at) < place("scene"))
@@ -93,12 +59,8 @@ struct Arrow {
     uses: String,
 }
 
-/// The place of a room in the list, today's rooms with the one that they will be part of.
+/// The place of a room in the list.
 fn place(room: &str) -> Option<usize> {
-    let room = TODAY
-        .iter()
-        .find(|(today, _)| *today == room)
-        .map_or(room, |(_, then)| then);
     STOREYS
         .iter()
         .flat_map(|(_, rooms)| *rooms)
@@ -314,15 +276,13 @@ fn circles(sources: &[Source]) -> Vec<BTreeSet<String>> {
 
 #[test]
 fn each_room_uses_those_above_it() {
-    let mut arrows = arrows_back(&sources());
-    arrows.retain(|arrow| !STILL.contains(&(&arrow.from, &arrow.to)));
+    let arrows = arrows_back(&sources());
     assert!(arrows.is_empty(), "{arrows:#?}");
 }
 
 #[test]
 fn no_circle_of_files_in_a_room() {
-    let mut circles = circles(&sources());
-    circles.retain(|circle| !STILL_CIRCLES.iter().any(|still| circle.iter().eq(*still)));
+    let circles = circles(&sources());
     assert!(circles.is_empty(), "{circles:#?}");
 }
 

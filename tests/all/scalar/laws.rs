@@ -1,10 +1,13 @@
 //! Every scalar of the crate obeys the laws, on operands chosen to break them.
 
 use crate::support::answers::ratio;
-use cannonpile::scalar::{Algebra, Field, FixedInteger, FixedRational, RealEmbeddable, laws};
+use cannonpile::scalar::{
+    Algebra, DoubleDouble, Field, FixedInteger, FixedRational, Interval, Pair, Polynomial,
+    RealEmbeddable, Ring, Symbol, laws,
+};
 use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::Pow;
+use num_rational::BigRational as Q;
+use num_traits::{Pow, Zero};
 
 /// Every triple of the operands.
 fn obeys_algebra<T: Algebra>(operands: &[T]) {
@@ -17,22 +20,43 @@ fn obeys_algebra<T: Algebra>(operands: &[T]) {
     }
 }
 
-/// Every pair of the rationals below, and every one of the integers.
-fn obeys_embedding<T: Field + RealEmbeddable>() {
-    let rationals = rationals();
-    for x in &rationals {
-        for y in &rationals {
+/// Every pair of these rationals.
+fn obeys_embedding<T: Field + RealEmbeddable>(rationals: &[Q]) {
+    for x in rationals {
+        for y in rationals {
             assert_eq!(laws::embedding::<T>(x, y), Ok(()));
         }
     }
+}
+
+fn obeys_integers<T: Algebra>() {
     for n in integers() {
         assert_eq!(laws::integers::<T>(n), Ok(()), "{n}");
     }
 }
 
-/// What strains one of the scalars: not representable, halfway, next to a limit, long.
-fn rationals() -> Vec<BigRational> {
-    let two = |exponent: i32| BigRational::from_integer(2.into()).pow(exponent);
+/// Rationals taken apart over a common denominator, and put together, are themselves again.
+fn keeps_numerators<T: Algebra>(rationals: &[Q]) {
+    for x in rationals {
+        for y in rationals {
+            assert_eq!(laws::numerators::<T>(x, y), Ok(()));
+        }
+    }
+    let ([zero, one], _) = T::numerators(&[Q::zero(), ratio(1, 1)]);
+    assert!(T::from_ratio(one, &zero).is_none());
+}
+
+fn power_of_two(exponent: i32) -> Q {
+    Q::from_integer(2.into()).pow(exponent)
+}
+
+fn ratios<const N: usize>(small: [(i64, i64); N]) -> impl Iterator<Item = Q> {
+    small.into_iter().map(|(n, d)| ratio(n, d))
+}
+
+/// What strains a float or a rational of fixed width: not representable, halfway, next to a limit, long.
+fn narrow() -> Vec<Q> {
+    let two = power_of_two;
     let small = [
         (0, 1),
         (1, 1),
@@ -44,7 +68,6 @@ fn rationals() -> Vec<BigRational> {
         (127, 126),
         (1, 127),
     ];
-    let small = small.into_iter().map(|(n, d)| ratio(n, d));
     let powers = [-1074, -149, -64, -60, -53, -24, 7, 24, 31, 53, 63, 64, 127];
     let large = powers.into_iter().flat_map(|exponent| {
         [
@@ -54,11 +77,39 @@ fn rationals() -> Vec<BigRational> {
             two(exponent) - ratio(1, 3),
         ]
     });
-    small.chain(large).collect()
+    ratios(small).chain(large).collect()
+}
+
+/// What strains what encloses or is longer than a float: halfway between two double-doubles, next to a limit, long.
+fn wide() -> Vec<Q> {
+    let small = [
+        (0, 1),
+        (1, 1),
+        (-1, 1),
+        (1, 2),
+        (1, 3),
+        (-2, 3),
+        (22, 7),
+        (1, i64::MAX),
+        (-10, 1),
+    ];
+    let powers = [
+        -1075, -1074, -1022, -900, -801, -107, -54, -1, 53, 106, 127, 959, 960, 1023, 1024,
+    ];
+    let about = powers.into_iter().flat_map(|exponent| {
+        let power = power_of_two(exponent);
+        let next = &power * (ratio(1, 1) + power_of_two(-53));
+        let beside = &power * (ratio(1, 1) - power_of_two(-107) / BigInt::from(3));
+        [-&power, power, next, beside]
+    });
+    ratios(small).chain(about).collect()
 }
 
 fn integers() -> impl Iterator<Item = i128> {
-    let limits = [7_u32, 8, 15, 24, 25, 31, 53, 54, 63, 64, 100, 126].map(|bits| 1_i128 << bits);
+    let limits = [
+        7_u32, 8, 15, 24, 25, 31, 53, 54, 63, 64, 100, 105, 106, 107, 126,
+    ];
+    let limits = limits.map(|bits| 1_i128 << bits);
     let around = limits.into_iter().flat_map(|n| [n - 1, n, n + 1]);
     let both = around.flat_map(|n| [n, -n]);
     both.chain([
@@ -96,7 +147,8 @@ fn doubles() {
         f64::NEG_INFINITY,
         f64::NAN,
     ]);
-    obeys_embedding::<f64>();
+    obeys_embedding::<f64>(&narrow());
+    obeys_integers::<f64>();
 }
 
 #[test]
@@ -121,7 +173,8 @@ fn singles() {
         f32::NEG_INFINITY,
         f32::NAN,
     ]);
-    obeys_embedding::<f32>();
+    obeys_embedding::<f32>(&narrow());
+    obeys_integers::<f32>();
 }
 
 #[test]
@@ -136,11 +189,12 @@ fn big_rationals() {
         ratio(i64::MAX, 1),
         ratio(1, i64::MAX),
         ratio(i64::MIN, i64::MAX),
-        BigRational::from_integer(long.clone()),
-        BigRational::new((-1).into(), long.clone()),
-        BigRational::new(&long + 1, &long - 1),
+        Q::from_integer(long.clone()),
+        Q::new((-1).into(), long.clone()),
+        Q::new(&long + 1, &long - 1),
     ]);
-    obeys_embedding::<BigRational>();
+    obeys_embedding::<Q>(&narrow());
+    obeys_integers::<Q>();
 }
 
 fn fixed_width<I: FixedInteger>() {
@@ -163,7 +217,8 @@ fn fixed_width<I: FixedInteger>() {
         FixedRational::new(I::min_value(), one),
         FixedRational::FAULT,
     ]);
-    obeys_embedding::<FixedRational<I>>();
+    obeys_embedding::<FixedRational<I>>(&narrow());
+    obeys_integers::<FixedRational<I>>();
 }
 
 #[test]
@@ -175,22 +230,114 @@ fn fixed_width_rationals() {
     fixed_width::<i128>();
 }
 
-/// Numerators over a common denominator, divided at the end, are the rational they stand for.
+/// Those of other scalars are with their other laws.
 #[test]
 fn numerators_over_one_denominator() {
-    fn holds<T: Algebra>() {
-        for x in rationals() {
-            for y in rationals() {
-                laws::numerators::<T>(&x, &y).unwrap();
-            }
-        }
-        let ([zero, one], _) = T::numerators(&[ratio(0, 1), ratio(1, 1)]);
-        assert_eq!(T::from_ratio(one, &zero), None);
-    }
-    holds::<BigRational>();
-    holds::<f64>();
-    holds::<f32>();
-    holds::<FixedRational<i8>>();
-    holds::<FixedRational<i64>>();
-    holds::<FixedRational<i128>>();
+    let rationals = narrow();
+    keeps_numerators::<Q>(&rationals);
+    keeps_numerators::<f64>(&rationals);
+    keeps_numerators::<f32>(&rationals);
+    keeps_numerators::<FixedRational<i8>>(&rationals);
+    keeps_numerators::<FixedRational<i64>>(&rationals);
+    keeps_numerators::<FixedRational<i128>>(&rationals);
+}
+
+/// Floats that strain every case of an algorithm.
+const FLOATS: [f64; 13] = [
+    0.0,
+    5e-324,
+    f64::MIN_POSITIVE,
+    1e-290,
+    1e-154,
+    0.1,
+    1.0,
+    3.0,
+    9_007_199_254_740_993.0,
+    1e154,
+    1e289,
+    f64::MAX,
+    f64::INFINITY,
+];
+
+#[test]
+fn intervals() {
+    let both_signs = FLOATS.into_iter().step_by(2).flat_map(|x| [-x, x]);
+    let ends: Vec<f64> = both_signs.chain([0.1, 1.0]).collect();
+    let between = |lower: &f64| {
+        ends.iter()
+            .filter_map(|upper| Interval::new(*lower, *upper))
+            .collect::<Vec<_>>()
+    };
+    let operands: Vec<_> = ends.iter().flat_map(between).step_by(5).collect();
+    obeys_algebra(&operands);
+    obeys_embedding::<Interval>(&wide());
+    obeys_integers::<Interval>();
+    keeps_numerators::<Interval>(&wide());
+}
+
+#[test]
+fn double_doubles() {
+    let floats = FLOATS.into_iter().chain([-1.0, -1e289, f64::NAN]);
+    let operands = floats.flat_map(|high| {
+        let low = DoubleDouble::new(high * -1e-17);
+        [DoubleDouble::new(high), DoubleDouble::new(high) + low]
+    });
+    obeys_algebra(&operands.collect::<Vec<_>>());
+    obeys_embedding::<DoubleDouble>(&wide());
+    obeys_integers::<DoubleDouble>();
+    keeps_numerators::<DoubleDouble>(&wide());
+}
+
+#[test]
+fn polynomials() {
+    let [x, y] = ["x", "y"].map(|name| Polynomial::from(Symbol(name)));
+    let long = Polynomial::constant(&Q::new(
+        BigInt::from(3).pow(200_u32),
+        BigInt::from(7).pow(150_u32),
+    ));
+    let seventh = 7.try_into().expect("7");
+    obeys_algebra(&[
+        Polynomial::zero(),
+        Polynomial::from_i128(-1),
+        Polynomial::constant(&ratio(i64::MIN, i64::MAX)),
+        x.clone(),
+        -y.clone(),
+        x.clone() - &y,
+        x.clone() + &y,
+        (x.clone() * &x * &y).div_int(seventh) - &Polynomial::from_i128(5),
+        x.clone() * &long + &y.div_int(i64::MIN.try_into().expect("not zero")),
+        long - &x,
+    ]);
+    obeys_integers::<Polynomial>();
+    keeps_numerators::<Polynomial>(&wide());
+}
+
+/// All laws; the embedding where the second scalar holds the operands at all.
+fn pairs_obey<B: Field + RealEmbeddable>() {
+    let mut rationals = wide();
+    obeys_integers::<Pair<Q, B>>();
+    let image = Pair::<Q, B>::from_rational;
+    obeys_algebra(&rationals.iter().step_by(6).map(image).collect::<Vec<_>>());
+    rationals.retain(|r| image(r).parting().is_none());
+    obeys_embedding::<Pair<Q, B>>(&rationals);
+}
+
+#[test]
+fn pairs_with_intervals() {
+    pairs_obey::<Interval>();
+}
+
+#[test]
+fn pairs_with_fixed_rationals() {
+    pairs_obey::<FixedRational<i64>>();
+}
+
+#[test]
+fn pairs_with_floats() {
+    pairs_obey::<f64>();
+}
+
+#[test]
+fn pairs_with_double_doubles() {
+    pairs_obey::<DoubleDouble>();
 }

@@ -209,3 +209,30 @@ fn too_large_is_none() {
     assert_eq!(root_two.scaled(&power(128)).nearest::<f32>(), None);
     assert_eq!(Surd::zero().nearest::<f32>(), Some(0.0));
 }
+
+/// The judge of roundings refuses floats that are next to the nearest one.
+#[test]
+fn wrong_roundings_are_refused() {
+    let squared = |square: &BigRational| Value::with_square(false, square);
+    let two = squared(&ratio(2, 1));
+    let root = 2_f64.sqrt();
+    assert_eq!(is_nearest(Some(root), &two), Ok(()));
+    for wrong in [root.next_up(), root.next_down(), -root, 0.0] {
+        assert!(is_nearest(Some(wrong), &two).is_err(), "{wrong}");
+    }
+    assert!(is_nearest(Some(root), &Value::with_square(true, &ratio(2, 1))).is_err());
+    assert!(is_nearest::<f64>(None, &two).is_err());
+    // Half way, the odd float; and the greatest one instead of an infinity.
+    let tie = midpoint(&exact(1_f64), &exact(1_f64.next_up()));
+    assert_eq!(is_nearest(Some(1_f64), &squared(&(&tie * &tie))), Ok(()));
+    assert!(is_nearest(Some(1_f64.next_up()), &squared(&(&tie * &tie))).is_err());
+    let limit = midpoint(&exact(f32::MAX), &beyond_greatest::<f32>());
+    assert_eq!(
+        is_nearest::<f32>(None, &squared(&(&limit * &limit))),
+        Ok(())
+    );
+    assert!(is_nearest(Some(f32::MAX), &squared(&(&limit * &limit))).is_err());
+    // Nothing, where the least subnormal is nearer.
+    let least = exact(f32::from_bits(1));
+    assert!(is_nearest(Some(0_f32), &squared(&(&least * &least))).is_err());
+}

@@ -1,8 +1,10 @@
 //! For every law of scalars a scalar that breaks it, and is caught.
 
+mod flawed;
+
 use std::collections::BTreeSet;
 
-use super::flawed::{Fault, Flawed, flawed};
+use self::flawed::{Fault, Flawed, flawed};
 use crate::support::answers::ratio;
 use cannonpile::scalar::{Exactness, NearestFloat, RealSign, laws};
 use num_bigint::BigInt;
