@@ -37,6 +37,7 @@ fn leading(n: &BigUint) -> Option<Scaled> {
     const PART: u128 = (1 << 53) - 1;
     let mut top_down = n.iter_u64_digits().rev();
     let first = top_down.next()?;
+    // Not a default: below the last digit of a number there are only zeros.
     let mut digit = || u128::from(top_down.next().unwrap_or(0));
     let (second, third) = (digit(), digit());
     let zeros = first.leading_zeros();
