@@ -123,13 +123,32 @@ impl DoubleDouble {
         (self.scaled(-e), e)
     }
 
-    /// Returns the quotient, by `DWDivDW2`; the divisor is finite and not zero.
+    /// Returns the sum of two floats, of which the first is the greater, or zero.
+    pub(super) fn from_sum(greater: f64, lesser: f64) -> Self {
+        let (high, low) = fast_two_sum(greater, lesser);
+        Self { high, low }
+    }
+
+    /// Returns the product, by `DWTimesDW1`; both are of ordinary size.
+    pub(super) fn ordinary_product(self, rhs: &Self) -> Self {
+        let (c, c1) = two_product(self.high, rhs.high);
+        let c2 = self.high * rhs.low + self.low * rhs.high;
+        Self::from_sum(c, c1 + c2)
+    }
+
+    /// Returns the quotient, by `DWDivDW2`; both are of ordinary size.
+    pub(super) fn ordinary_quotient(self, divisor: &Self) -> Self {
+        let t = self.high / divisor.high;
+        let (r, r1) = divisor.times_float(t);
+        let rest = (self.high - r) + (self.low - r1);
+        Self::from_sum(t, rest / divisor.high)
+    }
+
+    /// Returns the quotient; the divisor is finite and not zero.
     fn over(self, divisor: &Self) -> Self {
         let ((x, e), (y, f)) = (self.normalised(), divisor.normalised());
-        let t = x.high / y.high;
-        let (r, r1) = y.times_float(t);
-        let rest = (x.high - r) + (x.low - r1);
-        Self::finite(fast_two_sum(t, rest / y.high), t).scaled(e - f)
+        let Self { high, low } = x.ordinary_quotient(&y);
+        Self::finite((high, low), x.high / y.high).scaled(e - f)
     }
 
     /// Product with a float.
@@ -176,12 +195,10 @@ impl Sub<&Self> for DoubleDouble {
 impl Mul<&Self> for DoubleDouble {
     type Output = Self;
 
-    /// `DWTimesDW1`.
     fn mul(self, rhs: &Self) -> Self {
         let ((x, e), (y, f)) = (self.normalised(), rhs.normalised());
-        let (c, c1) = two_product(x.high, y.high);
-        let c2 = x.high * y.low + x.low * y.high;
-        Self::finite(fast_two_sum(c, c1 + c2), x.high * y.high).scaled(e + f)
+        let Self { high, low } = x.ordinary_product(&y);
+        Self::finite((high, low), x.high * y.high).scaled(e + f)
     }
 }
 
