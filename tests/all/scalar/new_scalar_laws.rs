@@ -1,12 +1,14 @@
 //! Intervals, double-doubles, polynomials and pairs obey the laws of scalars, on operands chosen to break them.
 
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, FixedRational, Interval, Pair, Polynomial, RealEmbeddable, Ring,
+    Algebra, DoubleDouble, Field, FixedRational, Interval, Polynomial, RealEmbeddable, Ring,
     Symbol, laws,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{Pow, Zero};
+
+use crate::support::pair::Pair;
 
 fn ratio(n: i64, d: i64) -> Q {
     Q::new(n.into(), d.into())
