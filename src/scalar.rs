@@ -20,7 +20,6 @@
 //! | [`DoubleDouble`] | [`Rounded`](Exactness::Rounded) | twice the digits of `f64` |
 //! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | bounds that hold the true value |
 //! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proof for every pile at once |
-//! | [`Pair`] | the weaker of the two | a checker that runs two scalars in step |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
 //!
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
@@ -33,7 +32,6 @@ mod float;
 mod interval;
 pub mod laws;
 mod nearest;
-mod pair;
 pub mod parse;
 mod polynomial;
 mod rational;
@@ -47,7 +45,6 @@ pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
 pub(crate) use nearest::float_between;
 pub use nearest::{Decision, NearestFloat};
-pub use pair::{Pair, Parting};
 pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;
 

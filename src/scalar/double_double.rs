@@ -123,6 +123,34 @@ impl DoubleDouble {
         (self.scaled(-e), e)
     }
 
+    /// Returns the sum of two floats, of which the first is the greater, or zero.
+    pub(super) fn from_sum(greater: f64, lesser: f64) -> Self {
+        let (high, low) = fast_two_sum(greater, lesser);
+        Self { high, low }
+    }
+
+    /// Returns the product, by `DWTimesDW1`; both are of ordinary size.
+    pub(super) fn ordinary_product(self, rhs: &Self) -> Self {
+        let (c, c1) = two_product(self.high, rhs.high);
+        let c2 = self.high * rhs.low + self.low * rhs.high;
+        Self::from_sum(c, c1 + c2)
+    }
+
+    /// Returns the quotient, by `DWDivDW2`; both are of ordinary size.
+    pub(super) fn ordinary_quotient(self, divisor: &Self) -> Self {
+        let t = self.high / divisor.high;
+        let (r, r1) = divisor.times_float(t);
+        let rest = (self.high - r) + (self.low - r1);
+        Self::from_sum(t, rest / divisor.high)
+    }
+
+    /// Returns the quotient; the divisor is finite and not zero.
+    fn over(self, divisor: &Self) -> Self {
+        let ((x, e), (y, f)) = (self.normalised(), divisor.normalised());
+        let Self { high, low } = x.ordinary_quotient(&y);
+        Self::finite((high, low), x.high / y.high).scaled(e - f)
+    }
+
     /// Product with a float.
     fn times_float(self, y: f64) -> (f64, f64) {
         let (c, c1) = two_product(self.high, y);
@@ -167,12 +195,10 @@ impl Sub<&Self> for DoubleDouble {
 impl Mul<&Self> for DoubleDouble {
     type Output = Self;
 
-    /// `DWTimesDW1`.
     fn mul(self, rhs: &Self) -> Self {
         let ((x, e), (y, f)) = (self.normalised(), rhs.normalised());
-        let (c, c1) = two_product(x.high, y.high);
-        let c2 = x.high * y.low + x.low * y.high;
-        Self::finite(fast_two_sum(c, c1 + c2), x.high * y.high).scaled(e + f)
+        let Self { high, low } = x.ordinary_product(&y);
+        Self::finite((high, low), x.high * y.high).scaled(e + f)
     }
 }
 
@@ -221,21 +247,20 @@ impl Algebra for DoubleDouble {
     const NAME: &'static str = "DoubleDouble";
 
     fn from_rational(r: &BigRational) -> Self {
-        let Some(high) = f64::nearest_to_rational(r) else {
-            return Self::new(f64::NAN);
+        let parts = || {
+            let high = f64::nearest_to_rational(r)?;
+            let rest = r - BigRational::from_float(high)?;
+            Some((high, f64::nearest_to_rational(&rest)?))
         };
-        // A finite float is a rational, and the rest is smaller than it.
-        let rest = BigRational::from_float(high).map(|value| r - value);
-        let low = rest
-            .and_then(|rest| f64::nearest_to_rational(&rest))
-            .unwrap_or(0.0);
-        Self::finite(fast_two_sum(high, low), high)
+        match parts() {
+            Some((high, low)) => Self::finite(fast_two_sum(high, low), high),
+            // Beyond the floats.
+            None => Self::new(f64::NAN),
+        }
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        // Not zero, so there is a quotient.
-        self.checked_div(&Self::from_i128(n.get().into()))
-            .unwrap_or(Self::new(f64::NAN))
+        self.over(&Self::from_i128(n.get().into()))
     }
 
     fn is_defined(&self) -> bool {
@@ -256,16 +281,8 @@ impl Algebra for DoubleDouble {
 }
 
 impl Field for DoubleDouble {
-    /// `DWDivDW2`.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        if divisor.is_zero() || !divisor.is_defined() {
-            return None;
-        }
-        let ((x, e), (y, f)) = (self.normalised(), divisor.normalised());
-        let t = x.high / y.high;
-        let (r, r1) = y.times_float(t);
-        let rest = (x.high - r) + (x.low - r1);
-        Some(Self::finite(fast_two_sum(t, rest / y.high), t).scaled(e - f))
+        (divisor.is_defined() && !divisor.is_zero()).then(|| self.over(divisor))
     }
 }
 

@@ -45,20 +45,17 @@ pub(super) fn significand(a: f64) -> (f64, i32) {
         let (m, e) = significand(a * power_of_two(64));
         return (m, e - 64);
     }
-    let bits = a.to_bits();
-    let field = (bits >> 52) & 0x7ff;
-    // Eleven bits: no loss.
-    let exponent = i32::try_from(field).unwrap_or(0) - 1023;
-    (
-        f64::from_bits(bits & !(0x7ff << 52) | (1023 << 52)),
-        exponent,
-    )
+    let [first, second, ..] = a.to_be_bytes();
+    let field = u16::from_be_bytes([first, second]) >> 4 & 0x7ff;
+    let significand = a.to_bits() & !(0x7ff << 52) | (1023 << 52);
+    (f64::from_bits(significand), i32::from(field) - 1023)
 }
 
 /// 2^e for −1022 ≤ e ≤ 1023, and the nearer of these ends beyond.
 pub(super) fn power_of_two(e: i32) -> f64 {
-    let field = u64::try_from(e.clamp(-1022, 1023) + 1023).unwrap_or(0);
-    f64::from_bits(field << 52)
+    // Not a default: beyond the ends the nearer of them is what is asked for.
+    let field = e.clamp(-1022, 1023) + 1023;
+    f64::from_bits(u64::from(field.unsigned_abs()) << 52)
 }
 
 /// a·2^e, rounded once more where it is subnormal.

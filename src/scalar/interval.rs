@@ -1,5 +1,6 @@
 //! Intervals of floats: every result contains the true one.
 
+use core::cmp::Ordering;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -69,6 +70,7 @@ impl Interval {
     /// ```
     #[must_use]
     pub fn point(value: f64) -> Self {
+        // Not a default: of a value that is not finite nothing is known.
         Self::new(value, value).unwrap_or(Self::WHOLE)
     }
 
@@ -131,6 +133,11 @@ impl Interval {
             upper = upper.max(up);
         }
         Self { lower, upper }
+    }
+
+    /// Returns the quotient; the divisor does not contain zero.
+    fn over(self, divisor: &Self) -> Self {
+        Self::hull(self.corners(divisor), quotient)
     }
 
     fn corners(self, other: &Self) -> [(f64, f64); 4] {
@@ -311,7 +318,9 @@ impl Algebra for Interval {
     const NAME: &'static str = "Interval";
 
     fn from_rational(r: &BigRational) -> Self {
-        let Some(nearest) = f64::nearest_to_rational(r) else {
+        let nearest = f64::nearest_to_rational(r);
+        let stored = nearest.and_then(|nearest| Some((nearest, BigRational::from_float(nearest)?)));
+        let Some((nearest, value)) = stored else {
             let (lower, upper) = outward(
                 if *r > BigRational::zero() {
                     f64::INFINITY
@@ -322,21 +331,17 @@ impl Algebra for Interval {
             );
             return Self { lower, upper };
         };
-        // A finite float is a rational.
-        let error =
-            BigRational::from_float(nearest).map_or(f64::NAN, |value| match r.cmp(&value) {
-                core::cmp::Ordering::Less => -1.0,
-                core::cmp::Ordering::Equal => 0.0,
-                core::cmp::Ordering::Greater => 1.0,
-            });
+        let error = match r.cmp(&value) {
+            Ordering::Less => -1.0,
+            Ordering::Equal => 0.0,
+            Ordering::Greater => 1.0,
+        };
         let (lower, upper) = outward(nearest, error);
         Self { lower, upper }
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        // Not zero, so there is a quotient.
-        self.checked_div(&Self::from_i128(n.get().into()))
-            .unwrap_or(Self::WHOLE)
+        self.over(&Self::from_i128(n.get().into()))
     }
 
     fn is_defined(&self) -> bool {
@@ -363,8 +368,7 @@ impl Algebra for Interval {
 impl Field for Interval {
     /// `None` if the divisor contains zero.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        (divisor.is_defined() && !divisor.has_zero())
-            .then(|| Self::hull(self.corners(divisor), quotient))
+        (divisor.is_defined() && !divisor.has_zero()).then(|| self.over(divisor))
     }
 }
 

@@ -174,9 +174,13 @@ fn guard_bits<F: NearestFloat>() -> i64 {
     i64::from(F::PRECISION) + 3
 }
 
-/// The bit length, as a signed number. No integer that fits in memory exceeds it.
+/// Returns the bit length as a signed number.
+#[expect(
+    clippy::cast_possible_wrap,
+    reason = "2^63 bits are more than any memory holds"
+)]
 fn bits(n: &BigUint) -> i64 {
-    i64::try_from(n.bits()).unwrap_or(i64::MAX / 4)
+    n.bits() as i64
 }
 
 /// Quotient and remainder of 2^`shift` · n / d, with d scaled instead where the shift is negative.

@@ -44,6 +44,7 @@ impl Monomial {
         self.0
             .iter()
             .find(|(s, _)| *s == symbol)
+            // Not a default: a symbol that does not occur has the power 0.
             .map_or(0, |(_, power)| *power)
     }
 
@@ -193,7 +194,9 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn degree(&self) -> u64 {
-        self.terms.keys().next_back().map_or(0, Monomial::degree)
+        let greatest = self.terms.keys().next_back();
+        // Not a default: zero and the fault have no terms, and their degree is 0 by agreement.
+        greatest.map_or(0, Monomial::degree)
     }
 
     /// The degree in one symbol; 0 if it does not occur.
@@ -212,6 +215,7 @@ impl Polynomial {
             .keys()
             .map(|monomial| monomial.power(symbol))
             .max()
+            // Not a default: zero and the fault have no terms, and their degree is 0 by agreement.
             .unwrap_or(0)
     }
 

@@ -183,13 +183,12 @@ fn surface(f: &Formulas) -> Vec<Step> {
     ];
     faces
         .into_iter()
-        .enumerate()
-        .map(|(line, (claim, (i, j, k)))| {
+        .zip(Direction::ALL)
+        .map(|((claim, (i, j, k)), direction)| {
             let forces = setting.received(f, &(f.above)(i, j, k));
-            let force = forces.into_iter().nth(line).unwrap_or_else(P::one);
             Step::equal(
                 format!("no force from above along {claim}"),
-                force,
+                forces[direction.index()].clone(),
                 P::zero(),
             )
         })
@@ -203,17 +202,16 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
     Direction::ALL
         .into_iter()
         .zip(given)
-        .enumerate()
-        .map(|(line, (direction, given))| {
+        .map(|(direction, given)| {
             let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
             let below = (f.above)(
                 &(i.clone() + &di),
                 &(j.clone() + &dj),
                 &(k.clone() + &int(1)),
             );
-            let received = setting.received(f, &below).into_iter().nth(line);
+            let received = setting.received(f, &below);
             let claim = format!("{direction}: given above = received below");
-            Step::equal(claim, given, received.unwrap_or_else(P::zero))
+            Step::equal(claim, given, received[direction.index()].clone())
         })
         .collect()
 }
