@@ -221,7 +221,10 @@ fn bad_values_are_named_with_their_remedy() {
         ("base --number f16", ["--number", "f32"]),
         ("heap", ["heap", "unrecognized"]),
         ("contacts --at 1,1", ["--at", "command base"]),
-        ("contacts --layers 100000000 --layer 99999998", ["one sphere", "(--at)"]),
+        (
+            "contacts --layers 100000000 --layer 99999998",
+            ["one sphere", "(--at)"],
+        ),
         ("base 3", ["'3'", "'cannonpile base --help'"]),
         ("base --format json --output x.csv", ["--format", "csv"]),
     ] {
