@@ -11,6 +11,7 @@ mod scalar {
     mod fixed_width;
     mod flawed;
     mod flawed_scalars;
+    mod half;
     mod interval;
     mod laws;
     mod nearest;
