@@ -36,7 +36,7 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// A float.
+    /// Returns a float as a double-double.
     ///
     /// # Examples
     /// ```
@@ -53,7 +53,7 @@ impl DoubleDouble {
         }
     }
 
-    /// high + low, if they are the parts of a double-double: low at most half a unit in the last place of high.
+    /// Returns high + low, if they are the parts of a double-double: low at most half a unit in the last place of high.
     #[cfg(feature = "serde")]
     pub(crate) fn from_parts(high: f64, low: f64) -> Option<Self> {
         let apart = if high.is_finite() {
@@ -64,7 +64,7 @@ impl DoubleDouble {
         apart.then_some(Self { high, low })
     }
 
-    /// The nearest float.
+    /// Returns the nearest float.
     ///
     /// # Examples
     /// ```
@@ -79,7 +79,7 @@ impl DoubleDouble {
         self.high
     }
 
-    /// What is left to it.
+    /// Returns the rest: the number less its nearest float.
     ///
     /// # Examples
     /// ```
@@ -94,7 +94,7 @@ impl DoubleDouble {
         self.low
     }
 
-    /// The parts of a result, or the float if that is not finite.
+    /// Returns the parts of a result, or the float if that is not finite.
     fn finite((high, low): (f64, f64), float: f64) -> Self {
         if high.is_finite() && low.is_finite() {
             Self { high, low }
@@ -103,7 +103,7 @@ impl DoubleDouble {
         }
     }
 
-    /// Times 2^`e`.
+    /// Returns the number times 2^`e`.
     fn scaled(self, e: i32) -> Self {
         if e == 0 {
             return self;
@@ -113,8 +113,8 @@ impl DoubleDouble {
         Self::finite(fast_two_sum(float, scale(self.low, e)), float)
     }
 
-    /// The number with its high part between 1 and 2, and the power of two taken out: no product of two such
-    /// numbers overflows or loses its error. One of ordinary size is fine as it is.
+    /// Returns the number with its high part between 1 and 2, and the power of two taken out: no product of two such
+    /// numbers overflows or loses its error. One of ordinary size is not changed.
     fn normalised(self) -> (Self, i32) {
         if is_ordinary(self.high) {
             return (self, 0);
@@ -151,7 +151,7 @@ impl DoubleDouble {
         Self::finite((high, low), x.high / y.high).scaled(e - f)
     }
 
-    /// Product with a float.
+    /// Returns the product with a float.
     fn times_float(self, y: f64) -> (f64, f64) {
         let (c, c1) = two_product(self.high, y);
         let c2 = self.low * y;
@@ -163,7 +163,7 @@ impl DoubleDouble {
 impl Add<&Self> for DoubleDouble {
     type Output = Self;
 
-    /// `AccurateDWPlusDW`.
+    /// Returns the sum, by `AccurateDWPlusDW`.
     fn add(self, rhs: &Self) -> Self {
         let (s, s1) = two_sum(self.high, rhs.high);
         let (t, t1) = two_sum(self.low, rhs.low);

@@ -42,7 +42,7 @@ impl Interval {
         upper: f64::INFINITY,
     };
 
-    /// The interval [`lower`, `upper`]; `None` unless `lower` ≤ `upper` and a real lies between.
+    /// Returns the interval [`lower`, `upper`]; `None` unless `lower` ≤ `upper` and a real lies between.
     ///
     /// # Examples
     /// ```
@@ -59,7 +59,7 @@ impl Interval {
         holds.then_some(Self { lower, upper })
     }
 
-    /// A float as a point; the whole line if it is not finite.
+    /// Returns a float as a point; the whole line if it is not finite.
     ///
     /// # Examples
     /// ```
@@ -74,7 +74,7 @@ impl Interval {
         Self::new(value, value).unwrap_or(Self::WHOLE)
     }
 
-    /// The lower end.
+    /// Returns the lower end.
     ///
     /// # Examples
     /// ```
@@ -90,7 +90,7 @@ impl Interval {
         self.lower
     }
 
-    /// The upper end.
+    /// Returns the upper end.
     ///
     /// # Examples
     /// ```
@@ -106,7 +106,7 @@ impl Interval {
         self.upper
     }
 
-    /// Whether a rational lies inside, exactly.
+    /// Returns whether a rational lies inside, exactly.
     ///
     /// # Examples
     /// ```
@@ -124,7 +124,7 @@ impl Interval {
         above && BigRational::from_float(self.upper).is_none_or(|upper| *value <= upper)
     }
 
-    /// The smallest interval with the four ends that corners of two intervals give.
+    /// Returns the smallest interval with the four ends that corners of two intervals give.
     fn hull(corners: [(f64, f64); 4], end: impl Fn(f64, f64) -> (f64, f64)) -> Self {
         let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
         for (x, y) in corners {
@@ -154,7 +154,7 @@ impl Interval {
     }
 }
 
-/// The tightest floats around `value` + ε, where only the sign of ε counts; if that is not known (NaN),
+/// Returns the tightest floats around `value` + ε, where only the sign of ε counts; if that is not known (NaN),
 /// the neighbours.
 fn outward(value: f64, error: f64) -> (f64, f64) {
     if value == f64::INFINITY {
@@ -173,7 +173,7 @@ fn outward(value: f64, error: f64) -> (f64, f64) {
     (down, up)
 }
 
-/// Both ends of the product of two ends.
+/// Returns both ends of the product of two ends.
 fn product(x: f64, y: f64) -> (f64, f64) {
     if x == 0.0 || y == 0.0 {
         // Infinite ends stand for arbitrarily great reals: times zero, zero.
@@ -188,7 +188,7 @@ fn product(x: f64, y: f64) -> (f64, f64) {
     outward(p, if is_normal(p) { error } else { f64::NAN })
 }
 
-/// The operands, or their significands: the error of the product or quotient has the same sign, and is exact.
+/// Returns the operands, or their significands: the error of the product or quotient has the same sign, and is exact.
 fn in_reach(x: f64, y: f64) -> (f64, f64) {
     if is_ordinary(x) && is_ordinary(y) {
         (x, y)
@@ -197,13 +197,13 @@ fn in_reach(x: f64, y: f64) -> (f64, f64) {
     }
 }
 
-/// Whether the rounding error of a product or quotient has the sign of that of the significands: it was not
+/// Returns whether the rounding error of a product or quotient has the sign of that of the significands: it was not
 /// rounded to the coarser grid of the subnormals.
 fn is_normal(value: f64) -> bool {
     value.is_finite() && value.abs() > f64::MIN_POSITIVE
 }
 
-/// Both ends of the quotient of two ends; y is not zero.
+/// Returns both ends of the quotient of two ends; y is not zero.
 fn quotient(x: f64, y: f64) -> (f64, f64) {
     if x == 0.0 || y.is_infinite() {
         // The limit for ever greater divisors.
@@ -366,7 +366,7 @@ impl Algebra for Interval {
 }
 
 impl Field for Interval {
-    /// `None` if the divisor contains zero.
+    /// Returns the quotient, or `None` if the divisor contains zero.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
         (divisor.is_defined() && !divisor.has_zero()).then(|| self.over(divisor))
     }

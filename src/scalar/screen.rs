@@ -1,4 +1,4 @@
-//! The float nearest to an exact value where a double-double tells it: nearly always.
+//! The float nearest to an exact value where a double-double decides it: nearly always.
 //!
 //! The value is enclosed between two double-doubles, 2⁻⁹⁰ apart. Rounding is monotone: if both ends round to one float,
 //! so does the value, and nothing is left to decide. Else, once in 2³⁷ or at a tie, integers decide ([`nearest`](super::nearest)).
@@ -71,7 +71,7 @@ fn root((x, exponent): Scaled) -> Option<Scaled> {
     Some((root, exponent.div_euclid(2)))
 }
 
-/// Returns none: `core` has no square root.
+/// Returns `None`: `core` has no square root.
 #[cfg(not(feature = "std"))]
 fn root(_: Scaled) -> Option<Scaled> {
     None
