@@ -506,6 +506,7 @@ impl Pile {
     /// assert_eq!(loads, [(Site::APEX, "2".to_string())]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
+    #[must_use]
     pub fn loads(&self) -> impl ExactSizeIterator<Item = (Site, &BigRational)> + '_ {
         self.loading.loads()
     }

@@ -55,6 +55,9 @@ pub(super) struct Touch {
     pub(super) direction: Direction,
 }
 
+/// What makes a float of a length.
+type Rounding = fn(&Surd) -> Result<f64, Error>;
+
 impl<'p> NumberedPile<'p> {
     /// Numbers the spheres of a packing.
     ///
@@ -132,7 +135,7 @@ impl<'p> NumberedPile<'p> {
     }
 
     /// The centres of spheres as the nearest floats.
-    pub(super) fn centres(&self) -> Places<'p, f64, fn(&Surd) -> Result<f64, Error>> {
+    pub(super) fn centres(&self) -> Places<'p, f64, Rounding> {
         Places::new(&self.packing, |length| nearest(length, "a position"))
     }
 

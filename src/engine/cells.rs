@@ -141,6 +141,7 @@ fn make_in_bands<V>(
 
 /// How many bands are worth the work of these passes.
 fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
+    // Not a default: only whether threads are worth it hangs on it.
     let sites = |(pass, _): &(Pass, _)| pass.region.sites().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
@@ -178,9 +179,7 @@ fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
     let lost: i128 = steps.clone().map(i128::abs).sum();
     let height = first.end - first.start;
     let most = height / (2 * lost + 2);
-    let number = i128::try_from(number)
-        .map_or(most, |number| number.min(most))
-        .max(1);
+    let number = (number as i128).min(most).max(1);
     let border = |band: i128| first.start + height * band / number;
     // What is taken up to a border, by pass, from the side before it and from the side behind it.
     let before = |border: i128| {
@@ -298,7 +297,11 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         let mut delays = Vec::with_capacity(passes.len());
         for (place, (pass, _)) in passes.iter().enumerate() {
             let before = place.checked_sub(1).and_then(|before| passes.get(before));
-            delay += before.map_or(0, |(before, _)| (pass.shift - before.shift).max(0));
+            // The first pass waits for none.
+            delay += match before {
+                Some((before, _)) => (pass.shift - before.shift).max(0),
+                None => 0,
+            };
             delays.push(delay);
         }
         let filled = || {
@@ -375,12 +378,12 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     let n = rows[0].len();
     let along: [Along<'_, V>; 3] =
         core::array::from_fn(|line| counts[line].along(0..n, &ramps[line]));
-    let start = along.iter().map(|along| along.up.len()).max().unwrap_or(n);
+    let start = along
+        .iter()
+        .fold(0, |start, along| start.max(along.up.len()));
     let end = along
         .iter()
-        .map(|along| n - along.down.len())
-        .min()
-        .unwrap_or(0);
+        .fold(n, |end, along| end.min(n - along.down.len()));
     let [Some(a), Some(b), Some(c)] = along.each_ref().map(|along| along.level) else {
         return add_then_turn(rows, &along, turn);
     };

@@ -75,6 +75,7 @@ impl Size {
         let bits = turned.bits();
         let planes = match bits.checked_sub(62) {
             None | Some(0) => 1,
+            // Not a default: more planes than can be addressed are refused for their size.
             Some(over) => 1 + usize::try_from(over.div_ceil(LIMB.into())).unwrap_or(usize::MAX - 1),
         };
         Self { bits, planes }
@@ -406,14 +407,14 @@ mod tests {
     #[test]
     fn the_bound_is_what_is_proved_and_hardly_more() {
         for (layers, spheres, ordinary, extras) in [
-            (1, 1, 1, 0),
+            (1, 1_i128, 1, 0),
             (2, 4, 1, 0),
             (7, 84, 5, 3),
             (400, 16_100_200, 2, 1_000_000),
         ] {
             let bound = bound(
                 layers,
-                &BigUint::from(spheres as u64),
+                &BigUint::from(spheres.unsigned_abs()),
                 &ordinary.into(),
                 &extras.into(),
             );

@@ -124,9 +124,8 @@ impl System<'_> {
 
     /// Returns the width of the numbers of an exact sweep down to layer `last`, the change of sign there included.
     pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
-        let run = self.shape.stretch_to(last + 1);
-        let run = run.or_else(|| self.shape.stretch_to(last));
-        Size::new(&self.bound_of_sweep(last), run.map_or(0, |run| run.index))
+        let below = (last + 1).min(self.shape.layers() - 1);
+        Size::new(&self.bound_of_sweep(last), self.shape.changes_above(below))
     }
 
     /// Returns a bound no less than 2√3·B·D on the numbers of an exact sweep down to layer `last`, before changes of
@@ -160,7 +159,10 @@ impl System<'_> {
         let last = last_of(rows);
         let mut plan = Plan {
             method: Method::Closed,
-            runs: self.shape.stretch_to(last).map_or(0, |run| run.index + 1),
+            runs: match self.shape.stretch_to(last) {
+                Some(run) => run.index + 1,
+                None => 0,
+            },
             visited: rows.sites(),
             turned: BigUint::zero(),
             passes: BigUint::zero(),
@@ -296,6 +298,9 @@ impl System<'_> {
 
 /// Returns the lowest layer that rows are of.
 pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
-    let last = rows.one().map_or(rows.layers().end - 1, |site| site.k);
+    let last = match rows.one() {
+        Some(site) => site.k,
+        None => rows.layers().end - 1,
+    };
     last.max(0)
 }

@@ -62,7 +62,9 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             self.layer.pass(&self.grid, &pass, &increments)?;
             meter.pass();
             if M::COUNTS && pass.turns {
-                meter.turn(pass.region.sites().to_usize().unwrap_or(usize::MAX));
+                let sites = pass.region.sites().to_usize();
+                // Not a default: more than a counter holds are counted as the most.
+                meter.turn(sites.unwrap_or(usize::MAX));
             }
             (self.k, self.pass, self.extras_added) = (pass.k, Some(pass), false);
         }
@@ -104,14 +106,22 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         let cells = self.grid.site(site.i, site.j, site.k);
         Ok(Received {
             forces: self.layer.at(cells),
-            changes: self.pass.map_or(0, |pass| pass.run.index),
+            changes: self.changes(),
         })
     }
 
     /// The changes of sign across which what the lines carry is turned.
     pub(crate) fn turned_already(&self) -> usize {
-        self.pass
-            .map_or(0, |pass| pass.run.index + usize::from(pass.turns))
+        let turns = self.pass.is_some_and(|pass| pass.turns);
+        self.changes() + usize::from(turns)
+    }
+
+    /// The changes of sign above the layer that it is at.
+    fn changes(&self) -> usize {
+        match self.pass {
+            Some(pass) => pass.run.index,
+            None => 0,
+        }
     }
 
     /// Returns what a sphere of this layer passes on.

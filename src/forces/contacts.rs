@@ -113,7 +113,7 @@ impl<T: Algebra, M: Meter> Iterator for Contacts<'_, T, M> {
             }
             let site = self.sites.next()?;
             self.meter.answer(self.directions.len());
-            let forces = match self.walk.to_below(site, self.meter) {
+            let forces = match self.walk.passed_on(site, self.meter) {
                 Ok(forces) => forces.map(Ok),
                 Err(error) => [(); 3].map(|()| Err(error.clone())),
             };

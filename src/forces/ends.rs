@@ -24,7 +24,7 @@ impl Forces<'_, BigRational> {
         const MOST: u64 = 100_000_000;
         let (terms, floor) = (&self.terms, self.floor());
         let (lines, shape) = (&terms.lines, terms.system.shape);
-        let changes = shape.stretch_to(floor).map_or(0, |run| run.index);
+        let changes = shape.changes_above(floor);
         let mut meet = |site, above: &Received<BigRational>| {
             meet(&terms.floor_numerators(site, above).0);
         };

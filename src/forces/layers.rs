@@ -1,5 +1,6 @@
 //! The forces of whole layers, written into slices: the fast way to many of them.
 
+use alloc::boxed::Box;
 use core::fmt;
 use core::ops::Range;
 
@@ -47,13 +48,16 @@ pub struct Layers<'p, T: Algebra, M = ()> {
 /// How the layers are gone through.
 enum Way<'p, T: Algebra> {
     /// By copying the distinct forces of a straight pile.
-    Table(Table<T>),
+    Table(Box<Table<T>>),
     /// Sphere by sphere.
     Single(Option<Method>),
     /// By a sweep in the numerators of the scalar.
-    Plain(Descent<'p, T, Cells<T::Numerator>>),
+    Plain(Box<Descent<'p, T, Cells<T::Numerator>>>),
     /// By a sweep in the limbs of the exact engine.
-    Exact(Terms<'p, BigRational>, Descent<'p, BigRational, Planes>),
+    Exact(
+        Box<Terms<'p, BigRational>>,
+        Box<Descent<'p, BigRational, Planes>>,
+    ),
 }
 
 /// One layer of a pile, with its forces at hand.
@@ -266,9 +270,10 @@ impl<'p, T: Algebra> Way<'p, T> {
             if T::EXACTNESS == Exactness::Exact {
                 let terms = Terms::<BigRational>::new(system.clone());
                 let sweep = exact_sweep(&terms.lines, &terms.system, last)?;
-                return Ok(Self::Exact(terms, sweep));
+                return Ok(Self::Exact(Box::new(terms), Box::new(sweep)));
             }
-            return Ok(Self::Plain(plain_sweep(lines, system, last)?));
+            let sweep = plain_sweep(lines, system, last)?;
+            return Ok(Self::Plain(Box::new(sweep)));
         }
         let scale = lines.scale(0);
         let multiple = |n: i128, line: usize| {
@@ -276,7 +281,7 @@ impl<'p, T: Algebra> Way<'p, T> {
             super::edge("a contact force", force, &scale)
         };
         Ok(match Table::new(system, multiple)? {
-            Some(table) if plan.method == Method::Closed => Self::Table(table),
+            Some(table) if plan.method == Method::Closed => Self::Table(Box::new(table)),
             _ => Self::Single(method),
         })
     }
@@ -290,16 +295,15 @@ impl<M: Meter> Layers<'_, BigRational, M> {
 
     /// Returns the denominator of the forces below the lowest layer that is still to come and not on the floor.
     pub(super) fn lowest_denominator(&self) -> BigInt {
-        let run = self.shape().stretch_to(self.above_the_floor().end);
-        self.denominator(run.map_or(0, |run| run.index))
+        self.denominator(self.shape().changes_above(self.above_the_floor().end))
     }
 }
 
 impl<M: Meter> Layer<'_, '_, BigRational, M> {
     /// Returns the denominator of the forces below the layer.
     pub(super) fn denominator(&self) -> BigInt {
-        let run = self.shape().stretch_to(self.k + 1);
-        self.layers.denominator(run.map_or(0, |run| run.index))
+        self.layers
+            .denominator(self.shape().changes_above(self.k + 1))
     }
 
     /// Writes what becomes of the numerators of the forces below each sphere.
@@ -608,8 +612,7 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
             _ => return None,
         };
         let system = &self.layers.terms.system;
-        let changes = self.shape().stretch_to(self.k + 1);
-        let changes = changes.map_or(0, |run| run.index + 1);
+        let changes = self.shape().changes_above(self.k + 1) + 1;
         let extras = self.layers.terms.lines.extras_in(0..self.k + 1).count();
         // As many passes as runs, and as layers stopped at; one more for what a sphere adds itself.
         let steps = BigInt::from(self.layers.stops + changes + extras + 1);
@@ -665,8 +668,7 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
         slices: [&mut [T]; 3],
     ) -> Result<(), Error> {
         let lines = &self.layers.terms.lines;
-        let run = self.shape().stretch_to(self.k + 1);
-        let changes = run.map_or(0, |run| run.index);
+        let changes = self.shape().changes_above(self.k + 1);
         let below = Below::<T> {
             own: lines.increments_after(changes),
             scale: lines.scale(changes),

@@ -333,8 +333,7 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
     /// Returns what the forces below an ordinary sphere are made of, where the lines are turned across so many changes of
     /// sign already.
     fn contacts_from_limbs(&self, terms: &Terms<'_, BigRational>, turned: usize) -> Readout {
-        let run = terms.system.shape.stretch_to(self.k() + 1);
-        let changes = run.map_or(0, |run| run.index);
+        let changes = terms.system.shape.changes_above(self.k() + 1);
         let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
         let unit = Unit::new(self.units.contact.clone(), terms.lines.scale(changes));
         Readout {
@@ -351,8 +350,7 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
 
     /// Returns what normal force and shear under an ordinary bottom sphere are made of, unless the factors are long.
     fn floor_from_limbs(&self, terms: &Terms<'_, BigRational>) -> Option<Readout> {
-        let run = terms.system.shape.stretch_to(self.k());
-        let changes = run.map_or(0, |run| run.index);
+        let changes = terms.system.shape.changes_above(self.k());
         let (lines, own) = terms.floor_factors(self.k(), changes);
         let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
             let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());

@@ -80,9 +80,10 @@ impl<'p, M: Meter> Packing<'p, M> {
         self.forces.layers(part)?.nearest_in(units)
     }
 
-    /// The contacts of the spheres in `rows`, each with the spheres below it, lazily.
+    /// Returns the contacts of a part of the pile, each sphere's with the spheres below it, one by one.
     ///
-    /// As [`Forces::contacts`](crate::Forces::contacts).
+    /// # Errors
+    /// As for [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -146,7 +147,10 @@ impl<'p, M: Meter> Packing<'p, M> {
         })
     }
 
-    /// The magnitudes alone of the same forces, lazily: one root in all, where vectors and points take five.
+    /// Returns the magnitudes alone of the contact forces of a part of the pile, one by one.
+    ///
+    /// # Errors
+    /// As for [`Forces::contacts`](crate::Forces::contacts).
     ///
     /// # Examples
     /// ```
@@ -183,9 +187,10 @@ impl<'p, M: Meter> Packing<'p, M> {
         }))
     }
 
-    /// The places of the spheres in `rows`, lazily.
+    /// Returns the places of the spheres of a part of the pile, one by one.
     ///
-    /// As [`position`](Self::position).
+    /// # Errors
+    /// As for [`Forces::contacts`](crate::Forces::contacts); of each, as for [`position`](Self::position).
     ///
     /// # Examples
     /// ```
@@ -214,9 +219,10 @@ impl<'p, M: Meter> Packing<'p, M> {
         }))
     }
 
-    /// The forces of the bottom spheres in `rows` on the floor, lazily.
+    /// Returns the forces of bottom spheres on the floor, one by one.
     ///
-    /// As [`Forces::base`](crate::Forces::base).
+    /// # Errors
+    /// As for [`Forces::base`](crate::Forces::base).
     ///
     /// # Examples
     /// ```

@@ -77,6 +77,13 @@ impl Shape {
         self.stretch(self.run_to(k)?)
     }
 
+    /// Returns how many changes of sign lie above layer k, one at k itself not among them.
+    pub(crate) fn changes_above(&self, k: i128) -> usize {
+        let run = self.run_to(k);
+        // Not a default: no run leads to the top, and nothing changes above it.
+        run.unwrap_or(0)
+    }
+
     /// Returns the run after this many changes of sign.
     #[inline]
     pub(crate) fn stretch(&self, index: usize) -> Option<Stretch> {

@@ -175,16 +175,16 @@ impl<V: Clone> Coordinates<V> {
         make: impl Fn(&Surd) -> Result<V, Error>,
         exact: impl Fn() -> Result<[Surd; 3], Error>,
     ) -> Result<[V; 3], Error> {
-        let row = match self.row.take().filter(|row| (row.k, row.j) == (k, j)) {
-            Some(row) => row,
-            None => {
-                let [x, y, z] = exact()?;
-                RowPlace {
-                    k,
-                    j,
-                    common: [make(&x)?, make(&y)?, make(&z)?],
-                    shift: j - packing.pile().shape().shift_from_origin(k),
-                }
+        let reached = self.row.take().filter(|row| (row.k, row.j) == (k, j));
+        let row = if let Some(row) = reached {
+            row
+        } else {
+            let [x, y, z] = exact()?;
+            RowPlace {
+                k,
+                j,
+                common: [make(&x)?, make(&y)?, make(&z)?],
+                shift: j - packing.pile().shape().shift_from_origin(k),
             }
         };
         let mut place = row.common.clone();

@@ -14,7 +14,7 @@ use crate::output::{Failure, complain, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. Files are written aside, and renamed
+All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml is the pile, for --scene. Files are written aside, and renamed
 when all are complete.
 
 Examples:
@@ -91,7 +91,7 @@ impl Command for Export {
     fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
         let packing = scene.packing(&pile)?;
-        let files = PileExport::new(&packing)?;
+        let files = PileExport::new(&packing)?.with_scene(scene.to_toml());
         let formats = self.formats();
         self.keep_apart(&formats)?;
         let format = agreed(

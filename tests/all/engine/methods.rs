@@ -310,7 +310,7 @@ fn layers_say_what_they_do_not_do() {
     let on_floor = Err(Error::OnFloor { site: Site::APEX });
     assert_eq!(floor.fill([&mut [0.0], &mut [0.0], &mut [0.0]]), on_floor);
     assert_eq!(floor.to_below(Site::APEX).map(|_| ()), on_floor);
-    assert_eq!(floor.on_floor(Site::APEX).unwrap().normal, 1.0);
+    assert!((floor.on_floor(Site::APEX).unwrap().normal - 1.0).abs() < 1e-15);
 }
 
 #[test]

@@ -3,23 +3,8 @@
 //!
 //! What looks like such a default and is none has `// Not a default: ` and the reason in the line above it.
 
-use std::collections::BTreeMap;
-
 use super::storeys::is_of_core;
 use super::{Source, code, is_of_word, sources};
-
-/// TEMPORARY: how many are left in which file. It may only become shorter.
-const STILL: &[(&str, usize)] = &[
-    ("engine/cells.rs", 3),
-    ("engine/ends.rs", 1),
-    ("engine/limbs.rs", 2),
-    ("engine/nearest.rs", 1),
-    ("engine/plan.rs", 3),
-    ("engine/sweep.rs", 3),
-    ("forces/ends.rs", 1),
-    ("forces/layers.rs", 4),
-    ("forces/nearest.rs", 2),
-];
 
 /// What is called with the value that is taken instead.
 const CALLS: [&str; 5] = [
@@ -110,16 +95,15 @@ fn first_of(arguments: &str) -> &str {
 
 #[test]
 fn the_core_has_no_silent_default() {
-    let still = BTreeMap::from_iter(STILL.iter().copied());
-    let mut too_many = String::new();
+    let mut found = Vec::new();
     let core = |source: &&Source| is_of_core(source.room());
     for source in sources().iter().filter(core) {
         let lines = silent_defaults(&source.text);
-        if lines.len() > still.get(source.path.as_str()).copied().unwrap_or(0) {
-            too_many += &format!("    (\"{}\", {}), // {lines:?}\n", source.path, lines.len());
+        if !lines.is_empty() {
+            found.push(format!("{}: {lines:?}", source.path));
         }
     }
-    assert!(too_many.is_empty(), "file, number, lines:\n{too_many}");
+    assert!(found.is_empty(), "file, lines: {found:#?}");
 }
 
 #[test]
