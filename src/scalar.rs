@@ -20,7 +20,6 @@
 //! | [`DoubleDouble`] | [`Rounded`](Exactness::Rounded) | twice the digits of `f64` |
 //! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | bounds that hold the true value |
 //! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proof for every pile at once |
-//! | [`Pair`] | the weaker of the two | a checker that runs two scalars in step |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
 //!
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
@@ -33,7 +32,6 @@ mod float;
 mod interval;
 pub mod laws;
 mod nearest;
-mod pair;
 pub mod parse;
 mod polynomial;
 mod rational;
@@ -47,7 +45,6 @@ pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
 pub(crate) use nearest::float_between;
 pub use nearest::{Decision, NearestFloat};
-pub use pair::{Pair, Parting};
 pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;
 
@@ -82,7 +79,7 @@ pub enum Exactness {
 }
 
 impl Exactness {
-    /// What two scalars promise together.
+    /// Returns what two scalars promise together.
     ///
     /// # Examples
     /// ```
@@ -128,7 +125,7 @@ pub trait Ring:
     + Send
     + Sync
 {
-    /// The image of the integer `n`: exact, or rounded once.
+    /// Returns the image of the integer `n`: exact, or rounded once.
     fn from_i128(n: i128) -> Self;
 }
 
@@ -174,24 +171,24 @@ pub trait Algebra: Ring {
     /// rationals their integers, where nothing is reduced along the way.
     type Numerator: Ring;
 
-    /// The image of the rational `r`: exact, or rounded once to the nearest.
+    /// Returns the image of the rational `r`: exact, or rounded once to the nearest.
     fn from_rational(r: &BigRational) -> Self;
 
-    /// `self / n`.
+    /// Returns `self / n`.
     #[must_use]
     fn div_int(self, n: NonZeroI64) -> Self;
 
-    /// False for a value that stands for no number: a fault, an infinity, not-a-number.
+    /// Returns whether the value stands for a number; false for a fault, an infinity, not-a-number.
     ///
     /// It is asked once, at the edge of the library: arithmetic carries such values along.
     fn is_defined(&self) -> bool;
 
-    /// Whether two values may stand for the same number: equality, or for bounds that they overlap.
+    /// Returns whether two values may stand for the same number: equality, or for bounds that they overlap.
     fn may_equal(&self, other: &Self) -> bool {
         self == other
     }
 
-    /// Numerators of `values` over a common denominator, and that denominator.
+    /// Returns numerators of `values` over a common denominator, and that denominator.
     ///
     /// For rationals they are integers, and the denominator is the least one; a scalar that is its own ring
     /// of numerators takes the values themselves, over 1.
@@ -210,8 +207,8 @@ pub trait Algebra: Ring {
         values: &[BigRational; N],
     ) -> ([Self::Numerator; N], Self::Numerator);
 
-    /// `n / by` in the ring of numerators, or `None` if its denominator has to take the divisor instead, as for
-    /// integers. The same for every `n`.
+    /// Returns `n / by` in the ring of numerators, or `None` if its denominator has to take the divisor instead, as for
+    /// integers. Which of the two it is does not depend on `n`.
     ///
     /// # Examples
     /// ```
@@ -229,7 +226,7 @@ pub trait Algebra: Ring {
         None
     }
 
-    /// `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
+    /// Returns `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
     ///
     /// # Examples
     /// ```
@@ -249,7 +246,7 @@ pub trait Algebra: Ring {
 /// `a.checked_div(b)` is `None` if and only if `b` is zero or undefined; otherwise
 /// `a.checked_div(b) * b = a`.
 pub trait Field: Algebra {
-    /// `self / divisor`, or `None` if the divisor is zero or undefined.
+    /// Returns `self / divisor`, or `None` if the divisor is zero or undefined.
     ///
     /// # Examples
     /// ```
@@ -270,7 +267,7 @@ pub enum RealSign {
     Zero,
     /// Greater than zero.
     Positive,
-    /// The scalar cannot tell, as for a fault or not-a-number.
+    /// Not known to the scalar, as for a fault or not-a-number.
     Unknown,
 }
 
@@ -291,7 +288,7 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
-    /// The enclosure of a value known exactly.
+    /// Returns the enclosure of a value known exactly.
     ///
     /// # Examples
     /// ```
@@ -310,7 +307,7 @@ impl Enclosure {
         }
     }
 
-    /// Whether `value` lies within the bounds.
+    /// Returns whether `value` lies within the bounds.
     ///
     /// # Examples
     /// ```
@@ -343,9 +340,9 @@ impl Enclosure {
 /// assert!(f64::INFINITY.enclosure().is_none());
 /// ```
 pub trait RealEmbeddable {
-    /// The sign of the value.
+    /// Returns the sign of the value.
     fn sign(&self) -> RealSign;
 
-    /// The tightest rational bounds known, or `None` for a value without finite bounds.
+    /// Returns the tightest rational bounds known, or `None` for a value without finite bounds.
     fn enclosure(&self) -> Option<Enclosure>;
 }

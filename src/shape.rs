@@ -387,6 +387,7 @@ impl Shape {
     #[inline]
     pub(crate) fn spheres_above(&self, run: &Stretch, k: i128, [i, j]: [i128; 2]) -> [i128; 3] {
         let region = self.whole_region(k);
+        // Not a default: outside the pile nothing is counted, neither beyond its layers nor beside one.
         region.map_or([0; 3], |region| {
             region.spheres_above(i, j, run.sign, k - run.from)
         })

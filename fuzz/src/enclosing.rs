@@ -2,13 +2,14 @@
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, Interval, Pair, RealEmbeddable, Ring, RealSign, laws,
+    Algebra, DoubleDouble, Field, Interval, RealEmbeddable, Ring, RealSign, laws,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::generators::number;
+use crate::support::pair::Pair;
 
 /// All claims about the numbers that the bytes make.
 ///

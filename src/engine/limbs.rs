@@ -98,7 +98,7 @@ pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: 
 #[derive(Clone, Debug)]
 pub(crate) struct Planes {
     /// The planes that the numbers fill by now, the lowest first; further down they are more.
-    planes: Vec<Plane<i64>>,
+    limbs: Vec<Plane<i64>>,
     /// No less than 2√3·B·D.
     bound: BigInt,
     /// Passes that were asked for and not made yet.
@@ -114,7 +114,7 @@ impl Planes {
     pub(crate) fn new(grid: &Grid<'_>, bound: BigInt) -> Self {
         let size = Size::new(&bound, 0);
         Self {
-            planes: alloc::vec![Plane::new(grid, &0); size.planes],
+            limbs: alloc::vec![Plane::new(grid, &0); size.planes],
             bound,
             waiting: Vec::new(),
             passes: 0,
@@ -125,8 +125,8 @@ impl Planes {
     /// Makes room for what the passes that wait lead to. What was the top limb is a lower one then, and carries.
     fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         let planes = Size::new(&self.bound, self.changes).planes;
-        if planes > self.planes.len() {
-            self.planes.resize(planes, Plane::new(grid, &0));
+        if planes > self.limbs.len() {
+            self.limbs.resize(planes, Plane::new(grid, &0));
             self.carry()?;
             // Those that wait are at most as many as a carry is due after.
             self.passes = self.waiting.iter().fold(0, |passes, _| passes + 1);
@@ -137,7 +137,7 @@ impl Planes {
     /// Makes the passes that wait, and carries if that is due.
     fn make_waiting(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
         self.grow(grid)?;
-        let planes = self.planes.len();
+        let planes = self.limbs.len();
         let waiting = core::mem::take(&mut self.waiting);
         let mut passes = Vec::with_capacity(waiting.len());
         for (pass, increments) in waiting {
@@ -149,12 +149,12 @@ impl Planes {
             passes.push((pass, ramps.ok_or_else(|| bug(WIDE_ENOUGH))?));
         }
         if self.passes < TURNS {
-            make(&mut self.planes, grid, &passes, tripled_apart, |_, _| ());
+            make(&mut self.limbs, grid, &passes, tripled_apart, |_, _| ());
             return Ok(());
         }
         let fits = AtomicBool::new(true);
         make(
-            &mut self.planes,
+            &mut self.limbs,
             grid,
             &passes,
             tripled_apart,
@@ -165,7 +165,7 @@ impl Planes {
             },
         );
         self.passes = 0;
-        self.check(fits.into_inner())
+        check(fits.into_inner())
     }
 
     /// Returns what consecutive lines carry, by direction, from the top limbs down.
@@ -174,31 +174,27 @@ impl Planes {
             self.waiting.is_empty(),
             "passes come before what they lead to"
         );
-        let top_down = self.planes.iter().rev();
+        let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
-    }
-
-    fn check(&self, fits: bool) -> Result<(), Error> {
-        if fits { Ok(()) } else { Err(bug(WIDE_ENOUGH)) }
     }
 
     /// Brings the lower limbs into [−2^50, 2^50).
     fn carry(&mut self) -> Result<(), Error> {
         self.passes = 0;
         let all = self
-            .planes
+            .limbs
             .first()
             .map_or([0; 3], |plane| plane.0.each_ref().map(Vec::len));
-        let mut planes: Vec<_> = self.planes.iter_mut().map(Plane::slices_mut).collect();
+        let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
         let fits = carry_rows(&mut planes, &all.map(|n| 0..n));
-        self.check(fits)
+        check(fits)
     }
 
     /// Brings the lower limbs of the three lines of one sphere into [−2^50, 2^50).
     fn carry_at(&mut self, cells: [usize; 3]) -> Result<(), Error> {
-        let mut planes: Vec<_> = self.planes.iter_mut().map(Plane::slices_mut).collect();
+        let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
         let fits = carry_rows(&mut planes, &cells.map(|cell| cell..cell + 1));
-        self.check(fits)
+        check(fits)
     }
 
     /// Returns the least number on the lines of the layer that a pass led to, and the first place (i, j) and direction, in
@@ -240,6 +236,10 @@ impl Planes {
     }
 }
 
+fn check(fits: bool) -> Result<(), Error> {
+    if fits { Ok(()) } else { Err(bug(WIDE_ENOUGH)) }
+}
+
 /// A least number, and where it is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Least {
@@ -276,12 +276,12 @@ impl Layer<BigRational> for Planes {
             self.waiting.is_empty(),
             "passes come before what they lead to"
         );
-        let planes = self.planes.len();
+        let planes = self.limbs.len();
         let [Some(a), Some(b), Some(c)] = values.each_ref().map(|value| limbs(value, planes))
         else {
             return Err(bug(WIDE_ENOUGH));
         };
-        for (p, plane) in self.planes.iter_mut().enumerate() {
+        for (p, plane) in self.limbs.iter_mut().enumerate() {
             plane.add_to(cells, &[a[p], b[p], c[p]]);
         }
         // Loads on one line may follow each other without a pass between them.
@@ -293,7 +293,7 @@ impl Layer<BigRational> for Planes {
             self.waiting.is_empty(),
             "passes come before what they lead to"
         );
-        let top_down = self.planes.iter().rev();
+        let top_down = self.limbs.iter().rev();
         let limbs: Vec<[&i64; 3]> = top_down.map(|plane| plane.carried(cells)).collect();
         [0, 1, 2].map(|line| value(limbs.iter().map(|limbs| limbs[line])))
     }
@@ -369,7 +369,7 @@ mod tests {
 
     fn two_planes(grid: &Grid<'_>) -> Planes {
         let planes = Planes::new(grid, BigInt::from(1) << 100);
-        assert_eq!(planes.planes.len(), 2);
+        assert_eq!(planes.limbs.len(), 2);
         planes
     }
 

@@ -34,7 +34,7 @@ struct Factor {
 /// How the three numbers of a sphere are made of what its lines carry: n_k = Σ_m combination[k][m]·x_m + own[k], in units.
 #[derive(Clone, Debug)]
 pub(crate) struct Readout {
-    pub(crate) combination: [[i64; 3]; 3],
+    pub(crate) combination: [[i32; 3]; 3],
     pub(crate) own: [BigInt; 3],
     pub(crate) units: [Unit; 3],
 }
@@ -75,7 +75,7 @@ impl Unit {
         let (scale, high) = (power_of_two(-bits), magnitude as f64);
         let low = magnitude as i128 - (high as u128) as i128;
         let leading = DoubleDouble::new(high * scale) + DoubleDouble::new(low as f64 * scale);
-        let product = leading * &factor.value;
+        let product = leading * factor.value;
         // The factor is at most 1.
         let slack = product.high() * power_of_two(SLACK) + 2.0 * owed * scale;
         let ends = [product.low() - slack, product.low() + slack].map(|low| product.high() + low);
@@ -151,9 +151,9 @@ impl Readout {
                 })
             };
             // Limbs that wait for their carries are below 2^12 of the next one's unit.
-            let factors: i64 = combination.iter().map(|factor| factor.abs()).sum();
-            let owed =
-                f64::from(i32::try_from(factors).map_or(i32::MAX >> 13, |sum| sum)) * 4096.0 + 1.0;
+            let owed = combination.iter().fold(1.0, |owed, factor| {
+                owed + 4096.0 * f64::from(factor.unsigned_abs())
+            });
             for (place, out) in out.iter_mut().enumerate() {
                 match nearest_of(&limb, place, top_down.len(), owed, unit) {
                     Some(float) => *out = float,

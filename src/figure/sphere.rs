@@ -160,7 +160,7 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
     let mut touching = Vec::new();
     for ((&direction, force), name) in directions
         .iter()
-        .zip(subject.from_above(site)?)
+        .zip(subject.received(site)?)
         .zip(["a′", "b′", "c′"])
     {
         if let Some(upper) = pile.shape().above(site, direction) {

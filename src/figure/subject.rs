@@ -186,7 +186,7 @@ impl<'p> Subject<'p> {
     }
 
     /// Returns the contacts of a sphere with those above it, in f₀, by direction.
-    pub(super) fn from_above(&self, site: Site) -> Result<[BigRational; 3], Error> {
+    pub(super) fn received(&self, site: Site) -> Result<[BigRational; 3], Error> {
         self.packing.forces().from_above(site)
     }
 

@@ -116,3 +116,24 @@ impl View {
         shown.flat_map(axis).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_right_handed() {
+        let views = [(195.0, 17.0), (10.0, 80.0), (-90.0, 0.0)];
+        for (azimuth, elevation) in views {
+            let view = View::new([0.0; 3], azimuth, elevation, f64::INFINITY);
+            let ([a, b, c], [d, e, f]) = (view.right, view.up);
+            let cross = [b * f - c * e, c * d - a * f, a * e - b * d];
+            assert!(norm(moved(cross, -1.0, view.back)) < 1e-15);
+            assert!((dot(view.right, view.up)).abs() < 1e-15);
+        }
+        // Over x, y is on the right; from above, x points down and y to the right.
+        let view = View::new([0.0; 3], 0.0, 90.0, f64::INFINITY);
+        let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| view.across(axis));
+        assert!((x[1] + 1.0).abs() < 1e-15 && (y[0] - 1.0).abs() < 1e-15);
+    }
+}

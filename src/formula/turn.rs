@@ -61,9 +61,10 @@ where
     g.each_ref().map(|x| twice_sum.clone() - x - x - x)
 }
 
-/// Returns 3G g as (2(g_β + g_γ) − g_α, …), where every force is named once: for bounds.
+/// Returns 3G g as (2(g_β + g_γ) − g_α, …), where every force is named once: for bounds, and for limbs, of
+/// which no sum on the way is greater than the result may be, 5 max|g|.
 ///
-/// They widen by 5/3 over a [half-turn](half_turn). In [2Σg − 3g](tripled_half_turn) they would by 3, since an interval
+/// Bounds widen by 5/3 over a [half-turn](half_turn). In [2Σg − 3g](tripled_half_turn) they would by 3, since an interval
 /// does not know that both g_α in it are one number.
 ///
 /// # Examples

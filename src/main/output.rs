@@ -40,7 +40,7 @@ impl From<WriteError> for Failure {
 /// A refusal, with the input to blame and the options that are its remedy.
 #[derive(Debug)]
 pub(crate) struct Refused {
-    pub(crate) error: Error,
+    pub(crate) error: Box<Error>,
     pub(crate) culprit: Option<Culprit>,
     /// Options that ask what the message advises.
     pub(crate) remedy: Option<&'static str>,
@@ -60,7 +60,7 @@ impl From<Error> for Refused {
     fn from(error: Error) -> Self {
         Self {
             culprit: error.culprit(),
-            error,
+            error: Box::new(error),
             remedy: None,
         }
     }

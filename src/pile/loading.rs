@@ -80,6 +80,7 @@ impl Loading {
 
     /// What is put on a sphere.
     pub(crate) fn load(&self, site: Site) -> BigRational {
+        // Not a default: on a sphere that is not in the list nothing was put.
         self.loads.get(&site).cloned().unwrap_or_default()
     }
 

@@ -36,7 +36,7 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// A float.
+    /// Returns a float as a double-double.
     ///
     /// # Examples
     /// ```
@@ -53,7 +53,7 @@ impl DoubleDouble {
         }
     }
 
-    /// high + low, if they are the parts of a double-double: low at most half a unit in the last place of high.
+    /// Returns high + low, if they are the parts of a double-double: low at most half a unit in the last place of high.
     #[cfg(feature = "serde")]
     pub(crate) fn from_parts(high: f64, low: f64) -> Option<Self> {
         let apart = if high.is_finite() {
@@ -64,7 +64,7 @@ impl DoubleDouble {
         apart.then_some(Self { high, low })
     }
 
-    /// The nearest float.
+    /// Returns the nearest float.
     ///
     /// # Examples
     /// ```
@@ -79,7 +79,7 @@ impl DoubleDouble {
         self.high
     }
 
-    /// What is left to it.
+    /// Returns the rest: the number less its nearest float.
     ///
     /// # Examples
     /// ```
@@ -94,7 +94,7 @@ impl DoubleDouble {
         self.low
     }
 
-    /// The parts of a result, or the float if that is not finite.
+    /// Returns the parts of a result, or the float if that is not finite.
     fn finite((high, low): (f64, f64), float: f64) -> Self {
         if high.is_finite() && low.is_finite() {
             Self { high, low }
@@ -103,7 +103,7 @@ impl DoubleDouble {
         }
     }
 
-    /// Times 2^`e`.
+    /// Returns the number times 2^`e`.
     fn scaled(self, e: i32) -> Self {
         if e == 0 {
             return self;
@@ -113,8 +113,8 @@ impl DoubleDouble {
         Self::finite(fast_two_sum(float, scale(self.low, e)), float)
     }
 
-    /// The number with its high part between 1 and 2, and the power of two taken out: no product of two such
-    /// numbers overflows or loses its error. One of ordinary size is fine as it is.
+    /// Returns the number with its high part between 1 and 2, and the power of two taken out: no product of two such
+    /// numbers overflows or loses its error. One of ordinary size is not changed.
     fn normalised(self) -> (Self, i32) {
         if is_ordinary(self.high) {
             return (self, 0);
@@ -123,7 +123,35 @@ impl DoubleDouble {
         (self.scaled(-e), e)
     }
 
-    /// Product with a float.
+    /// Returns the sum of two floats, of which the first is the greater, or zero.
+    pub(super) fn from_sum(greater: f64, lesser: f64) -> Self {
+        let (high, low) = fast_two_sum(greater, lesser);
+        Self { high, low }
+    }
+
+    /// Returns the product, by `DWTimesDW1`; both are of ordinary size.
+    pub(super) fn ordinary_product(self, rhs: &Self) -> Self {
+        let (c, c1) = two_product(self.high, rhs.high);
+        let c2 = self.high * rhs.low + self.low * rhs.high;
+        Self::from_sum(c, c1 + c2)
+    }
+
+    /// Returns the quotient, by `DWDivDW2`; both are of ordinary size.
+    pub(super) fn ordinary_quotient(self, divisor: &Self) -> Self {
+        let t = self.high / divisor.high;
+        let (r, r1) = divisor.times_float(t);
+        let rest = (self.high - r) + (self.low - r1);
+        Self::from_sum(t, rest / divisor.high)
+    }
+
+    /// Returns the quotient; the divisor is finite and not zero.
+    fn over(self, divisor: &Self) -> Self {
+        let ((x, e), (y, f)) = (self.normalised(), divisor.normalised());
+        let Self { high, low } = x.ordinary_quotient(&y);
+        Self::finite((high, low), x.high / y.high).scaled(e - f)
+    }
+
+    /// Returns the product with a float.
     fn times_float(self, y: f64) -> (f64, f64) {
         let (c, c1) = two_product(self.high, y);
         let c2 = self.low * y;
@@ -135,7 +163,7 @@ impl DoubleDouble {
 impl Add<&Self> for DoubleDouble {
     type Output = Self;
 
-    /// `AccurateDWPlusDW`.
+    /// Returns the sum, by `AccurateDWPlusDW`.
     fn add(self, rhs: &Self) -> Self {
         let (s, s1) = two_sum(self.high, rhs.high);
         let (t, t1) = two_sum(self.low, rhs.low);
@@ -167,12 +195,10 @@ impl Sub<&Self> for DoubleDouble {
 impl Mul<&Self> for DoubleDouble {
     type Output = Self;
 
-    /// `DWTimesDW1`.
     fn mul(self, rhs: &Self) -> Self {
         let ((x, e), (y, f)) = (self.normalised(), rhs.normalised());
-        let (c, c1) = two_product(x.high, y.high);
-        let c2 = x.high * y.low + x.low * y.high;
-        Self::finite(fast_two_sum(c, c1 + c2), x.high * y.high).scaled(e + f)
+        let Self { high, low } = x.ordinary_product(&y);
+        Self::finite((high, low), x.high * y.high).scaled(e + f)
     }
 }
 
@@ -221,21 +247,20 @@ impl Algebra for DoubleDouble {
     const NAME: &'static str = "DoubleDouble";
 
     fn from_rational(r: &BigRational) -> Self {
-        let Some(high) = f64::nearest_to_rational(r) else {
-            return Self::new(f64::NAN);
+        let parts = || {
+            let high = f64::nearest_to_rational(r)?;
+            let rest = r - BigRational::from_float(high)?;
+            Some((high, f64::nearest_to_rational(&rest)?))
         };
-        // A finite float is a rational, and the rest is smaller than it.
-        let rest = BigRational::from_float(high).map(|value| r - value);
-        let low = rest
-            .and_then(|rest| f64::nearest_to_rational(&rest))
-            .unwrap_or(0.0);
-        Self::finite(fast_two_sum(high, low), high)
+        match parts() {
+            Some((high, low)) => Self::finite(fast_two_sum(high, low), high),
+            // Beyond the floats.
+            None => Self::new(f64::NAN),
+        }
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        // Not zero, so there is a quotient.
-        self.checked_div(&Self::from_i128(n.get().into()))
-            .unwrap_or(Self::new(f64::NAN))
+        self.over(&Self::from_i128(n.get().into()))
     }
 
     fn is_defined(&self) -> bool {
@@ -256,16 +281,8 @@ impl Algebra for DoubleDouble {
 }
 
 impl Field for DoubleDouble {
-    /// `DWDivDW2`.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        if divisor.is_zero() || !divisor.is_defined() {
-            return None;
-        }
-        let ((x, e), (y, f)) = (self.normalised(), divisor.normalised());
-        let t = x.high / y.high;
-        let (r, r1) = y.times_float(t);
-        let rest = (x.high - r) + (x.low - r1);
-        Some(Self::finite(fast_two_sum(t, rest / y.high), t).scaled(e - f))
+        (divisor.is_defined() && !divisor.is_zero()).then(|| self.over(divisor))
     }
 }
 

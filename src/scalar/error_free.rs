@@ -2,7 +2,7 @@
 //!
 //! Without a fused multiply-add, which `core` does not have: Knuth's sum and Dekker's product.
 
-/// (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows.
+/// Returns (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows.
 pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let from_b = s - a;
@@ -10,33 +10,33 @@ pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - from_a) + (b - from_b))
 }
 
-/// As [`two_sum`], for |a| ≥ |b| or a = 0.
+/// Returns what [`two_sum`] does, for |a| ≥ |b| or a = 0.
 pub(super) fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
-/// (p, e) with p = fl(a b) and p + e = a b exactly, for factors of ordinary size: [`significand`]s.
+/// Returns (p, e) with p = fl(a b) and p + e = a b exactly, for factors of ordinary size: [`significand`]s.
 pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((a1, a2), (b1, b2)) = (split(a), split(b));
     (p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2)
 }
 
-/// Veltkamp's splitting into two halves of at most 26 bits.
+/// Returns a as a sum, by Veltkamp's splitting into two halves of at most 26 bits.
 fn split(a: f64) -> (f64, f64) {
     let c = 134_217_729.0 * a; // 2^27 + 1
     let high = c - (c - a);
     (high, a - high)
 }
 
-/// Whether a is neither so great nor so small that a product or quotient of two such numbers, or the error of
-/// one, leaves the range of floats: then [`two_product`] takes it as it is.
+/// Returns whether a is neither so great nor so small that a product or quotient of two such numbers, or the error of
+/// one, leaves the range of floats: then [`two_product`] takes it unchanged.
 pub(super) fn is_ordinary(a: f64) -> bool {
     (power_of_two(-400)..power_of_two(400)).contains(&a.abs())
 }
 
-/// (m, e) with a = m·2^e and 1 ≤ |m| < 2, for a finite and not zero; other values as they are, with e = 0.
+/// Returns (m, e) with a = m·2^e and 1 ≤ |m| < 2, for a finite and not zero; other values unchanged, with e = 0.
 pub(super) fn significand(a: f64) -> (f64, i32) {
     if a == 0.0 || !a.is_finite() {
         return (a, 0);
@@ -45,23 +45,20 @@ pub(super) fn significand(a: f64) -> (f64, i32) {
         let (m, e) = significand(a * power_of_two(64));
         return (m, e - 64);
     }
-    let bits = a.to_bits();
-    let field = (bits >> 52) & 0x7ff;
-    // Eleven bits: no loss.
-    let exponent = i32::try_from(field).unwrap_or(0) - 1023;
-    (
-        f64::from_bits(bits & !(0x7ff << 52) | (1023 << 52)),
-        exponent,
-    )
+    let [first, second, ..] = a.to_be_bytes();
+    let field = u16::from_be_bytes([first, second]) >> 4 & 0x7ff;
+    let significand = a.to_bits() & !(0x7ff << 52) | (1023 << 52);
+    (f64::from_bits(significand), i32::from(field) - 1023)
 }
 
-/// 2^e for −1022 ≤ e ≤ 1023, and the nearer of these ends beyond.
+/// Returns 2^e for −1022 ≤ e ≤ 1023, and the nearer of these ends beyond.
 pub(super) fn power_of_two(e: i32) -> f64 {
-    let field = u64::try_from(e.clamp(-1022, 1023) + 1023).unwrap_or(0);
-    f64::from_bits(field << 52)
+    // Not a default: beyond the ends the nearer of them is what is asked for.
+    let field = e.clamp(-1022, 1023) + 1023;
+    f64::from_bits(u64::from(field.unsigned_abs()) << 52)
 }
 
-/// a·2^e, rounded once more where it is subnormal.
+/// Returns a·2^e, rounded once more where it is subnormal.
 pub(super) fn scale(a: f64, e: i32) -> f64 {
     // No one power reaches from the least subnormal to the greatest float; three do, and none overflows
     // or underflows before the result does.

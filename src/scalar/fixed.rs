@@ -78,7 +78,7 @@ impl<I: FixedInteger> FixedRational<I> {
     /// The sticky result of an operation that did not fit.
     pub const FAULT: Self = Self(None);
 
-    /// The rational `numer / denom`; a fault if the denominator is zero or either is `I::MIN`.
+    /// Returns the rational `numer / denom`; a fault if the denominator is zero or either is `I::MIN`.
     ///
     /// # Examples
     /// ```
@@ -96,7 +96,7 @@ impl<I: FixedInteger> FixedRational<I> {
         Self(Some(Ratio::new(numer, denom)))
     }
 
-    /// Numerator and positive denominator in lowest terms, or `None` for a fault.
+    /// Returns the numerator and the positive denominator in lowest terms, or `None` for a fault.
     ///
     /// # Examples
     /// ```
@@ -110,7 +110,7 @@ impl<I: FixedInteger> FixedRational<I> {
         self.0.as_ref().map(|r| (*r.numer(), *r.denom()))
     }
 
-    /// The same number in big integers, or `None` for a fault.
+    /// Returns the number in big integers, or `None` for a fault.
     ///
     /// # Examples
     /// ```

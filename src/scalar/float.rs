@@ -28,6 +28,7 @@ macro_rules! float_scalar {
             const NAME: &'static str = stringify!($float);
 
             fn from_rational(r: &BigRational) -> Self {
+                // Not a default: a rational beyond the floats has no image, and not-a-number says so.
                 $float::nearest_to_rational(r).unwrap_or($float::NAN)
             }
 

@@ -1,5 +1,6 @@
 //! Intervals of floats: every result contains the true one.
 
+use core::cmp::Ordering;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -41,7 +42,7 @@ impl Interval {
         upper: f64::INFINITY,
     };
 
-    /// The interval [`lower`, `upper`]; `None` unless `lower` ≤ `upper` and a real lies between.
+    /// Returns the interval [`lower`, `upper`]; `None` unless `lower` ≤ `upper` and a real lies between.
     ///
     /// # Examples
     /// ```
@@ -58,7 +59,7 @@ impl Interval {
         holds.then_some(Self { lower, upper })
     }
 
-    /// A float as a point; the whole line if it is not finite.
+    /// Returns a float as a point; the whole line if it is not finite.
     ///
     /// # Examples
     /// ```
@@ -69,10 +70,11 @@ impl Interval {
     /// ```
     #[must_use]
     pub fn point(value: f64) -> Self {
+        // Not a default: of a value that is not finite nothing is known.
         Self::new(value, value).unwrap_or(Self::WHOLE)
     }
 
-    /// The lower end.
+    /// Returns the lower end.
     ///
     /// # Examples
     /// ```
@@ -88,7 +90,7 @@ impl Interval {
         self.lower
     }
 
-    /// The upper end.
+    /// Returns the upper end.
     ///
     /// # Examples
     /// ```
@@ -104,7 +106,7 @@ impl Interval {
         self.upper
     }
 
-    /// Whether a rational lies inside, exactly.
+    /// Returns whether a rational lies inside, exactly.
     ///
     /// # Examples
     /// ```
@@ -122,7 +124,7 @@ impl Interval {
         above && BigRational::from_float(self.upper).is_none_or(|upper| *value <= upper)
     }
 
-    /// The smallest interval with the four ends that corners of two intervals give.
+    /// Returns the smallest interval with the four ends that corners of two intervals give.
     fn hull(corners: [(f64, f64); 4], end: impl Fn(f64, f64) -> (f64, f64)) -> Self {
         let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
         for (x, y) in corners {
@@ -131,6 +133,11 @@ impl Interval {
             upper = upper.max(up);
         }
         Self { lower, upper }
+    }
+
+    /// Returns the quotient; the divisor does not contain zero.
+    fn over(self, divisor: &Self) -> Self {
+        Self::hull(self.corners(divisor), quotient)
     }
 
     fn corners(self, other: &Self) -> [(f64, f64); 4] {
@@ -147,7 +154,7 @@ impl Interval {
     }
 }
 
-/// The tightest floats around `value` + ε, where only the sign of ε counts; if that is not known (NaN),
+/// Returns the tightest floats around `value` + ε, where only the sign of ε counts; if that is not known (NaN),
 /// the neighbours.
 fn outward(value: f64, error: f64) -> (f64, f64) {
     if value == f64::INFINITY {
@@ -166,7 +173,7 @@ fn outward(value: f64, error: f64) -> (f64, f64) {
     (down, up)
 }
 
-/// Both ends of the product of two ends.
+/// Returns both ends of the product of two ends.
 fn product(x: f64, y: f64) -> (f64, f64) {
     if x == 0.0 || y == 0.0 {
         // Infinite ends stand for arbitrarily great reals: times zero, zero.
@@ -181,7 +188,7 @@ fn product(x: f64, y: f64) -> (f64, f64) {
     outward(p, if is_normal(p) { error } else { f64::NAN })
 }
 
-/// The operands, or their significands: the error of the product or quotient has the same sign, and is exact.
+/// Returns the operands, or their significands: the error of the product or quotient has the same sign, and is exact.
 fn in_reach(x: f64, y: f64) -> (f64, f64) {
     if is_ordinary(x) && is_ordinary(y) {
         (x, y)
@@ -190,13 +197,13 @@ fn in_reach(x: f64, y: f64) -> (f64, f64) {
     }
 }
 
-/// Whether the rounding error of a product or quotient has the sign of that of the significands: it was not
+/// Returns whether the rounding error of a product or quotient has the sign of that of the significands: it was not
 /// rounded to the coarser grid of the subnormals.
 fn is_normal(value: f64) -> bool {
     value.is_finite() && value.abs() > f64::MIN_POSITIVE
 }
 
-/// Both ends of the quotient of two ends; y is not zero.
+/// Returns both ends of the quotient of two ends; y is not zero.
 fn quotient(x: f64, y: f64) -> (f64, f64) {
     if x == 0.0 || y.is_infinite() {
         // The limit for ever greater divisors.
@@ -311,7 +318,9 @@ impl Algebra for Interval {
     const NAME: &'static str = "Interval";
 
     fn from_rational(r: &BigRational) -> Self {
-        let Some(nearest) = f64::nearest_to_rational(r) else {
+        let nearest = f64::nearest_to_rational(r);
+        let stored = nearest.and_then(|nearest| Some((nearest, BigRational::from_float(nearest)?)));
+        let Some((nearest, value)) = stored else {
             let (lower, upper) = outward(
                 if *r > BigRational::zero() {
                     f64::INFINITY
@@ -322,21 +331,17 @@ impl Algebra for Interval {
             );
             return Self { lower, upper };
         };
-        // A finite float is a rational.
-        let error =
-            BigRational::from_float(nearest).map_or(f64::NAN, |value| match r.cmp(&value) {
-                core::cmp::Ordering::Less => -1.0,
-                core::cmp::Ordering::Equal => 0.0,
-                core::cmp::Ordering::Greater => 1.0,
-            });
+        let error = match r.cmp(&value) {
+            Ordering::Less => -1.0,
+            Ordering::Equal => 0.0,
+            Ordering::Greater => 1.0,
+        };
         let (lower, upper) = outward(nearest, error);
         Self { lower, upper }
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        // Not zero, so there is a quotient.
-        self.checked_div(&Self::from_i128(n.get().into()))
-            .unwrap_or(Self::WHOLE)
+        self.over(&Self::from_i128(n.get().into()))
     }
 
     fn is_defined(&self) -> bool {
@@ -361,10 +366,9 @@ impl Algebra for Interval {
 }
 
 impl Field for Interval {
-    /// `None` if the divisor contains zero.
+    /// Returns the quotient, or `None` if the divisor contains zero.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        (divisor.is_defined() && !divisor.has_zero())
-            .then(|| Self::hull(self.corners(divisor), quotient))
+        (divisor.is_defined() && !divisor.has_zero()).then(|| self.over(divisor))
     }
 }
 

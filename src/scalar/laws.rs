@@ -1,10 +1,10 @@
 //! The laws of a scalar, as a suite that any scalar can be put through.
 //!
-//! Each function takes operands and says which law they break, if any. It demands of a scalar what its
+//! Each function takes operands and returns the law that they break, if any. It demands of a scalar what its
 //! [`Algebra::EXACTNESS`] promises, no less: equality from an exact one, a fault or equality from a
 //! fixed-width one, from bounds that they hold the true result, and from a rounded one the laws that survive
 //! rounding and the true result to within its precision. The crate's own scalars are put through it with fixed, random and
-//! fuzzed operands; do the same with yours.
+//! fuzzed operands; do this with yours too.
 //!
 //! # Examples
 //! ```
@@ -47,7 +47,7 @@ impl fmt::Display for Broken {
 
 impl core::error::Error for Broken {}
 
-/// The laws of a commutative algebra over ℚ.
+/// Checks the laws of a commutative algebra over ℚ.
 ///
 /// Commutativity, neutral elements and negation are demanded of every scalar; associativity,
 /// distributivity and division by integers of exact ones.
@@ -114,10 +114,12 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
     Ok(())
 }
 
-/// The laws that tie a field in the reals to the rationals: x and y are taken into the scalar, and
+/// Checks the laws that tie a field in the reals to the rationals: x and y are taken into the scalar, and
 /// every operation there is compared with the same one on the values stored.
 ///
-/// A rounded scalar is only tested where |result| lies between 2^−64 and 2^64, clear of its limits.
+/// A rounded scalar is tested where |result| lies between 2^−e and 2^e, clear of its limits: e is 64, or for a format of a
+/// shorter range the greatest at which it holds 2^e and, with all its digits and one more, 2^−e: 13 for half precision. It is
+/// 8 at least.
 ///
 /// # Errors
 /// The first law that x, y break.
@@ -193,7 +195,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
     }
 }
 
-/// The integers go where the rationals with denominator 1 go.
+/// Checks that the integers go where the rationals with denominator 1 go.
 ///
 /// # Errors
 /// The law, if n breaks it.
@@ -222,7 +224,7 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
     })
 }
 
-/// A numerator over its denominator is the value it was made of, in its own form.
+/// Checks that a numerator over its denominator is the value it was made of, in its own form.
 ///
 /// # Errors
 /// The law, if x and y break it.
@@ -245,7 +247,7 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
             T::from_ratio(numerator, &denominator),
             T::from_rational(value),
         );
-        // The text tells an unreduced fraction from the reduced one; equality may not. Bounds may widen, and
+        // The text shows an unreduced fraction from the reduced one; equality may not. Bounds may widen, and
         // zeros have signs.
         let same = back.as_ref().is_some_and(|back| match T::EXACTNESS {
             Exactness::Enclosure | Exactness::Rounded { .. } => back.may_equal(&image),
@@ -269,13 +271,13 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
     Ok(())
 }
 
-/// The rational a scalar stands for, if it is one.
+/// Returns the rational a scalar stands for, if it is one.
 fn point<T: RealEmbeddable>(a: &T) -> Option<BigRational> {
     let enclosure = a.enclosure()?;
     (enclosure.lower == enclosure.upper).then_some(enclosure.lower)
 }
 
-/// Whether `got` is as near to `want` as the scalar promises.
+/// Checks that `got` is as near to `want` as the scalar promises.
 fn stands_for<T: Algebra + RealEmbeddable>(
     law: &'static str,
     got: &T,
@@ -289,9 +291,10 @@ fn stands_for<T: Algebra + RealEmbeddable>(
             // Without finite bounds it holds everything.
             got.is_defined() && got.enclosure().is_none_or(|bounds| bounds.contains(want))
         }
-        (Exactness::Rounded { .. }, None) => !in_range(want),
+        (Exactness::Rounded { bits }, None) => !in_range::<T>(want, bits),
         (Exactness::Rounded { bits }, Some(value)) => {
-            !in_range(want) || (value - want).abs() <= want.abs() / (BigInt::from(1) << bits)
+            (value - want).abs() <= want.abs() / (BigInt::from(1) << bits)
+                || !in_range::<T>(want, bits)
         }
     };
     if holds {
@@ -305,8 +308,14 @@ fn stands_for<T: Algebra + RealEmbeddable>(
     })
 }
 
-/// Zero, or a magnitude that no scalar of the crate finds extreme.
-fn in_range(want: &BigRational) -> bool {
-    let limit = BigRational::from_integer(BigInt::from(1) << 64);
+/// Returns whether a rational is zero, or of a magnitude that a rounded scalar of so many bits holds with all its digits.
+fn in_range<T: Algebra + RealEmbeddable>(want: &BigRational, bits: u32) -> bool {
+    let power = |e: u32| BigRational::from_integer(BigInt::from(1) << e);
+    let holds = |r: &BigRational| point(&T::from_rational(r)).is_some_and(|value| !value.is_zero());
+    // Where the last of more digits than it has is not lost, neither is one of its own.
+    let in_reach = |e: &u32| holds(&power(*e)) && holds(&power(e + bits).recip());
+    let least = 8;
+    // Not a default: without a floor, a scalar that holds nothing would break no law.
+    let limit = power((least..=64).rev().find(in_reach).unwrap_or(least));
     want.is_zero() || (want.abs() <= limit && want.abs() >= limit.recip())
 }

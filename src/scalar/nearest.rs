@@ -3,7 +3,7 @@
 //! A rational n/d, and a root √(n/d), are scaled by a power of two until their integer part has a
 //! few bits more than the float. What lies below that integer part is summed up in one *sticky* bit:
 //! is it zero or not? Together they decide every rounding, ties to even, through the subnormals
-//! down to zero ([`paper`](crate::paper#exactness)). In front of that is a [screen](super::screen), which tells most floats at a glance.
+//! down to zero ([`paper`](crate::paper#exactness)). In front of that is a [screen](super::screen) of double-doubles, which decides most of them at once.
 
 use num_bigint::BigUint;
 use num_integer::Integer;
@@ -12,11 +12,11 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 mod sealed {
     pub trait Assemble: Sized {
-        /// The float ±`significand` · 2^`exponent`, for a significand of at most one bit more than the float
+        /// Returns the float ±`significand` · 2^`exponent`, for a significand of at most one bit more than the float
         /// has, and an exponent not below the least: `None` when it is too large.
         fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
 
-        /// The float that all numbers between these, times 2^`exponent`, are nearest to, if there is one.
+        /// Returns the float that all numbers between these, times 2^`exponent`, are nearest to, if there is one.
         fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self>;
     }
 }
@@ -44,7 +44,7 @@ pub trait NearestFloat: Assemble + Copy + Send + Sync {
     /// The exponent of the last bit of the smallest subnormal.
     const LEAST_EXPONENT: i64;
 
-    /// The float nearest to `r`, ties to even; `None` when it would be infinite.
+    /// Returns the float nearest to `r`, ties to even; `None` when it would be infinite.
     ///
     /// # Examples
     /// ```
@@ -63,7 +63,7 @@ pub trait NearestFloat: Assemble + Copy + Send + Sync {
     }
 }
 
-/// The float nearest to ±n/d; `None` when it would be infinite. d is not zero.
+/// Returns the float nearest to ±n/d; `None` when it would be infinite. d is not zero.
 pub(super) fn nearest_ratio<F: NearestFloat>(
     negative: bool,
     n: &BigUint,
@@ -74,7 +74,7 @@ pub(super) fn nearest_ratio<F: NearestFloat>(
     round(negative, &quotient, !remainder.is_zero(), -scale)
 }
 
-/// The float nearest to ±√(n/d), which must be irrational, so that there are no ties; `None` when it would be
+/// Returns the float nearest to ±√(n/d), which must be irrational, so that there are no ties; `None` when it would be
 /// infinite. d is not zero.
 pub(super) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &BigUint) -> Option<F> {
     // ⌊√(2^(2s) n/d)⌋ = ⌊√⌊2^(2s) n/d⌋⌋: one integer division, one integer root.
@@ -84,7 +84,7 @@ pub(super) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &Big
     round(negative, &quotient.sqrt(), sticky, -scale)
 }
 
-/// The float nearest to ±(n/d)·√r, where the screen tells it; d is not zero.
+/// Returns the float nearest to ±(n/d)·√r, where the screen decides it; d is not zero.
 pub(super) fn screened<F: NearestFloat>(
     negative: bool,
     n: &BigUint,
@@ -155,12 +155,12 @@ macro_rules! nearest_float {
 nearest_float!(f32, u32, ends_in_f32);
 nearest_float!(f64, u64, ends_in_f64);
 
-/// Both are rounded to f64 already, and the power of two is exact.
+/// Returns the ends times a power of two: both are rounded to f64 already, and the power is exact.
 fn ends_in_f64(ends: [f64; 2], exponent: i32) -> [f64; 2] {
     ends.map(|end| end * power_of_two(exponent))
 }
 
-/// Never rounded twice: the ends in f64 are taken one float further out.
+/// Returns the ends times a power of two, in `f32`. Never rounded twice: those in f64 are taken one float further out.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounded, and compared with the other end"
@@ -169,17 +169,21 @@ fn ends_in_f32([down, up]: [f64; 2], exponent: i32) -> [f32; 2] {
     [down.next_down(), up.next_up()].map(|end| (end * power_of_two(exponent)) as f32)
 }
 
-/// How many bits of a value are computed: enough for the significand, the half and some more.
+/// Returns how many bits of a value are computed: enough for the significand, the half and some more.
 fn guard_bits<F: NearestFloat>() -> i64 {
     i64::from(F::PRECISION) + 3
 }
 
-/// The bit length, as a signed number. No integer that fits in memory exceeds it.
+/// Returns the bit length as a signed number.
+#[expect(
+    clippy::cast_possible_wrap,
+    reason = "2^63 bits are more than any memory holds"
+)]
 fn bits(n: &BigUint) -> i64 {
-    i64::try_from(n.bits()).unwrap_or(i64::MAX / 4)
+    n.bits() as i64
 }
 
-/// Quotient and remainder of 2^`shift` · n / d, with d scaled instead where the shift is negative.
+/// Returns quotient and remainder of 2^`shift` · n / d, with d scaled instead where the shift is negative.
 fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) {
     if shift >= 0 {
         (n << shift).div_rem(d)
@@ -188,7 +192,7 @@ fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) 
     }
 }
 
-/// Rounds ±(m + ε) · 2^exponent, where 0 ≤ ε < 1 and `sticky` tells whether ε > 0.
+/// Rounds ±(m + ε) · 2^exponent, where 0 ≤ ε < 1 and `sticky` says whether ε > 0.
 ///
 /// A sticky value must come with at least two bits more than the significand has.
 fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i64) -> Option<F> {

@@ -157,14 +157,14 @@ fn decimal(text: &str) -> Result<BigRational, Expected> {
     })
 }
 
-/// An integer with an optional sign.
+/// Reads an integer with an optional sign.
 fn signed(text: &str) -> Result<BigInt, Expected> {
     let (negative, rest) = sign(text);
     let unsigned = unsigned(rest)?;
     Ok(if negative { -unsigned } else { unsigned })
 }
 
-/// Whether there is a leading minus, and the text behind the sign.
+/// Returns whether there is a leading minus, and the text behind the sign.
 fn sign(text: &str) -> (bool, &str) {
     match text.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -172,7 +172,7 @@ fn sign(text: &str) -> (bool, &str) {
     }
 }
 
-/// Decimal digits and nothing else.
+/// Reads decimal digits and nothing else.
 fn unsigned(text: &str) -> Result<BigInt, Expected> {
     if text.is_empty() || !text.bytes().all(|b| b.is_ascii_digit()) {
         return Err(NUMBER);

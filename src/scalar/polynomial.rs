@@ -44,10 +44,11 @@ impl Monomial {
         self.0
             .iter()
             .find(|(s, _)| *s == symbol)
+            // Not a default: a symbol that does not occur has the power 0.
             .map_or(0, |(_, power)| *power)
     }
 
-    /// The same monomial without `symbol`.
+    /// Returns the monomial without `symbol`.
     fn without(&self, symbol: Symbol) -> Self {
         Self(
             self.0
@@ -58,7 +59,7 @@ impl Monomial {
         )
     }
 
-    /// The product; `None` if a power leaves `u32`.
+    /// Returns the product; `None` if a power leaves `u32`.
     fn times(&self, other: &Self) -> Option<Self> {
         let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
         for (symbol, power) in &other.0 {
@@ -68,7 +69,7 @@ impl Monomial {
         Some(Self(powers.into_iter().collect()))
     }
 
-    /// The monomial that times `other` is this one, if there is one.
+    /// Returns the monomial that times `other` is this one, if there is one.
     fn over(&self, other: &Self) -> Option<Self> {
         let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
         for (symbol, power) in &other.0 {
@@ -137,7 +138,7 @@ impl PartialEq for Polynomial {
 }
 
 impl Polynomial {
-    /// A constant.
+    /// Returns a constant as a polynomial.
     ///
     /// # Examples
     /// ```
@@ -154,7 +155,7 @@ impl Polynomial {
         Self::canonical(terms.into_iter().collect(), value.denom().clone())
     }
 
-    /// What is left when a power does not fit.
+    /// Returns the fault, for a power that does not fit.
     fn fault() -> Self {
         Self {
             terms: BTreeMap::new(),
@@ -162,7 +163,7 @@ impl Polynomial {
         }
     }
 
-    /// The value, if no symbol occurs.
+    /// Returns the value, if no symbol occurs.
     ///
     /// # Examples
     /// ```
@@ -181,7 +182,7 @@ impl Polynomial {
         }
     }
 
-    /// The total degree; 0 for constants, zero included, and for the fault.
+    /// Returns the total degree; 0 for constants, zero included, and for the fault.
     ///
     /// # Examples
     /// ```
@@ -193,10 +194,12 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn degree(&self) -> u64 {
-        self.terms.keys().next_back().map_or(0, Monomial::degree)
+        let greatest = self.terms.keys().next_back();
+        // Not a default: zero and the fault have no terms, and their degree is 0 by agreement.
+        greatest.map_or(0, Monomial::degree)
     }
 
-    /// The degree in one symbol; 0 if it does not occur.
+    /// Returns the degree in one symbol; 0 if it does not occur.
     ///
     /// # Examples
     /// ```
@@ -212,10 +215,11 @@ impl Polynomial {
             .keys()
             .map(|monomial| monomial.power(symbol))
             .max()
+            // Not a default: zero and the fault have no terms, and their degree is 0 by agreement.
             .unwrap_or(0)
     }
 
-    /// The symbols that occur, in order.
+    /// Returns the symbols that occur, in order.
     ///
     /// # Examples
     /// ```
@@ -239,7 +243,7 @@ impl Polynomial {
         symbols
     }
 
-    /// The polynomial with `value` put in for `symbol`.
+    /// Returns the polynomial with `value` put in for `symbol`.
     ///
     /// # Examples
     /// ```
@@ -259,7 +263,7 @@ impl Polynomial {
             .fold(Self::zero(), |sum, coefficient| sum * value + &coefficient)
     }
 
-    /// The value in any scalar, for given values of the symbols; `None` if one has no value, and for the
+    /// Returns the value in any scalar, for given values of the symbols; `None` if one has no value, and for the
     /// fault.
     ///
     /// # Examples
@@ -297,7 +301,7 @@ impl Polynomial {
         Some(sum)
     }
 
-    /// The polynomial that times `divisor` is this one, or `None` if there is none.
+    /// Returns the polynomial that times `divisor` is this one, or `None` if there is none.
     ///
     /// # Examples
     /// ```
@@ -328,7 +332,7 @@ impl Polynomial {
         Some(quotient)
     }
 
-    /// The coefficients of the powers of `symbol`, from the constant up, as polynomials in the others.
+    /// Returns the coefficients of the powers of `symbol`, from the constant up, as polynomials in the others.
     fn coefficients(&self, symbol: Symbol) -> Vec<Self> {
         let top = self.degree_in(symbol);
         (0..=top)

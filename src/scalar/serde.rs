@@ -267,7 +267,7 @@ struct Ends {
 }
 
 impl<I: FixedInteger> Serialize for FixedRational<I> {
-    /// A fault is no number, and an error.
+    /// Refuses a fault, which is no number.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.to_rational() {
             Some(value) => Number::serialize(&value, serializer),

@@ -46,7 +46,7 @@ pub struct Surd {
 }
 
 impl Surd {
-    /// The number `coefficient`·√`radicand`.
+    /// Returns the number `coefficient`·√`radicand`.
     ///
     /// # Errors
     /// [`Error::NegativeRadicand`] if the radicand is negative: the root would not be real.
@@ -71,7 +71,7 @@ impl Surd {
         Ok(Self::of_valid(coefficient, radicand))
     }
 
-    /// √`square` of a number that is known not to be negative.
+    /// Returns √`square` of a number that is known not to be negative.
     pub(crate) fn root_of(square: BigRational) -> Self {
         debug_assert!(!square.is_negative(), "the root of {square} is not real");
         Self::of_valid(BigRational::one(), square)
@@ -86,7 +86,7 @@ impl Surd {
         Self::normal(coefficient * root, a * b)
     }
 
-    /// √`radicand`.
+    /// Returns √`radicand`.
     ///
     /// # Errors
     /// [`Error::NegativeRadicand`] if the radicand is negative.
@@ -108,7 +108,7 @@ impl Surd {
         Self::new(BigRational::one(), radicand)
     }
 
-    /// The number zero.
+    /// Returns the number zero.
     ///
     /// # Examples
     /// ```
@@ -125,7 +125,7 @@ impl Surd {
         BigRational::zero().into()
     }
 
-    /// Zero has one form.
+    /// Returns `coefficient`·√`radicand`, with one form for zero.
     fn normal(coefficient: BigRational, radicand: BigUint) -> Self {
         if coefficient.is_zero() || radicand.is_zero() {
             return Self {
@@ -139,7 +139,7 @@ impl Surd {
         }
     }
 
-    /// The rational factor c of c·√n.
+    /// Returns the rational factor c of c·√n.
     ///
     /// # Examples
     /// ```
@@ -155,7 +155,7 @@ impl Surd {
         &self.coefficient
     }
 
-    /// The integer n ≥ 1 of c·√n.
+    /// Returns the integer n ≥ 1 of c·√n.
     ///
     /// # Examples
     /// ```
@@ -173,7 +173,7 @@ impl Surd {
         &self.radicand
     }
 
-    /// The square c²n, always rational.
+    /// Returns the square c²n, always rational.
     ///
     /// # Examples
     /// ```
@@ -190,7 +190,7 @@ impl Surd {
         &self.coefficient * &self.coefficient * radicand
     }
 
-    /// The sign, always known.
+    /// Returns the sign, always known.
     ///
     /// # Examples
     /// ```
@@ -208,7 +208,7 @@ impl Surd {
         super::RealEmbeddable::sign(&self.coefficient)
     }
 
-    /// The value itself where it is rational, or `None`.
+    /// Returns the value itself where it is rational, or `None`.
     ///
     /// # Examples
     /// ```
@@ -225,7 +225,7 @@ impl Surd {
         self.radicand.is_one().then(|| self.coefficient.clone())
     }
 
-    /// This number times a rational, exactly; the root is not touched.
+    /// Returns this number times a rational, exactly; the root is not touched.
     ///
     /// # Examples
     /// ```
@@ -241,7 +241,7 @@ impl Surd {
         Self::normal(product(&self.coefficient, factor), self.radicand.clone())
     }
 
-    /// The sum, if the two are multiples of one root, or one of them is zero; `None` otherwise, since it
+    /// Returns the sum, if the two are multiples of one root, or one of them is zero; `None` otherwise, since it
     /// is then no surd (or its common root was not found).
     ///
     /// # Examples
@@ -268,7 +268,7 @@ impl Surd {
         })
     }
 
-    /// 1 / `self`, or `None` for zero.
+    /// Returns 1 / `self`, or `None` for zero.
     ///
     /// # Examples
     /// ```
@@ -290,8 +290,8 @@ impl Surd {
         })
     }
 
-    /// The float nearest to the value, ties to even, subnormals included; `None` when it would be infinite. Decided, never
-    /// guessed: see [`nearest_and_how`](Self::nearest_and_how).
+    /// Returns the float nearest to the value, ties to even, subnormals included; `None` when it would be infinite.
+    /// Decided, never guessed: see [`nearest_and_how`](Self::nearest_and_how).
     ///
     /// # Examples
     /// ```
@@ -308,7 +308,7 @@ impl Surd {
         self.nearest_and_how().0
     }
 
-    /// The same, and what decided it: an enclosure in double-doubles, or, where that holds more than one float, one
+    /// Returns the nearest float and what decided it: an enclosure in double-doubles, or, where that holds more than one float, one
     /// integer square root and a sticky bit.
     ///
     /// # Examples
@@ -340,7 +340,7 @@ impl Surd {
         (float, Decision::Integers)
     }
 
-    /// The square with the sign of the number, which orders surds as the numbers are ordered.
+    /// Returns the square with the sign of the number, which orders surds as the numbers are ordered.
     fn signed_square(&self) -> BigRational {
         if self.coefficient.is_negative() {
             -self.square()
@@ -350,7 +350,7 @@ impl Surd {
     }
 }
 
-/// a·b. In lowest terms once the factors across are out: `Ratio` looks for others all the same, which takes longer than
+/// Returns a·b. In lowest terms once the factors across are out: `Ratio` looks for others all the same, which takes longer than
 /// all the rest.
 fn product(a: &BigRational, b: &BigRational) -> BigRational {
     let (left, right) = (a.numer().gcd(b.denom()), b.numer().gcd(a.denom()));
@@ -363,7 +363,8 @@ fn product(a: &BigRational, b: &BigRational) -> BigRational {
     BigRational::new_raw(numer, denom)
 }
 
-/// `n` = root²·rest, with the squares of small primes taken out, and what the others make up if it is a square.
+/// Returns (root, rest) with `n` = root²·rest: the squares of small primes are in the root, and what the others make up if
+/// it is a square.
 fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
     let (mut root, mut rest) = (BigUint::one(), BigUint::one());
     if n.is_zero() {
@@ -389,7 +390,7 @@ fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
     (root * others, rest * n)
 }
 
-/// (√n, 1) for a square, (1, n) otherwise.
+/// Returns (√n, 1) for a square, (1, n) otherwise.
 fn whole_square(n: BigUint) -> (BigUint, BigUint) {
     let root = n.sqrt();
     if &root * &root == n {
@@ -482,7 +483,7 @@ macro_rules! compare_with_float {
 compare_with_float!(f32 f64);
 
 impl fmt::Display for Surd {
-    /// `7/3`, `sqrt(2)`, `-7/3*sqrt(2)`.
+    /// Writes `7/3`, `sqrt(2)`, `-7/3*sqrt(2)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.radicand.is_one() {
             return write!(f, "{}", self.coefficient);

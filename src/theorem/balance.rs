@@ -145,7 +145,7 @@ fn unit_directions(f: &Formulas) -> Vec<Step> {
 
 fn equilibrium(f: &Formulas) -> Vec<Step> {
     let (setting, here) = (Setting::isosceles(f), above(f));
-    let to_below = setting.to_below(f, setting.from_above(f, &here));
+    let to_below = setting.to_below(f, setting.received(f, &here));
     let supports = Vector::combination(&to_below, &setting.directions);
     let load = setting.handed_on(f, &here);
     let left = setting.unbalanced(f, &here);
@@ -183,13 +183,12 @@ fn surface(f: &Formulas) -> Vec<Step> {
     ];
     faces
         .into_iter()
-        .enumerate()
-        .map(|(line, (claim, (i, j, k)))| {
-            let forces = setting.from_above(f, &(f.above)(i, j, k));
-            let force = forces.into_iter().nth(line).unwrap_or_else(P::one);
+        .zip(Direction::ALL)
+        .map(|((claim, (i, j, k)), direction)| {
+            let forces = setting.received(f, &(f.above)(i, j, k));
             Step::equal(
                 format!("no force from above along {claim}"),
-                force,
+                forces[direction.index()].clone(),
                 P::zero(),
             )
         })
@@ -199,21 +198,20 @@ fn surface(f: &Formulas) -> Vec<Step> {
 fn action_reaction(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
     let [i, j, k] = ["i", "j", "k"].map(symbol);
-    let given = setting.to_below(f, setting.from_above(f, &above(f)));
+    let given = setting.to_below(f, setting.received(f, &above(f)));
     Direction::ALL
         .into_iter()
         .zip(given)
-        .enumerate()
-        .map(|(line, (direction, given))| {
+        .map(|(direction, given)| {
             let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
             let below = (f.above)(
                 &(i.clone() + &di),
                 &(j.clone() + &dj),
                 &(k.clone() + &int(1)),
             );
-            let received = setting.from_above(f, &below).into_iter().nth(line);
+            let received = setting.received(f, &below);
             let claim = format!("{direction}: given above = received below");
-            Step::equal(claim, given, received.unwrap_or_else(P::zero))
+            Step::equal(claim, given, received[direction.index()].clone())
         })
         .collect()
 }
@@ -221,7 +219,7 @@ fn action_reaction(f: &Formulas) -> Vec<Step> {
 fn central_force(f: &Formulas) -> Vec<Step> {
     let (setting, here) = (Setting::equilateral(f), above(f));
     let [i, j, k] = ["i", "j", "k"].map(symbol);
-    let force = (f.resultant)(&setting.from_above(f, &here), &setting.directions);
+    let force = (f.resultant)(&setting.received(f, &here), &setting.directions);
     let at = (f.position)(&here, &setting.directions);
     let across = int(3) * &j - &k;
     let along = int(2) * &i + &j - &k;

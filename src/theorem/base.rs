@@ -131,7 +131,7 @@ fn uniform_base(f: &Formulas) -> Vec<Step> {
     let difference = here - &there;
     let factor = int(2) * &setting.s - &int(1);
     let rows = symbol("j") - &symbol("j'");
-    // Not divisible at all: shown as a step that fails.
+    // Not a default: not divisible at all, it shows as a step that fails.
     let quotient = difference.divide_exactly(&factor).unwrap_or_else(P::zero);
     let at_half = difference.substitute(Symbol("s"), &super::setting::half());
     Vec::from([

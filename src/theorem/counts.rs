@@ -92,18 +92,14 @@ fn counts(f: &Formulas) -> Vec<Step> {
         }
     }
     let surfaces = [
-        (&i, &j, &(i.clone() + &j), 0),
-        (&zero, &j, &k, 1),
-        (&i, &zero, &k, 2),
+        (&i, &j, &(i.clone() + &j)),
+        (&zero, &j, &k),
+        (&i, &zero, &k),
     ];
-    for (i, j, k, line) in surfaces {
-        let name = names.get(line).unwrap_or(&"N");
+    for ((i, j, k), direction) in surfaces.into_iter().zip(Direction::ALL) {
+        let name = names[direction.index()];
         let claim = format!("surface ({i}, {j}, {k}): {name} = 0");
-        let [alpha, beta, gamma] = (f.above)(i, j, k);
-        let n = [alpha, beta, gamma]
-            .into_iter()
-            .nth(line)
-            .unwrap_or_else(P::one);
+        let n = (f.above)(i, j, k)[direction.index()].clone();
         steps.push(Step::equal(claim, n, zero.clone()));
     }
     steps

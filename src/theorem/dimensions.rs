@@ -74,25 +74,23 @@ fn discs(f: &Formulas) -> Vec<Step> {
 
 fn dimensions(f: &Formulas) -> Vec<Step> {
     let mut steps = Vec::new();
-    in_dimension::<2>(f, &mut steps);
-    in_dimension::<3>(f, &mut steps);
-    in_dimension::<4>(f, &mut steps);
-    in_dimension::<5>(f, &mut steps);
-    in_dimension::<6>(f, &mut steps);
+    for d in 2..=6 {
+        in_dimension(f, d, &mut steps);
+    }
     steps
 }
 
 const COUNTS: [&str; 6] = ["n_1", "n_2", "n_3", "n_4", "n_5", "n_6"];
 const FORCES: [&str; 6] = ["g_1", "g_2", "g_3", "g_4", "g_5", "g_6"];
 
-fn in_dimension<const D: usize>(f: &Formulas, steps: &mut Vec<Step>) {
-    let d = u32::try_from(D).unwrap_or(u32::MAX);
+fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
     let dimension = int(d.into());
     let (l, k) = (symbol("L"), symbol("k"));
-    let named = |names: [&'static str; 6]| -> [P; D] {
-        core::array::from_fn(|m| symbol(names.get(m).copied().unwrap_or("n")))
+    let named = |names: [&'static str; 6]| -> Vec<P> {
+        let lines = (0..d).zip(names);
+        lines.map(|(_, name)| symbol(name)).collect()
     };
-    let own: [P; D] = core::array::from_fn(|_| P::one());
+    let own: Vec<P> = (0..d).map(|_| P::one()).collect();
     let weight = (f.weight)(&own);
     let claim = |text: &str| format!("d = {d}: {text}");
     // A sphere passes on one increment more than it receives along each of its lines, whatever that is.
@@ -107,7 +105,7 @@ fn in_dimension<const D: usize>(f: &Formulas, steps: &mut Vec<Step>) {
         weight.clone(),
     ));
     // d times the horizontal part of a direction in d coordinates that sum to zero: d−1 along its own, −1 along the others.
-    for coordinate in 0..D {
+    for coordinate in 0..own.len() {
         let components = added.iter().enumerate().map(|(line, more)| {
             let part = if line == coordinate {
                 dimension.clone() - &P::one()

@@ -10,6 +10,8 @@ type P = Polynomial;
 type Three = [P; 3];
 /// ê_a, ê_b, ê_c.
 type Directions = [Vector<P>; 3];
+/// From i, j, lower and upper bounds, steps and their sign: four numbers for each line.
+type BoundsAbove = fn(&P, &P, &Three, &Three, &P, Sign) -> [[P; 4]; 3];
 
 /// The formulas of the crate, run on polynomials: what each one means is said where it links to.
 ///
@@ -19,7 +21,7 @@ pub struct Formulas {
     /// [`count::above`].
     pub above: fn(&P, &P, &P) -> Three,
     /// [`count::bounds_above`].
-    pub bounds_above: fn(&P, &P, &Three, &Three, &P, Sign) -> [[P; 4]; 3],
+    pub bounds_above: BoundsAbove,
     /// [`Sign::descent`].
     pub descent: fn(Sign, Direction) -> [i128; 2],
     /// [`count::spheres`].

@@ -67,7 +67,7 @@ impl Setting {
     }
 
     /// The forces from above on a sphere with so many above it on its lines.
-    pub(super) fn from_above(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
+    pub(super) fn received(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
         let [w_a, w_b, w_c] = &self.increments;
         [
             (f.force)(a.clone(), w_a),
@@ -83,7 +83,7 @@ impl Setting {
 
     /// What a sphere of weight `n` adds to its lines, and that weight in the unit of forces.
     pub(super) fn loaded(&self, f: &Formulas, n: &P) -> ([P; 3], P) {
-        let own = self.from_above(f, &[n.clone(), n.clone(), n.clone()]);
+        let own = self.received(f, &[n.clone(), n.clone(), n.clone()]);
         (own, (f.force)(n.clone(), &self.weight))
     }
 
@@ -94,12 +94,12 @@ impl Setting {
 
     /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
     pub(super) fn handed_on(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
-        (f.handed_on)(&self.from_above(f, above), &self.directions, &self.weight)
+        (f.handed_on)(&self.received(f, above), &self.directions, &self.weight)
     }
 
     /// What is left over of all forces on such a sphere.
     pub(super) fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
-        let from_above = self.from_above(f, above);
+        let from_above = self.received(f, above);
         let to_below = self.to_below(f, from_above.clone());
         let e = &self.directions;
         (f.unbalanced)(&to_below, e, &from_above, e, &self.weight)

@@ -40,8 +40,8 @@ pub(super) const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "tripled-half-turn",
-        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, which the exact engine computes, and (2(g_2+g_3) − g_1, …), which bounds \
-                    are computed by, are 3Gg; an identity",
+        statement: "2(g_1+g_2+g_3)(1,1,1) − 3g, by which integers are turned, and (2(g_2+g_3) − g_1, …), by which bounds and \
+                    the limbs of the exact engine are, are 3Gg; an identity",
         hypotheses: "any forces",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3",
@@ -316,6 +316,34 @@ fn horizontal([x, y]: [P; 2]) -> Vector<P> {
     Vector { x, y, z: P::zero() }
 }
 
+/// What a loaded sphere adds to its lines, in the unit of the load: W = 3.
+fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<Step> {
+    let third = P::one().div_int(THREE);
+    let v = increments.clone().map(|w| w.div_int(THREE));
+    let claims = [
+        ("Σv = 1", sum(&v, |_| P::one()), P::one()),
+        ("Σv² = 1/3", sum(&v, |line| v[line].clone()), third),
+        (
+            "Σv r along x = 0",
+            sum(&v, |line| down[line].x.clone()),
+            P::zero(),
+        ),
+        (
+            "Σv r along y = 0",
+            sum(&v, |line| down[line].y.clone()),
+            P::zero(),
+        ),
+        (
+            "Σv r² = ρ²",
+            sum(&v, |line| dot(&down[line], &down[line])),
+            P::one(),
+        ),
+    ];
+    let step =
+        |(claim, left, right)| Step::equal(format!("first layer, {name}: {claim}"), left, right);
+    claims.map(step).into()
+}
+
 fn point_load(f: &Formulas) -> Vec<Step> {
     let setting = Setting::equilateral(f);
     // The step of a contact: from a sphere to the next one down its line.
@@ -332,36 +360,8 @@ fn point_load(f: &Formulas) -> Vec<Step> {
         ("−", steps_under(&setting.turned_directions(f))),
     ];
     let mut steps = Vec::new();
-    // What the loaded sphere adds to its lines, in the unit of the load: W = 3.
-    let thirds = setting.increments.clone().map(|w| w.div_int(THREE));
     for (name, down) in &signs {
-        let third = P::one().div_int(THREE);
-        let first = [
-            ("Σv = 1", sum(&thirds, |_| P::one()), P::one()),
-            (
-                "Σv² = 1/3",
-                sum(&thirds, |line| thirds[line].clone()),
-                third,
-            ),
-            (
-                "Σv r along x = 0",
-                sum(&thirds, |line| down[line].x.clone()),
-                P::zero(),
-            ),
-            (
-                "Σv r along y = 0",
-                sum(&thirds, |line| down[line].y.clone()),
-                P::zero(),
-            ),
-            (
-                "Σv r² = ρ²",
-                sum(&thirds, |line| dot(&down[line], &down[line])),
-                P::one(),
-            ),
-        ];
-        steps.extend(first.map(|(claim, left, right)| {
-            Step::equal(format!("first layer, {name}: {claim}"), left, right)
-        }));
+        steps.extend(first_layer(&setting.increments, name, down));
     }
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let r = horizontal(["x", "y"].map(symbol));

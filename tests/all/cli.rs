@@ -155,13 +155,6 @@ fn selections() {
             .count(),
         1 + 1
     );
-    // A sphere on the floor has no contact below.
-    assert_eq!(
-        stdout("contacts --layers 5 --at 1,1 --format csv")
-            .lines()
-            .count(),
-        1
-    );
     assert_eq!(
         stdout("base --dimension 2 --layers 5 --at 2 --format csv")
             .lines()
@@ -227,7 +220,13 @@ fn bad_values_are_named_with_their_remedy() {
         ("base --colour red", ["--colour", "unexpected"]),
         ("base --number f16", ["--number", "f32"]),
         ("heap", ["heap", "unrecognized"]),
-        ("", ["subcommand", "base"]),
+        ("contacts --at 1,1", ["--at", "command base"]),
+        (
+            "contacts --layers 100000000 --layer 99999998",
+            ["one sphere", "(--at)"],
+        ),
+        ("base 3", ["'3'", "'cannonpile base --help'"]),
+        ("base --format json --output x.csv", ["--format", "csv"]),
     ] {
         let line = refusal(arguments);
         for fragment in fragments {
@@ -259,6 +258,43 @@ fn a_file_is_whole_or_not_there() {
     assert_eq!(fs::read_to_string(&path).expect("the file"), written);
     assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 1);
     fs::remove_dir_all(&folder).expect("cleaned up");
+}
+
+#[test]
+fn the_ending_of_a_file_is_its_format() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, option) in [
+        ("base.csv", "csv"),
+        ("base.json", "json"),
+        ("base.txt", "table"),
+        ("base", "table"),
+    ] {
+        let path = folder.path().join(name);
+        stdout(&format!("base --layers 3 --output {}", path.display()));
+        let written = fs::read_to_string(path).expect("a file");
+        assert_eq!(
+            written,
+            stdout(&format!("base --layers 3 --format {option}"))
+        );
+    }
+}
+
+#[test]
+fn bare_commands_ask_for_help() {
+    assert_eq!(stdout(""), stdout("--help"));
+    assert_eq!(stdout("plot"), stdout("plot --help"));
+}
+
+/// What is asked of one sphere is answered before the verdict on a pile of millions of layers could be.
+#[test]
+fn one_sphere_does_not_wait_for_the_pile() {
+    for command in ["spheres", "contacts"] {
+        stdout(&format!("{command} --at 0,0,0 --stacking=(9000000,1)"));
+    }
+    let output = cannonpile("contacts --stacking hcp --layers 7 --layer 5");
+    let note = String::from_utf8(output.stderr).expect("text");
+    assert!(note.contains("does not stand"), "{note}");
+    stdout("contacts --stacking hcp --layers 7 --at 0,0,0");
 }
 
 #[test]

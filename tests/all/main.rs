@@ -10,6 +10,7 @@ mod scalar {
     mod double_double;
     mod fixed_width;
     mod flaws;
+    mod half;
     mod interval;
     mod laws;
     mod nearest;

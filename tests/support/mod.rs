@@ -6,6 +6,7 @@
 //! | `cases`, `compare` | piles of any stacking made twice, for the library and for an oracle; their answers compared |
 //! | `judge` | which float is nearest to a number |
 //! | `oracles` | what the library is compared with |
+//! | `pair` | two scalars in step, and the first operation at which they part |
 //! | `rounding` | the cases of which every float must be the nearest |
 //! | `stress` | piles at the limits of floats, and how far off each way to compute is there |
 //! | `theorems` | what must hold of the answers about any straight pile |
@@ -17,6 +18,7 @@ pub(crate) mod cases;
 pub(crate) mod compare;
 pub(crate) mod judge;
 pub(crate) mod oracles;
+pub(crate) mod pair;
 pub(crate) mod rounding;
 pub(crate) mod stress;
 pub(crate) mod theorems;

@@ -128,7 +128,9 @@ impl Slopes {
     /// Of a row of `n` places that begins at `start`; it fits in memory, and so do all counts.
     pub(crate) fn new(count: Trapezoid, start: i128, n: usize) -> Self {
         const FAR: i64 = i64::MAX / 4;
-        let near = |i: i128| i64::try_from(i).unwrap_or(FAR).clamp(-FAR, FAR);
+        #[expect(clippy::cast_possible_truncation, reason = "|i| ≤ FAR")]
+        // Not a default: what is further off than any row is long is on the same side of the row from there.
+        let near = |i: i128| i.clamp(-i128::from(FAR), FAR.into()) as i64;
         let cap = near(count.cap);
         let rises = count.rises.map_or(-FAR, |from| near(from - start));
         let falls = count.falls.map_or(FAR, |until| near(until - start));
@@ -147,20 +149,26 @@ impl Slopes {
 
     /// `values[count]` along a piece of the row; as many as there are places, unless `values` is too short for a count.
     pub(crate) fn along<'v, V>(&self, piece: Range<usize>, values: &'v [V]) -> Along<'v, V> {
+        // Not a default: the part of a slope that lies in the piece.
         let inside = |place: usize| place.clamp(piece.start, piece.end);
         let (rise, fall) = (inside(self.level.start), inside(self.level.end));
         // Counts from one place of the row to another, of which the first is the least.
-        let counts = |least: i64, places: usize| {
-            let first = usize::try_from(least).unwrap_or(usize::MAX);
-            let values = values.get(first..).unwrap_or_default();
-            values.get(..places).unwrap_or(values)
+        let counts = |least: Option<i64>, places: usize| -> &'v [V] {
+            let first = least.and_then(|least| usize::try_from(least).ok());
+            match first.and_then(|first| values.get(first..)) {
+                Some(values) => values.get(..places).unwrap_or(values),
+                // Too few values: the slices are then shorter than the piece, which is refused where they are written.
+                None => &[],
+            }
         };
-        let place = |place: usize| i64::try_from(place).unwrap_or(i64::MAX / 4);
+        let place = |place: usize| i64::try_from(place).ok();
         let cap = usize::try_from(self.cap).ok();
+        let first = place(piece.start).map(|start| start - self.rises);
+        let last = place(piece.end).map(|end| self.falls - end + 1);
         Along {
-            up: counts(place(piece.start) - self.rises, rise - piece.start),
+            up: counts(first, rise - piece.start),
             level: cap.and_then(|cap| values.get(cap)).filter(|_| rise < fall),
-            down: counts(self.falls - place(piece.end) + 1, piece.end - fall),
+            down: counts(last, piece.end - fall),
         }
     }
 }

@@ -111,9 +111,9 @@ impl SceneOptions {
     }
 
     /// Returns the failure of a command whose numbers are floats: what does not fit there comes of the sizes.
-    pub(crate) fn beyond_floats(&self, error: Error, scene: &Scene) -> Failure {
-        let Error::Overflow { quantity, scalar } = error else {
-            return error.into();
+    pub(crate) fn beyond_floats(&self, refused: Refused, scene: &Scene) -> Failure {
+        let Error::Overflow { quantity, scalar } = &*refused.error else {
+            return refused.into();
         };
         let (place, remedy) = match farthest_from_one(scene) {
             Culprit::Load => (self.place(Culprit::Load), "use smaller loads"),

@@ -106,7 +106,7 @@ impl Command for Export {
         let written = files.write(&formats, &self.folder, &mut |rows| progress.advance(rows));
         drop(progress);
         let written = written.map_err(|error| match error {
-            WriteError::Answer(error) => self.scene.beyond_floats(error, &scene),
+            WriteError::Answer(error) => self.scene.beyond_floats(error.into(), &scene),
             error => error.into(),
         })?;
         write_to(self.list.as_deref(), |out| {

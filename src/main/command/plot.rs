@@ -253,9 +253,6 @@ impl Measured {
         let drawn = draw(&subject, pile);
         drop(progress);
         // A figure has no other numbers than floats.
-        drawn.map_err(|refused| match refused.error {
-            error @ Error::Overflow { .. } => self.of.scene.beyond_floats(error, scene),
-            _ => refused.into(),
-        })
+        drawn.map_err(|refused| self.of.scene.beyond_floats(refused, scene))
     }
 }

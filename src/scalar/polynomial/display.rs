@@ -23,7 +23,7 @@ impl fmt::Display for Monomial {
 }
 
 impl fmt::Display for Polynomial {
-    /// Terms by falling degree, with the common denominator outside.
+    /// Writes the terms by falling degree, with the common denominator outside.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.terms.is_empty() {
             return f.write_str(if self.is_defined() { "0" } else { "overflow" });

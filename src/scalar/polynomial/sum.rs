@@ -9,7 +9,7 @@ use super::{Polynomial, Symbol};
 use crate::scalar::Algebra;
 
 impl Polynomial {
-    /// Σ `self` over the integers `symbol` = `from` … `to`, as a polynomial in the other symbols.
+    /// Returns Σ `self` over the integers `symbol` = `from` … `to`, as a polynomial in the other symbols.
     ///
     /// Written F(`to` + 1) − F(`from`) with F(x+1) − F(x) = `self`: for `to` ≥ `from` − 1 this is the sum term
     /// by term, the empty one included, and beyond that its analytic continuation. The bounds may contain any
@@ -46,7 +46,7 @@ impl Polynomial {
     }
 }
 
-/// S_p(n) = 0^p + 1^p + … + (n−1)^p for p = 0 … `count` − 1.
+/// Returns S_p(n) = 0^p + 1^p + … + (n−1)^p for p = 0 … `count` − 1.
 ///
 /// From n^(p+1) = Σ_{m ≤ p} C(p+1, m) S_m(n): S_p = (n^(p+1) − Σ_{m < p} C(p+1, m) S_m)/(p+1).
 fn power_sums(n: &Polynomial, count: usize) -> Vec<Polynomial> {
@@ -70,7 +70,7 @@ fn power_sums(n: &Polynomial, count: usize) -> Vec<Polynomial> {
     sums
 }
 
-/// From C(p, 0 … p−1) to C(p+1, 0 … p).
+/// Returns C(p+1, 0 … p), from C(p, 0 … p−1).
 fn next_row(row: &[Polynomial]) -> Vec<Polynomial> {
     let mut next = Vec::with_capacity(row.len() + 1);
     let mut left = Polynomial::zero();

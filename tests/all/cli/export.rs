@@ -110,7 +110,7 @@ fn what_is_refused_leaves_nothing() {
         ("export {}/new --mass 1e999", ["--mass", "other units"]),
         (
             "export {}/new --output {}/./new/base.csv",
-            ["--output", "another file"],
+            ["--list", "another file"],
         ),
         ("export {}/new --to lammps --mass 1e-400", ["--mass", "f64"]),
         (
@@ -128,6 +128,33 @@ fn what_is_refused_leaves_nothing() {
             );
         }
         assert_eq!(names(folder.path()), ["file"], "{arguments}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_takes_away_what_was_begun() {
+    use std::process::{Command, Stdio};
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    for (signal, status) in [("INT", 130), ("TERM", 143)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let into = folder.path().join("new/pile");
+        let mut export = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+            .args(["export", "--layers", "1000"])
+            .arg(&into)
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the binary runs");
+        while !into.exists() || names(&into).is_empty() {
+            sleep(Duration::from_millis(10));
+        }
+        let id = export.id().to_string();
+        let sent = Command::new("kill").args(["-s", signal, &id]).status();
+        assert!(sent.expect("a signal").success());
+        assert_eq!(export.wait().expect("it ends").code(), Some(status));
+        assert!(names(folder.path()).is_empty(), "{signal}");
     }
 }
 

@@ -99,7 +99,7 @@ fn a_pile_that_falls_is_told() {
         let told = String::from_utf8(output.stderr).expect("text");
         assert_eq!(told.lines().count(), 1, "{told}");
         assert!(
-            told.contains("does not stand") && told.contains("below layer 4"),
+            told.contains("does not stand") && told.contains("below layer k = 4"),
             "{told}"
         );
     }

@@ -240,7 +240,7 @@ fn bad_use_is_refused_in_one_line() {
         ),
         (
             "verify no/such.csv".into(),
-            "error: FILE: no/such.csv cannot be read: entity not found; name a file that is there, or - for stdin\n".into(),
+            "error: FILE: no/such.csv cannot be read: no such file or folder; name a file that is there, or - for stdin\n".into(),
         ),
         (
             format!("verify {good} --layers 3 --mass 1e-350"),

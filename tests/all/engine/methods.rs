@@ -2,13 +2,15 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
-use cannonpile::scalar::{Algebra, FixedRational, Interval, Pair, RealEmbeddable};
+use cannonpile::scalar::{Algebra, FixedRational, Interval, RealEmbeddable};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Counters, Error, Method, Packing, Pile, Plan, Quantity, Question};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::Signed;
+
+use crate::support::pair::Pair;
 
 const METHODS: [Method; 3] = [Method::Closed, Method::Tree, Method::Sweep];
 

@@ -105,10 +105,12 @@ fn arrows_of_any_pile_are_the_exact_forces() {
         for (site, force) in &forces {
             let exact = statics.on_floor(*site).unwrap();
             let [x, y] = [Surd::from(exact.shear_x), across.scaled(&exact.shear_y)];
-            assert_eq!(*force, [x, y].map(|part| part.nearest::<f64>().unwrap()));
+            assert_eq!(force.map(Some), [x, y].map(|part| part.nearest()));
         }
         let drawn = of_class(&document, "arrow");
-        let acting = forces.iter().filter(|(_, force)| *force != [0.0; 2]);
+        let acting = forces
+            .iter()
+            .filter(|(_, force)| force.iter().any(|part| *part != 0.0));
         assert_eq!(drawn.len(), acting.count());
         if drawn.is_empty() {
             assert!(of_class(&document, "key").is_empty());

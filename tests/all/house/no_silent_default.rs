@@ -19,20 +19,6 @@ const STILL: &[(&str, usize)] = &[
     ("forces/ends.rs", 1),
     ("forces/layers.rs", 4),
     ("forces/nearest.rs", 2),
-    ("lattice/region/lines.rs", 5),
-    ("pile/loading.rs", 1),
-    ("scalar/double_double.rs", 2),
-    ("scalar/error_free.rs", 3),
-    ("scalar/float.rs", 1),
-    ("scalar/interval.rs", 3),
-    ("scalar/nearest.rs", 1),
-    ("scalar/polynomial.rs", 3),
-    ("scalar/screen.rs", 1),
-    ("shape.rs", 1),
-    ("theorem/balance.rs", 2),
-    ("theorem/base.rs", 1),
-    ("theorem/counts.rs", 2),
-    ("theorem/dimensions.rs", 2),
 ];
 
 /// What is called with the value that is taken instead.

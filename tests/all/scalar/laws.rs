@@ -1,8 +1,9 @@
 //! Every scalar of the crate obeys the laws, on operands chosen to break them.
 
 use crate::support::answers::ratio;
+use crate::support::pair::Pair;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, FixedInteger, FixedRational, Interval, Pair, Polynomial,
+    Algebra, DoubleDouble, Field, FixedInteger, FixedRational, Interval, Polynomial,
     RealEmbeddable, Ring, Symbol, laws,
 };
 use num_bigint::BigInt;

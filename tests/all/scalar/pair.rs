@@ -6,13 +6,15 @@ use core::ops::{Add, Mul, Neg, Sub};
 use cannonpile::Pile;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Enclosure, Exactness, Field, FixedRational, Interval, Pair,
-    RealEmbeddable, RealSign, Ring,
+    Algebra, DoubleDouble, Enclosure, Exactness, Field, FixedRational, Interval, RealEmbeddable,
+    RealSign, Ring,
 };
 use cannonpile::shape::Selection;
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};
+
+use crate::support::pair::Pair;
 
 /// Which operation of [`Planted`] is wrong.
 const SUM: u8 = 0;

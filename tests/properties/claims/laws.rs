@@ -4,13 +4,14 @@
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, FixedRational, Interval, Pair, RealEmbeddable, laws,
+    Algebra, DoubleDouble, Field, FixedRational, Interval, RealEmbeddable, laws,
 };
 use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::{Checked, in_lowest_terms, same};
 use crate::generators::number;
+use crate::support::pair::Pair;
 
 /// All scalars of the crate on the same operands.
 pub(crate) fn every_scalar(u: &mut Unstructured<'_>) -> Checked {

@@ -1,25 +1,21 @@
 //! Two scalars in step: which operation is the first at which they part?
 
-use alloc::boxed::Box;
-use alloc::format;
-use alloc::string::String;
 use core::fmt;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
+use cannonpile::scalar::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
-
 /// The first operation after which two scalars stood for different numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Parting {
+pub(crate) struct Parting {
     /// The operation, such as `a * b`.
-    pub operation: &'static str,
+    pub(crate) operation: &'static str,
     /// What each scalar made of it.
-    pub values: String,
+    pub(crate) values: String,
 }
 
 impl fmt::Display for Parting {
@@ -34,23 +30,8 @@ impl fmt::Display for Parting {
 /// 2^(−p/2) of its value first, so it parts when half its digits are wrong. One of them undefined is a parting
 /// too. The record is carried along by every operation, so a whole computation is checked by looking at its
 /// result.
-///
-/// # Examples
-/// Which operation ruins this? The subtraction, not the sum.
-/// ```
-/// use cannonpile::scalar::{Pair, Ring};
-/// use num_rational::BigRational;
-/// use num_traits::One;
-///
-/// type Checked = Pair<BigRational, f64>;
-/// let big = Checked::from_i128(10_i128.pow(20));
-/// let sum = big.clone() + &Checked::one();
-/// assert!(sum.parting().is_none());
-/// let difference = sum - &big;
-/// assert_eq!(difference.parting().unwrap().operation, "a - b");
-/// ```
 #[derive(Clone, Debug)]
-pub struct Pair<A, B> {
+pub(crate) struct Pair<A, B> {
     first: A,
     second: B,
     parting: Option<Box<Parting>>,
@@ -62,16 +43,7 @@ where
     B: Field + RealEmbeddable,
 {
     /// Two values that are meant to be the same number.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::Pair;
-    ///
-    /// assert!(Pair::new(0.1_f64, 0.1_f32).parting().is_none());
-    /// assert_eq!(Pair::new(0.1_f64, 0.2_f32).parting().unwrap().operation, "a value");
-    /// ```
-    #[must_use]
-    pub fn new(first: A, second: B) -> Self {
+    pub(crate) fn new(first: A, second: B) -> Self {
         Self {
             first,
             second,
@@ -81,50 +53,17 @@ where
     }
 
     /// The value in the first scalar.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Algebra, Pair};
-    /// use num_rational::BigRational;
-    ///
-    /// let third = Pair::<BigRational, f64>::from_rational(&BigRational::new(1.into(), 3.into()));
-    /// assert_eq!(third.first().to_string(), "1/3");
-    /// ```
-    #[must_use]
-    pub fn first(&self) -> &A {
+    pub(crate) fn first(&self) -> &A {
         &self.first
     }
 
     /// The value in the second scalar.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Algebra, Pair};
-    /// use num_rational::BigRational;
-    ///
-    /// let third = Pair::<BigRational, f64>::from_rational(&BigRational::new(1.into(), 3.into()));
-    /// assert_eq!(third.second(), &(1.0 / 3.0));
-    /// ```
-    #[must_use]
-    pub fn second(&self) -> &B {
+    pub(crate) fn second(&self) -> &B {
         &self.second
     }
 
     /// The first operation on the way here at which the two parted.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Pair, Ring};
-    /// use num_rational::BigRational;
-    ///
-    /// let [one, big] = [1, 10_i128.pow(20)].map(Pair::<BigRational, f64>::from_i128);
-    /// let lost = big.clone() + &one - &big;
-    /// // Carried along; later ones are not recorded.
-    /// let product = lost * &big;
-    /// assert_eq!(product.parting().unwrap().operation, "a - b");
-    /// ```
-    #[must_use]
-    pub fn parting(&self) -> Option<&Parting> {
+    pub(crate) fn parting(&self) -> Option<&Parting> {
         self.parting.as_deref()
     }
 
