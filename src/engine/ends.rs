@@ -85,3 +85,77 @@ impl<T: Algebra> Lines<'_, T> {
         rows
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use num_rational::BigRational;
+
+    use super::*;
+    use crate::Pile;
+    use crate::engine::Wanted;
+    use crate::lattice::{Region, Site};
+
+    /// Straight, with changes of sign, on lines of odd and even length, with a load inside and one on the floor.
+    fn piles() -> Vec<Pile> {
+        let tops = [
+            Region::SITE,
+            Region::hexagon(4, 2).unwrap(),
+            Region::new(-3..=3, -4..=4, -2..=5).unwrap(),
+            Region::triangle(7).unwrap(),
+        ];
+        let stackings = ["(9)", "-(8)", "(1,8)", "(6,1,5)", "-(2,9)"];
+        let mut piles = Vec::new();
+        for (n, top) in tops.into_iter().enumerate() {
+            for (m, stacking) in stackings.into_iter().enumerate() {
+                let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+                let sites: Vec<Site> = pile.shape().sites().collect();
+                let load = BigRational::from_integer(100.into());
+                let last = pile.clone().with_load(sites[sites.len() - 9], load.clone());
+                let inside = sites[sites.len() / (2 + m) + n];
+                piles.extend([pile.with_load(inside, load).unwrap(), last.unwrap()]);
+                piles.push(Pile::under(top, stacking.parse().unwrap()).unwrap());
+            }
+        }
+        piles
+    }
+
+    /// Where a site is not listed, each force is halfway between those beside it: no end of a piece is left out.
+    #[test]
+    fn forces_are_linear_between_them() {
+        let mut unlisted = 0;
+        for pile in piles() {
+            let system = pile.system();
+            let lines = Lines::<BigRational>::new(&system);
+            for k in 1..pile.layers() {
+                for (j, ends) in lines.ends_of_pieces(k).unwrap() {
+                    let row = pile
+                        .shape()
+                        .layer(k)
+                        .unwrap()
+                        .rows(k)
+                        .find(|row| row.j == j)
+                        .unwrap();
+                    let sites: Vec<[i128; 2]> = row.i.map(|i| [i, j]).collect();
+                    let forces = lines.forces_above(k, &sites, Wanted::All).unwrap().forces;
+                    for n in 1..sites.len().saturating_sub(1) {
+                        if ends.contains(&sites[n]) {
+                            continue;
+                        }
+                        unlisted += 1;
+                        for line in 0..3 {
+                            let [a, b, c] = [n - 1, n, n + 1].map(|n| &forces[n][line]);
+                            assert_eq!(
+                                a + c,
+                                b + b,
+                                "{} {:?} k={k}",
+                                pile.shape().stacking(),
+                                sites[n]
+                            );
+                        }
+                    }
+                }
+            }
+        }
+        assert!(unlisted > 1000, "{unlisted}");
+    }
+}

@@ -6,7 +6,7 @@ use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::support::oracles::naive::{Naive, Place, Sites, ratio, site};
+use crate::support::oracles::balance::{Balance, Place, Sites, ratio, site};
 
 /// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁.
 #[derive(Clone, Copy, Debug)]
@@ -49,62 +49,62 @@ impl Bounds {
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
     pub(crate) pile: Pile,
-    pub(crate) naive: Naive,
+    pub(crate) balance: Balance,
 }
 
 impl Case {
     pub(crate) fn under(top: &Bounds, signs: &str) -> Self {
         Self {
             pile: Pile::under(top.region(), stacking(signs)).expect("a small pile"),
-            naive: Naive::under(&top.sites(), signs),
+            balance: Balance::under(&top.sites(), signs),
         }
     }
 
     /// `None` if the base does not carry that many layers, by the oracle.
     pub(crate) fn on(base: &Bounds, signs: &str) -> Option<Self> {
-        let naive = Naive::on(&base.sites(), signs)?;
+        let balance = Balance::on(&base.sites(), signs)?;
         let pile = Pile::on(base.region(), stacking(signs)).expect("a pile that fits");
-        Some(Self { pile, naive })
+        Some(Self { pile, balance })
     }
 
     pub(crate) fn weightless(self) -> Self {
-        let (pile, mut naive) = (self.pile.weightless(), self.naive);
-        assert!(naive.weights.is_empty(), "loads come after");
-        naive.ordinary = BigRational::zero();
-        Self { pile, naive }
+        let (pile, mut balance) = (self.pile.weightless(), self.balance);
+        assert!(balance.weights.is_empty(), "loads come after");
+        balance.ordinary = BigRational::zero();
+        Self { pile, balance }
     }
 
     /// With a load more on a sphere.
     pub(crate) fn with_load(self, place: Place, load: &BigRational) -> Self {
-        let (pile, mut naive) = (self.pile, self.naive);
+        let (pile, mut balance) = (self.pile, self.balance);
         let pile = pile.with_load(site(place), load.clone());
-        let before = naive.weight(place).clone();
-        naive.weights.insert(place, before + load);
+        let before = balance.weight(place).clone();
+        balance.weights.insert(place, before + load);
         Self {
             pile: pile.expect("a sphere"),
-            naive,
+            balance,
         }
     }
 
     /// With another weight for a sphere without a load.
     pub(crate) fn with_weight(self, place: Place, weight: &BigRational) -> Self {
-        let (pile, mut naive) = (self.pile, self.naive);
+        let (pile, mut balance) = (self.pile, self.balance);
         let pile = pile.with_weight(site(place), weight.clone());
-        naive.weights.insert(place, weight.clone());
+        balance.weights.insert(place, weight.clone());
         Self {
             pile: pile.expect("a sphere"),
-            naive,
+            balance,
         }
     }
 
     /// With random weights and loads on `n` random spheres.
     pub(crate) fn loaded(mut self, n: usize, random: &mut Random) -> Self {
-        let places: Vec<Place> = self.naive.places().collect();
+        let places: Vec<Place> = self.balance.places().collect();
         for _ in 0..n {
             let place = places[random.below(places.len())];
             let given = random.rational();
-            let weighs = !self.naive.weights.contains_key(&place) && random.below(2) == 0;
-            self = if weighs && self.naive.ordinary == BigRational::one() {
+            let weighs = !self.balance.weights.contains_key(&place) && random.below(2) == 0;
+            self = if weighs && self.balance.ordinary == BigRational::one() {
                 self.with_weight(place, &given)
             } else {
                 self.with_load(place, &given)
@@ -144,7 +144,7 @@ pub(crate) fn all_on(base: &Bounds) -> Vec<String> {
     while let Some(signs) = found.get(next).cloned() {
         for sign in ["+", "-"] {
             let higher = format!("{sign}{signs}");
-            if Naive::on(&sites, &higher).is_some() {
+            if Balance::on(&sites, &higher).is_some() {
                 found.push(higher);
             }
         }

@@ -5,15 +5,19 @@ use cannonpile::{ContactForce, FloorForce, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::Case;
-use crate::support::oracles::naive::{Forces, direction, place, site};
+use crate::support::oracles::balance::{Forces, direction, place, site};
 
 pub(crate) type Outcome = Result<(), String>;
 
 /// All comparisons of one pile.
 pub(crate) fn agrees(case: &Case) -> Outcome {
-    let forces = case.naive.forces();
-    all_agree(&case.pile, &forces)
-        .map_err(|parted| format!("{parted}\n{:?}\n{:?}", case.naive.signs, case.naive.weights))
+    let forces = case.balance.forces();
+    all_agree(&case.pile, &forces).map_err(|parted| {
+        format!(
+            "{parted}\n{:?}\n{:?}",
+            case.balance.signs, case.balance.weights
+        )
+    })
 }
 
 pub(crate) fn all_agree(pile: &Pile, forces: &Forces) -> Outcome {

@@ -10,7 +10,7 @@ use cannonpile::stacking::Notation;
 use crate::census::brute::Front;
 use crate::support::cases::{Bounds, Case, Random, all_on};
 use crate::support::compare;
-use crate::support::oracles::naive::{Naive, Sites};
+use crate::support::oracles::balance::{Balance, Sites};
 
 const MOST_STEPS: usize = 13;
 
@@ -125,8 +125,8 @@ fn entries_come_in_the_order_of_their_runs() {
 fn entries_have_the_least_force_of_the_oracle() {
     for layers in 1..=10 {
         for entry in entries(layers, true) {
-            let naive = Naive::under(&Bounds::SITE.sites(), &signs(&entry));
-            compare::standing(&entry.pile, &naive.forces()).unwrap();
+            let balance = Balance::under(&Bounds::SITE.sites(), &signs(&entry));
+            compare::standing(&entry.pile, &balance.forces()).unwrap();
             assert_eq!(entry.pile.standing().as_ref(), Ok(&entry.standing));
         }
     }
@@ -164,7 +164,7 @@ fn on_base_is_the_oracle(base: &Bounds) {
     for entry in entries {
         let case = Case::on(base, &signs(&entry)).expect("it fits");
         assert_eq!(entry.pile, case.pile);
-        let forces = case.naive.forces();
+        let forces = case.balance.forces();
         compare::standing(&entry.pile, &forces).unwrap();
         assert_eq!(entry.pile.standing().as_ref(), Ok(&entry.standing));
         assert_eq!(entry.stands(), forces.first_failure().is_none());

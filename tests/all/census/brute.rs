@@ -12,7 +12,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
 use crate::support::cases::{Bounds, Case, Random, all_signs};
-use crate::support::oracles::naive::{Naive, Place, Sites};
+use crate::support::oracles::balance::{Balance, Place, Sites};
 
 /// Integers that are wide enough, in the judgement of the caller; `i128` panics where it is not.
 pub(crate) trait Wide: Clone + Ord + From<i32> + Signed
@@ -122,25 +122,25 @@ where
 }
 
 /// The common denominator of weights and loads.
-pub(crate) fn denominator(naive: &Naive) -> BigInt {
-    let denominators = naive.weights.values().map(BigRational::denom);
+pub(crate) fn denominator(balance: &Balance) -> BigInt {
+    let denominators = balance.weights.values().map(BigRational::denom);
     denominators.fold(BigInt::one(), |d, denom| d.lcm(denom))
 }
 
 /// What a sphere weighs, times D.
-pub(crate) fn numerator<'n>(naive: &'n Naive, d: &'n BigInt) -> impl Fn(Place) -> BigInt + 'n {
+pub(crate) fn numerator<'n>(balance: &'n Balance, d: &'n BigInt) -> impl Fn(Place) -> BigInt + 'n {
     move |at| {
-        let weight = naive.weight(at);
+        let weight = balance.weight(at);
         weight.numer() * (d / weight.denom())
     }
 }
 
 /// A pile that was grown from its top, whole: what every layer passes on.
-pub(crate) fn all(naive: &Naive) -> Vec<Passed<BigInt>> {
-    let d = denominator(naive);
-    let weight = numerator(naive, &d);
-    let mut front = Front::top(&naive.layers[0]);
-    let steps = naive.signs.chars().map(|sign| {
+pub(crate) fn all(balance: &Balance) -> Vec<Passed<BigInt>> {
+    let d = denominator(balance);
+    let weight = numerator(balance, &d);
+    let mut front = Front::top(&balance.layers[0]);
+    let steps = balance.signs.chars().map(|sign| {
         let passed = front.step(sign, &weight);
         front = passed.below.clone();
         passed
@@ -151,10 +151,10 @@ pub(crate) fn all(naive: &Naive) -> Vec<Passed<BigInt>> {
 #[test]
 fn it_is_the_oracle_up_to_8_layers() {
     for signs in (1..8).flat_map(all_signs) {
-        let naive = Naive::under(&Bounds::SITE.sites(), &signs);
-        is_the_oracle(&naive);
-        let forces = naive.forces();
-        let mut front: Front<i128> = Front::top(&naive.layers[0]);
+        let balance = Balance::under(&Bounds::SITE.sites(), &signs);
+        is_the_oracle(&balance);
+        let forces = balance.forces();
+        let mut front: Front<i128> = Front::top(&balance.layers[0]);
         let failures = (0..).zip(signs.chars()).filter_map(|(k, sign)| {
             let passed = front.step(sign, |_| 1);
             front = passed.below.clone();
@@ -170,13 +170,13 @@ fn it_is_the_oracle_under_random_tops_with_loads() {
     for _ in 0..40 {
         let signs = random.signs(7);
         let case = Case::under(&random.bounds(3), &signs).loaded(4, &mut random);
-        is_the_oracle(&case.naive);
+        is_the_oracle(&case.balance);
     }
 }
 
-fn is_the_oracle(naive: &Naive) {
-    let (forces, d) = (naive.forces(), denominator(naive));
-    for (k, passed) in (0..).zip(all(naive)) {
+fn is_the_oracle(balance: &Balance) {
+    let (forces, d) = (balance.forces(), denominator(balance));
+    for (k, passed) in (0..).zip(all(balance)) {
         let over = &d * pow(BigInt::from(3), passed.below.changes);
         for ((j, i), numerators) in passed.forces {
             let rationals = numerators.map(|n| BigRational::new(n, over.clone()));

@@ -9,7 +9,7 @@ use cannonpile::{Method, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::{Bounds, Case};
-use crate::support::oracles::naive::{Forces, Place, ratio, site};
+use crate::support::oracles::balance::{Forces, Place, ratio, site};
 
 const HIGH: i128 = 10_i128.pow(30);
 
@@ -116,7 +116,7 @@ fn a_pile_of_a_nonillion_layers_is_as_small_ones_foretell() {
                 .into_iter()
                 .flat_map(|steps| SMALL.map(|t| steps * t));
             let small = runs
-                .map(|run| (run, high.oracle(run).naive.forces()))
+                .map(|run| (run, high.oracle(run).balance.forces()))
                 .collect();
             let ways = [
                 ([0, 0], 1),
@@ -158,7 +158,7 @@ fn the_verdict_of_a_high_pile_is_that_of_its_first_layers() {
             loads: Vec::new(),
         };
         let (pile, small) = (high.pile(HIGH), high.oracle(2));
-        crate::support::compare::standing(&pile, &small.naive.forces()).unwrap();
+        crate::support::compare::standing(&pile, &small.balance.forces()).unwrap();
     }
 }
 

@@ -8,27 +8,27 @@ use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
 
 use crate::support::cases::{Bounds, Case, Random, all_signs, repeated};
-use crate::support::oracles::naive::{Naive, Place, direction, site};
+use crate::support::oracles::balance::{Balance, Place, direction, site};
 
 /// Whether the sign changes at the layer of a sphere.
-fn at_a_change(naive: &Naive, k: i128) -> bool {
-    naive
+fn at_a_change(balance: &Balance, k: i128) -> bool {
+    balance
         .sign(k - 1)
-        .is_some_and(|above| naive.sign(k) != Some(above))
+        .is_some_and(|above| balance.sign(k) != Some(above))
 }
 
 /// The spheres at changes of sign that a contact depends on, found by following each line up to where it begins.
-fn visited(naive: &Naive, contact: (Place, usize)) -> BTreeSet<Place> {
+fn visited(balance: &Balance, contact: (Place, usize)) -> BTreeSet<Place> {
     let mut found = BTreeSet::new();
     let mut waiting = vec![contact];
     while let Some((at, m)) = waiting.pop() {
-        let mixed = at_a_change(naive, at.0);
+        let mixed = at_a_change(balance, at.0);
         if mixed && !found.insert(at) {
             continue;
         }
         for direction in 0..3 {
             if mixed || direction == m {
-                waiting.extend(naive.above(at, direction).map(|above| (above, direction)));
+                waiting.extend(balance.above(at, direction).map(|above| (above, direction)));
             }
         }
     }
@@ -36,27 +36,27 @@ fn visited(naive: &Naive, contact: (Place, usize)) -> BTreeSet<Place> {
 }
 
 /// All spheres that bear down on one, itself included.
-fn cone(naive: &Naive, at: Place) -> BTreeSet<Place> {
+fn cone(balance: &Balance, at: Place) -> BTreeSet<Place> {
     let mut cone = BTreeSet::new();
     let mut waiting = vec![at];
     while let Some(at) = waiting.pop() {
         if cone.insert(at) {
-            waiting.extend((0..3).filter_map(|m| naive.above(at, m)));
+            waiting.extend((0..3).filter_map(|m| balance.above(at, m)));
         }
     }
     cone
 }
 
 fn visits_what_it_must(case: &Case) {
-    let naive = &case.naive;
-    for at in naive.places().filter(|at| naive.sign(at.0).is_some()) {
-        let changes = (0..=at.0).filter(|k| at_a_change(naive, *k)).count();
-        let cone = cone(naive, at);
-        let at_changes = cone.iter().filter(|at| at_a_change(naive, at.0)).count();
+    let balance = &case.balance;
+    for at in balance.places().filter(|at| balance.sign(at.0).is_some()) {
+        let changes = (0..=at.0).filter(|k| at_a_change(balance, *k)).count();
+        let cone = cone(balance, at);
+        let at_changes = cone.iter().filter(|at| at_a_change(balance, at.0)).count();
         let most = (3_usize.pow(u32::try_from(changes).unwrap()) - 1) / 2;
         for m in 0..3 {
             let nodes = case.pile.nodes(site(at), direction(m)).unwrap();
-            assert_eq!(nodes, visited(naive, (at, m)).len(), "{at:?} {m}");
+            assert_eq!(nodes, visited(balance, (at, m)).len(), "{at:?} {m}");
             assert!(nodes <= most.min(at_changes), "{at:?} {m}");
         }
     }

@@ -13,7 +13,7 @@ use num_traits::pow;
 use crate::census::brute::{self, Passed};
 use crate::support::cases::{Bounds, Case, Random, all_signs, repeated};
 use crate::support::compare::agrees;
-use crate::support::oracles::naive::{direction, ratio};
+use crate::support::oracles::balance::{direction, ratio};
 
 fn plan(case: &Case) -> Plan {
     case.pile.plan(Selection::Base).unwrap()
@@ -25,7 +25,7 @@ fn power(base: u32, exponent: u32) -> BigInt {
 
 /// The bits of the greatest number that a sweep meets, sums on the way through a half-turn included.
 fn needed(case: &Case) -> u64 {
-    let passed = brute::all(&case.naive);
+    let passed = brute::all(&case.balance);
     let greatest = passed.iter().map(|passed| passed.greatest.bits());
     greatest.max().unwrap_or(0)
 }
@@ -39,7 +39,7 @@ fn is_wide_enough(case: &Case, loose: u64) {
         planes,
         ..
     } = plan;
-    let said = format!("{needed} {bits} {reserved} {planes} {}", case.naive.signs);
+    let said = format!("{needed} {bits} {reserved} {planes} {}", case.balance.signs);
     assert!(needed <= bits && bits <= needed + loose, "{said}");
     assert!(bits <= reserved, "{said}");
     assert!(planes == 1 || bits + 48 > reserved, "{said}");
@@ -85,7 +85,7 @@ fn the_bound_holds_for_many_loads() {
         let signs = format!("+-{}", random.signs(5));
         let mut case = Case::under(&random.bounds(3), &signs);
         // A load on the floor is counted, and never on a line.
-        let places: Vec<_> = case.naive.places().filter(|at| at.0 < 7).collect();
+        let places: Vec<_> = case.balance.places().filter(|at| at.0 < 7).collect();
         for _ in 0..10 {
             case = case.with_load(places[random.below(places.len())], &random.rational());
         }
@@ -98,7 +98,7 @@ fn the_bound_holds_for_many_loads() {
 fn what_weighs_less_does_not_make_up_for_a_load() {
     for signs in ["+-+-+-+-+-", "+-+++++++++++", "+-+-+++++++++++"] {
         let mut case = Case::under(&Bounds::SITE, signs);
-        let below: Vec<_> = case.naive.places().skip(1).collect();
+        let below: Vec<_> = case.balance.places().skip(1).collect();
         let load = ratio(i64::try_from(below.len()).unwrap(), 1);
         for place in below {
             case = case.with_weight(place, &ratio(0, 1));
@@ -109,7 +109,7 @@ fn what_weighs_less_does_not_make_up_for_a_load() {
 
 /// The sweep of the whole pile beside brute force; the tree for one contact of many.
 fn is_brute_force(case: &Case, selection: Selection) {
-    let (passed, d) = (brute::all(&case.naive), brute::denominator(&case.naive));
+    let (passed, d) = (brute::all(&case.balance), brute::denominator(&case.balance));
     let statics = case.pile.forces::<BigRational>();
     let contacts = statics.contacts(selection).unwrap();
     for (n, contact) in contacts.enumerate() {
@@ -125,7 +125,7 @@ fn is_brute_force(case: &Case, selection: Selection) {
         }
     }
     let front = &passed.last().expect("a step").below;
-    let weight = brute::numerator(&case.naive, &d);
+    let weight = brute::numerator(&case.balance, &d);
     let unit = pow(BigInt::from(3), front.changes);
     let base = statics.base(Selection::Base).unwrap();
     for force in base {
@@ -204,7 +204,7 @@ fn limbs_that_are_all_full_or_all_empty() {
     ] {
         let least = BigRational::from(power(2, n)).recip();
         let mut case = Case::under(&Bounds::triangle(2), signs);
-        for (n, place) in case.naive.clone().places().enumerate() {
+        for (n, place) in case.balance.clone().places().enumerate() {
             let weight = match n % 3 {
                 0 => continue,
                 1 => ratio(1, 1) - &least,
@@ -234,11 +234,11 @@ fn many_turns_between_carries() {
 fn layer_by_layer_from_any_layer_on() {
     let load = BigRational::from(power(2, 100));
     let case = Case::under(&Bounds::SITE, "+-+-++--+-").with_load((3, 0, 0), &load);
-    let forces = case.naive.forces();
+    let forces = case.balance.forces();
     for (at, forces) in &forces.below {
         for (m, force) in forces.iter().enumerate() {
             let one = case.pile.forces::<BigRational>();
-            let one = one.contact(crate::support::oracles::naive::site(*at), direction(m));
+            let one = one.contact(crate::support::oracles::balance::site(*at), direction(m));
             assert_eq!(one.as_ref(), Ok(force));
         }
     }

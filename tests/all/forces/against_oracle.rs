@@ -7,8 +7,8 @@ use num_rational::BigRational;
 
 use crate::support::answers::{Answers, Shape};
 use crate::support::cases::{Bounds, Random};
+use crate::support::oracles::balance::{Balance, Forces, direction, ratio, site};
 use crate::support::oracles::elimination;
-use crate::support::oracles::naive::{Forces, Naive, direction, ratio, site};
 use crate::support::theorems;
 
 fn agrees(shape: &Shape) {
@@ -42,7 +42,7 @@ fn both_oracles_agree() {
     for layers in 1..=8 {
         let eliminated = elimination::solve(&Shape::equilateral(), layers);
         let steps = "+".repeat(usize::try_from(layers - 1).unwrap());
-        let forces = Naive::under(&Bounds::SITE.sites(), &steps).forces();
+        let forces = Balance::under(&Bounds::SITE.sites(), &steps).forces();
         let contacts = forces.below.iter().flat_map(|(place, forces)| {
             let forces = (0..).zip(forces);
             forces.map(|(m, force)| ((site(*place), direction(m)), force))
@@ -61,7 +61,7 @@ fn both_oracles_agree() {
 
 /// What a sphere hands on is what it receives and what it weighs, and pushes along the lines of centres, whose places
 /// come from no equation of the oracle's.
-fn balances(pile: &Naive, forces: &Forces) -> bool {
+fn balances(pile: &Balance, forces: &Forces) -> bool {
     let along = |from: [BigInt; 2], to: [BigInt; 2], axis: usize| {
         BigRational::from(&to[axis] - &from[axis])
     };
@@ -91,7 +91,7 @@ fn the_oracle_of_any_stacking_balances_every_sphere() {
     let mut random = Random(1998);
     for _ in 0..200 {
         let (top, steps) = (random.bounds(3), 1 + random.below(6));
-        let mut pile = Naive::under(&top.sites(), &random.signs(steps));
+        let mut pile = Balance::under(&top.sites(), &random.signs(steps));
         let places: Vec<_> = pile.places().collect();
         for _ in 0..3 {
             let place = places[random.below(places.len())];

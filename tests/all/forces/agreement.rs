@@ -46,7 +46,7 @@ fn a_layer_alone_has_the_forces_that_it_has_among_all() {
     for _ in 0..30 {
         let signs = random.signs(8);
         let case = Case::under(&random.bounds(3), &signs);
-        let forces = case.naive.forces();
+        let forces = case.balance.forces();
         for k in 0..9 {
             contacts_in_rows(&case.pile, Selection::Layer(k), &forces).unwrap();
         }

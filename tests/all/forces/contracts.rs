@@ -6,7 +6,7 @@ use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 
 use crate::support::cases::{repeated, stacking};
-use crate::support::oracles::naive::ratio;
+use crate::support::oracles::balance::ratio;
 
 fn under_one_sphere(signs: &str) -> Pile {
     Pile::under(Region::SITE, stacking(signs)).unwrap()

@@ -11,7 +11,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::support::cases::{Bounds, Case, Random, all_signs, repeated};
-use crate::support::oracles::naive::{Naive, Place, ratio};
+use crate::support::oracles::balance::{Balance, Place, ratio};
 
 /// What the bottom spheres feel: where, normal force in mg, shears in mg·tanθ and √3·mg·tanθ.
 pub(crate) type Base = Vec<(Place, [BigRational; 3])>;
@@ -26,23 +26,13 @@ pub(crate) fn base(case: &Case) -> Base {
     forces.collect()
 }
 
-/// Horizontal position in thirds of lattice vectors, from the place (0, 0) of the top layer.
-///
-/// A + step leads to a layer whose (0, 0) lies a third of both vectors back: a sphere is over the middle of (0, 0), (1, 0)
-/// and (0, 1).
-pub(crate) fn position(naive: &Naive, (k, j, i): Place) -> [BigInt; 2] {
-    let steps = naive.signs.chars().take(usize::try_from(k).unwrap());
-    let back: i128 = steps.map(|sign| if sign == '+' { 1 } else { -1 }).sum();
-    [3 * i - back, 3 * j - back].map(BigInt::from)
-}
-
 /// The squared distance from the axis, in (2R sinθ)².
 pub(crate) fn square([p, q]: &[BigInt; 2]) -> BigRational {
     BigRational::new(p * p + p * q + q * q, 3.into())
 }
 
 /// Normal forces carry the weights with their first and second moments.
-pub(crate) fn carries(naive: &Naive, base: &Base) -> Result<(), String> {
+pub(crate) fn carries(balance: &Balance, base: &Base) -> Result<(), String> {
     let same = |what: &str, base: &BigRational, spheres: &BigRational| {
         let parted = format!("{what}: {base} on the base, {spheres} of the spheres");
         if base == spheres { Ok(()) } else { Err(parted) }
@@ -51,27 +41,27 @@ pub(crate) fn carries(naive: &Naive, base: &Base) -> Result<(), String> {
         base.iter().map(|(at, [n, ..])| n * of(*at)).sum()
     };
     let over_spheres = |of: &dyn Fn(Place) -> BigRational| -> BigRational {
-        naive.places().map(|at| naive.weight(at) * of(at)).sum()
+        balance.places().map(|at| balance.weight(at) * of(at)).sum()
     };
     let one = |_| BigRational::one();
     same("weight", &over_base(&one), &over_spheres(&one))?;
     for axis in [0, 1] {
-        let along = |at| BigRational::from(position(naive, at)[axis].clone());
+        let along = |at| BigRational::from(balance.position(at)[axis].clone());
         same("moment", &over_base(&along), &over_spheres(&along))?;
     }
-    let floor = naive.layers.len() - 1;
+    let floor = balance.layers.len() - 1;
     let second = |at: Place| {
         let height = BigInt::from(floor) - at.0;
-        square(&position(naive, at)) + BigRational::from(&height * &height)
+        square(&balance.position(at)) + BigRational::from(&height * &height)
     };
     same("second moment", &over_base(&second), &over_spheres(&second))
 }
 
 /// Nothing pushes or turns the pile sideways.
-pub(crate) fn is_not_turned(naive: &Naive, base: &Base) -> Result<(), String> {
+pub(crate) fn is_not_turned(balance: &Balance, base: &Base) -> Result<(), String> {
     let [mut x, mut y, mut torsion] = [0; 3].map(|_: i32| BigRational::zero());
     for (at, [_, shear_x, shear_y]) in base {
-        let [p, q] = position(naive, *at).map(BigRational::from);
+        let [p, q] = balance.position(*at).map(BigRational::from);
         // (p, q) is (q/2, (p + q/2)/3) in 2R sinθ and √3 of them.
         let half = &q / BigInt::from(2);
         let across = (p + &half) / BigInt::from(3);
@@ -87,8 +77,8 @@ pub(crate) fn is_not_turned(naive: &Naive, base: &Base) -> Result<(), String> {
 
 fn holds(case: &Case) {
     let base = base(case);
-    carries(&case.naive, &base).unwrap();
-    is_not_turned(&case.naive, &base).unwrap();
+    carries(&case.balance, &base).unwrap();
+    is_not_turned(&case.balance, &base).unwrap();
 }
 
 #[test]
@@ -139,7 +129,7 @@ fn a_force_that_is_a_little_off_is_noticed() {
         for component in 0..3 {
             let mut wrong = right.clone();
             wrong[n].1[component] += ratio(1, 81);
-            let noticed = carries(&case.naive, &wrong).and(is_not_turned(&case.naive, &wrong));
+            let noticed = carries(&case.balance, &wrong).and(is_not_turned(&case.balance, &wrong));
             assert!(noticed.is_err(), "{n} {component}");
         }
     }
@@ -147,5 +137,5 @@ fn a_force_that_is_a_little_off_is_noticed() {
     let mut wrong = right.clone();
     wrong[0].1[0] += ratio(1, 81);
     wrong[1].1[0] -= ratio(1, 81);
-    assert!(carries(&case.naive, &wrong).is_err());
+    assert!(carries(&case.balance, &wrong).is_err());
 }

@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use crate::support::cases::{Bounds, Case, Random, stacking};
 use crate::support::compare::{agrees, all_agree};
-use crate::support::oracles::naive::{Naive, ratio};
+use crate::support::oracles::balance::{Balance, ratio};
 
 #[test]
 fn random_tops_without_loads() {
@@ -40,7 +40,7 @@ fn random_weights_and_loads_on_random_tops() {
         let (steps, loads) = (random.below(8), 1 + random.below(12));
         let signs = random.signs(steps);
         let case = Case::under(&top, &signs).loaded(loads, &mut random);
-        assert_eq!(case.pile.weight(), case.naive.whole_weight());
+        assert_eq!(case.pile.weight(), case.balance.whole_weight());
         agrees(&case).unwrap();
     }
 }
@@ -53,7 +53,7 @@ fn random_weights_and_loads_on_random_bases() {
         let (base, steps, loads) = (random.bounds(9), random.below(6), 1 + random.below(12));
         if let Some(case) = Case::on(&base, &random.signs(steps)) {
             let case = case.loaded(loads, &mut random);
-            assert_eq!(case.pile.weight(), case.naive.whole_weight());
+            assert_eq!(case.pile.weight(), case.balance.whole_weight());
             agrees(&case).unwrap();
             compared += 1;
         }
@@ -69,7 +69,7 @@ fn loads_on_spheres_that_weigh_nothing() {
         let signs = random.signs(steps);
         let case = Case::under(&top, &signs).weightless();
         let case = case.loaded(loads, &mut random);
-        assert_eq!(case.pile.weight(), case.naive.whole_weight());
+        assert_eq!(case.pile.weight(), case.balance.whole_weight());
         agrees(&case).unwrap();
     }
 }
@@ -80,7 +80,7 @@ fn every_sphere_of_small_piles_has_its_own_weight_and_load() {
     for round in 0..60 {
         let signs = random.signs(1 + round % 6);
         let mut case = Case::under(&random.bounds(2), &signs);
-        let places: Vec<_> = case.naive.places().collect();
+        let places: Vec<_> = case.balance.places().collect();
         for place in places {
             // Zero more often than not: then lines begin where nothing is added to them.
             let weight = [ratio(0, 1), ratio(0, 1), random.rational()];
@@ -99,7 +99,7 @@ fn one_load_at_a_time_anywhere() {
     let load = ratio(5, 7);
     for signs in ["+-+-", "++--", "+--+", "-+++"] {
         let case = Case::under(&Bounds::hexagon(2, 2), signs);
-        for place in case.naive.places().collect::<Vec<_>>() {
+        for place in case.balance.places().collect::<Vec<_>>() {
             agrees(&case.clone().with_load(place, &load)).unwrap();
             agrees(&case.clone().weightless().with_load(place, &load)).unwrap();
         }
@@ -126,7 +126,7 @@ fn extremes_over_the_base_are_those_of_the_oracle() {
     for _ in 0..60 {
         let signs = random.signs(5);
         let case = Case::under(&random.bounds(3), &signs).loaded(2, &mut random);
-        let floor = case.naive.forces().floor;
+        let floor = case.balance.forces().floor;
         let normals = || floor.values().map(|[normal, ..]| normal);
         let extremes = case.pile.base_extremes().unwrap();
         assert_eq!(Some(&extremes.normal_min), normals().min());
@@ -149,20 +149,20 @@ fn weights_replace_loads_add_up_and_without_weight_only_loads_are_left() {
     let pile = pile.with_load(here, ratio(1, 3)).unwrap();
     let pile = pile.with_load(there, ratio(2, 1)).unwrap();
     let top = Bounds::SITE.sites();
-    let mut naive = Naive::under(&top, "+-+");
-    naive.weights.insert((1, 0, 1), ratio(23, 6));
-    naive.weights.insert((2, 0, 0), ratio(3, 1));
-    all_agree(&pile, &naive.forces()).unwrap();
+    let mut balance = Balance::under(&top, "+-+");
+    balance.weights.insert((1, 0, 1), ratio(23, 6));
+    balance.weights.insert((2, 0, 0), ratio(3, 1));
+    all_agree(&pile, &balance.forces()).unwrap();
     assert_eq!(pile.sphere_weight(here), Ok(ratio(3, 1)));
     assert_eq!(pile.sphere_weight(there), Ok(ratio(1, 1)));
-    assert_eq!(pile.weight(), naive.whole_weight());
+    assert_eq!(pile.weight(), balance.whole_weight());
     let pile = pile.weightless();
-    naive.ordinary = BigRational::zero();
-    naive.weights.insert((1, 0, 1), ratio(5, 6));
-    naive.weights.insert((2, 0, 0), ratio(2, 1));
-    all_agree(&pile, &naive.forces()).unwrap();
+    balance.ordinary = BigRational::zero();
+    balance.weights.insert((1, 0, 1), ratio(5, 6));
+    balance.weights.insert((2, 0, 0), ratio(2, 1));
+    all_agree(&pile, &balance.forces()).unwrap();
     assert_eq!(pile.sphere_weight(here), Ok(ratio(0, 1)));
-    assert_eq!(pile.weight(), naive.whole_weight());
+    assert_eq!(pile.weight(), balance.whole_weight());
     assert!(pile.clone().with_load(here, ratio(-1, 9)).is_err());
     assert!(pile.clone().with_weight(here, ratio(-1, 9)).is_err());
     assert!(pile.clone().with_load(at(2, 0, 1), ratio(1, 9)).is_err());

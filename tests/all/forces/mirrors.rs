@@ -7,7 +7,7 @@ use cannonpile::{ContactForce, FloorForce, Forces, Pile};
 use num_rational::BigRational;
 
 use crate::support::cases::{Bounds, Random, all_signs, repeated, stacking};
-use crate::support::oracles::naive::ratio;
+use crate::support::oracles::balance::ratio;
 
 /// Contacts and bottom spheres, in the order of tables.
 #[derive(Debug, PartialEq)]
@@ -39,7 +39,7 @@ impl Answers {
         for contact in &mut self.contacts {
             contact.site = to(contact.site);
             contact.direction =
-                crate::support::oracles::naive::direction(turn[contact.direction.index()]);
+                crate::support::oracles::balance::direction(turn[contact.direction.index()]);
         }
         for force in &mut self.floor {
             force.site = to(force.site);

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use crate::support::cases::{Random, stacking};
-use crate::support::oracles::naive::ratio;
+use crate::support::oracles::balance::ratio;
 
 fn contacts(
     statics: &Forces<'_, BigRational>,

@@ -5,7 +5,7 @@ use num_traits::One;
 
 use crate::support::cases::{Bounds, Case};
 use crate::support::compare::{agrees, all_agree, in_rows, one_by_one, standing};
-use crate::support::oracles::naive::{Forces, Place, ratio};
+use crate::support::oracles::balance::{Forces, Place, ratio};
 
 fn case() -> Case {
     Case::under(&Bounds::triangle(2), "+-++-").with_load((1, 0, 1), &ratio(2, 5))
@@ -23,7 +23,7 @@ fn without_a_fault_they_agree() {
 
 #[test]
 fn one_force_to_a_sphere_below_is_wrong() {
-    let (case, right) = (case(), case().naive.forces());
+    let (case, right) = (case(), case().balance.forces());
     for place in right.below.keys() {
         for m in 0..3 {
             let mut wrong = right.clone();
@@ -36,7 +36,7 @@ fn one_force_to_a_sphere_below_is_wrong() {
 
 #[test]
 fn one_force_from_above_or_on_the_floor_is_wrong() {
-    let (case, right) = (case(), case().naive.forces());
+    let (case, right) = (case(), case().balance.forces());
     for place in right.above.keys() {
         for m in 0..3 {
             let mut wrong = right.clone();
@@ -56,7 +56,7 @@ fn one_force_from_above_or_on_the_floor_is_wrong() {
 
 #[test]
 fn two_forces_have_changed_places() {
-    let (case, right) = (case(), case().naive.forces());
+    let (case, right) = (case(), case().balance.forces());
     let mut told_apart = 0;
     for (place, [a, b, _]) in &right.below {
         if a != b {
@@ -73,8 +73,8 @@ fn two_forces_have_changed_places() {
 #[test]
 fn one_sign_is_wrong() {
     let case = case();
-    for n in 0..case.naive.signs.len() {
-        let mut signs = case.naive.signs.clone();
+    for n in 0..case.balance.signs.len() {
+        let mut signs = case.balance.signs.clone();
         let flipped = if signs[n..].starts_with('+') {
             "-"
         } else {
@@ -83,11 +83,11 @@ fn one_sign_is_wrong() {
         signs.replace_range(n..=n, flipped);
         let other = Case::under(&Bounds::triangle(2), &signs);
         // The sphere with the load may not be there: without it, as with it.
-        for forces in [other.naive.forces(), case.naive.forces()] {
-            assert!(all_agree(&other.pile, &forces).is_err() || forces == other.naive.forces());
+        for forces in [other.balance.forces(), case.balance.forces()] {
+            assert!(all_agree(&other.pile, &forces).is_err() || forces == other.balance.forces());
         }
         assert!(
-            all_agree(&case.pile, &other.naive.forces()).is_err(),
+            all_agree(&case.pile, &other.balance.forces()).is_err(),
             "{signs}"
         );
     }
@@ -96,8 +96,8 @@ fn one_sign_is_wrong() {
 #[test]
 fn one_site_is_missing_or_one_too_many() {
     let case = case();
-    for (k, j, i) in case.naive.places().collect::<Vec<Place>>() {
-        let mut wrong = case.naive.clone();
+    for (k, j, i) in case.balance.places().collect::<Vec<Place>>() {
+        let mut wrong = case.balance.clone();
         let layer = &mut wrong.layers[usize::try_from(k).unwrap()];
         assert!(layer.remove(&(j, i)));
         assert!(
@@ -106,7 +106,7 @@ fn one_site_is_missing_or_one_too_many() {
         );
     }
     for k in 0..6 {
-        let mut wrong = case.naive.clone();
+        let mut wrong = case.balance.clone();
         let layer = &mut wrong.layers[k];
         let last = *layer.last().expect("a site");
         layer.insert((last.0, last.1 + 1));
@@ -117,8 +117,8 @@ fn one_site_is_missing_or_one_too_many() {
 #[test]
 fn one_weight_is_wrong() {
     let case = case();
-    for place in case.naive.places().collect::<Vec<Place>>() {
-        let mut wrong = case.naive.clone();
+    for place in case.balance.places().collect::<Vec<Place>>() {
+        let mut wrong = case.balance.clone();
         let weight = wrong.weight(place) + ratio(1, 1_000_000);
         wrong.weights.insert(place, weight);
         assert!(all_agree(&case.pile, &wrong.forces()).is_err(), "{place:?}");
@@ -127,7 +127,7 @@ fn one_weight_is_wrong() {
 
 #[test]
 fn the_least_force_is_another_or_elsewhere() {
-    let (case, right) = (case(), case().naive.forces());
+    let (case, right) = (case(), case().balance.forces());
     standing(&case.pile, &right).unwrap();
     let (least, at, m) = right.least().unwrap();
     let place_of = |forces: &Forces| forces.least().map(|(_, at, m)| (at, m));

@@ -9,9 +9,9 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use crate::forces::invariants::{position, square};
+use crate::forces::invariants::square;
 use crate::support::cases::{Bounds, Case, Random, all_signs, repeated};
-use crate::support::oracles::naive::{Naive, Place, ratio};
+use crate::support::oracles::balance::{Balance, Place, ratio};
 
 /// The vertical parts of the contact forces that are not zero, with the lower sphere, by depth from 1 on.
 type Response = Vec<Vec<(Place, BigRational)>>;
@@ -25,7 +25,7 @@ fn loaded(signs: &str) -> Case {
 fn response(case: &Case) -> Response {
     let statics: Forces<BigRational> = case.pile.forces();
     let contacts = statics.contacts(Selection::All).unwrap();
-    let mut response = vec![Vec::new(); case.naive.signs.len()];
+    let mut response = vec![Vec::new(); case.balance.signs.len()];
     for contact in contacts {
         let contact = contact.unwrap();
         let below = case.pile.shape().below(contact.site, contact.direction);
@@ -39,7 +39,7 @@ fn response(case: &Case) -> Response {
     response
 }
 
-fn holds(naive: &Naive, response: &Response) -> Result<(), String> {
+fn holds(balance: &Balance, response: &Response) -> Result<(), String> {
     for (depth, contacts) in (1_i64..).zip(response) {
         let sum = |of: &dyn Fn(Place, &BigRational) -> BigRational| -> BigRational {
             contacts.iter().map(|(at, v)| of(*at, v)).sum()
@@ -47,10 +47,10 @@ fn holds(naive: &Naive, response: &Response) -> Result<(), String> {
         let sums = [
             sum(&|_, v| v.clone()),
             sum(&|_, v| v * v),
-            sum(&|at, v| v * square(&position(naive, at))),
+            sum(&|at, v| v * square(&balance.position(at))),
         ];
         if sums != [ratio(1, 1), ratio(1, 3), ratio(depth * depth, 1)] {
-            return Err(format!("{sums:?} at depth {depth} of {}", naive.signs));
+            return Err(format!("{sums:?} at depth {depth} of {}", balance.signs));
         }
     }
     Ok(())
@@ -60,7 +60,7 @@ fn holds(naive: &Naive, response: &Response) -> Result<(), String> {
 fn of_every_stacking_up_to_8_layers() {
     for signs in (1..8).flat_map(all_signs) {
         let case = loaded(&signs);
-        holds(&case.naive, &response(&case)).unwrap();
+        holds(&case.balance, &response(&case)).unwrap();
     }
 }
 
@@ -73,7 +73,7 @@ fn of_long_stackings() {
         Random(41).signs(24),
     ] {
         let case = loaded(&signs);
-        holds(&case.naive, &response(&case)).unwrap();
+        holds(&case.balance, &response(&case)).unwrap();
     }
 }
 
@@ -85,7 +85,7 @@ fn a_small_fault_is_noticed() {
         for n in 0..contacts.len() {
             let mut wrong = right.clone();
             wrong[depth][n].1 = -&right[depth][n].1;
-            assert!(holds(&case.naive, &wrong).is_err());
+            assert!(holds(&case.balance, &wrong).is_err());
         }
     }
 }
@@ -101,13 +101,13 @@ fn straight_piles_hand_it_down_three_lines() {
 }
 
 /// The response of the oracle, in the same form.
-fn response_by_oracle(naive: &Naive) -> Response {
-    let mut response = vec![Vec::new(); naive.signs.len()];
-    for (at, forces) in naive.forces().below {
+fn response_by_oracle(balance: &Balance) -> Response {
+    let mut response = vec![Vec::new(); balance.signs.len()];
+    for (at, forces) in balance.forces().below {
         let depth = usize::try_from(at.0).unwrap();
         for (m, force) in forces.into_iter().enumerate() {
             if !force.is_zero() {
-                let below = naive.below(at, m).expect("off the floor");
+                let below = balance.below(at, m).expect("off the floor");
                 response[depth].push((below, force / BigInt::from(3)));
             }
         }
@@ -125,10 +125,13 @@ fn profile(contacts: &[(Place, BigRational)]) -> BTreeMap<BigRational, usize> {
 }
 
 /// What the spheres at each distance from the line of the load receive together, by squared distance.
-fn rings(naive: &Naive, contacts: &[(Place, BigRational)]) -> BTreeMap<BigRational, BigRational> {
+fn rings(
+    balance: &Balance,
+    contacts: &[(Place, BigRational)],
+) -> BTreeMap<BigRational, BigRational> {
     let mut rings = BTreeMap::new();
     for (at, v) in contacts {
-        *rings.entry(square(&position(naive, *at))).or_default() += v;
+        *rings.entry(square(&balance.position(*at))).or_default() += v;
     }
     rings
 }
@@ -178,7 +181,7 @@ const RINGS_OF_HCP: [&[(i64, i64)]; 6] = [
 #[test]
 fn hcp_spreads_it_over_a_ring_and_pulls_inside() {
     let case = loaded("+-+-+-");
-    for response in [response(&case), response_by_oracle(&case.naive)] {
+    for response in [response(&case), response_by_oracle(&case.balance)] {
         for (n, contacts) in response.iter().enumerate() {
             let over = 3_i64.pow(u32::try_from(n).unwrap());
             let forces = FORCES_OF_HCP[n].iter();
@@ -186,7 +189,7 @@ fn hcp_spreads_it_over_a_ring_and_pulls_inside() {
             assert_eq!(profile(contacts), forces.collect());
             let sums = RINGS_OF_HCP[n].iter();
             let sums = sums.map(|(square, sum)| (ratio(*square, 1), ratio(*sum, over)));
-            assert_eq!(rings(&case.naive, contacts), sums.collect());
+            assert_eq!(rings(&case.balance, contacts), sums.collect());
         }
     }
     let pulls =

@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use num_traits::Signed;
 
 use crate::support::cases::{Bounds, Case, Random, repeated};
-use crate::support::oracles::naive::{Forces, direction, ratio, site};
+use crate::support::oracles::balance::{Forces, direction, ratio, site};
 
 /// Every answer of a pile in one scalar with the true value, one by one and in rows.
 fn answers<T: Algebra>(case: &Case, forces: &Forces) -> Vec<(Result<T, Error>, BigRational)> {
@@ -59,17 +59,17 @@ fn piles() -> Vec<Case> {
 /// of a number that is at most 2√3·‖f‖ < 4·Σ√3‖w‖; a load adds one or two. The sums that make a force on the floor of three
 /// contacts are no greater. 16 roundings a layer, and as many for each load, are more than there are.
 fn scale(case: &Case) -> BigRational {
-    let naive = &case.naive;
+    let balance = &case.balance;
     let mut norms = ratio(0, 1);
-    for (k, layer) in (0..).zip(&naive.layers) {
+    for (k, layer) in (0..).zip(&balance.layers) {
         let squares = layer.iter().map(|&(j, i)| {
-            let weight = naive.weight((k, j, i));
+            let weight = balance.weight((k, j, i));
             weight * weight
         });
         let squares: BigRational = squares.sum::<BigRational>() * ratio(3, 1);
         norms += BigRational::from(squares.ceil().to_integer().sqrt() + 1_u32);
     }
-    let roundings = 16 * (naive.layers.len() + naive.weights.len() + 1);
+    let roundings = 16 * (balance.layers.len() + balance.weights.len() + 1);
     norms * ratio(4, 1) * BigRational::from(BigInt::from(roundings))
 }
 
@@ -77,10 +77,10 @@ fn within<T: Algebra>(bits: u32, exactly: impl Fn(&T) -> BigRational) {
     let unit = ratio(1, 1) / BigRational::from(BigInt::from(1) << bits);
     for case in piles() {
         let bound = scale(&case) * &unit;
-        for (answer, expected) in answers::<T>(&case, &case.naive.forces()) {
+        for (answer, expected) in answers::<T>(&case, &case.balance.forces()) {
             let answer = exactly(&answer.unwrap());
             let error = (&answer - &expected).abs();
-            assert!(error <= bound, "{answer} {expected} {}", case.naive.signs);
+            assert!(error <= bound, "{answer} {expected} {}", case.balance.signs);
         }
     }
 }
@@ -108,7 +108,7 @@ fn intervals_hold_every_force_and_little_more() {
         let growth =
             ratio(5, 3).pow(i32::try_from(case.pile.shape().stacking().changes()).unwrap());
         let bound = scale(&case) * growth / BigRational::from(BigInt::from(1) << 53);
-        for (answer, expected) in answers::<Interval>(&case, &case.naive.forces()) {
+        for (answer, expected) in answers::<Interval>(&case, &case.balance.forces()) {
             let answer = answer.unwrap();
             assert!(answer.contains(&expected), "{answer:?} {expected}");
             let [lower, upper] = [answer.lower(), answer.upper()].map(BigRational::from_float);
@@ -121,7 +121,7 @@ fn intervals_hold_every_force_and_little_more() {
 #[test]
 fn polynomials_without_symbols_are_rationals() {
     for case in piles().into_iter().take(30) {
-        for (answer, expected) in answers::<Polynomial>(&case, &case.naive.forces()) {
+        for (answer, expected) in answers::<Polynomial>(&case, &case.balance.forces()) {
             assert_eq!(answer.unwrap().to_constant(), Some(expected));
         }
     }
@@ -131,11 +131,11 @@ fn polynomials_without_symbols_are_rationals() {
 fn equal_or_refused<T: Algebra>(exactly: impl Fn(&T) -> Option<BigRational>) -> [usize; 2] {
     let mut counts = [0, 0];
     for case in piles() {
-        for (answer, expected) in answers::<T>(&case, &case.naive.forces()) {
+        for (answer, expected) in answers::<T>(&case, &case.balance.forces()) {
             match answer {
                 Ok(answer) => {
                     counts[0] += 1;
-                    assert_eq!(exactly(&answer), Some(expected), "{}", case.naive.signs);
+                    assert_eq!(exactly(&answer), Some(expected), "{}", case.balance.signs);
                 }
                 Err(Error::Overflow { .. }) => counts[1] += 1,
                 Err(other) => panic!("{other}"),

@@ -3,7 +3,7 @@
 use cannonpile::lattice::{Region, Sign};
 
 use crate::support::cases::{Bounds, Random};
-use crate::support::oracles::naive::{Naive, Sites};
+use crate::support::oracles::balance::{Balance, Sites};
 
 /// The sites of a region, from its rows.
 fn sites(region: &Region) -> Sites {
@@ -90,12 +90,12 @@ fn dilation_is_all_supports_and_erosion_all_that_is_supported() {
         for (sign, signs) in SIGNS {
             let all = bounds.sites();
             let below = region.dilated(sign).unwrap();
-            let naive = Naive::under(&all, signs);
-            assert_eq!(sites(&below), naive.layers[1], "{bounds:?}");
+            let balance = Balance::under(&all, signs);
+            assert_eq!(sites(&below), balance.layers[1], "{bounds:?}");
             assert_eq!(below.eroded(sign), Some(region));
-            let above = Naive::on(&all, signs).map(|naive| naive.layers[0].clone());
+            let above = Balance::on(&all, signs).map(|balance| balance.layers[0].clone());
             assert_eq!(region.eroded(sign).map(|above| sites(&above)), above);
-            let five = Naive::under(&all, &signs.repeat(5));
+            let five = Balance::under(&all, &signs.repeat(5));
             let far_below = region.dilated_by(sign, 5).unwrap();
             assert_eq!(Some(&sites(&far_below)), five.layers.last());
         }
@@ -106,18 +106,18 @@ fn dilation_is_all_supports_and_erosion_all_that_is_supported() {
 fn spheres_above_are_counted_along_each_line() {
     for (bounds, region) in random_regions(18).take(60) {
         for (sign, signs) in SIGNS {
-            let Some(naive) = (0..=4)
+            let Some(balance) = (0..=4)
                 .rev()
-                .find_map(|n| Naive::on(&bounds.sites(), &signs.repeat(n)))
+                .find_map(|n| Balance::on(&bounds.sites(), &signs.repeat(n)))
             else {
                 continue;
             };
-            let bottom = i128::try_from(naive.signs.len()).unwrap();
+            let bottom = i128::try_from(balance.signs.len()).unwrap();
             for (j, i) in bounds.sites() {
                 let counted = [0, 1, 2].map(|m| {
                     let mut at = (bottom, j, i);
                     let mut count = 0;
-                    while let Some(above) = naive.above(at, m) {
+                    while let Some(above) = balance.above(at, m) {
                         (at, count) = (above, count + 1);
                     }
                     count

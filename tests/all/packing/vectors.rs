@@ -6,9 +6,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::forces::invariants::position;
 use crate::support::cases::{Bounds, Case, Random, all_signs};
-use crate::support::oracles::naive::{Naive, Place, direction, ratio, site};
+use crate::support::oracles::balance::{Balance, Place, direction, ratio, site};
 
 /// A horizontal way in thirds of lattice vectors, and layers down, in the basis of the paper's (1): 2R times sinθ,
 /// √3·sinθ, cosθ. The lattice vectors are (0, 1) and (3/2, 1/2) in it.
@@ -21,24 +20,24 @@ fn vector([p, q]: &[BigInt; 2], down: i128) -> Vector<BigRational> {
 }
 
 /// From a sphere to the next one in the direction of a contact.
-fn way(naive: &Naive, from: Place, to: Place) -> Vector<BigRational> {
-    let [[p0, q0], [p1, q1]] = [from, to].map(|at| position(naive, at));
+fn way(balance: &Balance, from: Place, to: Place) -> Vector<BigRational> {
+    let [[p0, q0], [p1, q1]] = [from, to].map(|at| balance.position(at));
     vector(&[p1 - p0, q1 - q0], to.0 - from.0)
 }
 
 fn agrees(case: &Case) {
-    let (naive, forces) = (&case.naive, case.naive.forces());
+    let (balance, forces) = (&case.balance, case.balance.forces());
     let statics: Forces<BigRational> = case.pile.forces();
-    let first = naive.places().next().expect("a sphere");
+    let first = balance.places().next().expect("a sphere");
     let origin = statics.position(site(first)).unwrap();
-    for at in naive.places() {
+    for at in balance.places() {
         let from_first = statics.position(site(at)).unwrap() - &origin;
-        assert_eq!(from_first, way(naive, first, at), "{at:?}");
+        assert_eq!(from_first, way(balance, first, at), "{at:?}");
         let mut resultant = Vector::zero();
         for m in 0..3 {
-            if let Some(above) = naive.above(at, m) {
+            if let Some(above) = balance.above(at, m) {
                 let force = &forces.above[&at][m];
-                resultant = resultant + &way(naive, above, at).map(|c| c * force);
+                resultant = resultant + &way(balance, above, at).map(|c| c * force);
             }
         }
         assert_eq!(statics.resultant_above(site(at)), Ok(resultant), "{at:?}");
@@ -46,9 +45,9 @@ fn agrees(case: &Case) {
             continue;
         };
         for (m, force) in below.iter().enumerate() {
-            let to = naive.below(at, m).expect("off the floor");
+            let to = balance.below(at, m).expect("off the floor");
             // On the upper sphere: away from the lower one.
-            let expected = way(naive, to, at).map(|c| c * force);
+            let expected = way(balance, to, at).map(|c| c * force);
             let vector = statics.contact_vector(site(at), direction(m));
             assert_eq!(vector, Ok(expected), "{at:?} {m}");
         }
@@ -84,8 +83,8 @@ fn under_one_sphere_positions_are_from_it() {
 
 #[test]
 fn a_sphere_moved_is_told_apart() {
-    let naive = Case::under(&Bounds::SITE, "+-").naive;
-    let [here, there] = [(2, 0, 0), (2, 0, 1)].map(|at| way(&naive, (0, 0, 0), at));
+    let balance = Case::under(&Bounds::SITE, "+-").balance;
+    let [here, there] = [(2, 0, 0), (2, 0, 1)].map(|at| way(&balance, (0, 0, 0), at));
     assert!(here.x.is_zero() && here.y.is_zero());
     assert_eq!((there.x, there.y), (ratio(0, 1), ratio(1, 1)));
 }

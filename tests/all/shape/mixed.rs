@@ -5,7 +5,7 @@ use cannonpile::shape::Selection;
 use num_bigint::BigUint;
 
 use crate::support::cases::{Bounds, Case, Random, all_on, all_signs};
-use crate::support::oracles::naive::{Place, Sites, direction, place, site};
+use crate::support::oracles::balance::{Place, Sites, direction, place, site};
 
 fn big(n: usize) -> BigUint {
     n.into()
@@ -18,17 +18,17 @@ fn is_its_sites(case: &Case) {
     neighbours(case);
 }
 
-fn sites_in_order(Case { pile, naive }: &Case) {
-    let places: Vec<Place> = naive.places().collect();
+fn sites_in_order(Case { pile, balance }: &Case) {
+    let places: Vec<Place> = balance.places().collect();
     let sites: Vec<Place> = pile.shape().sites().map(place).collect();
-    assert_eq!(sites, places, "{}", naive.signs);
+    assert_eq!(sites, places, "{}", balance.signs);
     let rows = pile.rows(Selection::All).unwrap();
     assert_eq!(rows.sites(), big(places.len()));
     assert!(rows.flatten().map(place).eq(places.iter().copied()));
     for (n, at) in places.iter().enumerate() {
         assert_eq!(pile.shape().before(site(*at)), Ok(big(n)));
     }
-    for (k, layer) in (0..).zip(&naive.layers) {
+    for (k, layer) in (0..).zip(&balance.layers) {
         let rows = pile.rows(Selection::Layer(k)).unwrap();
         let there: Vec<Place> = rows.flatten().map(place).collect();
         assert!(there.into_iter().eq(layer.iter().map(|&(j, i)| (k, j, i))));
@@ -36,10 +36,10 @@ fn sites_in_order(Case { pile, naive }: &Case) {
     }
 }
 
-fn counts(Case { pile, naive }: &Case) {
-    let spheres: usize = naive.layers.iter().map(Sites::len).sum();
-    let bottom = naive.layers.last().expect("a layer").len();
-    assert_eq!(pile.layers(), i128::try_from(naive.layers.len()).unwrap());
+fn counts(Case { pile, balance }: &Case) {
+    let spheres: usize = balance.layers.iter().map(Sites::len).sum();
+    let bottom = balance.layers.last().expect("a layer").len();
+    assert_eq!(pile.layers(), i128::try_from(balance.layers.len()).unwrap());
     assert_eq!(pile.spheres(), big(spheres));
     assert_eq!(pile.shape().spheres(), big(spheres));
     assert_eq!(pile.contacts(), big(3 * (spheres - bottom)));
@@ -47,7 +47,7 @@ fn counts(Case { pile, naive }: &Case) {
 }
 
 /// Of every site, and of all places around it.
-fn neighbours(Case { pile, naive }: &Case) {
+fn neighbours(Case { pile, balance }: &Case) {
     let shape = pile.shape();
     let around = |(k, j, i): Place| {
         [
@@ -59,16 +59,16 @@ fn neighbours(Case { pile, naive }: &Case) {
             (k + 1, j, i),
         ]
     };
-    for at in naive.places().flat_map(around) {
-        assert_eq!(shape.contains(site(at)), naive.has(at), "{at:?}");
-        assert_eq!(shape.check(site(at)).is_ok(), naive.has(at), "{at:?}");
+    for at in balance.places().flat_map(around) {
+        assert_eq!(shape.contains(site(at)), balance.has(at), "{at:?}");
+        assert_eq!(shape.check(site(at)).is_ok(), balance.has(at), "{at:?}");
         for m in 0..3 {
-            let here = naive.has(at);
-            let below = naive.below(at, m).filter(|_| here);
+            let here = balance.has(at);
+            let below = balance.below(at, m).filter(|_| here);
             if let Some(below) = below {
-                assert!(naive.has(below), "every sphere stands on three: {at:?}");
+                assert!(balance.has(below), "every sphere stands on three: {at:?}");
             }
-            let above = naive.above(at, m).filter(|_| here);
+            let above = balance.above(at, m).filter(|_| here);
             assert_eq!(shape.below(site(at), direction(m)), below.map(site));
             assert_eq!(shape.above(site(at), direction(m)), above.map(site));
         }

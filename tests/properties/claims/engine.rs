@@ -2,7 +2,7 @@
 //!
 //! Sphere by sphere the library follows lines up a tree; layer after layer it sweeps, in limbs for exact numbers and in
 //! the scalar itself for floats; rows of another pile that is the same go row by row. All must agree with
-//! [`Balance`], exactly; and the forces on the floor with the weights that they come from.
+//! [`Solved`], exactly; and the forces on the floor with the weights that they come from.
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
@@ -12,7 +12,7 @@ use cannonpile::{Error, FloorForce, Forces};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::handed_on::{Balance, Contacts, Floor, contacts_of, floor_of, site_of};
+use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of, site_of};
 use super::{Checked, demand, in_lowest_terms, same};
 use crate::generators::number::ratio;
 use crate::generators::region::{self, Described};
@@ -29,14 +29,14 @@ pub(crate) fn every_way(u: &mut Unstructured<'_>) -> Checked {
 
 /// All of the pile, the layer k alone, and what is left when some rows have been given.
 pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checked {
-    let balance = Balance::of(described);
+    let solved = Solved::of(described);
     let pile = described.pile()?;
-    let spheres = balance.received.keys();
+    let spheres = solved.received.keys();
     let sites: Vec<Site> = spheres.map(|sphere| site_of(*sphere)).collect();
     demand(pile.shape().sites().eq(sites.iter().copied()), || {
         format!("{described:?}")
     })?;
-    let (contacts, floor) = (contacts_of(&balance), floor_of(&balance));
+    let (contacts, floor) = (contacts_of(&solved), floor_of(&solved));
     let statics = pile.forces();
     // A pile equal to another is the same pile: nothing depends on which of them is asked.
     let twin = pile.clone();
@@ -51,17 +51,17 @@ pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checke
     // A tree for every sphere would be slow where there are many.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
-        one_sphere(&statics, *site, &balance)?;
+        one_sphere(&statics, *site, &solved)?;
     }
-    bears_what_acts(&floor, &balance)?;
-    same("the weight", &pile.weight(), &balance.acting.values().sum())
+    bears_what_acts(&floor, &solved)?;
+    same("the weight", &pile.weight(), &solved.acting.values().sum())
 }
 
 /// The same in floats: off by roundings of the greatest force there may be.
 pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
-    let balance = Balance::of(&described);
-    let acting: BigRational = balance.acting.values().sum();
+    let solved = Solved::of(&described);
+    let acting: BigRational = solved.acting.values().sum();
     // Where it cannot underflow either.
     if !acting.is_zero() && !(ratio(1, 1 << 60)..ratio(1 << 60, 1)).contains(&acting) {
         return Ok(());
@@ -76,12 +76,12 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
         })
     };
     let swept: Result<Vec<_>, Error> = statics.contacts(Selection::All)?.collect();
-    let contacts = contacts_of(&balance);
+    let contacts = contacts_of(&solved);
     for (got, want) in swept?.iter().zip(&contacts) {
         near(got.force, &want.force)?;
     }
     let swept: Result<Vec<_>, Error> = statics.base(Selection::Base)?.collect();
-    let floor = floor_of(&balance);
+    let floor = floor_of(&solved);
     for (got, want) in swept?.iter().zip(&floor) {
         near(got.normal, &want.normal)?;
         near(got.shear_x, &want.shear_x)?;
@@ -126,15 +126,15 @@ fn filled(statics: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
 }
 
 /// What the library says of one sphere, by the lines above it.
-fn one_sphere(statics: &Exact<'_>, site: Site, balance: &Balance) -> Checked {
+fn one_sphere(statics: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
     let sphere = (site.k, (site.j, site.i));
     same(
         "the forces from above",
         &statics.from_above(site)?,
-        &balance.received[&sphere],
+        &solved.received[&sphere],
     )?;
-    let Some(forces) = balance.passed_on.get(&sphere) else {
-        let floor = floor_of(balance);
+    let Some(forces) = solved.passed_on.get(&sphere) else {
+        let floor = floor_of(solved);
         let want = floor.iter().find(|force| force.site == site).cloned();
         return same(
             "the force on the floor",
@@ -158,20 +158,20 @@ fn one_sphere(statics: &Exact<'_>, site: Site, balance: &Balance) -> Checked {
 }
 
 /// The floor bears what acts, where it acts, and is not pushed sideways on the whole.
-fn bears_what_acts(floor: &[FloorForce<BigRational>], balance: &Balance) -> Checked {
-    let normals = || balance.base().zip(floor.iter().map(|force| &force.normal));
+fn bears_what_acts(floor: &[FloorForce<BigRational>], solved: &Solved) -> Checked {
+    let normals = || solved.base().zip(floor.iter().map(|force| &force.normal));
     let borne: BigRational = normals().map(|(_, normal)| normal).sum();
     same(
         "what the floor bears",
         &borne,
-        &balance.acting.values().sum(),
+        &solved.acting.values().sum(),
     )?;
     for (axis, name) in [(0, "the moment along i"), (1, "the moment along j")] {
-        let moment = |sphere, force: &BigRational| &balance.place(sphere)[axis] * force;
+        let moment = |sphere, force: &BigRational| &solved.place(sphere)[axis] * force;
         let borne: BigRational = normals()
             .map(|(sphere, normal)| moment(sphere, normal))
             .sum();
-        let acting = balance.acting.iter();
+        let acting = solved.acting.iter();
         let acting: BigRational = acting.map(|(sphere, weight)| moment(*sphere, weight)).sum();
         same(name, &borne, &acting)?;
     }
@@ -211,7 +211,7 @@ mod planted {
 
     #[test]
     fn a_contact_off_by_a_trace_is_caught() {
-        let right = contacts_of(&Balance::of(&described()));
+        let right = contacts_of(&Solved::of(&described()));
         assert!(agree(&right, &right).is_ok());
         for spoil in [
             (|contacts: &mut Contacts| contacts[20].force += power(10, -60)) as fn(&mut Contacts),
@@ -228,13 +228,13 @@ mod planted {
     /// The library's answers about a pile that differs in one thing.
     #[test]
     fn a_pile_that_differs_is_caught() {
-        let balance = Balance::of(&described());
+        let solved = Solved::of(&described());
         let judge = |described: &Described| {
             let pile: Pile = described.pile().unwrap();
             let statics = pile.forces();
             let low = Site { i: 0, j: 1, k: 4 };
-            one_sphere(&statics, low, &balance).is_ok()
-                && of_one_layer(&statics, 3, &contacts_of(&balance)).is_ok()
+            one_sphere(&statics, low, &solved).is_ok()
+                && of_one_layer(&statics, 3, &contacts_of(&solved)).is_ok()
         };
         assert!(judge(&described()));
         let spoils: [fn(&mut Described); 5] = [
@@ -253,9 +253,9 @@ mod planted {
 
     #[test]
     fn a_floor_that_bears_it_elsewhere_is_caught() {
-        let balance = Balance::of(&described());
-        let right = floor_of(&balance);
-        assert!(bears_what_acts(&right, &balance).is_ok());
+        let solved = Solved::of(&described());
+        let right = floor_of(&solved);
+        assert!(bears_what_acts(&right, &solved).is_ok());
         let spoils: [fn(&mut Floor); 4] = [
             |floor| floor[0].normal += power(10, -60),
             |floor| {
@@ -268,7 +268,7 @@ mod planted {
         for spoil in spoils {
             let mut wrong = right.clone();
             spoil(&mut wrong);
-            assert!(bears_what_acts(&wrong, &balance).is_err());
+            assert!(bears_what_acts(&wrong, &solved).is_err());
         }
     }
 }

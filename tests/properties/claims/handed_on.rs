@@ -9,7 +9,7 @@ use num_traits::Zero;
 
 use crate::generators::number::ratio;
 use crate::generators::region::Described;
-use crate::support::oracles::naive::{Forces, Naive, Place, place, site};
+use crate::support::oracles::balance::{Balance, Forces, Place, place, site};
 use crate::support::oracles::sets::within;
 
 /// Beyond the sites of every pile that is described.
@@ -25,8 +25,8 @@ pub(crate) type Contacts = Vec<ContactForce<BigRational>>;
 pub(crate) type Floor = Vec<FloorForce<BigRational>>;
 
 /// A pile and its forces.
-pub(crate) struct Balance {
-    pile: Naive,
+pub(crate) struct Solved {
+    pile: Balance,
     forces: Forces,
     /// From above on each sphere along α, β, γ, in f₀.
     pub(crate) received: BTreeMap<Sphere, [BigRational; 3]>,
@@ -36,7 +36,7 @@ pub(crate) struct Balance {
     pub(crate) acting: BTreeMap<Sphere, BigRational>,
 }
 
-impl Balance {
+impl Solved {
     pub(crate) fn of(described: &Described) -> Self {
         let [x, y, s] = [
             described.region.x(),
@@ -48,9 +48,9 @@ impl Balance {
         let sites = within([x0, x1, y0, y1, s0, s1], REACH);
         let signs: String = described.signs.iter().map(ToString::to_string).collect();
         let mut pile = if described.from_base {
-            Naive::on(&sites, &signs).expect("a base that carries its steps")
+            Balance::on(&sites, &signs).expect("a base that carries its steps")
         } else {
-            Naive::under(&sites, &signs)
+            Balance::under(&sites, &signs)
         };
         for (site, weight) in &described.weights {
             pile.weights.insert(place(*site), weight.clone());
@@ -101,8 +101,8 @@ pub(crate) fn site_of((k, (j, i)): Sphere) -> Site {
 }
 
 /// The contacts of every sphere in row order, as the library lists them.
-pub(crate) fn contacts_of(balance: &Balance) -> Contacts {
-    let spheres = balance.passed_on.iter();
+pub(crate) fn contacts_of(solved: &Solved) -> Contacts {
+    let spheres = solved.passed_on.iter();
     let contacts = spheres.flat_map(|(sphere, forces)| {
         let site = site_of(*sphere);
         Direction::ALL
@@ -118,8 +118,8 @@ pub(crate) fn contacts_of(balance: &Balance) -> Contacts {
 }
 
 /// The forces on the floor in row order, as the library lists them.
-pub(crate) fn floor_of(balance: &Balance) -> Floor {
-    let floor = balance.forces.floor.iter();
+pub(crate) fn floor_of(solved: &Solved) -> Floor {
+    let floor = solved.forces.floor.iter();
     let force = |(at, [normal, shear_x, shear_y]): (&Place, &[BigRational; 3])| FloorForce {
         site: site(*at),
         normal: normal.clone(),

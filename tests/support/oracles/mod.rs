@@ -2,12 +2,12 @@
 //!
 //! | file | what it has |
 //! |---|---|
+//! | `balance` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
-//! | `naive` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `overlap` | the distance of every two spheres |
 //! | `sets` | regions and layers as plain sets of sites |
 
+pub(crate) mod balance;
 pub(crate) mod elimination;
-pub(crate) mod naive;
 pub(crate) mod overlap;
 pub(crate) mod sets;

@@ -28,7 +28,7 @@ pub(crate) fn ratio(n: i64, d: i64) -> BigRational {
 
 /// A pile of which nothing is known but its sites, its steps and its weights.
 #[derive(Clone, Debug)]
-pub(crate) struct Naive {
+pub(crate) struct Balance {
     /// `+` or `-` for each step, from the top.
     pub(crate) signs: String,
     /// From the top.
@@ -81,7 +81,7 @@ fn signed(sign: Sign, force: BigRational) -> BigRational {
     }
 }
 
-impl Naive {
+impl Balance {
     /// Every layer all supports of the one above.
     pub(crate) fn under(top: &Sites, signs: &str) -> Self {
         let mut layers = vec![top.clone()];
