@@ -547,6 +547,7 @@ impl Pile {
         Ok(self.loading.load(self.shape.check(site)?))
     }
 
+    #[cfg(feature = "serde")]
     pub(crate) fn loading(&self) -> &Loading {
         &self.loading
     }

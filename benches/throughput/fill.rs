@@ -5,7 +5,8 @@ use std::hint::black_box;
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Site;
-use cannonpile::{Packing, Pile, Strengths};
+use cannonpile::shape::Selection;
+use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
 
 use crate::time::{ratio, seconds};
@@ -15,46 +16,52 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let pile = Pile::triangular(extent.size(560, 20)).expect("a pile");
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     let packing = Packing::new(&pile, &spacing).expect("room");
-    let strengths = Strengths::<f64>::nearest(&packing).expect("floats");
     let nearest = |site, direction| {
         packing
             .contact(site, direction)
             .expect("a contact")
             .nearest()
     };
-    let fill = over_memset(&pile, &strengths, 1.5, extent.pairs, nearest);
+    let filling = |slices: [&mut [f64]; 3]| {
+        let layers = packing.layers::<f64>(Selection::All).expect("floats");
+        seconds(|| layers.fill(black_box(slices)).expect("lengths that fit"))
+    };
+    let fill = over_memset(&pile, filling, 1.5, extent.pairs, nearest);
     results.push(("fill_f64_over_memset".into(), fill));
 
-    let statics = pile.forces::<BigRational>();
-    let strengths = Strengths::<i64>::multiples(&pile).expect("integers");
+    let forces = pile.forces::<BigRational>();
     let multiple = |site, direction| {
-        let force = statics.contact(site, direction).expect("a contact");
+        let force = forces.contact(site, direction).expect("a contact");
         force.to_integer().try_into().ok()
     };
-    let fill = over_memset(&pile, &strengths, 3, extent.pairs, multiple);
+    let filling = |slices: [&mut [i64]; 3]| {
+        let layers = forces.layers(Selection::All).expect("room");
+        let layers = layers.numerators::<i64>().expect("integers");
+        seconds(|| {
+            let denominator = layers.fill(black_box(slices)).expect("lengths that fit");
+            assert_eq!(denominator, 1.into());
+        })
+    };
+    let fill = over_memset(&pile, filling, 3, extent.pairs, multiple);
     results.push(("fill_exact_i64_over_memset".into(), fill));
 }
 
 /// One slice for each direction, buffers touched before, and a value that is not zero.
 fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
     pile: &Pile,
-    strengths: &Strengths<V>,
+    mut filling: impl FnMut([&mut [V]; 3]) -> f64,
     value: V,
     pairs: usize,
     exact: impl Fn(Site, cannonpile::lattice::Direction) -> Option<V>,
 ) -> f64 {
-    let spheres = strengths.spheres().expect("as many as fit");
+    let layers = pile.forces::<f64>().layers(Selection::All);
+    let spheres = layers.and_then(|layers| layers.spheres()).expect("as many as fit");
     let mut slices = [value; 3].map(|value| vec![value; spheres]);
     let mut other = slices.clone();
     let ratio = ratio(
         pairs,
         || {
-            let [a, b, c] = slices.each_mut().map(Vec::as_mut_slice);
-            let time = seconds(|| {
-                strengths
-                    .fill(black_box([a, b, c]))
-                    .expect("lengths that fit");
-            });
+            let time = filling(slices.each_mut().map(Vec::as_mut_slice));
             black_box(&slices);
             time
         },

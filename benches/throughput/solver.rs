@@ -5,7 +5,7 @@ use std::hint::black_box;
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Direction;
 use cannonpile::shape::Selection;
-use cannonpile::{Packing, Pile, Strengths};
+use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
 
 use crate::peers::equations::Equations;
@@ -30,8 +30,8 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
         || {
             let time = seconds(|| {
                 let [a, b, c] = slices.each_mut().map(Vec::as_mut_slice);
-                let strengths = Strengths::<f64>::nearest(&packing).expect("floats");
-                strengths.fill([a, b, c]).expect("lengths");
+                let layers = packing.layers::<f64>(Selection::All).expect("floats");
+                layers.fill([a, b, c]).expect("lengths");
             });
             black_box(&slices);
             time

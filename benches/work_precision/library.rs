@@ -1,9 +1,11 @@
 //! The methods of the library, in every scalar, each held to what its scalar promises.
 
 use cannonpile::geometry::Spacing;
-use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
+use cannonpile::scalar::{
+    Algebra, DoubleDouble, Exactness, Interval, NearestFloat, RealEmbeddable,
+};
 use cannonpile::shape::Selection;
-use cannonpile::{Forces, Packing, Pile, Strengths};
+use cannonpile::{Forces, Packing, Pile};
 use num_rational::BigRational;
 
 use crate::Bench;
@@ -44,20 +46,21 @@ pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
 fn tables(bench: &Bench) -> [Run; 3] {
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     let packing = Packing::new(&bench.case.pile, &spacing).expect("room");
-    let integers = || Strengths::<i64>::multiples(&bench.case.pile).expect("integers");
-    let (seconds, forces) = timed(bench.repetitions, || filled(&integers()));
+    let (seconds, forces) = timed(bench.repetitions, || {
+        let layers = bench.case.pile.forces::<BigRational>().layers(Selection::All);
+        let layers = layers.expect("room").numerators::<i64>().expect("integers");
+        filled(layers.spheres().expect("as many as fit"), |slices| {
+            layers.fill(slices).expect("lengths that fit");
+        })
+    });
     let forces: Vec<[BigRational; 3]> = forces
         .into_iter()
         .map(|forces| forces.map(|n| BigRational::from_integer(n.into())))
         .collect();
     let exact = held(bench, Method::Table, &forces, Unit::PileUnits);
     [
-        table(bench, || {
-            filled(&Strengths::<f32>::nearest(&packing).expect("floats"))
-        }),
-        table(bench, || {
-            filled(&Strengths::<f64>::nearest(&packing).expect("floats"))
-        }),
+        table(bench, || nearest::<f32>(&packing)),
+        table(bench, || nearest::<f64>(&packing)),
         bench.run(
             Method::Table,
             "i64",
@@ -75,13 +78,22 @@ fn table<T: Algebra + RealEmbeddable>(bench: &Bench, run: impl FnMut() -> Vec<[T
     bench.run(Method::Table, T::NAME, Measured { seconds, error })
 }
 
-fn filled<V: Copy + Default + Send + Sync>(strengths: &Strengths<V>) -> Vec<[V; 3]> {
-    let spheres = strengths.spheres().expect("as many as fit");
-    let mut forces = vec![[V::default(); 3]; spheres];
-    strengths
-        .fill_interleaved(&mut forces)
-        .expect("lengths that fit");
-    forces
+fn nearest<F: NearestFloat + Default>(packing: &Packing<'_>) -> Vec<[F; 3]> {
+    let layers = packing.layers::<F>(Selection::All).expect("floats");
+    filled(layers.spheres().expect("as many as fit"), |slices| {
+        layers.fill(slices).expect("lengths that fit");
+    })
+}
+
+fn filled<V: Copy + Default>(spheres: usize, fill: impl FnOnce([&mut [V]; 3])) -> Vec<[V; 3]> {
+    let mut forces = [(); 3].map(|()| vec![V::default(); spheres]);
+    fill(forces.each_mut().map(Vec::as_mut_slice));
+    by_direction(forces)
+}
+
+fn by_direction<V>([a, b, c]: [Vec<V>; 3]) -> Vec<[V; 3]> {
+    let forces = a.into_iter().zip(b).zip(c);
+    forces.map(|((a, b), c)| [a, b, c]).collect()
 }
 
 fn closed<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
@@ -96,8 +108,8 @@ fn recursion<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
 
 fn engine(bench: &Bench) -> Run {
     let run = measured::<BigRational>(bench, Method::Engine, || {
-        let statics = bench.case.pile.forces::<BigRational>();
-        contacts(&statics.by(cannonpile::Method::Sweep).expect("spheres"))
+        let forces = bench.case.pile.forces::<BigRational>();
+        contacts(&forces.by(cannonpile::Method::Sweep).expect("spheres"))
     });
     Run {
         scalar: "integers",
@@ -107,25 +119,21 @@ fn engine(bench: &Bench) -> Run {
 
 /// All contact forces, layer after layer.
 fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
-    let mut sweep = pile.sweep::<T>().expect("room");
-    let mut forces = Vec::new();
-    for k in 0..pile.layers() - 1 {
-        sweep.advance(k).expect("a layer");
-        let spheres = sweep.spheres().expect("few");
-        let mut layer = [(); 3].map(|()| vec![T::zero(); spheres]);
-        let [a, b, c] = layer.each_mut().map(Vec::as_mut_slice);
-        sweep.fill([a, b, c]).expect("forces");
-        let [a, b, c] = layer;
-        forces.extend(a.into_iter().zip(b).zip(c).map(|((a, b), c)| [a, b, c]));
-    }
-    forces
+    let forces = pile.forces::<T>().by(cannonpile::Method::Sweep);
+    let layers = forces.and_then(|forces| forces.layers(Selection::All));
+    let layers = layers.expect("room");
+    let spheres = layers.spheres().expect("few");
+    let mut forces = [(); 3].map(|()| vec![T::zero(); spheres]);
+    layers
+        .fill(forces.each_mut().map(Vec::as_mut_slice))
+        .expect("forces");
+    by_direction(forces)
 }
 
 /// All contact forces, as they are asked for one after the other.
-fn contacts<T: Algebra>(statics: &Forces<'_, T>) -> Vec<[T; 3]> {
-    let rows = statics.pile().rows(Selection::All).expect("rows");
-    let forces = statics.contacts(rows).map(|c| c.expect("a force").force);
-    by_sphere(forces.collect())
+fn contacts<T: Algebra>(forces: &Forces<'_, T>) -> Vec<[T; 3]> {
+    let contacts = forces.contacts(Selection::All).expect("a plan");
+    by_sphere(contacts.map(|c| c.expect("a force").force).collect())
 }
 
 fn measured<T: Algebra + RealEmbeddable>(

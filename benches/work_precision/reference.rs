@@ -34,9 +34,8 @@ impl Reference {
     /// The library's exact answer, and the proof that it is right: every sphere is in equilibrium, exactly, and as many
     /// equations as forces have one solution.
     pub(crate) fn new(pile: &Pile, network: &Network) -> Self {
-        let rows = pile.rows(Selection::All).expect("rows");
-        let statics = pile.forces::<BigRational>();
-        let contacts = statics.contacts(rows);
+        let contacts = pile.forces::<BigRational>().contacts(Selection::All);
+        let contacts = contacts.expect("a plan");
         let forces: Vec<BigRational> = contacts.map(|c| c.expect("a force").force).collect();
         let forces = by_sphere(forces);
         certify(pile, network, &forces);

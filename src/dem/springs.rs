@@ -1,10 +1,10 @@
 //! What a pile of stiff spheres is to a code that has springs: how stiff, how damped, in which steps.
 
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
 use super::numbered::NumberedPile;
-use super::weights::{checked, nearest_rational, normal};
+use super::weights::{checked, greatest_extra, nearest_rational, normal, ordinary_weight};
 use crate::Error;
 use crate::lattice::Site;
 use crate::scalar::Ring;
@@ -35,10 +35,8 @@ pub(super) struct Springs {
 impl Springs {
     pub(super) fn of(numbered: &NumberedPile<'_>) -> Result<Self, Error> {
         let (pile, packing) = (numbered.pile(), numbered.packing());
-        let loading = pile.loading();
         let layers = BigRational::from_i128(pile.layers());
-        let most = loading.extras().map(|(_, extra)| extra.abs()).max();
-        let most = most.unwrap_or_else(BigRational::zero);
+        let most = greatest_extra(pile)?;
         // In mg. Of spheres that weigh nothing only the loads matter, and without any nothing does.
         let greatest = match (pile.is_weightless(), most.is_zero()) {
             (true, false) => layers.clone() * most,
@@ -49,7 +47,7 @@ impl Springs {
         let stiffness = million * greatest * packing.sphere_weight() / cos2 / packing.radius();
         let stiffness = normal(&stiffness, "the stiffness of springs")?;
         let mass = normal(packing.mass(), "mass")?;
-        let gravity = loading.ordinary() * packing.gravity();
+        let gravity = ordinary_weight(pile) * packing.gravity();
         let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
         let mut centres = numbered.centres();
         // Layers are convex: their corners are their extremes.

@@ -1,14 +1,13 @@
 //! What spheres weigh and bear, as a simulation needs it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::numbered::{NumberedPile, nearest};
-
-use crate::Error;
 use crate::lattice::Site;
+use crate::{Error, Pile};
 
 /// The nearest float to a rational.
 pub(super) fn nearest_rational(number: &BigRational, quantity: &'static str) -> Result<f64, Error> {
@@ -28,6 +27,32 @@ pub(super) fn checked(number: f64, quantity: &'static str) -> Result<f64, Error>
         .ok_or(Error::Overflow { quantity, scalar })
 }
 
+/// What most spheres weigh, in mg.
+pub(super) fn ordinary_weight(pile: &Pile) -> BigRational {
+    if pile.is_weightless() {
+        BigRational::zero()
+    } else {
+        BigRational::one()
+    }
+}
+
+/// The spheres that were given a load or a weight of their own.
+fn special_sites(pile: &Pile) -> BTreeSet<Site> {
+    let loads = pile.loads().map(|(site, _)| site);
+    loads.chain(pile.weights().map(|(site, _)| site)).collect()
+}
+
+/// The greatest difference of weight and load together from the ordinary weight, in mg.
+pub(super) fn greatest_extra(pile: &Pile) -> Result<BigRational, Error> {
+    let ordinary = ordinary_weight(pile);
+    let mut greatest = BigRational::zero();
+    for site in special_sites(pile) {
+        let extra = pile.sphere_weight(site)? + pile.load(site)? - &ordinary;
+        greatest = greatest.max(extra.abs());
+    }
+    Ok(greatest)
+}
+
 /// A quantity that is the same for all spheres but a few, rounded.
 pub(super) struct PerSphere {
     ordinary: f64,
@@ -37,50 +62,40 @@ pub(super) struct PerSphere {
 impl PerSphere {
     /// The masses, in kg.
     pub(super) fn masses(pile: &NumberedPile<'_>) -> Result<Self, Error> {
-        let (loading, mass) = (pile.pile().loading(), pile.packing().mass());
-        Self::new(
-            pile,
-            "mass",
-            &loading.ordinary(),
-            |site| loading.weight(site),
-            mass,
-        )
+        Self::of_weights(pile, "mass", pile.packing().mass())
     }
 
     /// The weights, in N.
     pub(super) fn weights(pile: &NumberedPile<'_>) -> Result<Self, Error> {
-        let (loading, mg) = (pile.pile().loading(), pile.packing().sphere_weight());
-        Self::new(
-            pile,
-            "weight",
-            &loading.ordinary(),
-            |site| loading.weight(site),
-            &mg,
-        )
+        Self::of_weights(pile, "weight", &pile.packing().sphere_weight())
     }
 
     /// The loads, in N: what acts downwards besides the weight.
     pub(super) fn loads(pile: &NumberedPile<'_>) -> Result<Self, Error> {
-        let (loading, mg) = (pile.pile().loading(), pile.packing().sphere_weight());
-        Self::new(
-            pile,
-            "load",
-            &BigRational::zero(),
-            |site| loading.load(site),
-            &mg,
-        )
+        let (quantity, unit) = ("load", pile.packing().sphere_weight());
+        let special = |site| pile.pile().load(site);
+        Self::new(pile, quantity, &BigRational::zero(), special, &unit)
+    }
+
+    fn of_weights(
+        pile: &NumberedPile<'_>,
+        quantity: &'static str,
+        unit: &BigRational,
+    ) -> Result<Self, Error> {
+        let special = |site| pile.pile().sphere_weight(site);
+        Self::new(pile, quantity, &ordinary_weight(pile.pile()), special, unit)
     }
 
     fn new(
         pile: &NumberedPile<'_>,
         quantity: &'static str,
         ordinary: &BigRational,
-        special: impl Fn(Site) -> BigRational,
+        special: impl Fn(Site) -> Result<BigRational, Error>,
         unit: &BigRational,
     ) -> Result<Self, Error> {
-        let sites = pile.pile().loading().special_sites();
+        let sites = special_sites(pile.pile()).into_iter();
         let special =
-            sites.map(|site| Ok((site, nearest_rational(&(special(site) * unit), quantity)?)));
+            sites.map(|site| Ok((site, nearest_rational(&(special(site)? * unit), quantity)?)));
         Ok(Self {
             ordinary: nearest_rational(&(ordinary * unit), quantity)?,
             special: special.collect::<Result<_, Error>>()?,
@@ -111,19 +126,21 @@ fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
 
 /// That mass of the spheres that have a weight of their own.
 pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, Error> {
-    let sites = pile.pile().loading().special_weights();
+    let sites = pile.pile().weights().map(|(site, _)| site);
     let masses = sites.map(|site| Ok((site, normal(&inertia(pile, site)?, "mass")?)));
     masses.collect()
 }
 
 /// The spheres off the floor on which more or less acts than the weight of their mass.
 pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<Burden>, Error> {
-    let (packing, loading) = (pile.packing(), pile.pile().loading());
+    let (packing, ordinary) = (pile.packing(), ordinary_weight(pile.pile()));
     let floor = pile.pile().layers() - 1;
     let mut burdens = Vec::new();
-    for site in loading.special_sites().filter(|site| site.k < floor) {
-        let pulled = inertia(pile, site)? * packing.gravity() * loading.ordinary();
-        let force = loading.total(site) * packing.sphere_weight() - pulled;
+    let special = special_sites(pile.pile()).into_iter();
+    for site in special.filter(|site| site.k < floor) {
+        let pulled = inertia(pile, site)? * packing.gravity() * &ordinary;
+        let total = pile.pile().sphere_weight(site)? + pile.pile().load(site)?;
+        let force = total * packing.sphere_weight() - pulled;
         if !force.is_zero() {
             burdens.push(Burden {
                 id: pile.numbering().id(site)?,

@@ -55,29 +55,6 @@ impl Loading {
         special.cloned().unwrap_or_else(|| self.ordinary())
     }
 
-    /// Whether a sphere weighs what most do.
-    #[cfg(feature = "export")]
-    pub(crate) fn is_ordinary(&self, site: Site) -> bool {
-        self.weightless || !self.weights.contains_key(&site)
-    }
-
-    /// The spheres that have a weight of their own.
-    #[cfg(feature = "export")]
-    pub(crate) fn special_weights(&self) -> impl Iterator<Item = Site> + '_ {
-        let weights = self.weights.keys().copied();
-        weights.filter(|site| !self.is_ordinary(*site))
-    }
-
-    /// The spheres that have a load, or a weight of their own.
-    #[cfg(feature = "export")]
-    pub(crate) fn special_sites(&self) -> impl Iterator<Item = Site> + '_ {
-        let unloaded = self
-            .weights
-            .keys()
-            .filter(|site| !self.loads.contains_key(site));
-        self.loads.keys().chain(unloaded).copied()
-    }
-
     /// What is put on a sphere.
     pub(crate) fn load(&self, site: Site) -> BigRational {
         // Not a default: on a sphere that is not in the list nothing was put.
