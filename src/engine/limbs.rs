@@ -185,6 +185,7 @@ impl Planes {
         let all = self
             .limbs
             .first()
+            // Not a default: without planes there is nothing to carry.
             .map_or([0; 3], |plane| plane.0.each_ref().map(Vec::len));
         let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
         let fits = carry_rows(&mut planes, &all.map(|n| 0..n));

@@ -16,9 +16,9 @@ const CALLS: [&str; 5] = [
 ];
 
 /// Words that make a value one that was only to hand.
-const TO_HAND: [&str; 17] = [
-    "0", "1", "MAX", "MIN", "NAN", "ZERO", "ONE", "WHOLE", "EMPTY", "None", "zero", "one",
-    "default", "new", "empty", "vec", "INFINITY",
+const TO_HAND: [&str; 15] = [
+    "MAX", "MIN", "NAN", "ZERO", "ONE", "WHOLE", "EMPTY", "None", "zero", "one", "default", "new",
+    "empty", "vec", "INFINITY",
 ];
 
 const REASON: &str = "// Not a default: ";
@@ -165,6 +165,7 @@ fn what_is_no_default_is_let_pass() {
         "a.unwrap_or_else(|| self.ordinary())",
         "a.unwrap_or_else(|error| error.into_inner())",
         "a.map_or(top, |run| run.index + 1)",
+        "a.map_or(row.i.end - 1, |until| until)",
         "a.map_or_else(|| f(), g)",
         "a.ok_or_else(|| bug(\"0\"))?",
         "fn unwrap_or_default() {}",

@@ -139,11 +139,13 @@ fn what_is_amiss_is_found() {
     assert_eq!(unproved, ["formula::turn is a formula and not proved"]);
     // Without one of the functions that the library itself calls.
     let mut sources = sources();
-    for turn in sources
-        .iter_mut()
-        .filter(|source| source.path == "formula/turn.rs")
-    {
-        turn.text = turn.text.replace("= tripled_apart(g)", "= g");
+    for source in &mut sources {
+        let called = match source.path.as_str() {
+            "formula/turn.rs" => "= tripled_apart(g)",
+            "engine/limbs.rs" => "tripled_apart",
+            _ => continue,
+        };
+        source.text = source.text.replace(called, "another");
     }
     assert_eq!(
         missing(&sources),
