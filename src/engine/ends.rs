@@ -44,9 +44,16 @@ impl<T: Algebra> Lines<'_, T> {
             if let Some(run) = run {
                 let steps = k - run.from;
                 for count in self.shape.row_counts(&run, k, row.j) {
+                    // A count that does not rise, or fall, is level to the end of the row.
                     let level = (
-                        count.rises.map_or(row.i.start, |from| from + count.cap),
-                        count.falls.map_or(row.i.end - 1, |until| until - count.cap),
+                        match count.rises {
+                            Some(from) => from + count.cap,
+                            None => row.i.start,
+                        },
+                        match count.falls {
+                            Some(until) => until - count.cap,
+                            None => row.i.end - 1,
+                        },
                     );
                     ends.extend([level.0, level.1]);
                     if let (Some(from), Some(until)) = (count.rises, count.falls) {

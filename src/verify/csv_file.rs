@@ -55,6 +55,7 @@ pub(super) fn read_rows(
         if !read.map_err(io_error)? {
             break;
         }
+        unquote(&mut row);
         let Some(columns) = &columns else {
             let header = Columns::new(&row).map_err(|fault| fault.at(line))?;
             columns = Some(header);
@@ -69,6 +70,20 @@ pub(super) fn read_rows(
         Some(_) => Ok(reading),
         None => Err(Fault::Empty.at(csv.get_ref().lines.number())),
     }
+}
+
+/// Takes the quotes off fields that have blanks before them, where a reader sees no quote.
+fn unquote(row: &mut StringRecord) {
+    if !row.iter().any(|field| field.starts_with('"')) {
+        return;
+    }
+    let bare = |field: &str| {
+        let inside = field
+            .strip_prefix('"')
+            .and_then(|rest| rest.strip_suffix('"'));
+        inside.unwrap_or(field).trim().to_owned()
+    };
+    *row = row.iter().map(bare).collect();
 }
 
 /// A source that gives no more than a line at a time, and refuses those that are no rows of a table.

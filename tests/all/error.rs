@@ -285,7 +285,7 @@ fn too_many_rows() {
         limit: 100_000_000_000,
         remedy: "ask for one layer with --layer",
     };
-    says(&error, &["4999999", "100000000000", "--layer"]);
+    says(&error, &["10^107", "100000000000", "--layer"]);
 }
 
 /// Made by the figures alone (feature `plot`); the message is the library's.

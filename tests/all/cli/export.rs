@@ -22,13 +22,29 @@ fn files_by_format() {
         (
             "default",
             "",
-            &["base.csv", "columns.csv", "contacts.csv", "spheres.csv"][..],
+            &[
+                "base.csv",
+                "columns.csv",
+                "contacts.csv",
+                "scene.toml",
+                "spheres.csv",
+            ][..],
         ),
-        ("lammps", "--to lammps", &["pile.data", "pile.in"]),
+        (
+            "lammps",
+            "--to lammps",
+            &["pile.data", "pile.in", "scene.toml"],
+        ),
         (
             "two",
             "--to vtp,yade --to vtp",
-            &["contacts.vtp", "pile.py", "spheres.txt", "spheres.vtp"],
+            &[
+                "contacts.vtp",
+                "pile.py",
+                "scene.toml",
+                "spheres.txt",
+                "spheres.vtp",
+            ],
         ),
     ] {
         let into = at(name);
@@ -90,7 +106,7 @@ fn a_pile_that_falls_is_exported_with_a_note() {
     let note = String::from_utf8(output.stderr).expect("text");
     assert_eq!(note.lines().count(), 1);
     assert!(note.contains("does not stand"), "{note}");
-    assert_eq!(names(folder.path()), ["pile.data", "pile.in"]);
+    assert_eq!(names(folder.path()), ["pile.data", "pile.in", "scene.toml"]);
 }
 
 #[test]

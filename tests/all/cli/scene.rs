@@ -202,7 +202,7 @@ fn a_refusal_tells_the_file_from_the_line() {
     }
     let nowhere = refusal("summary --scene /nowhere/pile.toml");
     assert!(
-        nowhere.contains("/nowhere/pile.toml") && nowhere.contains("not found"),
+        nowhere.contains("/nowhere/pile.toml") && nowhere.contains("no such file"),
         "{nowhere}"
     );
     let file = Scratch::new("bytes", "");
