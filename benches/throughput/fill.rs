@@ -55,7 +55,9 @@ fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
     exact: impl Fn(Site, cannonpile::lattice::Direction) -> Option<V>,
 ) -> f64 {
     let layers = pile.forces::<f64>().layers(Selection::All);
-    let spheres = layers.and_then(|layers| layers.spheres()).expect("as many as fit");
+    let spheres = layers
+        .and_then(|layers| layers.spheres())
+        .expect("as many as fit");
     let mut slices = [value; 3].map(|value| vec![value; spheres]);
     let mut other = slices.clone();
     let ratio = ratio(

@@ -46,7 +46,6 @@ fn main() {
         solver::measure(extent, &mut results);
         growth::measure(extent, &mut results);
     });
-    #[cfg(feature = "rayon")]
     sweeps::measure_threads(extent, &mut results);
     for (name, value) in results {
         println!("ratio {name} {value:.2}");
@@ -55,13 +54,8 @@ fn main() {
 
 /// Times are compared thread by thread.
 fn on_one_thread(measure: impl FnOnce() + Send) {
-    #[cfg(feature = "rayon")]
-    {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-        pool.expect("a thread").install(measure);
-    }
-    #[cfg(not(feature = "rayon"))]
-    measure();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a thread").install(measure);
 }
 
 /// What is printed at the end.

@@ -46,7 +46,6 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 }
 
 /// The sweeps in floats and in the exact engine on one thread, against two.
-#[cfg(feature = "rayon")]
 pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
     let pile = alternating(extent.size(200, 30));
     let pool = |threads| {

@@ -47,7 +47,11 @@ fn tables(bench: &Bench) -> [Run; 3] {
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     let packing = Packing::new(&bench.case.pile, &spacing).expect("room");
     let (seconds, forces) = timed(bench.repetitions, || {
-        let layers = bench.case.pile.forces::<BigRational>().layers(Selection::All);
+        let layers = bench
+            .case
+            .pile
+            .forces::<BigRational>()
+            .layers(Selection::All);
         let layers = layers.expect("room").numerators::<i64>().expect("integers");
         filled(layers.spheres().expect("as many as fit"), |slices| {
             layers.fill(slices).expect("lengths that fit");

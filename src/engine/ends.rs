@@ -144,20 +144,17 @@ mod tests {
                         .unwrap();
                     let sites: Vec<[i128; 2]> = row.i.map(|i| [i, j]).collect();
                     let forces = lines.forces_above(k, &sites, Wanted::All).unwrap().forces;
-                    for n in 1..sites.len().saturating_sub(1) {
-                        if ends.contains(&sites[n]) {
+                    for (site, around) in sites.iter().skip(1).zip(forces.windows(3)) {
+                        if ends.contains(site) {
                             continue;
                         }
                         unlisted += 1;
-                        for line in 0..3 {
-                            let [a, b, c] = [n - 1, n, n + 1].map(|n| &forces[n][line]);
-                            assert_eq!(
-                                a + c,
-                                b + b,
-                                "{} {:?} k={k}",
-                                pile.shape().stacking(),
-                                sites[n]
-                            );
+                        let [before, here, after] = around else {
+                            unreachable!()
+                        };
+                        for ((a, b), c) in before.iter().zip(here).zip(after) {
+                            let stacking = pile.shape().stacking();
+                            assert_eq!(a + c, b + b, "{stacking} {site:?} k={k}");
                         }
                     }
                 }
