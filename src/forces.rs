@@ -171,7 +171,7 @@ impl Pile {
 }
 
 impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
-    /// The same, telling a meter what every answer takes.
+    /// Returns the forces, of which a meter hears what every answer takes.
     ///
     /// # Examples
     /// ```
@@ -181,7 +181,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// let (pile, counters) = (Pile::triangular(4)?, Counters::default());
     /// let forces = pile.forces::<f64>().metered(&counters);
     /// assert_eq!(forces.contacts(Selection::All)?.count(), 30);
-    /// assert_eq!(counters.to_string(), "10 visited, 0 turned, 0 passes, 0 roots, 30 rows");
+    /// assert_eq!(counters.to_string(), "10 visited, 0 turned, 0 passes, 30 rows");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]

@@ -104,7 +104,7 @@ impl<'p> Packing<'p> {
 }
 
 impl<'p, M: Meter> Packing<'p, M> {
-    /// The same, telling a meter what every answer takes.
+    /// Returns the packing, of which a meter hears what every answer takes.
     ///
     /// # Examples
     /// ```
@@ -118,8 +118,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
     /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
     /// assert_eq!(packing.base(Selection::Base)?.count(), 55);
-    /// // Of tan²θ and of 4cos²φ.
-    /// assert_eq!(counters.roots(), 2);
+    /// assert_eq!(counters.rows(), 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]

@@ -126,8 +126,8 @@ impl Theorem {
     ///
     /// let proof = theorem::find("contacts").unwrap().prove();
     /// assert!(proof.holds());
-    /// // For every L at once.
-    /// assert_eq!(proof.steps[0].right.to_string(), "(L^3 - L)/2");
+    /// // For every L at once: the contacts of one direction.
+    /// assert_eq!(proof.steps[0].right.to_string(), "(L^3 - L)/6");
     /// ```
     #[must_use]
     pub fn prove(&self) -> Proof {

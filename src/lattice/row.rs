@@ -8,8 +8,7 @@ use super::Site;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::Site;
-/// use cannonpile::shape::Row;
+/// use cannonpile::lattice::{Row, Site};
 ///
 /// let row = Row { k: 2, j: 1, i: 0..2 };
 /// assert!(row.into_iter().eq([Site { i: 0, j: 1, k: 2 }, Site { i: 1, j: 1, k: 2 }]));

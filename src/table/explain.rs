@@ -216,7 +216,7 @@ impl<'p> Explanation<'p> {
     /// let mut csv = Vec::new();
     /// Explanation::counted(&counters).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
     /// // One sphere visited, and nothing else.
-    /// assert!(csv.ends_with(b"\n1,0,0,0,0\n"));
+    /// assert!(csv.ends_with(b"\n1,0,0,0\n"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
