@@ -31,8 +31,8 @@ use crate::stacking::Stacking;
 ///
 /// // 10³⁰ layers cost what 10 do.
 /// let pile = Pile::triangular(10_i128.pow(30))?;
-/// let statics = pile.forces::<BigRational>();
-/// let force = statics.on_floor(Site { i: 5, j: 7, k: pile.layers() - 1 })?;
+/// let forces = pile.forces::<BigRational>();
+/// let force = forces.on_floor(Site { i: 5, j: 7, k: pile.layers() - 1 })?;
 /// assert_eq!(force.normal.to_string(), "333333333333333333333333333334");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -206,9 +206,9 @@ impl Pile {
     /// let pile = Pile::triangular(10)?.weightless();
     /// let pile = pile.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
     /// // One of three contacts of 1/3 at each depth; what lies off its line feels nothing.
-    /// let statics = pile.forces::<f64>();
-    /// assert_eq!(statics.contact(Site { i: 0, j: 0, k: 5 }, Direction::Alpha)?, 1.0);
-    /// assert_eq!(statics.contact(Site { i: 1, j: 1, k: 5 }, Direction::Alpha)?, 0.0);
+    /// let forces = pile.forces::<f64>();
+    /// assert_eq!(forces.contact(Site { i: 0, j: 0, k: 5 }, Direction::Alpha)?, 1.0);
+    /// assert_eq!(forces.contact(Site { i: 1, j: 1, k: 5 }, Direction::Alpha)?, 0.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]

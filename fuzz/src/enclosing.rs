@@ -2,7 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, Interval, RealEmbeddable, Ring, RealSign, laws,
+    Algebra, DoubleDouble, Field, Interval, RealEmbeddable, RealSign, Ring, laws,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational;
