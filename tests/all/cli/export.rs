@@ -66,7 +66,10 @@ fn files_by_format() {
         assert_eq!(file[2], bytes.to_string());
     }
     let rows: Vec<&str> = listed.iter().map(|file| file[1]).collect();
-    assert_eq!(rows, ["10", "12", "6", "", "10", "", "10", "12", "10", ""]);
+    assert_eq!(
+        rows,
+        ["10", "12", "6", "", "10", "", "10", "12", "10", "", ""]
+    );
 }
 
 #[test]
