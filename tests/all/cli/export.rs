@@ -161,12 +161,14 @@ fn a_signal_takes_away_what_was_begun() {
         let folder = tempfile::tempdir().expect("a folder");
         let into = folder.path().join("new/pile");
         let mut export = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-            .args(["export", "--layers", "1000"])
+            .args(["export", "--layers", "300"])
             .arg(&into)
             .stderr(Stdio::null())
             .spawn()
             .expect("the binary runs");
         while !into.exists() || names(&into).is_empty() {
+            let ended = export.try_wait().expect("a child");
+            assert_eq!(ended, None, "it ended before a signal came");
             sleep(Duration::from_millis(10));
         }
         let id = export.id().to_string();
