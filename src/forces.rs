@@ -194,7 +194,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
         }
     }
 
-    /// The same by this method, whether it is the cheapest or not: for comparison. Exact answers do not depend on it.
+    /// Returns the forces by this method, whether it is the cheapest or not: for comparison. Exact answers do not depend on it.
     ///
     /// # Errors
     /// [`Error::NoSuchMethod`] for a closed form of a stacking that is not straight, or a sweep of discs. What does not

@@ -137,7 +137,7 @@ impl<'p, M: Meter> Packing<'p, M> {
         }
     }
 
-    /// The same by this method, whether it is the cheapest or not: for comparison.
+    /// Returns the packing whose forces are found by this method, whether it is the cheapest or not: for comparison.
     ///
     /// # Errors
     /// As for [`Forces::by`].
@@ -162,7 +162,7 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(Self { forces, ..self })
     }
 
-    /// The same packing with spheres of this radius.
+    /// Returns the packing with spheres of this radius.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
@@ -186,7 +186,7 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(Self { radius, ..self })
     }
 
-    /// The same packing with spheres of this mass.
+    /// Returns the packing with spheres of this mass.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.
@@ -209,7 +209,7 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(Self { mass, ..self }.weighed())
     }
 
-    /// The same packing in this gravity.
+    /// Returns the packing in this gravity.
     ///
     /// # Errors
     /// [`Error::NotPositive`] unless it is positive.

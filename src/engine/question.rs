@@ -59,11 +59,11 @@ pub enum Quantity {
     ContactMultiples,
     /// Their magnitudes in SI: [`Packing::magnitudes`](crate::Packing::magnitudes).
     ContactMagnitudes,
-    /// The same with their vectors and the contact points: [`Packing::contacts`](crate::Packing::contacts).
+    /// The contact forces in SI, with vectors and contact points: [`Packing::contacts`](crate::Packing::contacts).
     ContactVectors,
     /// The forces on the floor, in mg and mg·tanθ: [`Forces::base`](crate::Forces::base).
     FloorMultiples,
-    /// The same in SI: [`Packing::base`](crate::Packing::base).
+    /// The forces on the floor in SI: [`Packing::base`](crate::Packing::base).
     FloorForces,
     /// Where the centres are, in SI: [`Packing::position`](crate::Packing::position).
     Positions,

@@ -88,7 +88,7 @@ impl Culprit {
 }
 
 impl fmt::Display for Culprit {
-    /// The same word as [`name`](Self::name).
+    /// Writes the word of [`name`](Self::name).
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
