@@ -95,7 +95,7 @@ impl Pile {
     /// ```
     /// use cannonpile::Pile;
     ///
-    /// assert_eq!(Pile::discs(10)?.spheres(), 55_u32.into());
+    /// assert_eq!(Pile::discs(10)?.sphere_count(), 55_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn discs(layers: i128) -> Result<Self, Error> {
@@ -139,7 +139,7 @@ impl Pile {
     /// use cannonpile::stacking::Stacking;
     ///
     /// let pile = Pile::on(Region::hexagon(3, 3)?, Stacking::fcc(3)?)?;
-    /// assert_eq!(pile.spheres(), 37_u32.into());
+    /// assert_eq!(pile.sphere_count(), 37_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on(base: Region, stacking: Stacking) -> Result<Self, Error> {
@@ -299,15 +299,15 @@ impl Pile {
     /// ```
     /// use cannonpile::Pile;
     ///
-    /// assert_eq!(Pile::triangular(10)?.spheres(), 220_u32.into());
+    /// assert_eq!(Pile::triangular(10)?.sphere_count(), 220_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn spheres(&self) -> BigUint {
+    pub fn sphere_count(&self) -> BigUint {
         if self.shape.is_pyramid() {
             return self.count(|layers, d| count::spheres(&layers, d));
         }
-        self.shape.spheres()
+        self.shape.sphere_count()
     }
 
     /// The weight of all spheres and the loads on them, in mg: what the floor carries.
@@ -321,7 +321,8 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn weight(&self) -> BigRational {
-        let ordinary = self.loading.ordinary() * BigRational::from_integer(self.spheres().into());
+        let ordinary =
+            self.loading.ordinary() * BigRational::from_integer(self.sphere_count().into());
         let extras = self.loading.extras().map(|(_, extra)| extra);
         extras.fold(ordinary, |sum, extra| sum + extra)
     }
@@ -364,11 +365,11 @@ impl Pile {
     /// ```
     /// use cannonpile::Pile;
     ///
-    /// assert_eq!(Pile::triangular(10)?.contacts(), 495_u32.into());
+    /// assert_eq!(Pile::triangular(10)?.contact_count(), 495_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn contacts(&self) -> BigUint {
+    pub fn contact_count(&self) -> BigUint {
         if self.shape.is_pyramid() {
             return self.count(|layers, d| count::contacts(&layers, d));
         }
@@ -386,7 +387,7 @@ impl Pile {
     /// ```
     #[must_use]
     pub fn base_spheres(&self) -> BigUint {
-        self.shape.base().sites()
+        self.shape.base().site_count()
     }
 
     /// The contacts of one direction whose force is `n` increments: (L−n)(L−n+1)/2 for spheres, in a straight pile
@@ -447,7 +448,7 @@ impl Pile {
     /// use cannonpile::shape::Selection;
     ///
     /// let pile = Pile::triangular(10)?;
-    /// assert_eq!(pile.rows(Selection::Layer(2))?.sites(), 6_u32.into());
+    /// assert_eq!(pile.rows(Selection::Layer(2))?.site_count(), 6_u32.into());
     /// assert!(pile.rows(Selection::Layer(10)).is_err());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -464,7 +465,7 @@ impl Pile {
     /// ```
     /// use cannonpile::Pile;
     ///
-    /// assert_eq!(Pile::discs(10)?.numbering()?.spheres(), 55);
+    /// assert_eq!(Pile::discs(10)?.numbering()?.sphere_count(), 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn numbering(&self) -> Result<Numbering<'_>, Error> {

@@ -32,7 +32,7 @@ pub use toml::SceneFile;
 ///
 /// let scene = Scene { layers: Some(4), spacing: Some(parse::rational("1.2")?), ..Scene::default() };
 /// let pile = scene.pile()?;
-/// assert_eq!(pile.spheres(), 20_u32.into());
+/// assert_eq!(pile.sphere_count(), 20_u32.into());
 /// assert!(scene.packing(&pile)?.touching().is_empty());
 ///
 /// // As high as the base carries.

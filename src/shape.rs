@@ -33,7 +33,7 @@ use crate::stacking::{Pattern, Run, Stacking};
 ///
 /// let hcp = Shape::under(Region::SITE, "+-".parse()?)?;
 /// assert_eq!(hcp.layer(2)?.to_string(), "-1..1,-1..1,-1..1");
-/// assert_eq!(hcp.spheres(), 11_u32.into());
+/// assert_eq!(hcp.sphere_count(), 11_u32.into());
 /// // Under a − step, γ leads to j−1.
 /// let site = Site { i: 0, j: 0, k: 1 };
 /// assert_eq!(hcp.below(site, Direction::Gamma), Some(Site { i: 0, j: -1, k: 2 }));

@@ -170,7 +170,7 @@ impl Pile {
         const MOST_WORK: u64 = 1_000_000_000;
         let changes = self.changes();
         let sites = changes.iter().filter_map(|k| self.shape().layer(*k).ok());
-        let sites = sites.map(|region| region.sites()).sum::<BigUint>();
+        let sites = sites.map(|region| region.site_count()).sum::<BigUint>();
         let planes = self.system().size_of_sweep(self.layers() - 1).planes;
         let whole = sites * planes * 3_u32 <= BigUint::from(MOST_WORK);
         let mut standing = self.standing_until(!whole)?;
@@ -288,7 +288,7 @@ impl Pile {
         let (mut ends, mut sites) = (BigUint::zero(), BigUint::zero());
         for k in layers {
             ends += lines.most_ends_of_pieces(*k)?;
-            sites += shape.layer(*k)?.sites();
+            sites += shape.layer(*k)?.site_count();
         }
         // One layer more, so that the last change is behind.
         let planes = system.size_of_sweep(last + 1).planes;

@@ -34,7 +34,11 @@ impl Case {
 
     /// Contacts between spheres.
     pub(crate) fn contacts(&self) -> f64 {
-        let contacts: u32 = self.pile.contacts().try_into().expect("some thousands");
+        let contacts: u32 = self
+            .pile
+            .contact_count()
+            .try_into()
+            .expect("some thousands");
         contacts.into()
     }
 }

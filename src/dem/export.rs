@@ -155,8 +155,8 @@ impl<'p> PileExport<'p> {
             PileFile::SpheresCsv
             | PileFile::LammpsData
             | PileFile::SpheresVtp
-            | PileFile::YadeSpheres => Some(self.numbering().spheres()),
-            PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.pile().contacts()),
+            | PileFile::YadeSpheres => Some(self.numbering().sphere_count()),
+            PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.pile().contact_count()),
             PileFile::BaseCsv => few(self.pile.pile().base_spheres()),
             PileFile::ColumnsCsv
             | PileFile::LammpsInput

@@ -19,7 +19,7 @@ pub(super) fn write_data(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    let spheres = pile.numbering().spheres();
+    let spheres = pile.numbering().sphere_count();
     if spheres > MOST_ATOMS {
         return Err(Error::TooLarge {
             quantity: "the atoms of LAMMPS",

@@ -79,7 +79,7 @@ impl<'p> NumberedPile<'p> {
     pub fn new(packing: &Packing<'p>) -> Result<Self, Error> {
         let pile = packing.pile();
         let remedy = "use fewer layers, or a smaller top or base";
-        refuse_beyond(&pile.spheres().max(pile.contacts()), remedy)?;
+        refuse_beyond(&pile.sphere_count().max(pile.contact_count()), remedy)?;
         Ok(Self {
             numbering: pile.numbering()?,
             packing: packing.clone(),

@@ -17,7 +17,7 @@ pub(super) fn write_spheres(
     out: &mut dyn Write,
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
-    let n = pile.numbering().spheres();
+    let n = pile.numbering().sphere_count();
     let sections = [
         Section {
             tag: "PointData",
@@ -98,7 +98,7 @@ pub(super) fn write_contacts(
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
     // Not more than the most rows.
-    let n = u64::try_from(pile.pile().contacts()).map_err(std::io::Error::other)?;
+    let n = u64::try_from(pile.pile().contact_count()).map_err(std::io::Error::other)?;
     let sections = [
         Section {
             tag: "PointData",

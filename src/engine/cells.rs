@@ -142,7 +142,7 @@ fn make_in_bands<V>(
 /// How many bands are worth the work of these passes.
 fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
     // Not a default: only whether threads are worth it hangs on it.
-    let sites = |(pass, _): &(Pass, _)| pass.region.sites().to_usize().unwrap_or(usize::MAX);
+    let sites = |(pass, _): &(Pass, _)| pass.region.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
     // Threads are not asked for where they are not worth it.

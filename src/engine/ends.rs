@@ -24,7 +24,7 @@ impl<T: Algebra> Lines<'_, T> {
         let region = self.shape.layer(k)?;
         let rows = BigUint::from((region.y().end() - region.y().start() + 1).unsigned_abs());
         let starts = match self.shape.stretch_to(k) {
-            Some(run) if run.index > 0 => self.shape.layer(run.from)?.sites(),
+            Some(run) if run.index > 0 => self.shape.layer(run.from)?.site_count(),
             _ => BigUint::ZERO,
         };
         Ok(rows * ENDS_OF_A_ROW + (starts + self.extra_weights.len()) * 9_u32)

@@ -89,7 +89,7 @@ impl<'p> Grid<'p> {
     /// # Errors
     /// As for [`new`](Self::new).
     pub(crate) fn numbers(shape: &Shape, last: i128, planes: usize) -> Result<BigUint, Error> {
-        let numbers = shape.layer(last)?.sites() * 3_u32 * planes;
+        let numbers = shape.layer(last)?.site_count() * 3_u32 * planes;
         if numbers > BigUint::from(MAX_NUMBERS) {
             return Err(Error::TooLarge {
                 quantity: "a sweep down to this layer",

@@ -150,7 +150,7 @@ impl System<'_> {
         if let Some(method) = method {
             self.check_method(method)?;
         }
-        let mut answers = rows.sites();
+        let mut answers = rows.site_count();
         if quantity.is_of_contacts() {
             answers *= self.shape.dimension().directions().len();
         } else if quantity != Quantity::Positions {
@@ -163,7 +163,7 @@ impl System<'_> {
                 Some(run) => run.index + 1,
                 None => 0,
             },
-            visited: rows.sites(),
+            visited: rows.site_count(),
             turned: BigUint::zero(),
             passes: BigUint::zero(),
             numbers: BigUint::zero(),
@@ -218,7 +218,7 @@ impl System<'_> {
     /// Plans trees, each of a piece of a row.
     fn plan_trees(&self, plan: &mut Plan, rows: &Rows<'_>) -> Result<(), Error> {
         let last = last_of(rows);
-        let sites = rows.sites();
+        let sites = rows.site_count();
         let mut pieces = BigUint::from(1_u32);
         if rows.one().is_none() {
             let (layers, height) = (rows.layers(), self.shape.layer(last)?.widths()[1]);
@@ -233,7 +233,7 @@ impl System<'_> {
         let mut above = BigUint::zero();
         let mut run = self.shape.stretch_to(last).filter(|run| run.index > 0);
         while let (Some(stretch), true) = (run, above <= most) {
-            level = (level * 3_u32).min(self.shape.layer(stretch.from)?.sites());
+            level = (level * 3_u32).min(self.shape.layer(stretch.from)?.site_count());
             above += &level;
             run = self.shape.stretch(stretch.index - 1);
             run = run.filter(|run| run.index > 0);
@@ -280,15 +280,15 @@ impl System<'_> {
         };
         let words_in_all = Grid::numbers(shape, last, words)?;
         plan.method = Method::Sweep;
-        plan.numbers = shape.layer(last)?.sites() * 3_u32;
+        plan.numbers = shape.layer(last)?.site_count() * 3_u32;
         plan.bytes = words_in_all * size_of::<i64>();
         (plan.bits, plan.reserved, plan.planes) = (size.bits, size.reserved(), size.planes);
         plan.turned = BigUint::zero();
         let changes = (1..).map_while(|run| shape.stretch(run));
         for change in changes.take_while(|run| run.from <= last) {
-            plan.turned += shape.layer(change.from)?.sites();
+            plan.turned += shape.layer(change.from)?.site_count();
         }
-        plan.visited = rows.sites();
+        plan.visited = rows.site_count();
         let layers = rows.layers();
         let stops = (layers.end - layers.start).max(1).unsigned_abs();
         plan.passes = BigUint::from(stops) + plan.runs;

@@ -62,7 +62,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             self.layer.pass(&self.grid, &pass, &increments)?;
             meter.pass();
             if M::COUNTS && pass.turns {
-                let sites = pass.region.sites().to_usize();
+                let sites = pass.region.site_count().to_usize();
                 // Not a default: more than a counter holds are counted as the most.
                 meter.turn(sites.unwrap_or(usize::MAX));
             }

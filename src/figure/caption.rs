@@ -63,7 +63,10 @@ fn anchor(shape: &Shape) -> Option<String> {
     if grown.is_ok_and(|grown| grown == *shape) {
         return Some(format!("base {}", name(&base)));
     }
-    let top = shape.layer(0).ok().filter(|top| !top.sites().is_one())?;
+    let top = shape
+        .layer(0)
+        .ok()
+        .filter(|top| !top.site_count().is_one())?;
     Some(format!("top {}", name(&top)))
 }
 

@@ -28,7 +28,7 @@ impl Layer {
         remedy: &'static str,
     ) -> Result<Self, Error> {
         let pile = subject.pile();
-        let count = pile.shape().layer(k)?.sites();
+        let count = pile.shape().layer(k)?.site_count();
         if k == pile.layers() - 1 {
             readable(&count, limit, "bottom spheres", remedy)?;
         } else {

@@ -67,7 +67,7 @@ struct Network {
 pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     let pile = subject.pile();
     let remedy = "use fewer layers, or show one of them";
-    readable(&pile.spheres(), LIMIT_OF_ALL, "spheres", remedy)?;
+    readable(&pile.sphere_count(), LIMIT_OF_ALL, "spheres", remedy)?;
     let discs = subject.is_of_discs();
     let across = usize::from(!discs);
     let plane = subject.rows(middle(pile, 0)?)?;

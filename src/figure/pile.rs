@@ -49,7 +49,7 @@ const SHADES: [(&str, [&str; 3]); 2] = [
 /// ```
 pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
     let pile = subject.pile();
-    readable(&pile.spheres(), LIMIT, "spheres", "use fewer layers")?;
+    readable(&pile.sphere_count(), LIMIT, "spheres", "use fewer layers")?;
     let discs = subject.is_of_discs();
     let mut places: Vec<(Site, Vector)> = Vec::new();
     for site in pile.rows(Selection::All)?.flatten() {

@@ -29,7 +29,7 @@ impl Forces<'_, BigRational> {
             meet(&terms.floor_numerators(site, above).0);
         };
         let rows = self.pile.rows(Selection::Base)?;
-        let (sites, ends) = (rows.sites(), lines.most_ends_of_pieces(floor)?);
+        let (sites, ends) = (rows.site_count(), lines.most_ends_of_pieces(floor)?);
         if self.pile.is_paper_pile() {
             for corner in rows.corners() {
                 meet(corner, &self.received(corner, Wanted::All)?);

@@ -131,7 +131,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
             Way::Exact(_, sweep) => sweep.advance(k, self.meter)?,
         }
         let region = self.shape().layer(k)?;
-        let sites = region.sites();
+        let sites = region.site_count();
         let Some(spheres) = sites.to_usize() else {
             return Err(Error::TooLarge {
                 quantity: "a layer",

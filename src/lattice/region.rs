@@ -27,10 +27,10 @@ use crate::scalar::parse::integer;
 /// use cannonpile::lattice::{Region, Sign};
 ///
 /// let hexagon = Region::hexagon(3, 3)?;
-/// assert_eq!(hexagon.sites(), 19_u32.into());
+/// assert_eq!(hexagon.site_count(), 19_u32.into());
 /// // Every support of every sphere: the layer below.
 /// let below = hexagon.dilated(Sign::Plus)?;
-/// assert_eq!(below.sites(), 27_u32.into());
+/// assert_eq!(below.site_count(), 27_u32.into());
 /// assert_eq!(below.eroded(Sign::Plus), Some(hexagon));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
@@ -294,11 +294,11 @@ impl Region {
     /// ```
     /// use cannonpile::lattice::Region;
     ///
-    /// assert_eq!(Region::hexagon(3, 3)?.sites(), 19_u32.into());
+    /// assert_eq!(Region::hexagon(3, 3)?.site_count(), 19_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn sites(&self) -> BigUint {
+    pub fn site_count(&self) -> BigUint {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
         let (sides, corners) = ([x1 - x0 + 1, y1 - y0 + 1], [s0 - (x0 + y0), x1 + y1 - s1]);
         // Below 2^62 no product of two leaves i128.
@@ -320,7 +320,7 @@ impl Region {
         };
         let whole_rows = rows_before
             .tightened()
-            .map_or_else(BigUint::default, |r| r.sites());
+            .map_or_else(BigUint::default, |r| r.site_count());
         whole_rows + BigInt::from(i - start).into_parts().1
     }
 

@@ -62,9 +62,9 @@ impl Part {
 /// Returns how many spheres a part has.
 pub(crate) fn spheres(pile: &Pile, selection: Selection) -> Result<BigUint, Error> {
     Ok(match selection {
-        Selection::All => pile.spheres(),
+        Selection::All => pile.sphere_count(),
         Selection::Base => pile.base_spheres(),
-        Selection::Layer(k) => pile.shape().layer(k)?.sites(),
+        Selection::Layer(k) => pile.shape().layer(k)?.site_count(),
         Selection::One(_) => BigUint::from(1_u32),
     })
 }

@@ -21,11 +21,11 @@ impl Shape {
     /// use cannonpile::stacking::Stacking;
     ///
     /// let shape = Shape::under(Region::SITE, Stacking::fcc(10)?)?;
-    /// assert_eq!(shape.spheres(), 220_u32.into());
+    /// assert_eq!(shape.sphere_count(), 220_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn spheres(&self) -> BigUint {
+    pub fn sphere_count(&self) -> BigUint {
         self.spheres_in(0..self.layers())
     }
 
@@ -64,7 +64,10 @@ impl Shape {
     }
 
     fn spheres_in_piece(&self, layers: Range<i128>) -> BigUint {
-        let count = |k| self.region(k).map_or_else(BigUint::zero, |r| r.sites());
+        let count = |k| {
+            self.region(k)
+                .map_or_else(BigUint::zero, |r| r.site_count())
+        };
         let n = layers.end - layers.start;
         if n <= 3 {
             return layers.map(count).sum();

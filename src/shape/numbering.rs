@@ -41,7 +41,7 @@ pub struct Numbering<'p> {
 
 impl<'p> Numbering<'p> {
     pub(super) fn new(shape: &'p Shape) -> Result<Self, Error> {
-        let spheres = shape.spheres();
+        let spheres = shape.sphere_count();
         if spheres > BigUint::from(MOST) {
             return Err(Error::TooLarge {
                 quantity: "the numbers of all spheres",
@@ -54,7 +54,7 @@ impl<'p> Numbering<'p> {
         for k in 0..shape.layers() {
             before.push(sum);
             above_floor = sum;
-            sum += few(shape.layer(k)?.sites())?;
+            sum += few(shape.layer(k)?.site_count())?;
         }
         Ok(Self {
             shape,
@@ -85,11 +85,11 @@ impl<'p> Numbering<'p> {
     /// ```
     /// use cannonpile::Pile;
     ///
-    /// assert_eq!(Pile::triangular(10)?.numbering()?.spheres(), 220);
+    /// assert_eq!(Pile::triangular(10)?.numbering()?.sphere_count(), 220);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub const fn spheres(&self) -> u64 {
+    pub const fn sphere_count(&self) -> u64 {
         self.spheres
     }
 

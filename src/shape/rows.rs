@@ -16,8 +16,8 @@ use num_bigint::BigUint;
 /// use cannonpile::shape::Selection;
 ///
 /// let pile = Pile::triangular(10)?;
-/// assert_eq!(pile.rows(Selection::Base)?.sites(), 55_u32.into());
-/// assert_eq!(pile.rows(Selection::All)?.sites(), 220_u32.into());
+/// assert_eq!(pile.rows(Selection::Base)?.site_count(), 55_u32.into());
+/// assert_eq!(pile.rows(Selection::All)?.site_count(), 220_u32.into());
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,7 +46,7 @@ pub enum Selection {
 ///
 /// let pyramid = Shape::pyramid(3, Dimension::Three)?;
 /// let mut base = pyramid.rows(Selection::Base)?;
-/// assert_eq!(base.sites(), 6_u32.into());
+/// assert_eq!(base.site_count(), 6_u32.into());
 /// assert_eq!(base.next(), Some(Row { k: 2, j: 0, i: 0..3 }));
 /// assert_eq!(base.next(), Some(Row { k: 2, j: 1, i: 0..2 }));
 /// # Ok::<(), cannonpile::Error>(())
@@ -100,7 +100,7 @@ impl<'p> Rows<'p> {
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let rows = pyramid.rows(Selection::All)?.off_the_floor();
-    /// assert_eq!(rows.sites(), 10_u32.into());
+    /// assert_eq!(rows.site_count(), 10_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -147,13 +147,13 @@ impl<'p> Rows<'p> {
     ///
     /// let pyramid = Shape::pyramid(4, Dimension::Three)?;
     /// let mut rows = pyramid.rows(Selection::All)?;
-    /// assert_eq!(rows.sites(), 20_u32.into());
+    /// assert_eq!(rows.site_count(), 20_u32.into());
     /// rows.next();
-    /// assert_eq!(rows.sites(), 19_u32.into());
+    /// assert_eq!(rows.site_count(), 19_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn sites(&self) -> BigUint {
+    pub fn site_count(&self) -> BigUint {
         if self.one.is_some() {
             return 1_u32.into();
         }

@@ -154,8 +154,8 @@ impl<'p> Summary<'p> {
         let entries = [
             plain("layers", pile.layers().into()),
             plain("stacking", word(stacking(pile))),
-            count("spheres", pile.spheres()),
-            count("contacts", pile.contacts()),
+            count("spheres", pile.sphere_count()),
+            count("contacts", pile.contact_count()),
             measured("weight", units.normal(), in_units(&pile.weight())),
             plain("stands", stands.unwrap_or(Cell::Missing)),
             measured(

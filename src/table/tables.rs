@@ -43,7 +43,7 @@ pub const MAX_ROWS: u64 = 100_000_000_000;
 pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = units.pile();
     let rows = pile.rows(selection)?;
-    refuse_beyond(&rows.sites(), "ask for one sphere")?;
+    refuse_beyond(&rows.site_count(), "ask for one sphere")?;
     // What cannot be done is refused before a row is written.
     let forces = units.forces().base(selection)?;
     let mut columns = indices(pile, &[]);
@@ -52,7 +52,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     if pile.dimension() == Dimension::Three {
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
-    let (count, bounds) = (rows.sites(), bounds(&columns, units));
+    let (count, bounds) = (rows.site_count(), bounds(&columns, units));
     let table = Table::of_rows(columns, "bottom spheres", base_rows(units, forces));
     Ok(table.bounded(count, bounds))
 }
@@ -101,7 +101,7 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
     let pile = units.pile();
     let directions = pile.dimension().directions();
     let rows = pile.rows(selection)?.off_the_floor();
-    let count = rows.sites() * directions.len();
+    let count = rows.site_count() * directions.len();
     refuse_beyond(&count, narrower(selection))?;
     let forces = units.forces().contacts(selection)?;
     let mut columns = indices(pile, &["k"]);
@@ -261,7 +261,7 @@ fn greatest_place(packing: &Packing<'_>) -> BigRational {
 pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<'p>, Error> {
     let pile = packing.pile();
     let rows = pile.rows(selection)?;
-    let count = rows.sites();
+    let count = rows.site_count();
     refuse_beyond(&count, narrower(selection))?;
     let mut columns = indices(pile, &["id", "k"]);
     columns.extend(["x", "y", "z", "radius"].map(|name| Column::measured(name, "m")));

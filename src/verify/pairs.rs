@@ -22,9 +22,9 @@ pub(super) struct Scope {
 
 impl Scope {
     pub(super) fn new(packing: &Packing<'_>) -> Result<Self, Refusal> {
-        let contacts = packing.pile().contacts();
+        let contacts = packing.pile().contact_count();
         if u64::try_from(&contacts).is_ok_and(|contacts| contacts <= MAX_ENTRIES) {
-            let spheres = packing.pile().numbering()?.spheres();
+            let spheres = packing.pile().numbering()?.sphere_count();
             return Ok(Self {
                 spheres,
                 limit: spheres.saturating_mul(PAIRS_A_SPHERE).min(MAX_ENTRIES),

@@ -281,7 +281,7 @@ fn syntax() {
 #[test]
 fn too_many_rows() {
     let error = Error::TooManyRows {
-        rows: Pile::triangular(MAX_LAYERS).unwrap().contacts(),
+        rows: Pile::triangular(MAX_LAYERS).unwrap().contact_count(),
         limit: 100_000_000_000,
         remedy: "ask for one layer with --layer",
     };

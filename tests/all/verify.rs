@@ -69,7 +69,7 @@ fn the_exact_forces_are_accepted_with_an_error_of_zero() {
         let perfect = perfect(&packing);
         for measured in [&perfect, &magnitudes(&perfect)] {
             let comparison = compare(&packing, measured);
-            let contacts = u64::try_from(pile.contacts()).unwrap();
+            let contacts = u64::try_from(pile.contact_count()).unwrap();
             assert_eq!(comparison.contacts(), contacts);
             assert_eq!(comparison.matched(), contacts);
             assert!(comparison.accepted(0.0), "{comparison}");

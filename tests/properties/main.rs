@@ -262,7 +262,7 @@ fn bounds_are_made_and_refused() {
     let kinds = census(|u| {
         let [x0, x1, y0, y1, s0, s1] = region::bounds(u)?;
         Ok(match Region::new(x0..=x1, y0..=y1, s0..=s1) {
-            Ok(region) if region.sites().bits() > 64 => "huge".into(),
+            Ok(region) if region.site_count().bits() > 64 => "huge".into(),
             Ok(region) if region.x() == (x0..=x1) && region.s() == (s0..=s1) => "as given".into(),
             Ok(_) => "tightened".into(),
             Err(Error::EmptyRegion { .. }) => "empty".into(),

@@ -476,7 +476,7 @@ fn numbers_grow_limb_by_limb() {
         sum += forces.into_iter().sum::<BigRational>();
     }
     // f cosθ of each contact together carry all layers above: f is in mg/(3 cosθ).
-    let floor = pile.shape().base().sites();
-    let above = BigInt::from(pile.spheres() - floor);
+    let floor = pile.shape().base().site_count();
+    let above = BigInt::from(pile.sphere_count() - floor);
     assert_eq!(sum, BigRational::from_integer(above * 3));
 }

@@ -26,7 +26,7 @@ fn any_region_is_its_sites_and_its_bounds_are_tight() {
     for (bounds, region) in random_regions(10) {
         let expected = bounds.sites();
         assert_eq!(sites(&region), expected, "{bounds:?}");
-        assert_eq!(region.sites(), expected.len().into());
+        assert_eq!(region.site_count(), expected.len().into());
         let range = |pick: fn(&(i128, i128)) -> i128| {
             let values = || expected.iter().map(pick);
             values().min().unwrap()..=values().max().unwrap()

@@ -24,7 +24,7 @@ fn sites_of_hexagon(p: i128, q: i128) -> BigUint {
 fn the_greatest_regions_are_counted() {
     for [p, q] in [[MAX, MAX], [MAX, 1], [1, MAX], [MAX, 2], [3, 4]] {
         let hexagon = hexagon(p, q);
-        assert_eq!(hexagon.sites(), sites_of_hexagon(p, q), "{p} {q}");
+        assert_eq!(hexagon.site_count(), sites_of_hexagon(p, q), "{p} {q}");
         assert!(
             hexagon
                 .corners()
@@ -33,12 +33,12 @@ fn the_greatest_regions_are_counted() {
         );
         assert_eq!(hexagon.is_its_own_mirror_image(), p == q, "{p} {q}");
         assert_eq!(hexagon.mirrored().mirrored(), hexagon);
-        assert_eq!(hexagon.mirrored().sites(), hexagon.sites());
+        assert_eq!(hexagon.mirrored().site_count(), hexagon.site_count());
     }
     // All of it: the bounds of i+j cut two corners off the square.
     let all = region([-MAX, MAX, -MAX, MAX, -MAX, MAX]).expect("at the limit");
     let n = BigUint::from(MAX.unsigned_abs());
-    assert_eq!(all.sites(), 3_u32 * &n * &n + 3_u32 * &n + 1_u32);
+    assert_eq!(all.site_count(), 3_u32 * &n * &n + 3_u32 * &n + 1_u32);
     let lengths = all.rows(0).take(3).map(|row| row.i.end - row.i.start);
     assert!(lengths.eq([MAX + 1, MAX + 2, MAX + 3]));
 }
@@ -106,7 +106,7 @@ fn erosion_at_the_limit_leaves_what_it_should() {
         "i+j would be −2·10³⁶"
     );
     let corner = region([-MAX, -MAX + 1, 0, 1, -MAX, -MAX + 1]).expect("three sites or four");
-    assert_eq!(corner.sites(), 3_u32.into());
+    assert_eq!(corner.site_count(), 3_u32.into());
     let top = corner.eroded(Sign::Plus).expect("one site");
     assert_eq!(
         top,

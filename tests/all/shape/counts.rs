@@ -29,14 +29,14 @@ fn piles() -> impl Iterator<Item = (Shape, Pile, Vec<Site>)> {
 #[test]
 fn spheres_contacts_and_base() {
     for (shape, pile, sites) in piles() {
-        assert_eq!(pile.spheres(), sites.len().into());
+        assert_eq!(pile.sphere_count(), sites.len().into());
         let base = sites
             .iter()
             .filter(|site| site.k == pile.layers() - 1)
             .count();
         assert_eq!(pile.base_spheres(), base.into());
         let contacts = (sites.len() - base) * shape.directions().len();
-        assert_eq!(pile.contacts(), contacts.into());
+        assert_eq!(pile.contact_count(), contacts.into());
     }
 }
 
@@ -112,12 +112,12 @@ fn rows_know_how_many_sites_are_left() {
         for selection in layers.chain([Selection::Base, Selection::All, Selection::One(sites[0])]) {
             let mut rows = pile.rows(selection).unwrap();
             let mut left = rows.clone().flatten().count();
-            assert_eq!(rows.sites(), left.into(), "{selection:?}");
+            assert_eq!(rows.site_count(), left.into(), "{selection:?}");
             while let Some(row) = rows.next() {
                 let length = row.clone().into_iter().count();
                 assert_eq!(row.into_iter().size_hint(), (length, Some(length)));
                 left -= length;
-                assert_eq!(rows.sites(), left.into(), "{selection:?}");
+                assert_eq!(rows.site_count(), left.into(), "{selection:?}");
             }
             assert_eq!(left, 0);
         }
@@ -174,14 +174,14 @@ fn the_greatest_pile() {
     let number = |digits: &str| digits.parse::<BigUint>().unwrap();
     let pile = Pile::triangular(MAX_LAYERS).unwrap();
     assert_eq!(
-        pile.spheres(),
+        pile.sphere_count(),
         number(concat!(
             "166666666666666666666666666666666667",
             "166666666666666666666666666666666667000000000000000000000000000000000000",
         )),
     );
     assert_eq!(
-        pile.contacts(),
+        pile.contact_count(),
         number(concat!(
             "499999999999999999999999999999999999",
             "999999999999999999999999999999999999500000000000000000000000000000000000",
@@ -193,12 +193,15 @@ fn the_greatest_pile() {
         pile.contacts_of_strength(10_i128.pow(35)),
         number("405000000000000000000000000000000000450000000000000000000000000000000000"),
     );
-    assert_eq!(pile.rows(Selection::All).unwrap().sites(), pile.spheres());
+    assert_eq!(
+        pile.rows(Selection::All).unwrap().site_count(),
+        pile.sphere_count()
+    );
 
     let discs = Pile::discs(MAX_LAYERS).unwrap();
-    assert_eq!(discs.spheres(), number(triangle));
+    assert_eq!(discs.sphere_count(), number(triangle));
     assert_eq!(
-        discs.contacts(),
+        discs.contact_count(),
         number("999999999999999999999999999999999999000000000000000000000000000000000000"),
     );
     assert_eq!(

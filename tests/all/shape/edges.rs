@@ -75,6 +75,6 @@ fn a_walk_begun_on_the_floor_can_be_taken_off_it() {
     rows.next();
     let rows = rows.off_the_floor();
     assert_eq!(rows.clone().count(), 0);
-    let sites = catch_unwind(|| rows.sites());
+    let sites = catch_unwind(|| rows.site_count());
     assert_eq!(sites.ok(), Some(0_u32.into()));
 }

@@ -39,7 +39,7 @@ fn carries(base: Region, signs: &[Sign]) {
 /// Closed counts: of everything, and down to the first sphere of each row.
 fn counts(shape: &Shape, layers: &[Sites]) {
     let all: usize = layers.iter().map(Sites::len).sum();
-    assert_eq!(shape.spheres(), all.into(), "{shape:?}");
+    assert_eq!(shape.sphere_count(), all.into(), "{shape:?}");
     let mut before: usize = 0;
     for row in shape.rows(Selection::All).expect("all") {
         let Row { k, j, i } = row;
@@ -129,7 +129,10 @@ fn the_greatest_base() {
     let base = Region::triangle(n).expect("a side");
     let tetrahedron = Shape::on(base, Stacking::fcc(n).expect("as many")).expect("it fits");
     let pyramid = Shape::under(Region::SITE, Stacking::fcc(n).expect("as many"));
-    assert_eq!(tetrahedron.spheres(), pyramid.expect("it fits").spheres());
+    assert_eq!(
+        tetrahedron.sphere_count(),
+        pyramid.expect("it fits").sphere_count()
+    );
     assert_eq!(tetrahedron.layer(0), Ok(Region::SITE));
     // Upside down a triangle loses two sites a side: the layer above every third downward hole.
     let run = |sign, steps| Run { sign, steps };

@@ -21,7 +21,7 @@ fn in_order(layers: &[Sites], from: usize) -> Vec<Site> {
 fn walks(mut rows: Rows<'_>, want: &[Site]) {
     let mut left = want;
     loop {
-        assert_eq!(rows.sites(), BigUint::from(left.len()));
+        assert_eq!(rows.site_count(), BigUint::from(left.len()));
         let Some(row) = rows.next() else { break };
         let sites: Vec<Site> = row.clone().into_iter().collect();
         assert!(!sites.is_empty() && left.starts_with(&sites), "{row:?}");
@@ -35,7 +35,7 @@ fn is(shape: &Shape, layers: &[Sites], signs: &[Sign]) {
     let count = i128::try_from(layers.len()).expect("few");
     assert_eq!(shape.layers(), count);
     let all = in_order(layers, 0);
-    assert_eq!(shape.spheres(), all.len().into(), "{shape:?}");
+    assert_eq!(shape.sphere_count(), all.len().into(), "{shape:?}");
     assert!(shape.sites().eq(all.iter().copied()), "{shape:?}");
     walks(shape.rows(Selection::All).expect("all"), &all);
     let off_the_floor = shape.rows(Selection::All).expect("all").off_the_floor();
@@ -179,6 +179,9 @@ fn a_walk_goes_on_where_it_was_copied() {
             i: 0..2
         })
     );
-    assert_eq!((rows.sites(), copy.sites()), (5_u32.into(), 7_u32.into()));
+    assert_eq!(
+        (rows.site_count(), copy.site_count()),
+        (5_u32.into(), 7_u32.into())
+    );
     walks(copy.off_the_floor(), &[]);
 }

@@ -23,7 +23,7 @@ fn sites_in_order(Case { pile, balance }: &Case) {
     let sites: Vec<Place> = pile.shape().sites().map(place).collect();
     assert_eq!(sites, places, "{}", balance.signs);
     let rows = pile.rows(Selection::All).unwrap();
-    assert_eq!(rows.sites(), big(places.len()));
+    assert_eq!(rows.site_count(), big(places.len()));
     assert!(rows.flatten().map(place).eq(places.iter().copied()));
     for (n, at) in places.iter().enumerate() {
         assert_eq!(pile.shape().before(site(*at)), Ok(big(n)));
@@ -32,7 +32,10 @@ fn sites_in_order(Case { pile, balance }: &Case) {
         let rows = pile.rows(Selection::Layer(k)).unwrap();
         let there: Vec<Place> = rows.flatten().map(place).collect();
         assert!(there.into_iter().eq(layer.iter().map(|&(j, i)| (k, j, i))));
-        assert_eq!(pile.shape().layer(k).unwrap().sites(), big(layer.len()));
+        assert_eq!(
+            pile.shape().layer(k).unwrap().site_count(),
+            big(layer.len())
+        );
     }
 }
 
@@ -40,9 +43,9 @@ fn counts(Case { pile, balance }: &Case) {
     let spheres: usize = balance.layers.iter().map(Sites::len).sum();
     let bottom = balance.layers.last().expect("a layer").len();
     assert_eq!(pile.layers(), i128::try_from(balance.layers.len()).unwrap());
-    assert_eq!(pile.spheres(), big(spheres));
-    assert_eq!(pile.shape().spheres(), big(spheres));
-    assert_eq!(pile.contacts(), big(3 * (spheres - bottom)));
+    assert_eq!(pile.sphere_count(), big(spheres));
+    assert_eq!(pile.shape().sphere_count(), big(spheres));
+    assert_eq!(pile.contact_count(), big(3 * (spheres - bottom)));
     assert_eq!(pile.base_spheres(), big(bottom));
 }
 

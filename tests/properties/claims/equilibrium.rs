@@ -32,7 +32,10 @@ pub(crate) fn small_pile(u: &mut Unstructured<'_>) -> Checked {
         sphere(&statics, site)?;
     }
     let base: Result<Vec<_>, _> = statics.base(Selection::Base)?.collect();
-    bears_the_weight(&base?, &BigRational::from_integer(pile.spheres().into()))
+    bears_the_weight(
+        &base?,
+        &BigRational::from_integer(pile.sphere_count().into()),
+    )
 }
 
 /// The force of one bottom sphere on the floor, by the paper's formulas.

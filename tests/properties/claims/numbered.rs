@@ -56,7 +56,7 @@ fn without_a_gap(
     });
     let number = match next {
         Some(next) => before(next)?,
-        None => shape.spheres(),
+        None => shape.sphere_count(),
     };
     same("the next number", &number.into(), &after)?;
     let above = (k > 0).then(|| shape.layer(k - 1)).transpose()?;
@@ -72,7 +72,7 @@ fn without_a_gap(
                 i: row.i.start,
                 j: row.j,
                 k: k - 1,
-            })? + above.sites(),
+            })? + above.site_count(),
         )
     })?;
     same(

@@ -99,7 +99,7 @@ fn walks(region: &Region, sites: &Sites) -> Checked {
     demand(walked.eq(sites.iter().copied()), || {
         format!("{region} has not {sites:?}")
     })?;
-    same("the count", &region.sites(), &sites.len().into())
+    same("the count", &region.site_count(), &sites.len().into())
 }
 
 #[cfg(test)]

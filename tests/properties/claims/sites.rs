@@ -45,7 +45,7 @@ pub(crate) fn numbered(u: &mut Unstructured<'_>) -> Checked {
     let after = before(&pile, site) + BigInt::one();
     match successor(&pile, site) {
         Some(next) => same("the next number", &before(&pile, next), &after),
-        None => same("the spheres", &after, &pile.spheres().into()),
+        None => same("the spheres", &after, &pile.sphere_count().into()),
     }
 }
 

@@ -66,7 +66,7 @@ fn spheres_are_counted() {
         let all: Vec<Site> = sites.collect();
         let in_all = value(&proof, "Σ 1 over the pile", &[("L", int(l))]);
         assert_eq!(in_all, Q::from_integer(all.len().into()));
-        assert_eq!(in_all, Q::from_integer(pile.spheres().into()));
+        assert_eq!(in_all, Q::from_integer(pile.sphere_count().into()));
         let in_base = value(&proof, "Σ 1 over layer k", &[("k", int(last))]);
         assert_eq!(in_base, Q::from_integer(pile.base_spheres().into()));
         let of_base = all.iter().filter(|site| site.k == last).count();
@@ -94,7 +94,7 @@ fn contacts_are_counted_by_strength() {
             all
         );
         assert_eq!(value(&strengths, "counts every contact", at_l), all);
-        assert_eq!(Q::from_integer(pile.contacts().into()), all);
+        assert_eq!(Q::from_integer(pile.contact_count().into()), all);
         for direction in Direction::ALL {
             let of_direction = || by_strength.iter().filter(|((d, _), _)| *d == direction);
             for ((_, n), count) in of_direction() {
