@@ -152,7 +152,7 @@ pub use forces::{
     Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
     NumeratorLayer, NumeratorLayers,
 };
-pub use packing::{PackedContact, Packing};
+pub use packing::{PackedContact, Packing, Places};
 pub use pile::Pile;
 pub use standing::{BaseExtremes, Standing, Verdict};
 

@@ -1,7 +1,9 @@
 //! A pile with a size and a weight: exact answers in SI.
 
+mod places;
 mod rows;
 
+pub use places::Places;
 pub use rows::PackedContact;
 
 use alloc::vec::Vec;
@@ -539,9 +541,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
-        let lean = upwards(self.forces.contact_direction(site, direction)?);
-        let half = BigRational::new((-1).into(), 2.into());
-        let point = self.centre(site)? + &lean.scaled(&half);
+        let point = self.point(site, direction)?;
         Ok(on_basis(self.roots.lengths(), point, &self.diameter()))
     }
 

@@ -35,7 +35,6 @@
 //! ```
 
 mod cell;
-mod distinct;
 mod error;
 mod explain;
 mod file;
@@ -50,9 +49,8 @@ mod unfinished;
 mod units;
 mod write;
 
+pub use cell::Cell;
 pub use cell::NumberFormat;
-pub use cell::{Cell, Shown};
-pub(crate) use distinct::{Forces, Places};
 pub use error::WriteError;
 pub use explain::Explanation;
 pub(crate) use file::Aside;

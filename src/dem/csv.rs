@@ -1,12 +1,11 @@
 //! `spheres.csv`, `contacts.csv`, `base.csv`, and what is in their columns.
 
 use std::io::Write;
-use std::rc::Rc;
 
-use super::numbered::{NumberedPile, nearest};
+use super::numbered::{NumberedContact, NumberedPile};
 use super::weights::{PerSphere, nearest_rational};
+use crate::FloorForce;
 use crate::lattice::{Dimension, Site};
-use crate::shape::Selection;
 use crate::table::WriteError;
 
 /// Writes where every sphere is, and what it weighs and bears.
@@ -17,11 +16,11 @@ pub(super) fn write_spheres(
 ) -> Result<(), WriteError> {
     write_heads(out, SPHERES, pile)?;
     let radius = nearest_rational(pile.packing().radius(), "radius")?;
-    let (mut centres, place) = (pile.centres(), Place::of(pile));
+    let place = Place::of(pile);
     let (masses, loads) = (PerSphere::masses(pile)?, PerSphere::loads(pile)?);
     let floor = pile.pile().layers() - 1;
-    for (id, site) in (1_u64..).zip(pile.sites()?) {
-        let [x, y, z] = centres.centre(site)?;
+    for (id, centre) in (1_u64..).zip(pile.centres()?) {
+        let (site, [x, y, z]) = centre?;
         let (mass, load) = (masses.of(site), loads.of(site));
         write!(out, "{id},")?;
         place.write(site, out)?;
@@ -43,18 +42,17 @@ pub(super) fn write_contacts(
 ) -> Result<(), WriteError> {
     write_heads(out, CONTACTS, pile)?;
     let place = Place::of(pile);
-    let contacts = pile.contacts_as(|force, vector| {
-        let round = |x| nearest(x, "a contact force");
-        let [x, y, z] = vector.each_ref().map(round);
-        let (force, x, y, z) = (round(force)?, x?, y?, z?);
-        Ok(Rc::<str>::from(format!("{force:?},{x:?},{y:?},{z:?}")))
-    })?;
-    for contact in contacts {
-        let (touch, force) = contact?;
-        let [upper, lower] = touch.ids;
-        write!(out, "{upper},{lower},{force},")?;
-        place.write(touch.site, out)?;
-        writeln!(out, ",{}", touch.direction.name())?;
+    for contact in pile.forces()? {
+        let NumberedContact {
+            ids: [upper, lower],
+            site,
+            direction,
+            force,
+            vector: [x, y, z],
+        } = contact?;
+        write!(out, "{upper},{lower},{force:?},{x:?},{y:?},{z:?},")?;
+        place.write(site, out)?;
+        writeln!(out, ",{}", direction.name())?;
         row();
     }
     Ok(())
@@ -68,19 +66,21 @@ pub(super) fn write_base(
 ) -> Result<(), WriteError> {
     write_heads(out, BASE, pile)?;
     let flat = pile.pile().dimension() == Dimension::Two;
-    let ids = pile.numbering().first_on_floor()..;
-    for (id, force) in ids.zip(pile.packing().base(Selection::Base)?) {
-        let force = force?;
-        let Site { i, j, .. } = force.site;
-        let (normal, x) = (
-            nearest(&force.normal, "normal")?,
-            nearest(&force.shear_x, "shear_x")?,
-        );
+    for force in pile.on_floor()? {
+        let (
+            id,
+            FloorForce {
+                site,
+                normal,
+                shear_x,
+                shear_y,
+            },
+        ) = force?;
+        let Site { i, j, .. } = site;
         if flat {
-            writeln!(out, "{i},{normal:?},{x:?},{id}")?;
+            writeln!(out, "{i},{normal:?},{shear_x:?},{id}")?;
         } else {
-            let y = nearest(&force.shear_y, "shear_y")?;
-            writeln!(out, "{i},{j},{normal:?},{x:?},{y:?},{id}")?;
+            writeln!(out, "{i},{j},{normal:?},{shear_x:?},{shear_y:?},{id}")?;
         }
         row();
     }

@@ -45,9 +45,8 @@ pub(super) fn write_data(
     let diameter = 2.0 * springs.radius;
     let ordinary = density(springs.mass, springs.radius)?;
     let inertias = inertias(pile)?;
-    let mut centres = pile.centres();
-    for (id, site) in (1_u64..).zip(pile.sites()?) {
-        let [x, y, z] = centres.centre(site)?;
+    for (id, centre) in (1_u64..).zip(pile.centres()?) {
+        let (site, [x, y, z]) = centre?;
         let kind = if site.k + 1 == layers { 2 } else { 1 };
         let density = match inertias.get(&site) {
             None => ordinary,

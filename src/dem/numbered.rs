@@ -5,8 +5,8 @@ use num_traits::Zero;
 use crate::lattice::{Direction, Row, Site};
 use crate::scalar::Surd;
 use crate::shape::{Numbering, Selection};
-use crate::table::{Forces, Places, refuse_beyond};
-use crate::{Error, Packing, Pile};
+use crate::table::refuse_beyond;
+use crate::{Error, FloorForce, Packing, Pile};
 
 /// A packing, and the numbers of its spheres.
 ///
@@ -54,9 +54,6 @@ pub(super) struct Touch {
     pub(super) site: Site,
     pub(super) direction: Direction,
 }
-
-/// What makes a float of a length.
-type Rounding = fn(&Surd) -> Result<f64, Error>;
 
 impl<'p> NumberedPile<'p> {
     /// Numbers the spheres of a packing.
@@ -134,22 +131,126 @@ impl<'p> NumberedPile<'p> {
         Ok(self.pile().rows(Selection::All)?.flatten())
     }
 
-    /// The centres of spheres as the nearest floats.
-    pub(super) fn centres(&self) -> Places<'p, f64, Rounding> {
-        Places::new(&self.packing, |length| nearest(length, "a position"))
+    /// The spheres with their centres as the nearest floats, in the order of their numbers.
+    pub(super) fn centres(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(Site, [f64; 3]), Error>> + use<'p>, Error> {
+        let places = self.packing.places::<f64>();
+        Ok(each(self.pieces()?, move |piece| {
+            let mut columns = columns(piece);
+            places.fill_row(piece, columns.each_mut().map(Vec::as_mut_slice))?;
+            let [x, y, z] = columns;
+            let centres = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
+            Ok(piece.clone().into_iter().zip(centres).collect())
+        }))
     }
 
     /// All contacts in the order of the upper spheres, without their forces.
     pub(super) fn touches(&self) -> Result<impl Iterator<Item = Result<Touch, Error>> + '_, Error> {
-        let rows = self.pile().rows(Selection::All)?.off_the_floor();
-        Ok(
-            rows.flat_map(|row| -> Box<dyn Iterator<Item = Result<Touch, Error>>> {
-                match self.touches_of(&row) {
-                    Ok(touches) => Box::new(touches.map(Ok)),
-                    Err(error) => Box::new(core::iter::once(Err(error))),
+        Ok(each(self.pieces_above_the_floor()?, |piece| {
+            Ok(self.touches_of(piece)?.collect())
+        }))
+    }
+
+    /// The centres of the upper and the lower sphere of all contacts, in the order of the upper ones.
+    pub(super) fn links(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<[[f64; 3]; 2], Error>> + '_, Error> {
+        let places = self.packing.places::<f64>();
+        let shape = self.pile().shape();
+        Ok(each(self.pieces_above_the_floor()?, move |piece| {
+            let centres = |row: &Row| {
+                let mut columns = columns(row);
+                places.fill_row(row, columns.each_mut().map(Vec::as_mut_slice))?;
+                Ok(columns)
+            };
+            let upper = centres(piece)?;
+            let first = Site {
+                i: piece.i.start,
+                j: piece.j,
+                k: piece.k,
+            };
+            let below = shape.dimension().directions().iter().map(|direction| {
+                let site = shape.below(first, *direction);
+                let Site { i, j, k } = site.ok_or(Error::OnFloor { site: first })?;
+                let end = i + (piece.i.end - piece.i.start);
+                centres(&Row { k, j, i: i..end })
+            });
+            let below = below.collect::<Result<Vec<_>, Error>>()?;
+            let at = |columns: &[Vec<f64>; 3], n: usize| columns.each_ref().map(|x| x[n]);
+            let spheres = 0..upper[0].len();
+            let links = spheres.flat_map(|n| below.iter().map(move |lower| (n, lower)));
+            Ok(links
+                .map(|(n, lower)| [at(&upper, n), at(lower, n)])
+                .collect())
+        }))
+    }
+
+    /// All contacts in the order of the upper spheres, with the nearest floats to their forces.
+    pub(super) fn forces(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
+        let mut layers = self.packing.layers::<f64>(Selection::All)?;
+        Ok(each(self.pieces_above_the_floor()?, move |piece| {
+            let mut forces = columns(piece);
+            layers.fill_row(piece, forces.each_mut().map(Vec::as_mut_slice))?;
+            let mut vectors = [(); 3].map(|()| columns(piece));
+            let slices = vectors
+                .each_mut()
+                .map(|of| of.each_mut().map(Vec::as_mut_slice));
+            layers.fill_row_of_vectors(piece, slices)?;
+            let directions = self.pile().dimension().directions().len();
+            let contacts = self.touches_of(piece)?.enumerate().map(|(n, touch)| {
+                let (place, line) = (n / directions, touch.direction.index());
+                NumberedContact {
+                    ids: touch.ids,
+                    site: touch.site,
+                    direction: touch.direction,
+                    force: forces[line][place],
+                    vector: vectors.each_ref().map(|component| component[line][place]),
                 }
-            }),
-        )
+            });
+            Ok(contacts.collect())
+        }))
+    }
+
+    /// The bottom spheres' numbers, and the nearest floats to their forces on the floor.
+    pub(super) fn on_floor(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(u64, FloorForce<f64>), Error>> + use<'p>, Error> {
+        let mut ids = self.numbering.first_on_floor()..;
+        let mut layers = self.packing.layers::<f64>(Selection::Base)?;
+        let rows = self.pile().rows(Selection::Base)?;
+        let pieces = rows.flat_map(|row| row.pieces(PIECE));
+        Ok(each(pieces, move |piece| {
+            let mut columns = columns(piece);
+            layers.fill_row_of_base(piece, columns.each_mut().map(Vec::as_mut_slice))?;
+            let [normal, x, y] = columns;
+            let forces = normal.into_iter().zip(x).zip(y);
+            // Sites first: no number is drawn for one past the end.
+            let spheres = piece.clone().into_iter().zip(ids.by_ref()).zip(forces);
+            let forces = spheres.map(|((site, id), ((normal, shear_x), shear_y))| {
+                let force = FloorForce {
+                    site,
+                    normal,
+                    shear_x,
+                    shear_y,
+                };
+                (id, force)
+            });
+            Ok(forces.collect())
+        }))
+    }
+
+    /// Pieces of the rows of all spheres.
+    fn pieces(&self) -> Result<impl Iterator<Item = Row> + use<'p>, Error> {
+        let rows = self.pile().rows(Selection::All)?;
+        Ok(rows.flat_map(|row| row.pieces(PIECE)))
+    }
+
+    fn pieces_above_the_floor(&self) -> Result<impl Iterator<Item = Row> + use<'p>, Error> {
+        let floor = self.pile().layers() - 1;
+        Ok(self.pieces()?.take_while(move |piece| piece.k < floor))
     }
 
     /// The contacts of a row of spheres with those below: along it their numbers follow each other.
@@ -185,24 +286,6 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// All contacts, with what `make` makes of the magnitude of a force and its vector on the upper sphere: once of each
-    /// distinct force.
-    pub(super) fn contacts_as<V: Clone>(
-        &self,
-        make: impl Fn(&Surd, &[Surd; 3]) -> Result<V, Error>,
-    ) -> Result<impl Iterator<Item = Result<(Touch, V), Error>>, Error> {
-        let multiples = self.packing.forces().contacts(Selection::All)?;
-        let mut forces = Forces::new(&self.packing, make);
-        Ok(self
-            .touches()?
-            .zip(multiples)
-            .map(move |(touch, multiple)| {
-                let (touch, multiple) = (touch?, multiple?);
-                let force = forces.of(touch.site, touch.direction, multiple.force)?;
-                Ok((touch, force.clone()))
-            }))
-    }
-
     /// All contacts in the order of the upper spheres, made one by one.
     ///
     /// # Errors
@@ -224,27 +307,40 @@ impl<'p> NumberedPile<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contacts(&self) -> Result<impl Iterator<Item = Result<NumberedContact, Error>>, Error> {
-        let quantity = "a contact force";
-        let contacts = self.contacts_as(move |force, vector| {
-            let rounded = nearest(force, quantity)?;
-            if !rounded.is_normal() && !force.coefficient().is_zero() {
-                let scalar = "f64";
-                return Err(Error::Overflow { quantity, scalar });
+        let keeps_digits = self.packing.layers::<f64>(Selection::Base)?.keeps_digits();
+        Ok(self.forces()?.map(move |contact| {
+            let contact = contact?;
+            if keeps_digits || contact.force.is_normal() {
+                return Ok(contact);
             }
-            let [x, y, z] = vector.each_ref().map(|x| nearest(x, quantity));
-            Ok((rounded, [x?, y?, z?]))
-        })?;
-        Ok(contacts.map(|contact| {
-            let (touch, (force, vector)) = contact?;
-            Ok(NumberedContact {
-                ids: touch.ids,
-                site: touch.site,
-                direction: touch.direction,
-                force,
-                vector,
-            })
+            let exact = self.packing.contact(contact.site, contact.direction)?;
+            if exact.coefficient().is_zero() {
+                return Ok(contact);
+            }
+            let (quantity, scalar) = ("a contact force", "f64");
+            Err(Error::Overflow { quantity, scalar })
         }))
     }
+}
+
+/// The most spheres whose numbers are made at once.
+const PIECE: i128 = 1024;
+
+/// All that `make` makes of pieces of rows.
+fn each<T>(
+    pieces: impl Iterator<Item = Row>,
+    mut make: impl FnMut(&Row) -> Result<Vec<T>, Error>,
+) -> impl Iterator<Item = Result<T, Error>> {
+    pieces.flat_map(move |piece| match make(&piece) {
+        Ok(made) => made.into_iter().map(Ok).collect(),
+        Err(error) => vec![Err(error)],
+    })
+}
+
+/// Three columns with a place for each sphere of a piece.
+fn columns(piece: &Row) -> [Vec<f64>; 3] {
+    let spheres = piece.i.clone().count();
+    [(); 3].map(|()| vec![0.0; spheres])
 }
 
 /// The nearest float; `quantity` is named if there is none.

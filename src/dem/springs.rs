@@ -3,7 +3,7 @@
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use super::numbered::NumberedPile;
+use super::numbered::{NumberedPile, nearest};
 use super::weights::{checked, greatest_extra, nearest_rational, normal, ordinary_weight};
 use crate::Error;
 use crate::lattice::Site;
@@ -49,11 +49,11 @@ impl Springs {
         let mass = normal(packing.mass(), "mass")?;
         let gravity = ordinary_weight(pile) * packing.gravity();
         let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-        let mut centres = numbered.centres();
         // Layers are convex: their corners are their extremes.
         for k in 0..pile.layers() {
             for [i, j] in pile.shape().layer(k)?.corners() {
-                for (bound, x) in bounds.iter_mut().zip(centres.centre(Site { i, j, k })?) {
+                for (bound, x) in bounds.iter_mut().zip(packing.position(Site { i, j, k })?) {
+                    let x = nearest(&x, "a position")?;
                     *bound = [bound[0].min(x), bound[1].max(x)];
                 }
             }

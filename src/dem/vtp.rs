@@ -2,13 +2,10 @@
 
 use std::io::Write;
 
-use super::numbered::{NumberedPile, Touch, nearest};
+use super::numbered::NumberedPile;
 use super::polydata::{Array, Kind, PolyData, Section};
 use super::weights::{PerSphere, nearest_rational};
-use crate::Error;
 use crate::lattice::Direction;
-use crate::scalar::Surd;
-use crate::shape::Selection;
 use crate::table::WriteError;
 
 /// A point and a vertex for each sphere.
@@ -61,9 +58,9 @@ pub(super) fn write_spheres(
     data.array()?;
     write_reactions(pile, &mut data)?;
     data.array()?;
-    let mut centres = pile.centres();
-    for site in pile.sites()? {
-        data.vector(centres.centre(site)?)?;
+    for centre in pile.centres()? {
+        let (_, centre) = centre?;
+        data.vector(centre)?;
         row();
     }
     data.array()?;
@@ -78,14 +75,10 @@ fn write_reactions(pile: &NumberedPile<'_>, data: &mut PolyData<'_>) -> Result<(
     for _ in 1..pile.numbering().first_on_floor() {
         data.vector([0.0; 3])?;
     }
-    for force in pile.packing().base(Selection::Base)? {
-        let force = force?;
-        let quantity = "a reaction";
-        data.vector([
-            nearest(&-force.shear_x, quantity)?,
-            nearest(&-force.shear_y, quantity)?,
-            nearest(&force.normal, quantity)?,
-        ])?;
+    for force in pile.on_floor()? {
+        let (_, force) = force?;
+        // Not −0.
+        data.vector([0.0 - force.shear_x, 0.0 - force.shear_y, force.normal])?;
     }
     Ok(())
 }
@@ -151,23 +144,10 @@ pub(super) fn write_contacts(
         data.integer(touch?.ids[1])?;
     }
     data.array()?;
-    // Each keeps the row that it is in.
-    let mut upper = pile.centres();
-    let mut lower = [pile.centres(), pile.centres(), pile.centres()];
-    for touch in pile.touches()? {
-        let Touch {
-            site, direction, ..
-        } = touch?;
-        let below = pile.pile().shape().below(site, direction);
-        let below = below.ok_or(Error::OnFloor { site })?;
-        data.vector(upper.centre(site)?)?;
-        let [alpha, beta, gamma] = &mut lower;
-        let lower = match direction {
-            Direction::Alpha => alpha,
-            Direction::Beta => beta,
-            Direction::Gamma => gamma,
-        };
-        data.vector(lower.centre(below)?)?;
+    for link in pile.links()? {
+        let [upper, lower] = link?;
+        data.vector(upper)?;
+        data.vector(lower)?;
         row();
     }
     data.array()?;
@@ -184,12 +164,10 @@ fn each_force(
     pile: &NumberedPile<'_>,
     mut write: impl FnMut([f64; 4]) -> std::io::Result<()>,
 ) -> Result<(), WriteError> {
-    let round = |x: &Surd| nearest(x, "a contact force");
-    let forces =
-        pile.contacts_as(|force, [x, y, z]| Ok([round(force)?, round(x)?, round(y)?, round(z)?]))?;
-    for contact in forces {
-        let (_, force) = contact?;
-        write(force)?;
+    for contact in pile.forces()? {
+        let contact = contact?;
+        let [x, y, z] = contact.vector;
+        write([contact.force, x, y, z])?;
     }
     Ok(())
 }

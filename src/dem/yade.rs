@@ -16,9 +16,8 @@ pub(super) fn write_spheres(
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
     let radius = normal(pile.packing().radius(), "radius")?;
-    let mut centres = pile.centres();
-    for site in pile.sites()? {
-        let [x, y, z] = centres.centre(site)?;
+    for centre in pile.centres()? {
+        let (_, [x, y, z]) = centre?;
         writeln!(out, "{x:?} {y:?} {z:?} {radius:?}")?;
         row();
     }

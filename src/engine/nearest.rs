@@ -36,7 +36,6 @@ struct Factor {
 pub(crate) struct Readout {
     pub(crate) combination: [[i32; 3]; 3],
     pub(crate) own: [BigInt; 3],
-    pub(crate) units: [Unit; 3],
 }
 
 impl Unit {
@@ -50,7 +49,40 @@ impl Unit {
         }
     }
 
+    /// The float nearest to n units.
+    pub(crate) fn nearest<F: NearestFloat>(&self, n: &BigInt) -> Option<F> {
+        const LEADING: u64 = 120;
+        let below = n.bits().saturating_sub(LEADING);
+        let decided = if below == 0 {
+            n.to_i128().and_then(|n| self.decide(n, 0, 0.0))
+        } else {
+            // What is shifted out is less than one, and n is rounded down.
+            let (leading, exponent) = ((n >> below).to_i128()?, i64::try_from(below).ok()?);
+            self.decide(leading, exponent, 1.0)
+        };
+        decided.or_else(|| self.exactly(n))
+    }
+
+    /// The float nearest to n units.
+    pub(crate) fn nearest_to<F: NearestFloat>(&self, n: i128) -> Option<F> {
+        let decided = self.decide(n, 0, 0.0);
+        decided.or_else(|| self.exactly(&n.into()))
+    }
+
+    fn is_zero(&self) -> bool {
+        self.surd.coefficient().is_zero()
+    }
+
+    /// Whether the unit is surely greater than 2^e, whatever its sign.
+    pub(crate) fn exceeds_power_of_two(&self, e: i64) -> bool {
+        // At least 1/8 of its power.
+        self.factor.is_some_and(|factor| factor.exponent - 3 > e)
+    }
+
     fn exactly<F: NearestFloat>(&self, n: &BigInt) -> Option<F> {
+        if n.is_zero() || self.is_zero() {
+            return Surd::zero().nearest();
+        }
         let multiple = BigRational::new(n.clone(), self.denominator.clone());
         self.surd.scaled(&multiple).nearest()
     }
@@ -131,6 +163,7 @@ impl Readout {
     /// [`Error::Bug`] for more own weight than limbs can hold.
     pub(crate) fn write<F: NearestFloat>(
         &self,
+        units: &[Unit; 3],
         top_down: &[[&[i64]; 3]],
         out: [&mut [F]; 3],
     ) -> Result<bool, Error> {
@@ -139,8 +172,12 @@ impl Readout {
             .into_iter()
             .zip(&self.combination)
             .zip(&self.own)
-            .zip(&self.units);
+            .zip(units);
         for (((out, combination), own), unit) in parts {
+            if let (true, Some(zero)) = (unit.is_zero(), unit.nearest_to(0)) {
+                out.fill(zero);
+                continue;
+            }
             let own = limbs(own, top_down.len());
             let own = own.ok_or_else(|| bug("a weight is no wider than the forces"))?;
             let limb = |place: usize, p: usize| {
@@ -236,21 +273,25 @@ mod tests {
                 let readout = Readout {
                     combination,
                     own: lines.increments_after(changes),
-                    units: units(&lines.scale(changes)),
                 };
+                let units = units(&lines.scale(changes));
                 for row in pile.shape().layer(k).unwrap().rows(k) {
-                    let zero = slowly::<F>(&readout.units[0], &BigInt::zero()).unwrap();
+                    let zero = slowly::<F>(&units[0], &BigInt::zero()).unwrap();
                     let n = usize::try_from(row.i.end - row.i.start).unwrap();
                     let mut out = [(); 3].map(|()| alloc::vec![zero; n]);
                     let [a, b, c] = out.each_mut().map(Vec::as_mut_slice);
-                    assert!(sweep.nearest_row(&row, &readout, [a, b, c]).unwrap());
+                    assert!(
+                        sweep
+                            .nearest_row(&row, (&readout, &units), [a, b, c])
+                            .unwrap()
+                    );
                     for (place, site) in row.into_iter().enumerate() {
                         let mut exact = sweep.received(site).unwrap().forces;
                         if combination[0][0] < 0 {
                             exact = tripled_half_turn(&exact);
                         }
                         for (line, (exact, own)) in exact.iter().zip(&readout.own).enumerate() {
-                            let exact = slowly(&readout.units[line], &(exact + own));
+                            let exact = slowly(&units[line], &(exact + own));
                             assert_eq!(Some(out[line][place]), exact, "{site}");
                         }
                     }
@@ -283,12 +324,12 @@ mod tests {
         let readout = Readout {
             combination: [[1, 0, 0]; 3],
             own: [(); 3].map(|()| BigInt::zero()),
-            units: [unit.clone(), unit.clone(), unit.clone()],
         };
+        let units = [unit.clone(), unit.clone(), unit.clone()];
         let zero = slowly::<F>(unit, &BigInt::zero()).unwrap();
         let mut out = [[zero]; 3];
         let [a, b, c] = &mut out;
-        let defined = readout.write(&top_down, [a, b, c]).unwrap();
+        let defined = readout.write(&units, &top_down, [a, b, c]).unwrap();
         defined.then(|| out[0][0])
     }
 
@@ -304,6 +345,8 @@ mod tests {
                         for n in [n.clone(), -n] {
                             assert_eq!(read::<f64>(&unit, &n), slowly(&unit, &n), "{n}");
                             assert_eq!(read::<f32>(&unit, &n), slowly(&unit, &n), "{n}");
+                            assert_eq!(unit.nearest::<f64>(&n), slowly(&unit, &n), "{n}");
+                            assert_eq!(unit.nearest::<f32>(&n), slowly(&unit, &n), "{n}");
                             met += 1;
                         }
                     }

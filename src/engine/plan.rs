@@ -207,7 +207,7 @@ impl System<'_> {
         Ok(plan)
     }
 
-    fn check_on_floor(&self, rows: &Rows<'_>) -> Result<(), Error> {
+    pub(crate) fn check_on_floor(&self, rows: &Rows<'_>) -> Result<(), Error> {
         let floor = self.shape.layers() - 1;
         match rows.clone().flatten().next() {
             Some(site) if site.k != floor => Err(Error::NotOnFloor { site, floor }),

@@ -17,7 +17,7 @@ use super::sweep::Descent;
 use super::tree::Wanted;
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::Site;
+use crate::lattice::{Row, Site};
 use crate::pile::System;
 use crate::scalar::Algebra;
 use crate::shape::Rows;
@@ -132,6 +132,26 @@ pub(crate) fn exact_sweep<'p>(
     let grid = Grid::new(lines.shape, last, size.planes)?;
     let layer = Planes::new(&grid, system.bound_of_sweep(last));
     Ok(Descent::new(lines.clone(), grid, layer))
+}
+
+/// Returns the forces from above on consecutive spheres of a row, from the lines that lead to a piece of them at a time.
+///
+/// # Errors
+/// [`Error::TooLarge`] if they are too far below too many changes of sign.
+pub(crate) fn received_in<T: Algebra>(
+    lines: &Lines<'_, T>,
+    row: &Row,
+    meter: impl Meter,
+) -> Result<Vec<Received<T>>, Error> {
+    let mut received = Vec::new();
+    for piece in row.pieces(CHUNK) {
+        let sites: Vec<[i128; 2]> = piece.i.map(|i| [i, piece.j]).collect();
+        let above = by_tree(lines, row.k, &sites, Wanted::All, meter)?;
+        let changes = above.changes;
+        let forces = above.forces.into_iter();
+        received.extend(forces.map(|forces| Received { forces, changes }));
+    }
+    Ok(received)
 }
 
 impl<T: Algebra> Piece<T> {

@@ -14,7 +14,7 @@ use super::grid::{Grid, Layer, Pass};
 use super::limbs::{Least, Planes};
 use super::lines::{Lines, Received};
 use super::meter::Meter;
-use super::nearest::Readout;
+use super::nearest::{Readout, Unit};
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Row, Site};
@@ -158,14 +158,14 @@ impl Descent<'_, BigRational, Planes> {
     pub(crate) fn nearest_row<F: NearestFloat>(
         &self,
         row: &Row,
-        readout: &Readout,
+        (readout, units): (&Readout, &[Unit; 3]),
         out: [&mut [F]; 3],
     ) -> Result<bool, Error> {
         if row.k != self.k {
             return Err(bug("a sweep is asked of the layer that it is at"));
         }
         let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
-        readout.write(&self.layer.slices(&cells), out)
+        readout.write(units, &self.layer.slices(&cells), out)
     }
 
     /// Returns the least number on the lines of this layer, and where it is.

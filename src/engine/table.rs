@@ -14,7 +14,7 @@ use num_traits::ToPrimitive;
 use super::parallel;
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Along, Region, Sign, Slopes};
+use crate::lattice::{Along, Row, Slopes};
 use crate::pile::System;
 use crate::shape::Shape;
 
@@ -114,34 +114,30 @@ impl<V: Clone + Send + Sync> Table<V> {
 
     /// Writes the forces below layer `k` into the front of the slices, which are left without it.
     fn fill_layer(&self, k: i128, rest: &mut [&mut [V]; 3]) -> Result<(), Error> {
-        let region = self.shape.layer(k)?;
-        let sign = self.shape.sign_below(k);
-        let sign = sign.ok_or_else(|| bug("a layer above the floor rests on another"))?;
-        for j in region.y() {
-            let row = region.row(j);
-            let spheres = usize::try_from(row.end - row.start).map_err(|_| too_short())?;
-            let row = split_front(rest, spheres)?;
+        for row in self.shape.layer(k)?.rows(k) {
+            let spheres = usize::try_from(row.i.end - row.i.start).map_err(|_| too_short())?;
+            let slices = split_front(rest, spheres)?;
             if self.shape.is_pyramid() {
-                self.fill_row_of_pyramid(j, row)?;
+                self.fill_row_of_pyramid(row.j, slices)?;
             } else {
-                self.fill_row((k, j, sign), &region, row)?;
+                self.fill_row(&row, slices)?;
             }
         }
         Ok(())
     }
 
-    /// Writes the forces below a row of any straight pile.
-    fn fill_row(
-        &self,
-        (k, j, sign): (i128, i128, Sign),
-        region: &Region,
-        slices: [&mut [V]; 3],
-    ) -> Result<(), Error> {
-        let start = region.row(j).start;
-        let counts = region.row_counts(j, sign, k);
+    /// Writes the forces below consecutive spheres of a row of any straight pile.
+    pub(crate) fn fill_row(&self, row: &Row, slices: [&mut [V]; 3]) -> Result<(), Error> {
+        let region = self.shape.layer(row.k)?;
+        let sign = self.shape.sign_below(row.k);
+        let sign = sign.ok_or_else(|| bug("a layer above the floor rests on another"))?;
+        let counts = region.row_counts(row.j, sign, row.k);
         for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {
             let n = slice.len();
-            write(&Slopes::new(count, start, n).along(0..n, table), slice)?;
+            write(
+                &Slopes::new(count, row.i.start, n).along(0..n, table),
+                slice,
+            )?;
         }
         Ok(())
     }

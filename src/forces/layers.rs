@@ -1,6 +1,7 @@
 //! The forces of whole layers, written into slices: the fast way to many of them.
 
 use alloc::boxed::Box;
+use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
@@ -12,11 +13,12 @@ use super::terms::Terms;
 use super::{FloorForce, Forces};
 use crate::Error;
 use crate::engine::{
-    Cells, Descent, Meter, Method, Plan, Planes, Quantity, Table, exact_sweep, plain_sweep,
+    Cells, Descent, Meter, Method, Plan, Planes, Quantity, Received, Table, exact_sweep,
+    plain_sweep, received_in,
 };
 use crate::error::bug;
 use crate::formula::{half_turn, passed_on};
-use crate::lattice::{Region, Site};
+use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, Exactness, Ring};
 use crate::shape::{Selection, Shape};
 
@@ -36,10 +38,12 @@ use crate::shape::{Selection, Shape};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub struct Layers<'p, T: Algebra, M = ()> {
-    terms: Terms<'p, T>,
+    pub(super) terms: Terms<'p, T>,
     way: Way<'p, T>,
     /// The layers still to come.
     ahead: Range<i128>,
+    /// The layer that was reached.
+    at: Option<i128>,
     /// How many layers were stopped at.
     stops: usize,
     meter: M,
@@ -49,8 +53,11 @@ pub struct Layers<'p, T: Algebra, M = ()> {
 enum Way<'p, T: Algebra> {
     /// By copying the distinct forces of a straight pile.
     Table(Box<Table<T>>),
-    /// Sphere by sphere.
-    Single(Option<Method>),
+    /// Sphere by sphere, or by the lines that lead to pieces of a row.
+    Single {
+        method: Option<Method>,
+        in_pieces: bool,
+    },
     /// By a sweep in the numerators of the scalar.
     Plain(Box<Descent<'p, T, Cells<T::Numerator>>>),
     /// By a sweep in the limbs of the exact engine.
@@ -62,7 +69,7 @@ enum Way<'p, T: Algebra> {
 
 /// One layer of a pile, with its forces at hand.
 pub struct Layer<'l, 'p, T: Algebra, M = ()> {
-    layers: &'l Layers<'p, T, M>,
+    pub(super) layers: &'l Layers<'p, T, M>,
     k: i128,
     pub(super) region: Region,
     pub(super) spheres: usize,
@@ -94,6 +101,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
             way: Way::of(&plan, &terms, forces.method, ahead.end - 1)?,
             terms,
             ahead,
+            at: None,
             stops: 0,
             meter: forces.meter,
         })
@@ -119,17 +127,10 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T, M>>, Error> {
-        let Some(k) = self.ahead.next() else {
+        let Some(k) = self.ahead.clone().next() else {
             return Ok(None);
         };
-        match &mut self.way {
-            Way::Table(_) | Way::Single(_) => {}
-            Way::Plain(sweep) => {
-                sweep.advance(k, self.meter)?;
-                self.stops += 1;
-            }
-            Way::Exact(_, sweep) => sweep.advance(k, self.meter)?,
-        }
+        self.go_down_to(k)?;
         let region = self.shape().layer(k)?;
         let sites = region.site_count();
         let Some(spheres) = sites.to_usize() else {
@@ -146,6 +147,33 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
             region,
             spheres,
         }))
+    }
+
+    /// Goes down to layer `k` of the part, if it is not the one that was reached.
+    ///
+    /// # Errors
+    /// [`Error::OtherLayer`] for a layer above the one that was reached, or of which nothing is asked.
+    pub(super) fn go_down_to(&mut self, k: i128) -> Result<(), Error> {
+        if self.at == Some(k) {
+            return Ok(());
+        }
+        if !self.ahead.contains(&k) {
+            let at = match self.at {
+                Some(reached) => reached,
+                None => self.ahead.start,
+            };
+            return Err(Error::OtherLayer { layer: k, at });
+        }
+        match &mut self.way {
+            Way::Table(_) | Way::Single { .. } => {}
+            Way::Plain(sweep) => {
+                sweep.advance(k, self.meter)?;
+                self.stops += 1;
+            }
+            Way::Exact(_, sweep) => sweep.advance(k, self.meter)?,
+        }
+        (self.at, self.ahead.start) = (Some(k), k + 1);
+        Ok(())
     }
 
     /// Returns how many spheres of the layers still to come rest on others: the length of each slice of
@@ -218,6 +246,11 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         table.fill(self.above_the_floor(), slices)
     }
 
+    /// Whether the layers are filled from the distinct forces of a straight pile.
+    pub(super) fn is_from_table(&self) -> bool {
+        self.table().is_some()
+    }
+
     /// Returns the distinct forces, if the layers are filled from them.
     pub(super) fn table(&self) -> Option<&Table<T>> {
         match &self.way {
@@ -226,12 +259,12 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         }
     }
 
-    fn above_the_floor(&self) -> Range<i128> {
+    pub(super) fn above_the_floor(&self) -> Range<i128> {
         let floor = self.shape().layers() - 1;
         self.ahead.start.min(floor)..self.ahead.end.min(floor)
     }
 
-    fn shape(&self) -> &'p Shape {
+    pub(super) fn shape(&self) -> &'p Shape {
         self.terms.system.shape
     }
 }
@@ -282,12 +315,15 @@ impl<'p, T: Algebra> Way<'p, T> {
         };
         Ok(match Table::new(system, multiple)? {
             Some(table) if plan.method == Method::Closed => Self::Table(Box::new(table)),
-            _ => Self::Single(method),
+            _ => Self::Single {
+                method,
+                in_pieces: plan.method == Method::Tree,
+            },
         })
     }
 }
 
-impl<M: Meter> Layers<'_, BigRational, M> {
+impl<'p, M: Meter> Layers<'p, BigRational, M> {
     /// Returns the denominator of forces below so many changes of sign.
     pub(super) fn denominator(&self, changes: usize) -> BigInt {
         self.terms.lines.scale(changes)
@@ -296,6 +332,51 @@ impl<M: Meter> Layers<'_, BigRational, M> {
     /// Returns the denominator of the forces below the lowest layer that is still to come and not on the floor.
     pub(super) fn lowest_denominator(&self) -> BigInt {
         self.denominator(self.shape().changes_above(self.above_the_floor().end))
+    }
+
+    /// Returns the forces from above on consecutive spheres of a row of the layer that was reached.
+    pub(super) fn received_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
+        let (terms, meter) = (&self.terms, self.meter);
+        let sites = row.clone().into_iter();
+        match &self.way {
+            Way::Exact(_, sweep) => sites.map(|site| sweep.received(site)).collect(),
+            Way::Plain(sweep) => sites.map(|site| sweep.received(site)).collect(),
+            Way::Single {
+                in_pieces: true, ..
+            } => received_in(&terms.lines, row, meter),
+            Way::Single { method, .. } => sites
+                .map(|site| terms.received(site, *method, meter))
+                .collect(),
+            Way::Table(_) => sites
+                .map(|site| terms.received(site, None, meter))
+                .collect(),
+        }
+    }
+
+    /// Returns the forces to the spheres below consecutive ones of a row of the layer that was reached.
+    pub(super) fn passed_on_in(&self, row: &Row) -> Result<Vec<Received<BigRational>>, Error> {
+        let meter = self.meter;
+        let sites = row.clone().into_iter();
+        match &self.way {
+            // Where the sign changes the cells are turned already.
+            Way::Exact(_, sweep) => sites.map(|site| sweep.passed_on(site, meter)).collect(),
+            Way::Plain(sweep) => sites.map(|site| sweep.passed_on(site, meter)).collect(),
+            Way::Table(_) | Way::Single { .. } => {
+                let above = self.received_in(row)?.into_iter();
+                let below = |(site, above)| self.terms.lines.to_below(site, above, meter);
+                Ok(sites.zip(above).map(below).collect())
+            }
+        }
+    }
+
+    /// Returns the sweep in limbs, if there is one, and what its numbers are made of.
+    pub(super) fn exact_sweep(
+        &self,
+    ) -> Option<(&Terms<'p, BigRational>, &Descent<'p, BigRational, Planes>)> {
+        match &self.way {
+            Way::Exact(terms, sweep) => Some((terms, sweep)),
+            _ => None,
+        }
     }
 }
 
@@ -313,28 +394,20 @@ impl<M: Meter> Layer<'_, '_, BigRational, M> {
         value: impl Fn([BigInt; 3]) -> Result<[V; 3], Error>,
     ) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
-        if self.is_floor() {
-            return Err(Error::OnFloor { site: self.first() });
-        }
-        let [alpha, beta, gamma] = slices;
-        let out = alpha.iter_mut().zip(beta).zip(gamma);
-        for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
-            let Layers {
-                terms, meter, way, ..
-            } = self.layers;
-            let passed_on = match way {
-                Way::Exact(_, sweep) => sweep.passed_on(site, *meter)?,
-                Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
-                Way::Table(_) => terms.passed_on(site, None, *meter)?,
-                Way::Single(method) => terms.passed_on(site, *method, *meter)?,
-            };
-            [*a, *b, *c] = value(passed_on.forces)?;
+        self.check_above_the_floor()?;
+        let mut rest = slices;
+        for row in self.region.rows(self.k) {
+            let below = self.layers.passed_on_in(&row)?;
+            let [a, b, c] = split_front(&mut rest, below.len())?;
+            for (forces, ((a, b), c)) in below.into_iter().zip(a.iter_mut().zip(b).zip(c)) {
+                [*a, *b, *c] = value(forces.forces)?;
+            }
         }
         Ok(())
     }
 }
 
-impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
+impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     /// Returns the number of the layer, counted from 0 at the top.
     ///
     /// # Examples
@@ -447,7 +520,9 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
                 Ok(force.map(|component| T::from_rational(&component)))
             }
             Way::Table(_) => terms.floor(site, &terms.received(site, None, *meter)?),
-            Way::Single(method) => terms.floor(site, &terms.received(site, *method, *meter)?),
+            Way::Single { method, .. } => {
+                terms.floor(site, &terms.received(site, *method, *meter)?)
+            }
         }
     }
 
@@ -475,13 +550,11 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
     /// ```
     pub fn fill(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
-        if self.is_floor() {
-            return Err(Error::OnFloor { site: self.first() });
-        }
+        self.check_above_the_floor()?;
         match &self.layers.way {
             Way::Table(table) => table.fill(self.k..self.k + 1, slices),
             Way::Plain(sweep) => self.fill_from(sweep, slices),
-            Way::Single(_) | Way::Exact(..) => self.fill_with(slices, Ok),
+            Way::Single { .. } | Way::Exact(..) => self.fill_with(slices, Ok),
         }
     }
 
@@ -492,25 +565,13 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
         value: impl Fn([T; 3]) -> Result<[V; 3], Error>,
     ) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
-        if self.is_floor() {
-            return Err(Error::OnFloor { site: self.first() });
-        }
+        self.check_above_the_floor()?;
         let [alpha, beta, gamma] = slices;
         let out = alpha.iter_mut().zip(beta).zip(gamma);
         for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
             [*a, *b, *c] = value(self.passed_on(site)?)?;
         }
         Ok(())
-    }
-
-    /// Returns the sweep in limbs that is at this layer, if there is one, and what its numbers are made of.
-    pub(super) fn exact_sweep(
-        &self,
-    ) -> Option<(&Terms<'p, BigRational>, &Descent<'p, BigRational, Planes>)> {
-        match &self.layers.way {
-            Way::Exact(terms, sweep) => Some((terms, sweep)),
-            _ => None,
-        }
     }
 
     /// Writes the values of a sphere into slices that go over the layer.
@@ -537,9 +598,7 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
         slices: [&mut [V]; 3],
     ) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
-        if self.is_floor() {
-            return Err(Error::OnFloor { site: self.first() });
-        }
+        self.check_above_the_floor()?;
         table.fill(self.k..self.k + 1, slices)
     }
 
@@ -627,6 +686,26 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
         self.layers.shape()
     }
 
+    /// Errors if the layer is the one on the floor.
+    pub(super) fn check_above_the_floor(&self) -> Result<(), Error> {
+        if self.is_floor() {
+            return Err(Error::OnFloor { site: self.first() });
+        }
+        Ok(())
+    }
+
+    /// Errors if the layer is not the one on the floor.
+    pub(super) fn check_on_the_floor(&self) -> Result<(), Error> {
+        if self.is_floor() {
+            return Ok(());
+        }
+        let floor = self.shape().layers() - 1;
+        Err(Error::NotOnFloor {
+            site: self.first(),
+            floor,
+        })
+    }
+
     fn first(&self) -> Site {
         let [[i, j], ..] = self.region.corners();
         Site { i, j, k: self.k }
@@ -656,7 +735,7 @@ impl<'p, T: Algebra, M: Meter> Layer<'_, 'p, T, M> {
                 return Ok(forces.map(|force| T::from_rational(&force)));
             }
             Way::Table(_) => terms.passed_on(site, None, *meter)?,
-            Way::Single(method) => terms.passed_on(site, *method, *meter)?,
+            Way::Single { method, .. } => terms.passed_on(site, *method, *meter)?,
         };
         terms.contacts(passed_on)
     }

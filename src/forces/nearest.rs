@@ -1,28 +1,52 @@
 //! The forces of whole layers as the nearest floats, in the units of a packing or of the pile.
 
+use alloc::boxed::Box;
+use alloc::vec::Vec;
 use core::fmt;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
-use super::FloorForce;
 use super::layers::{Layer, Layers, check_lengths, split_front};
-use super::terms::Terms;
 use crate::Error;
-use crate::engine::{Descent, Meter, Planes, Readout, Table, Unit};
+use crate::engine::{Meter, Readout, Table, Unit};
 use crate::error::bug;
 use crate::formula::tripled_half_turn;
 use crate::geometry::Vector;
-use crate::lattice::Site;
+use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
 
 /// The units of forces in layers: what an exact multiple is multiplied by before it is rounded, once.
 #[derive(Clone, Debug)]
 pub(crate) struct Units {
     pub(crate) contact: Surd,
+    /// Of a contact force as a vector on the upper sphere: along x, y and z.
+    pub(crate) vector: [Surd; 3],
     /// Of shear along x, shear along y, and the normal force.
     pub(crate) floor: [Surd; 3],
+}
+
+/// What is written of spheres, three numbers of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Asked {
+    /// By direction.
+    Contacts,
+    /// By direction, the components along one axis.
+    Along(usize),
+    /// Normal, shear along x, shear along y.
+    Floor,
+}
+
+/// How it is found along the rows of a layer.
+enum Source<F> {
+    /// From the distinct forces of a straight pile.
+    Table(Table<F>),
+    /// From what the lines carry, of which limbs are read as they are.
+    Lines {
+        units: Box<[Unit; 3]>,
+        readout: Option<Readout>,
+    },
 }
 
 /// A way down through the layers of a part of a pile, in the floats `F` nearest to the exact forces.
@@ -49,6 +73,8 @@ pub struct NearestLayers<'p, F, M = ()> {
     units: Units,
     /// The distinct forces of a straight pile.
     table: Option<Table<F>>,
+    /// What rows were asked for last, and the layer that they are in.
+    prepared: Vec<(Asked, i128, Source<F>)>,
 }
 
 /// One layer of a pile, with its forces at hand as nearest floats.
@@ -83,6 +109,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
         let one = || Surd::from(BigRational::one());
         let units = Units {
             contact: one(),
+            vector: [one(), one(), one()],
             floor: [one(), one(), one()],
         };
         self.nearest_in(units)
@@ -93,12 +120,170 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
         self,
         units: Units,
     ) -> Result<NearestLayers<'p, F, M>, Error> {
-        let round = |multiple: &BigRational| nearest("a contact force", &units.contact, multiple);
+        let table = match self.source(&units, Asked::Contacts, 0)? {
+            Source::Table(table) => Some(table),
+            Source::Lines { .. } => None,
+        };
         Ok(NearestLayers {
-            table: self.table().map(|table| table.map(round)).transpose()?,
             layers: self,
             units,
+            table,
+            prepared: Vec::new(),
         })
+    }
+
+    /// Returns how something is found in layer `k`, which was reached.
+    fn source<F: NearestFloat>(
+        &self,
+        units: &Units,
+        asked: Asked,
+        k: i128,
+    ) -> Result<Source<F>, Error> {
+        let terms = &self.terms;
+        let by_direction = match asked {
+            Asked::Contacts => [(); 3].map(|()| units.contact.clone()),
+            Asked::Along(axis) => {
+                let scale = &terms.direction_scale;
+                terms.directions_below(k).map(|direction| {
+                    let component = direction.into_array()[axis].clone();
+                    units.vector[axis].scaled(&BigRational::new(component, scale.clone()))
+                })
+            }
+            Asked::Floor => {
+                let changes = self.shape().changes_above(k);
+                let [x, y, normal] = units.floor.each_ref();
+                let denominator = terms.floor_unit(changes);
+                return Ok(Source::Lines {
+                    units: Box::new(
+                        [normal, x, y].map(|unit| Unit::new(unit.clone(), denominator.clone())),
+                    ),
+                    readout: self.floor_readout(k, changes),
+                });
+            }
+        };
+        if self.is_from_table() {
+            let units = by_direction.map(|unit| Unit::new(unit, terms.lines.scale(0)));
+            let nearest = |n: i128, line: usize| {
+                let force = units[line].nearest(&terms.lines.ordinary(n.into(), line));
+                force.ok_or_else(|| asked.overflow::<F>())
+            };
+            let table = Table::new(&terms.system, nearest)?;
+            return table
+                .map(Source::Table)
+                .ok_or_else(|| bug("what was filled from a table is filled from a table"));
+        }
+        let changes = self.shape().changes_above(k + 1);
+        let denominator = terms.lines.scale(changes);
+        Ok(Source::Lines {
+            units: Box::new(by_direction.map(|unit| Unit::new(unit, denominator.clone()))),
+            readout: self.contacts_readout(changes),
+        })
+    }
+
+    /// Returns what the forces below an ordinary sphere are made of, below so many changes of sign.
+    fn contacts_readout(&self, changes: usize) -> Option<Readout> {
+        let (terms, sweep) = self.exact_sweep()?;
+        let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+        Some(Readout {
+            // 3G is symmetric: its columns are its rows.
+            combination: if sweep.turned_already() < changes {
+                lines.each_ref().map(tripled_half_turn)
+            } else {
+                lines
+            },
+            own: terms.lines.increments_after(changes),
+        })
+    }
+
+    /// Returns what normal force and shear under an ordinary bottom sphere are made of, unless the factors are long.
+    fn floor_readout(&self, k: i128, changes: usize) -> Option<Readout> {
+        let (terms, _) = self.exact_sweep()?;
+        let (lines, own) = terms.floor_factors(k, changes);
+        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
+            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
+            Some([a?.into(), b?.into(), c?.into()])
+        };
+        Some(Readout {
+            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
+            own: [own.z, own.x, own.y],
+        })
+    }
+
+    /// Writes what was asked for along consecutive spheres of a row of the layer that was reached.
+    fn write_row<F: NearestFloat>(
+        &self,
+        (asked, source): (Asked, &Source<F>),
+        row: &Row,
+        [a, b, c]: [&mut [F]; 3],
+    ) -> Result<(), Error> {
+        let (units, readout) = match source {
+            Source::Table(table) => return table.fill_row(row, [a, b, c]),
+            Source::Lines { units, readout } => (units, readout),
+        };
+        if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep()) {
+            let out = [&mut *a, &mut *b, &mut *c];
+            if !sweep.nearest_row(row, (readout, units), out)? {
+                return Err(asked.overflow::<F>());
+            }
+            // Spheres that weigh more or less than the others, or carry loads.
+            let extras = self.terms.lines.extras_in(row.k..row.k + 1);
+            for site in extras.filter(|site| site.j == row.j && row.i.contains(&site.i)) {
+                let place = (site.i - row.i.start).to_usize();
+                let place = place.filter(|place| *place < a.len());
+                let place = place.ok_or_else(|| bug("a slice is as long as its row"))?;
+                let one = site.i..site.i + 1;
+                let numbers = self.numbers(asked, &Row { i: one, ..*row })?.into_iter();
+                for numbers in numbers {
+                    [a[place], b[place], c[place]] = nearest((asked, units), &numbers)?;
+                }
+            }
+            return Ok(());
+        }
+        let numbers = self.numbers(asked, row)?;
+        for (numbers, ((a, b), c)) in numbers.iter().zip(a.iter_mut().zip(b).zip(c)) {
+            [*a, *b, *c] = nearest((asked, units), numbers)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the integers that are rounded for consecutive spheres.
+    fn numbers(&self, asked: Asked, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
+        if asked != Asked::Floor {
+            let below = self.passed_on_in(row)?.into_iter();
+            return Ok(below.map(|below| below.forces).collect());
+        }
+        let sites = row.clone().into_iter();
+        let on_floor = sites.zip(self.received_in(row)?).map(|(site, above)| {
+            let (Vector { x, y, z }, _) = self.terms.floor_numerators(site, &above);
+            [z, x, y]
+        });
+        Ok(on_floor.collect())
+    }
+}
+
+/// Returns the floats nearest to the numbers of a sphere.
+fn nearest<F: NearestFloat>(
+    (asked, units): (Asked, &[Unit; 3]),
+    [x, y, z]: &[BigInt; 3],
+) -> Result<[F; 3], Error> {
+    let [unit_x, unit_y, unit_z] = units;
+    let nearest = |unit: &Unit, n| unit.nearest(n).ok_or_else(|| asked.overflow::<F>());
+    Ok([
+        nearest(unit_x, x)?,
+        nearest(unit_y, y)?,
+        nearest(unit_z, z)?,
+    ])
+}
+
+impl Asked {
+    fn overflow<F>(self) -> Error {
+        Error::Overflow {
+            quantity: match self {
+                Self::Contacts | Self::Along(_) => "a contact force",
+                Self::Floor => "a force on the floor",
+            },
+            scalar: core::any::type_name::<F>(),
+        }
     }
 }
 
@@ -187,6 +372,149 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         }
         Ok(())
     }
+
+    /// Writes the forces below consecutive spheres of a row into slices, one for each direction: for what is larger than
+    /// memory. Rows come in their order; layers without one may be left out.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above one that was written;
+    /// [`Error::Length`], [`Error::Overflow`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Row;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(1_000_000)?;
+    /// let forces = pile.forces::<BigRational>();
+    /// let mut layers = forces.layers(Selection::Layer(999_998))?.nearest::<f64>()?;
+    /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
+    /// let row = Row { k: 999_998, j: 7, i: 100..103 };
+    /// layers.fill_row(&row, [&mut alpha, &mut beta, &mut gamma])?;
+    /// assert_eq!((alpha, beta), ([999_892.0, 999_891.0, 999_890.0], [101.0, 102.0, 103.0]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill_row(&mut self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
+        self.write(Asked::Contacts, row, slices)
+    }
+
+    /// Whether every contact force but zero is rounded to a normal float, with all its digits: each is an integer multiple of
+    /// the unit over a denominator.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// assert!(packing.layers::<f64>(Selection::All)?.keeps_digits());
+    /// let light = packing.with_mass("1e-310".parse::<cannonpile::scalar::Surd>()?.coefficient().clone())?;
+    /// assert!(!light.layers::<f64>(Selection::All)?.keeps_digits());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn keeps_digits(&self) -> bool {
+        let denominator = self.layers.lowest_denominator();
+        let least = Unit::new(self.units.contact.clone(), denominator);
+        let normal = F::LEAST_EXPONENT + i64::from(F::PRECISION) - 1;
+        least.exceeds_power_of_two(normal)
+    }
+
+    /// Writes the forces of consecutive spheres' contacts on the upper sphere as vectors into slices: x, y and z, each by
+    /// direction; in pile units as [`contact_vector`](crate::Forces::contact_vector).
+    ///
+    /// # Errors
+    /// As for [`fill_row`](Self::fill_row).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Row;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let layers = pile.forces::<BigRational>().layers(Selection::All)?;
+    /// let mut vectors = [[[0.0]; 3]; 3];
+    /// let slices = vectors.each_mut().map(|of| of.each_mut().map(|slice| slice.as_mut_slice()));
+    /// layers.nearest::<f64>()?.fill_row_of_vectors(&Row { k: 1, j: 0, i: 1..2 }, slices)?;
+    /// // β of this sphere: f·ê.
+    /// assert_eq!(vectors.map(|component| component[1][0]), [1.0, -1.0, -2.0]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill_row_of_vectors(
+        &mut self,
+        row: &Row,
+        slices: [[&mut [F]; 3]; 3],
+    ) -> Result<(), Error> {
+        for (axis, slices) in slices.into_iter().enumerate() {
+            self.write(Asked::Along(axis), row, slices)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the forces of consecutive bottom spheres on the floor into slices: normal, shear along x, shear along y.
+    ///
+    /// # Errors
+    /// [`Error::NotOnFloor`]; as for [`fill_row`](Self::fill_row).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Row;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let layers = pile.forces::<BigRational>().layers(Selection::Base)?;
+    /// let [mut normal, mut shear_x, mut shear_y] = [[0.0; 2]; 3];
+    /// let slices = [normal.as_mut_slice(), &mut shear_x, &mut shear_y];
+    /// layers.nearest::<f64>()?.fill_row_of_base(&Row { k: 9, j: 3, i: 2..4 }, slices)?;
+    /// assert_eq!((normal, shear_x, shear_y), ([4.0; 2], [0.0; 2], [-1.0 / 3.0, 0.0]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill_row_of_base(&mut self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
+        self.write(Asked::Floor, row, slices)
+    }
+
+    fn write(&mut self, asked: Asked, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
+        let (shape, Row { k, j, i }) = (self.layers.shape(), row.clone());
+        let spheres = i.end.saturating_sub(i.start).to_usize();
+        // Not a default: no slice is as long.
+        check_lengths(spheres.unwrap_or(usize::MAX), &slices)?;
+        if i.is_empty() {
+            return Ok(());
+        }
+        for i in [i.start, i.end - 1] {
+            let site = shape.check(Site { i, j, k })?;
+            let floor = shape.layers() - 1;
+            match asked {
+                Asked::Floor if k < floor => return Err(Error::NotOnFloor { site, floor }),
+                Asked::Contacts | Asked::Along(_) if k == floor => {
+                    return Err(Error::OnFloor { site });
+                }
+                _ => {}
+            }
+        }
+        self.layers.go_down_to(k)?;
+        if let (Asked::Contacts, Some(table)) = (asked, &self.table) {
+            return table.fill_row(row, slices);
+        }
+        let known = |(what, at, source): &(Asked, i128, Source<F>)| {
+            *what == asked && (*at == k || matches!(source, Source::Table(_)))
+        };
+        if !self.prepared.iter().any(known) {
+            self.prepared.retain(|(what, ..)| *what != asked);
+            let source = self.layers.source(&self.units, asked, k)?;
+            self.prepared.push((asked, k, source));
+        }
+        let source = self.prepared.iter().find(|prepared| known(prepared));
+        let (.., source) = source.ok_or_else(|| bug("what was prepared is there"))?;
+        self.layers.write_row((asked, source), row, slices)
+    }
 }
 
 impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
@@ -269,21 +597,8 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
         if let Some(table) = self.table {
             return self.layer.fill_from_table(table, slices);
         }
-        if let Some((terms, sweep)) = self.layer.exact_sweep() {
-            let readout = self.contacts_from_limbs(terms, sweep.turned_already());
-            return self.fill_from_limbs((terms, sweep), &readout, slices, |site| {
-                let forces = self.layer.to_below(site)?;
-                self.contacts(&forces)
-            });
-        }
-        self.layer
-            .fill_with(slices, |forces| self.contacts(&forces))
-    }
-
-    fn contacts(&self, forces: &[BigRational; 3]) -> Result<[F; 3], Error> {
-        let round = |force| nearest("a contact force", &self.units.contact, force);
-        let [a, b, c] = forces;
-        Ok([round(a)?, round(b)?, round(c)?])
+        self.layer.check_above_the_floor()?;
+        self.write(Asked::Contacts, slices)
     }
 
     /// Writes the forces of the bottom layer on the floor into slices, row after row: normal, shear along x and shear
@@ -307,108 +622,23 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_base(&self, slices: [&mut [F]; 3]) -> Result<(), Error> {
-        if self.is_floor()
-            && let Some((terms, sweep)) = self.layer.exact_sweep()
-            && let Some(readout) = self.floor_from_limbs(terms)
-        {
-            return self.fill_from_limbs((terms, sweep), &readout, slices, |site| {
-                let force = self.layer.on_floor(site)?;
-                self.on_floor(&force)
-            });
-        }
-        self.layer
-            .fill_base_with(slices, |force| self.on_floor(&force))
+        self.layer.check_on_the_floor()?;
+        self.write(Asked::Floor, slices)
     }
 
-    fn on_floor(&self, force: &FloorForce<BigRational>) -> Result<[F; 3], Error> {
-        let [unit_x, unit_y, unit_normal] = &self.units.floor;
-        let round = |unit, multiple| nearest("a force on the floor", unit, multiple);
-        Ok([
-            round(unit_normal, &force.normal)?,
-            round(unit_x, &force.shear_x)?,
-            round(unit_y, &force.shear_y)?,
-        ])
-    }
-
-    /// Returns what the forces below an ordinary sphere are made of, where the lines are turned across so many changes of
-    /// sign already.
-    fn contacts_from_limbs(&self, terms: &Terms<'_, BigRational>, turned: usize) -> Readout {
-        let changes = terms.system.shape.changes_above(self.k() + 1);
-        let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-        let unit = Unit::new(self.units.contact.clone(), terms.lines.scale(changes));
-        Readout {
-            // 3G is symmetric: its columns are its rows.
-            combination: if turned < changes {
-                lines.each_ref().map(tripled_half_turn)
-            } else {
-                lines
-            },
-            own: terms.lines.increments_after(changes),
-            units: [unit.clone(), unit.clone(), unit],
-        }
-    }
-
-    /// Returns what normal force and shear under an ordinary bottom sphere are made of, unless the factors are long.
-    fn floor_from_limbs(&self, terms: &Terms<'_, BigRational>) -> Option<Readout> {
-        let changes = terms.system.shape.changes_above(self.k());
-        let (lines, own) = terms.floor_factors(self.k(), changes);
-        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
-            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
-            Some([a?.into(), b?.into(), c?.into()])
-        };
-        let [unit_x, unit_y, unit_normal] = &self.units.floor;
-        let denominator = terms.floor_unit(changes);
-        let unit = |unit: &Surd| Unit::new(unit.clone(), denominator.clone());
-        Some(Readout {
-            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
-            own: [own.z, own.x, own.y],
-            units: [unit(unit_normal), unit(unit_x), unit(unit_y)],
-        })
-    }
-
-    /// Writes what a readout makes of the limbs of a sweep, and what spheres with extra weights and loads have instead.
-    fn fill_from_limbs(
-        &self,
-        (terms, sweep): (&Terms<'_, BigRational>, &Descent<'_, BigRational, Planes>),
-        readout: &Readout,
-        slices: [&mut [F]; 3],
-        extra: impl Fn(Site) -> Result<[F; 3], Error>,
-    ) -> Result<(), Error> {
+    fn write(&self, asked: Asked, slices: [&mut [F]; 3]) -> Result<(), Error> {
         check_lengths(self.spheres(), &slices)?;
-        let [a, b, c] = slices;
-        let mut rest = [&mut *a, &mut *b, &mut *c];
-        let mut defined = true;
+        let layers = self.layer.layers;
+        let source = layers.source(self.units, asked, self.k())?;
+        let mut rest = slices;
         for row in self.layer.region.rows(self.k()) {
             let spheres = (row.i.end - row.i.start).to_usize();
-            let spheres = spheres.ok_or_else(|| bug("a row of a sweep fits in memory"))?;
+            let spheres = spheres.ok_or_else(|| bug("a row of a slice fits in memory"))?;
             let front = split_front(&mut rest, spheres)?;
-            defined &= sweep.nearest_row(&row, readout, front)?;
-        }
-        if !defined {
-            return Err(Error::Overflow {
-                quantity: "a force",
-                scalar: core::any::type_name::<F>(),
-            });
-        }
-        for site in terms.lines.extras_in(self.k()..self.k() + 1) {
-            let values = extra(site)?;
-            self.layer
-                .put_at(site, values, [&mut *a, &mut *b, &mut *c])?;
+            layers.write_row((asked, &source), &row, front)?;
         }
         Ok(())
     }
-}
-
-/// Returns the float nearest to a multiple of a unit.
-fn nearest<F: NearestFloat>(
-    quantity: &'static str,
-    unit: &Surd,
-    multiple: &BigRational,
-) -> Result<F, Error> {
-    unit.scaled(multiple).nearest().ok_or(Error::Overflow {
-        quantity,
-        scalar: core::any::type_name::<F>(),
-    })
 }
 
 impl<F, M> fmt::Debug for NearestLayers<'_, F, M> {

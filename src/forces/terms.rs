@@ -16,7 +16,7 @@ pub(super) struct Terms<'p, T: Algebra> {
     pub(super) lines: Lines<'p, T>,
     /// W, over `sum_scale`.
     increment_sum: T::Numerator,
-    sum_scale: T::Numerator,
+    pub(super) sum_scale: T::Numerator,
     /// Numerators over `direction_scale`.
     pub(super) directions: [Vector<T::Numerator>; 3],
     pub(super) direction_scale: T::Numerator,

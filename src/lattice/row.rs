@@ -31,6 +31,30 @@ pub struct Row {
     pub i: Range<i128>,
 }
 
+impl Row {
+    /// Returns the sites in rows of at most `sites` of them.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Row;
+    ///
+    /// let row = Row { k: 8, j: 1, i: 0..8 };
+    /// let pieces: Vec<_> = row.pieces(3).map(|piece| piece.i).collect();
+    /// assert_eq!(pieces, [0..3, 3..6, 6..8]);
+    /// ```
+    pub fn pieces(&self, sites: i128) -> impl Iterator<Item = Self> + use<> {
+        let (k, j, sites) = (self.k, self.j, sites.max(1));
+        let Range { start, end } = self.i;
+        let starts = core::iter::successors(Some(start), move |i| i.checked_add(sites));
+        let starts = starts.take_while(move |i| *i < end);
+        starts.map(move |i| Self {
+            k,
+            j,
+            i: i..end.min(i.saturating_add(sites)),
+        })
+    }
+}
+
 impl IntoIterator for Row {
     type Item = Site;
     type IntoIter = Sites;

@@ -68,14 +68,13 @@ impl<'p, M: Meter> Packing<'p, M> {
         &self,
         part: Selection,
     ) -> Result<NearestLayers<'p, F, M>, Error> {
-        let weight = self.sphere_weight();
+        let [x, y, z] = self.roots.forces();
+        let basis = |unit: &BigRational| [x, y, z].map(|root| root.scaled(unit));
+        let [along_x, along_y, downwards] = basis(&self.weight_per_sum);
         let units = Units {
             contact: self.unit_force(),
-            floor: self
-                .roots
-                .forces
-                .each_ref()
-                .map(|root| root.scaled(&weight)),
+            vector: [along_x, along_y, -downwards],
+            floor: basis(&self.sphere_weight()),
         };
         self.forces.layers(part)?.nearest_in(units)
     }

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
-use std::rc::Rc;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -20,22 +19,16 @@ pub enum Cell {
     Index(i128),
     /// An exact quantity, shown in the number format asked for.
     Number(Box<Surd>),
-    /// A quantity that many rows share, as its text in the number format asked for.
-    Shown(Rc<Shown>),
+    /// A quantity that was rounded to the number format asked for.
+    F64(f64),
+    /// A quantity that was rounded to the number format asked for.
+    F32(f32),
     /// A word.
     Word(Cow<'static, str>),
     /// Yes or no: 1 and 0, in json `true` and `false`.
     Flag(bool),
     /// Nothing to say: empty, in json `null`.
     Missing,
-}
-
-/// A number and its text.
-#[derive(Debug, PartialEq)]
-pub struct Shown {
-    pub(super) text: String,
-    /// The exact number, where it is summed.
-    pub(super) exact: Option<Surd>,
 }
 
 impl From<i128> for Cell {
@@ -56,9 +49,15 @@ impl From<Surd> for Cell {
     }
 }
 
-impl From<&Rc<Shown>> for Cell {
-    fn from(shown: &Rc<Shown>) -> Self {
-        Self::Shown(Rc::clone(shown))
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Self::F64(value)
+    }
+}
+
+impl From<f32> for Cell {
+    fn from(value: f32) -> Self {
+        Self::F32(value)
     }
 }
 
@@ -68,30 +67,7 @@ impl From<&'static str> for Cell {
     }
 }
 
-impl Shown {
-    /// A number as its text in a format of one column; `quantity` is named if it does not fit.
-    pub(super) fn new(
-        number: &Surd,
-        numbers: NumberFormat,
-        quantity: &'static str,
-        summed: bool,
-    ) -> Result<Rc<Self>, Error> {
-        let text = numbers.show(number, quantity)?;
-        let exact = summed.then(|| number.clone());
-        Ok(Rc::new(Self { text, exact }))
-    }
-}
-
 impl Cell {
-    /// The exact number, for a sum.
-    pub(super) fn exact(&self) -> Option<&Surd> {
-        match self {
-            Self::Number(number) => Some(number),
-            Self::Shown(shown) => shown.exact.as_ref(),
-            _ => None,
-        }
-    }
-
     /// Adds the text of the cell to a line, so often as its column has heads, or both ends of a number if it is shown
     /// as an interval; `column` is named if the number does not fit.
     pub(super) fn show(
@@ -114,7 +90,8 @@ impl Cell {
                     Err(_) => line.push(n),
                 },
                 Self::Number(x) => line.push_str(&numbers.show(x, column)?),
-                Self::Shown(shown) => line.push_str(&shown.text),
+                Self::F64(x) => line.push(format_args!("{x:?}")),
+                Self::F32(x) => line.push(format_args!("{x:?}")),
                 Self::Word(word) => line.push_str(word),
                 Self::Flag(flag) => line.push_str(if *flag { "1" } else { "0" }),
                 Self::Missing => line.push_str(""),

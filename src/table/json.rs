@@ -48,8 +48,8 @@ fn write_value(
         Cell::Missing => return Ok(out.write_all(b"null")?),
         Cell::Flag(flag) => return Ok(write!(out, "{flag}")?),
         Cell::Word(_) => true,
-        Cell::Number(_) | Cell::Shown(_) => numbers == NumberFormat::Exact,
-        Cell::Integer(_) | Cell::Index(_) => false,
+        Cell::Number(_) => numbers == NumberFormat::Exact,
+        Cell::F64(_) | Cell::F32(_) | Cell::Integer(_) | Cell::Index(_) => false,
     };
     if quoted {
         Ok(serde_json::to_writer(out, text)?)

@@ -6,6 +6,7 @@ use super::cell::{Cell, NumberFormat};
 use super::line::Line;
 use super::progress::Progress;
 use crate::Error;
+use crate::scalar::Surd;
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,6 +84,9 @@ pub(super) fn show(
 /// Rows, one after the other.
 pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
+/// What makes the sums of the columns that are summed up, in their order.
+pub(super) type Sums<'a> = Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>;
+
 /// How a text table is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
@@ -102,7 +106,8 @@ pub struct Table<'a> {
     /// How many rows there are, if that is known.
     count: Option<BigUint>,
     /// The rows, made for one number format.
-    pub(super) rows: Box<dyn FnOnce(NumberFormat) -> RowIter<'a> + 'a>,
+    pub(super) rows: Box<dyn FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a>,
+    pub(super) sums: Option<Sums<'a>>,
 }
 
 impl Table<'static> {
@@ -143,13 +148,14 @@ impl<'a> Table<'a> {
             layout: self.layout,
             bounds: self.bounds,
             count: self.count,
+            sums: self.sums,
             rows: Box::new(move |numbers| {
-                let rows = rows(numbers);
-                Box::new(rows.inspect(move |row| {
+                let rows = rows(numbers)?;
+                Ok(Box::new(rows.inspect(move |row| {
                     if let Ok(row) = row {
                         look(row);
                     }
-                }))
+                })))
             }),
         }
     }
@@ -160,21 +166,30 @@ impl<'a> Table<'a> {
         noun: &'static str,
         rows: impl Iterator<Item = Row> + 'a,
     ) -> Self {
-        Self::made_for(columns, noun, |_| Box::new(rows))
+        Self::made_for(columns, noun, |_| Ok(Box::new(rows)))
     }
 
     /// A table whose rows are made for the number format in which they are shown.
     pub(super) fn made_for(
         columns: Vec<Column>,
         noun: &'static str,
-        rows: impl FnOnce(NumberFormat) -> RowIter<'a> + 'a,
+        rows: impl FnOnce(NumberFormat) -> Result<RowIter<'a>, Error> + 'a,
     ) -> Self {
         Self {
             columns,
             layout: Layout::Rows(noun),
             bounds: Vec::new(),
             count: None,
+            sums: None,
             rows: Box::new(rows),
+        }
+    }
+
+    /// Returns the table with what makes the sums of its columns.
+    pub(super) fn summed(self, sums: impl FnOnce() -> Result<Vec<Surd>, Error> + 'a) -> Self {
+        Self {
+            sums: Some(Box::new(sums)),
+            ..self
         }
     }
 
@@ -244,9 +259,9 @@ impl<'a> Table<'a> {
     #[must_use]
     pub fn observed(self, observer: impl FnMut(u64) + 'a) -> Self {
         let rows = self.rows;
-        let observed = move |numbers| -> RowIter<'a> {
+        let observed = move |numbers| -> Result<RowIter<'a>, Error> {
             let mut progress = Progress::new(observer);
-            Box::new(rows(numbers).inspect(move |_| progress.row()))
+            Ok(Box::new(rows(numbers)?.inspect(move |_| progress.row())))
         };
         Self {
             rows: Box::new(observed),

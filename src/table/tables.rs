@@ -2,22 +2,24 @@
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Zero};
 
-use super::cell::{Cell, NumberFormat, Shown};
-use super::distinct::{Distinct, Forces, Places};
+use super::cell::{Cell, NumberFormat};
 use super::rows::{Column, Row, RowIter, Table};
 use super::summary::steps;
 use super::units::Units;
 use crate::census::Entry;
-use crate::lattice::{Dimension, Direction, Site};
-use crate::scalar::Surd;
-use crate::shape::Selection;
+use crate::lattice::{self, Dimension, Direction, Site};
+use crate::scalar::NearestFloat;
+use crate::shape::{Rows, Selection};
 use crate::theorem::{Proof, Theorem};
-use crate::{Base, ContactForce, Contacts, Error, FloorForce, Packing, Pile};
+use crate::{ContactForce, Contacts, Error, FloorForce, Packing, Pile};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;
+
+/// The most spheres whose rows are made at once.
+const PIECE: i128 = 1024;
 
 /// The force of each bottom sphere on the floor: `i, j, normal, shear_x, shear_y`; for discs
 /// `i, normal, shear_x`.
@@ -44,8 +46,10 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     let pile = units.pile();
     let rows = pile.rows(selection)?;
     refuse_beyond(&rows.site_count(), "ask for one sphere")?;
-    // What cannot be done is refused before a row is written.
-    let forces = units.forces().base(selection)?;
+    let floor = pile.layers() - 1;
+    if let Some(site) = rows.clone().flatten().next().filter(|site| site.k != floor) {
+        return Err(Error::NotOnFloor { site, floor });
+    }
     let mut columns = indices(pile, &[]);
     columns.push(Column::summed("normal", units.normal()));
     columns.push(Column::summed("shear_x", units.shear_x()));
@@ -53,26 +57,113 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
     let (count, bounds) = (rows.site_count(), bounds(&columns, units));
-    let table = Table::of_rows(columns, "bottom spheres", base_rows(units, forces));
-    Ok(table.bounded(count, bounds))
+    let made = units.clone();
+    let rows = move |numbers| {
+        Ok(match rounding(numbers, selection) {
+            Some(Rounding::F64) => rounded_base::<f64>(&made, selection)?,
+            Some(Rounding::F32) => rounded_base::<f32>(&made, selection)?,
+            None => {
+                let forces = made.forces().base(selection)?;
+                Box::new(forces.map(move |force| Ok(floor_cells(pile, made.on_floor(force?)))))
+            }
+        })
+    };
+    let summed = units.clone();
+    let sums = move || {
+        let [normal, shear_x, shear_y] = summed.forces().sum_on_floor(selection)?;
+        let site = Site::APEX;
+        let sum = summed.on_floor(FloorForce {
+            site,
+            normal,
+            shear_x,
+            shear_y,
+        });
+        Ok(vec![sum.normal, sum.shear_x, sum.shear_y])
+    };
+    let table = Table::made_for(columns, "bottom spheres", rows);
+    Ok(table.bounded(count, bounds).summed(sums))
 }
 
-fn base_rows<'p>(units: &Units<'p>, forces: Base<'p, BigRational>) -> RowIter<'p> {
-    fn cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
-        let mut cells: Vec<Cell> = places(pile, force.site).collect();
-        cells.extend([force.normal.into(), force.shear_x.into()]);
-        if pile.dimension() == Dimension::Three {
-            cells.push(force.shear_y.into());
-        }
-        cells
+/// The cells of a bottom sphere.
+fn floor_cells<F: Into<Cell>>(pile: &Pile, force: FloorForce<F>) -> Vec<Cell> {
+    let mut cells = Vec::with_capacity(5);
+    cells.extend(places(pile, force.site));
+    cells.extend([force.normal.into(), force.shear_x.into()]);
+    if pile.dimension() == Dimension::Three {
+        cells.push(force.shear_y.into());
     }
+    cells
+}
+
+/// The floats that many rows are rounded to at once. One sphere is answered exactly, and rounded as it is shown.
+enum Rounding {
+    F64,
+    F32,
+}
+
+fn rounding(numbers: NumberFormat, selection: Selection) -> Option<Rounding> {
+    match (numbers, selection) {
+        (NumberFormat::Exact | NumberFormat::Interval, _) | (_, Selection::One(_)) => None,
+        (NumberFormat::F64, _) => Some(Rounding::F64),
+        (NumberFormat::F32, _) => Some(Rounding::F32),
+    }
+}
+
+/// Returns rows of a table, as many as `make` makes of consecutive spheres of a row.
+fn in_pieces<'p>(
+    rows: Rows<'p>,
+    mut make: impl FnMut(&lattice::Row) -> Result<Vec<Vec<Cell>>, Error> + 'p,
+) -> RowIter<'p> {
+    let pieces = rows.flat_map(|row| row.pieces(PIECE));
+    Box::new(pieces.flat_map(move |piece| match make(&piece) {
+        Ok(rows) => rows.into_iter().map(Ok).collect(),
+        Err(error) => vec![Err(error)],
+    }))
+}
+
+/// Three slices as long as a piece of a row.
+fn columns_of<F: Float>(row: &lattice::Row) -> [Vec<F>; 3] {
+    // No longer than a piece.
+    let spheres = usize::try_from(row.i.end - row.i.start).unwrap_or(0);
+    [(); 3].map(|()| vec![F::default(); spheres])
+}
+
+/// The slices of three columns.
+fn slices<F>(columns: &mut [Vec<F>; 3]) -> [&mut [F]; 3] {
+    columns.each_mut().map(Vec::as_mut_slice)
+}
+
+/// A float that a cell holds.
+trait Float: NearestFloat + Default + Into<Cell> + 'static {}
+
+impl Float for f64 {}
+impl Float for f32 {}
+
+fn rounded_base<'p, F: Float>(
+    units: &Units<'p>,
+    selection: Selection,
+) -> Result<RowIter<'p>, Error> {
     let pile = units.pile();
-    match units.clone() {
-        Units::Pile(_) => Box::new(forces.map(|force| Ok(cells(pile, force?)))),
-        Units::Si(packing) => {
-            Box::new(forces.map(move |force| Ok(cells(pile, packing.floor_force(force?)))))
-        }
-    }
+    let mut layers = units.layers::<F>(selection)?;
+    Ok(in_pieces(pile.rows(selection)?, move |row| {
+        let mut forces = columns_of::<F>(row);
+        layers.fill_row_of_base(row, slices(&mut forces))?;
+        let [normal, x, y] = forces;
+        let forces = normal.into_iter().zip(x).zip(y);
+        let sites = row.clone().into_iter();
+        let rows = sites
+            .zip(forces)
+            .map(|(site, ((normal, shear_x), shear_y))| {
+                let force = FloorForce {
+                    site,
+                    normal,
+                    shear_x,
+                    shear_y,
+                };
+                floor_cells(pile, force)
+            });
+        Ok(rows.collect())
+    }))
 }
 
 /// The contacts between spheres: `k, i, j, direction, force`, and in SI the force on the upper sphere
@@ -103,7 +194,6 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
     let rows = pile.rows(selection)?.off_the_floor();
     let count = rows.site_count() * directions.len();
     refuse_beyond(&count, narrower(selection))?;
-    let forces = units.forces().contacts(selection)?;
     let mut columns = indices(pile, &["k"]);
     columns.push(Column::plain("direction"));
     columns.push(Column::summed("force", units.force()));
@@ -112,12 +202,19 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
     }
     let bounds = bounds(&columns, units);
-    let units = units.clone();
-    let rows = move |numbers| match numbers {
-        NumberFormat::Exact | NumberFormat::Interval => exact_contacts(&units, forces),
-        NumberFormat::F64 | NumberFormat::F32 => rounded_contacts(&units, forces, numbers),
+    let made = units.clone();
+    let rows = move |numbers| match rounding(numbers, selection) {
+        Some(Rounding::F64) => rounded_contacts::<f64>(&made, selection),
+        Some(Rounding::F32) => rounded_contacts::<f32>(&made, selection),
+        None => Ok(exact_contacts(&made, made.forces().contacts(selection)?)),
     };
-    Ok(Table::made_for(columns, "contacts", rows).bounded(count, bounds))
+    let summed = units.clone();
+    let sums = move || {
+        let sum = summed.forces().sum_of_contacts(selection)?;
+        Ok(vec![summed.contact(sum)])
+    };
+    let table = Table::made_for(columns, "contacts", rows);
+    Ok(table.bounded(count, bounds).summed(sums))
 }
 
 /// Where a contact is, and the first cells of its row.
@@ -149,56 +246,43 @@ fn exact_contacts<'p>(units: &Units<'p>, forces: Contacts<'p, BigRational>) -> R
     }
 }
 
-/// The contacts with floats: each distinct number is rounded and written out once.
-fn rounded_contacts<'p>(
+fn rounded_contacts<'p, F: Float>(
     units: &Units<'p>,
-    contacts: Contacts<'p, BigRational>,
-    numbers: NumberFormat,
-) -> RowIter<'p> {
+    selection: Selection,
+) -> Result<RowIter<'p>, Error> {
     let pile = units.pile();
-    let shown_force = move |force: &Surd| Shown::new(force, numbers, "force", true);
-    match units {
-        Units::Pile(_) => {
-            let mut forces = Distinct::new();
-            Box::new(contacts.map(move |contact| {
-                let ContactForce {
-                    site,
-                    direction,
-                    force,
-                } = contact?;
-                let force = forces.of(force, |force| shown_force(&force.clone().into()))?;
-                let mut cells = contact_cells(pile, site, direction);
-                cells.push(force.into());
-                Ok(cells)
-            }))
+    let directions = pile.dimension().directions();
+    let (mut layers, places) = (units.layers::<F>(selection)?, units.places::<F>());
+    let rows = pile.rows(selection)?.off_the_floor();
+    Ok(in_pieces(rows, move |row| {
+        let mut forces = columns_of::<F>(row);
+        layers.fill_row(row, slices(&mut forces))?;
+        let mut columns = vec![forces];
+        if let Some(places) = &places {
+            let mut vectors = [(); 3].map(|()| columns_of::<F>(row));
+            layers.fill_row_of_vectors(row, vectors.each_mut().map(slices))?;
+            columns.extend(vectors);
+            let mut points = [(); 3].map(|()| columns_of::<F>(row));
+            let [x, y, z] = points.each_mut().map(slices);
+            let by_direction = x.into_iter().zip(y).zip(z).zip(directions);
+            for (((x, y), z), direction) in by_direction {
+                places.fill_row_of_contacts(row, *direction, [x, y, z])?;
+            }
+            columns.extend(points);
         }
-        Units::Si(packing) => {
-            let mut forces = Forces::new(packing, move |force: &Surd, [x, y, z]: &[Surd; 3]| {
-                let component = |x, name| Shown::new(x, numbers, name, false);
-                let force = shown_force(force)?;
-                Ok([
-                    force,
-                    component(x, "fx")?,
-                    component(y, "fy")?,
-                    component(z, "fz")?,
-                ])
-            });
-            let mut points = Places::new(packing, move |x: &Surd| {
-                Shown::new(x, numbers, "a position", false)
-            });
-            Box::new(contacts.map(move |contact| {
-                let ContactForce {
-                    site,
-                    direction,
-                    force,
-                } = contact?;
-                let mut cells = contact_cells(pile, site, direction);
-                cells.extend(forces.of(site, direction, force)?.iter().map(Cell::from));
-                cells.extend(points.point(site, direction)?.map(Cell::Shown));
-                Ok(cells)
-            }))
+        let mut rows = Vec::new();
+        for (place, site) in row.clone().into_iter().enumerate() {
+            for direction in directions {
+                let mut cells = contact_cells(pile, site, *direction);
+                let numbers = columns
+                    .iter()
+                    .map(|column| column[direction.index()][place]);
+                cells.extend(numbers.map(Into::into));
+                rows.push(cells);
+            }
         }
-    }
+        Ok(rows)
+    }))
 }
 
 /// The question that has fewer answers, unless it is the narrowest.
@@ -279,38 +363,76 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
         None => BigInt::one(),
     };
     let ids = core::iter::successors(Some(first), |id| Some(id + 1));
-    let spheres = ids.zip(rows.flatten());
-    let packing = packing.clone();
-    let rows = move |numbers| -> RowIter<'p> {
-        if matches!(numbers, NumberFormat::Exact | NumberFormat::Interval) {
-            let centre =
-                move |packing: &Packing<'_>, site| Ok(packing.position(site)?.map(Cell::from));
-            return Box::new(sphere_rows(packing, spheres, centre));
-        }
-        let shown = move |x: &Surd| Shown::new(x, numbers, "a position", false);
-        let mut places = Places::new(&packing, shown);
-        Box::new(sphere_rows(packing, spheres, move |_, site| {
-            Ok(places.centre(site)?.map(Cell::Shown))
-        }))
+    let made = packing.clone();
+    let rows = move |numbers| -> Result<RowIter<'p>, Error> {
+        Ok(match rounding(numbers, selection) {
+            Some(Rounding::F64) => rounded_spheres::<f64>(made, selection, ids)?,
+            Some(Rounding::F32) => rounded_spheres::<f32>(made, selection, ids)?,
+            None => Box::new(ids.zip(rows.flatten()).map(move |(id, site)| {
+                sphere_cells(&made, (id, site), made.position(site)?.map(Cell::from))
+            })),
+        })
     };
-    Ok(Table::made_for(columns, "spheres", rows).bounded(count, bounds))
+    let summed = packing.clone();
+    let sums = move || {
+        Ok(vec![
+            (weight_of(summed.pile(), selection)? * summed.mass()).into(),
+        ])
+    };
+    let table = Table::made_for(columns, "spheres", rows);
+    Ok(table.bounded(count, bounds).summed(sums))
 }
 
-fn sphere_rows<'p>(
+fn rounded_spheres<'p, F: Float>(
     packing: Packing<'p>,
-    spheres: impl Iterator<Item = (BigInt, Site)> + 'p,
-    mut centre: impl FnMut(&Packing<'p>, Site) -> Result<[Cell; 3], Error> + 'p,
-) -> impl Iterator<Item = Row> + 'p {
-    spheres.map(move |(id, site)| {
-        let pile = packing.pile();
-        let mut cells = vec![Cell::Integer(id), site.k.into()];
-        cells.extend(places(pile, site));
-        cells.extend(centre(&packing, site)?);
-        cells.push(packing.radius().clone().into());
-        cells.push(packing.mass_of(site)?.into());
-        cells.push(Cell::Flag(site.k + 1 == pile.layers()));
-        Ok(cells)
-    })
+    selection: Selection,
+    mut ids: impl Iterator<Item = BigInt> + 'p,
+) -> Result<RowIter<'p>, Error> {
+    let centres = packing.places::<F>();
+    Ok(in_pieces(packing.pile().rows(selection)?, move |row| {
+        let mut places = columns_of::<F>(row);
+        centres.fill_row(row, slices(&mut places))?;
+        let [x, y, z] = places;
+        // Sites first: no number is drawn for one past the end.
+        let spheres = row.clone().into_iter().zip(ids.by_ref());
+        let rows = spheres.zip(x.into_iter().zip(y).zip(z));
+        let rows = rows.map(|((site, id), ((x, y), z))| {
+            sphere_cells(&packing, (id, site), [x, y, z].map(Into::into))
+        });
+        rows.collect()
+    }))
+}
+
+/// The cells of a sphere.
+fn sphere_cells(packing: &Packing<'_>, (id, site): (BigInt, Site), centre: [Cell; 3]) -> Row {
+    let pile = packing.pile();
+    let mut cells = vec![Cell::Integer(id), site.k.into()];
+    cells.extend(places(pile, site));
+    cells.extend(centre);
+    cells.push(packing.radius().clone().into());
+    cells.push(packing.mass_of(site)?.into());
+    cells.push(Cell::Flag(site.k + 1 == pile.layers()));
+    Ok(cells)
+}
+
+/// The weight of the spheres of a part without their loads, in mg.
+fn weight_of(pile: &Pile, selection: Selection) -> Result<BigRational, Error> {
+    let ordinary = if pile.is_weightless() {
+        BigRational::zero()
+    } else {
+        BigRational::one()
+    };
+    let spheres = BigInt::from(pile.rows(selection)?.site_count());
+    let floor = pile.layers() - 1;
+    let selected = |site: Site| match selection {
+        Selection::All => true,
+        Selection::Base => site.k == floor,
+        Selection::Layer(k) => site.k == k,
+        Selection::One(one) => site == one,
+    };
+    let special = pile.weights().filter(|(site, _)| selected(*site));
+    let extra = special.map(|(_, weight)| weight - &ordinary);
+    Ok(extra.sum::<BigRational>() + &ordinary * spheres)
 }
 
 /// What is proved for every pile, a theorem a row: `name, statement, symbols, holds`.

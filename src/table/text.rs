@@ -8,7 +8,7 @@ use num_traits::Zero;
 use super::cell::{Cell, NumberFormat};
 use super::error::WriteError;
 use super::line::Line;
-use super::rows::{Column, RowIter, show};
+use super::rows::{Column, RowIter, Sums, show};
 use crate::Error;
 use crate::scalar::Surd;
 
@@ -47,12 +47,11 @@ pub(super) fn write_record(
 pub(super) fn write_rows(
     columns: &[Column],
     (mut rows, page_length): (RowIter<'_>, usize),
+    mut sums: Option<Sums<'_>>,
     noun: &str,
     numbers: NumberFormat,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let mut sums: Vec<Sum> = columns.iter().map(Sum::of).collect();
-    let has_sums = columns.iter().any(|column| column.summed);
     let [heads, units] = heads(columns, numbers);
     let mut bracketed = Line::default();
     for unit in units.fields() {
@@ -64,7 +63,7 @@ pub(super) fn write_rows(
     let mut page = vec![heads, bracketed];
     let mut widths = vec![0; units.fields().count()];
     // The word stands below on the last page only.
-    if let (Some(first), true) = (widths.first_mut(), has_sums) {
+    if let (Some(first), true) = (widths.first_mut(), sums.is_some()) {
         *first = "total".len();
     }
     let mut count = BigUint::zero();
@@ -72,9 +71,6 @@ pub(super) fn write_rows(
         let mut taken = 0;
         for row in rows.by_ref().take(page_length) {
             let row = row?;
-            sums.iter_mut()
-                .zip(&row)
-                .for_each(|(sum, cell)| sum.add(cell));
             let mut line = Line::default();
             show(columns, &row, numbers, &mut line)?;
             page.push(line);
@@ -82,7 +78,10 @@ pub(super) fn write_rows(
         }
         count += taken;
         let last = taken < page_length;
-        let totals = (last && has_sums).then(|| totals(columns, &sums, numbers));
+        let totals = match sums.take_if(|_| last) {
+            Some(sums) => Some(totals(columns, sums()?, numbers)),
+            None => None,
+        };
         for line in page.iter().chain(&totals) {
             for (width, text) in widths.iter_mut().zip(line.fields()) {
                 *width = text.chars().count().max(*width);
@@ -122,15 +121,17 @@ fn heads(columns: &[Column], numbers: NumberFormat) -> [Line; 2] {
 }
 
 /// The sums below, after the word `total`.
-fn totals(columns: &[Column], sums: &[Sum], numbers: NumberFormat) -> Line {
+fn totals(columns: &[Column], sums: Vec<Surd>, numbers: NumberFormat) -> Line {
+    let mut sums = sums.into_iter();
     let mut line = Line::default();
-    for (n, (column, sum)) in columns.iter().zip(sums).enumerate() {
+    for (n, column) in columns.iter().enumerate() {
         let places = column.places(numbers);
         let word = if n == 0 { "total" } else { "" };
-        let cell = match &sum.0 {
+        let sum = if column.summed { sums.next() } else { None };
+        let cell = match sum {
             // A sum beyond the floats is shown exactly: its rows are out already, and right.
-            Some(sum) if !fits(sum, numbers) => Cell::Word(sum.to_string().into()),
-            Some(sum) => sum.clone().into(),
+            Some(sum) if !fits(&sum, numbers) => Cell::Word(sum.to_string().into()),
+            Some(sum) => sum.into(),
             None => word.into(),
         };
         // Whether it fits has been found out.
@@ -153,20 +154,4 @@ fn write_line(out: &mut dyn Write, line: &Line, widths: &[usize]) -> Result<(), 
         padded.push_str("  ");
     }
     Ok(writeln!(out, "{}", padded.trim_end())?)
-}
-
-/// The exact sum of a column whose numbers are multiples of one root; none of a column that has no sum, or once two
-/// roots have met.
-struct Sum(Option<Surd>);
-
-impl Sum {
-    fn of(column: &Column) -> Self {
-        Self(column.summed.then(Surd::zero))
-    }
-
-    fn add(&mut self, cell: &Cell) {
-        if let (Some(sum), Some(number)) = (&self.0, cell.exact()) {
-            self.0 = sum.checked_add(number);
-        }
-    }
 }

@@ -3,8 +3,9 @@
 use num_rational::BigRational;
 
 use crate::lattice::Dimension;
-use crate::scalar::{Ring, Surd};
-use crate::{Error, Forces, Method, Packing, Pile};
+use crate::scalar::{NearestFloat, Ring, Surd};
+use crate::shape::Selection;
+use crate::{Error, FloorForce, Forces, Method, NearestLayers, Packing, Pile, Places};
 
 /// The units of a table.
 #[derive(Clone, Debug)]
@@ -65,6 +66,41 @@ impl<'p> Units<'p> {
         match self {
             Self::Pile(forces) => forces,
             Self::Si(packing) => packing.forces(),
+        }
+    }
+
+    /// Returns the layers of a part, in nearest floats.
+    pub(super) fn layers<F: NearestFloat>(
+        &self,
+        part: Selection,
+    ) -> Result<NearestLayers<'p, F>, Error> {
+        match self {
+            Self::Pile(forces) => forces.layers(part)?.nearest(),
+            Self::Si(packing) => packing.layers(part),
+        }
+    }
+
+    /// Returns where spheres are and touch; nothing in pile units.
+    pub(super) fn places<F: NearestFloat>(&self) -> Option<Places<'p, F>> {
+        match self {
+            Self::Pile(_) => None,
+            Self::Si(packing) => Some(packing.places()),
+        }
+    }
+
+    /// Returns the magnitude of a force of contact, from its multiple of f₀.
+    pub(super) fn contact(&self, multiple: BigRational) -> Surd {
+        match self {
+            Self::Pile(_) => multiple.into(),
+            Self::Si(packing) => packing.unit_force().scaled(&multiple),
+        }
+    }
+
+    /// Returns the force of a bottom sphere on the floor, from multiples.
+    pub(super) fn on_floor(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
+        match self {
+            Self::Pile(_) => force.map(Surd::from),
+            Self::Si(packing) => packing.floor_force(force),
         }
     }
 

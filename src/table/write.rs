@@ -49,7 +49,7 @@ impl Table<'_> {
         let mut line = Line::default();
         show(&self.columns, &self.bounds, numbers, &mut line)?;
         let is_counted = self.row_count().is_some();
-        let rows = (self.rows)(numbers);
+        let rows = (self.rows)(numbers)?;
         let columns = &self.columns;
         match (format, self.layout) {
             (FileFormat::Json, _) => json::write(columns, rows, numbers, out),
@@ -61,7 +61,7 @@ impl Table<'_> {
                 } else {
                     text::SHORT_PAGE
                 };
-                text::write_rows(columns, (rows, page), noun, numbers, out)
+                text::write_rows(columns, (rows, page), self.sums, noun, numbers, out)
             }
             (FileFormat::Csv, _) => {
                 let mut csv = csv::Writer::from_writer(out);

@@ -78,11 +78,12 @@ impl Comparison {
         drop(scope);
         pairs.sort();
         let mut tally = Tally::new(packing.pile().dimension(), pairs.has_vectors());
-        for contact in numbered.contacts()? {
-            let contact = contact.map_err(|error| match error {
-                Error::Overflow { .. } => Refusal::OutOfRange,
-                error => error.into(),
-            })?;
+        let out_of_range = |error| match error {
+            Error::Overflow { .. } => Refusal::OutOfRange,
+            error => error.into(),
+        };
+        for contact in numbered.contacts().map_err(out_of_range)? {
+            let contact = contact.map_err(out_of_range)?;
             tally.add(&contact, pairs.meet(contact.ids));
         }
         Ok(Self(tally.close(&pairs, numbered.numbering())))

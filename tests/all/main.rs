@@ -60,14 +60,15 @@ mod forces {
     mod equilibrium;
     mod extremes;
     pub(crate) mod invariants;
+    mod layers;
     mod loads;
     mod mirrors;
     mod parts;
     mod planted;
     mod planted_faults;
     mod response;
+    mod rows;
     mod scalars;
-    mod strengths;
     mod stress_table;
     mod symmetry;
 }

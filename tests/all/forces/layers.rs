@@ -10,7 +10,7 @@ use num_rational::BigRational;
 
 use crate::support::answers::ratio;
 
-fn packing_of(pile: &Pile) -> Packing<'_> {
+pub(super) fn packing_of(pile: &Pile) -> Packing<'_> {
     let spacing = Spacing::new(ratio(6, 5)).expect("a spacing");
     let packing = Packing::new(pile, &spacing).expect("room");
     packing.with_mass(ratio(1, 7)).expect("a mass")
@@ -20,7 +20,7 @@ fn slices<V: Clone>(zero: &V, n: usize) -> [Vec<V>; 3] {
     [(); 3].map(|()| vec![zero.clone(); n])
 }
 
-fn piles() -> Vec<Pile> {
+pub(super) fn piles() -> Vec<Pile> {
     let region = |text: &str| text.parse::<Region>().expect("a region");
     let signs = |text: &str| text.parse().expect("signs");
     let load = |pile: Pile, site| pile.with_load(site, ratio(7, 3)).expect("a load");

@@ -1,0 +1,149 @@
+//! Sums of forces over layers, without looking at single spheres.
+//!
+//! Every line goes on to the next layer, so the forces of a layer on the next one sum to what that layer receives. Adding
+//! increments and turning act on sums as on the forces of one sphere.
+
+use core::ops::Range;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::Forces;
+use super::terms::{Terms, edge, edge_all};
+use crate::Error;
+use crate::engine::Meter;
+use crate::formula::{self, force, half_turn, passed_on};
+use crate::shape::{Selection, Stretch};
+
+impl<M: Meter> Forces<'_, BigRational, M> {
+    /// Returns the sum of all contact forces that [`contacts`](Self::contacts) gives of a part, in f₀. Takes as long as the
+    /// part has layers, and the pile changes of sign, loads and weights of its own.
+    ///
+    /// # Errors
+    /// [`Error::LayerOutside`], [`Error::SiteOutside`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
+    /// let sum = pile.forces::<BigRational>().sum_of_contacts(Selection::All)?;
+    /// // Three for the weight of each sphere above: of 1, 1 + 3 and 1 + 3 + 6.
+    /// assert_eq!(sum, BigRational::from_integer(45.into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn sum_of_contacts(&self, part: Selection) -> Result<BigRational, Error> {
+        let (terms, floor) = (&self.terms, self.floor());
+        let layers = match part {
+            Selection::All => 0..floor,
+            Selection::Layer(k) => {
+                terms.system.shape.layer(k)?;
+                k..(k + 1).min(floor)
+            }
+            Selection::Base => floor..floor,
+            Selection::One(site) if site.k == floor => {
+                terms.system.shape.check(site)?;
+                floor..floor
+            }
+            Selection::One(site) => return Ok(self.to_below(site)?.iter().sum()),
+        };
+        let mut sum = BigRational::zero();
+        let add = |[a, b, c]: &[BigInt; 3], changes| {
+            let scale = terms.lines.scale(changes);
+            sum += edge::<BigRational>("a sum of forces", a + b + c, &scale)?;
+            Ok(())
+        };
+        terms.pass_layers_on(layers, add)?;
+        Ok(sum)
+    }
+
+    /// Returns the sums of the forces that [`base`](Self::base) gives of a part: normal in mg, shear_x in mg·tanθ, shear_y in
+    /// 2cosφ·mg·tanθ. Of the whole base they are the weight of the pile with its loads, and nothing.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part that is not of the base.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::shape::Selection;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let [normal, shear_x, shear_y] = pile.forces::<BigRational>().sum_on_floor(Selection::Base)?;
+    /// let zero = BigRational::from_integer(0.into());
+    /// assert_eq!([normal, shear_x, shear_y], [pile.weight(), zero.clone(), zero]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn sum_on_floor(&self, part: Selection) -> Result<[BigRational; 3], Error> {
+        let (terms, floor) = (&self.terms, self.floor());
+        if let Selection::One(site) = part {
+            let force = self.on_floor(site)?;
+            return Ok([force.normal, force.shear_x, force.shear_y]);
+        }
+        terms.system.check_on_floor(&self.pile.rows(part)?)?;
+        let lines = &terms.lines;
+        let (received, changes) = terms.pass_layers_on(floor..floor, |_, _| Ok(()))?;
+        let ordinary = lines.ordinary_weight(changes);
+        let spheres = BigInt::from(terms.system.shape.layer(floor)?.site_count());
+        let extras = lines.extras_in(floor..floor + 1);
+        let extras = extras.map(|site| lines.weight(site, changes) - &ordinary);
+        let weight = (extras.sum::<BigInt>() + &ordinary * spheres) * &terms.direction_scale;
+        let force = formula::handed_on(&received, &terms.directions_above(floor), &weight);
+        let force = force.scaled(&terms.sum_scale);
+        let unit = terms.floor_unit(changes);
+        edge_all("a sum of forces", [force.z, force.x, force.y], &unit)
+    }
+}
+
+impl Terms<'_, BigRational> {
+    /// Shows what each of some layers passes on in all, by direction and as integers over the scale of so many changes of
+    /// sign, and returns it for the layer above their end.
+    fn pass_layers_on(
+        &self,
+        layers: Range<i128>,
+        mut show: impl FnMut(&[BigInt; 3], usize) -> Result<(), Error>,
+    ) -> Result<([BigInt; 3], usize), Error> {
+        let mut sums = [(); 3].map(|()| BigInt::zero());
+        let mut changes = 0;
+        let runs = (0..).map_while(|run| self.system.shape.stretch(run));
+        for run in runs.take_while(|run| run.from < layers.end) {
+            if run.index > changes {
+                sums = half_turn::<BigRational>(&sums);
+                changes = run.index;
+            }
+            let asked = layers.start.max(run.from).min(run.to)..run.to.min(layers.end);
+            sums = self.with_own(sums, &run, run.from..asked.start);
+            for k in asked {
+                sums = self.with_own(sums, &run, k..k + 1);
+                show(&sums, changes)?;
+            }
+        }
+        Ok((sums, changes))
+    }
+
+    /// Adds what the spheres of some layers of a run add to their lines, by direction.
+    fn with_own(&self, sums: [BigInt; 3], run: &Stretch, layers: Range<i128>) -> [BigInt; 3] {
+        let spheres = BigInt::from(self.system.shape.spheres_in(layers.clone()));
+        let ordinary = self.lines.increments_after(run.index);
+        let mut own = ordinary.map(|w| force(spheres.clone(), &w));
+        for site in self.lines.extras_in(layers) {
+            let extra = self.lines.extra(site);
+            own.iter_mut()
+                .zip(extra)
+                .for_each(|(own, extra)| *own += extra);
+        }
+        let [a, b, c] = sums;
+        let [own_a, own_b, own_c] = &own;
+        [
+            passed_on(a, own_a),
+            passed_on(b, own_b),
+            passed_on(c, own_c),
+        ]
+    }
+}

@@ -1,0 +1,204 @@
+//! Where spheres are, and where they touch, as the nearest floats.
+
+use core::marker::PhantomData;
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::upwards;
+use crate::engine::{Meter, Unit};
+use crate::geometry::Vector;
+use crate::lattice::{Direction, Row, Site};
+use crate::scalar::{NearestFloat, Surd};
+use crate::{Error, Packing};
+
+/// The centres of spheres and their points of contact, in the floats `F` nearest to the exact coordinates, row by row.
+///
+/// Made by [`Packing::places`]. Coordinates are in the unit of the radius, as those of [`Packing::position`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Row;
+/// use cannonpile::{Packing, Pile};
+///
+/// let pile = Pile::triangular(10)?;
+/// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+/// let [mut x, mut y, mut z] = [[0.0; 3]; 3];
+/// let row = Row { k: 9, j: 0, i: 0..3 };
+/// packing.places::<f64>().fill_row(&row, [&mut x, &mut y, &mut z])?;
+/// assert_eq!((y, z), ([-10.8, -8.4, -6.0], [0.0; 3]));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Places<'p, F, M = ()> {
+    packing: Packing<'p, M>,
+    /// Of half the coordinates in the symbolic basis.
+    halves: BigInt,
+    units: [Unit; 3],
+    floats: PhantomData<F>,
+}
+
+impl<'p, M: Meter> Packing<'p, M> {
+    /// Returns where spheres are and where they touch, as nearest floats: the fast way to many of them.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Row};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let [mut x, mut y, mut z] = [[0.0_f32]; 3];
+    /// let places = packing.places();
+    /// let apex = Row { k: 0, j: 0, i: 0..1 };
+    /// places.fill_row_of_contacts(&apex, Direction::Beta, [&mut x, &mut y, &mut z])?;
+    /// assert_eq!((x, y, z), ([-0.34641016], [0.6], [0.7211103]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn places<F: NearestFloat>(&self) -> Places<'p, F, M> {
+        // Coordinates are sums of the directions, those of points of contact of halves of them.
+        let directions = self.pile().directions::<BigRational>();
+        let components = directions.into_iter().flat_map(Vector::into_array);
+        let denominator = components.fold(BigInt::one(), |lcm, x| lcm.lcm(x.denom()));
+        let halves: BigInt = denominator * 2;
+        let diameter = self.diameter();
+        let unit = |root: &Surd| Unit::new(root.scaled(&diameter), halves.clone());
+        Places {
+            packing: self.clone(),
+            units: self.roots.lengths().map(unit),
+            halves,
+            floats: PhantomData,
+        }
+    }
+}
+
+impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
+    /// Writes the centres of consecutive spheres of a row into slices of x, y and z.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`], [`Error::Length`]; [`Error::Overflow`] for a coordinate beyond the floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Row;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(3)?;
+    /// let packing = Packing::new(&pile, &"5/4".parse()?)?;
+    /// let mut places = [[0.0]; 3];
+    /// let slices = places.each_mut().map(|slice| slice.as_mut_slice());
+    /// packing.places::<f64>().fill_row(&Row { k: 0, j: 0, i: 0..1 }, slices)?;
+    /// // Two layers up, 2√(4 − (5/4)²).
+    /// assert_eq!(places[2], [3.122498999199199]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill_row(&self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
+        self.fill(row, slices, |site| self.packing.centre(site))
+    }
+
+    /// Writes where consecutive spheres of a row touch those below them in a direction into slices of x, y and z.
+    ///
+    /// # Errors
+    /// [`Error::OnFloor`], [`Error::NoSuchDirection`]; as for [`fill_row`](Self::fill_row).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Row};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let [mut x, mut y, mut z] = [[0.0]; 3];
+    /// let apex = Row { k: 0, j: 0, i: 0..1 };
+    /// let slices = [x.as_mut_slice(), &mut y, &mut z];
+    /// packing.places::<f64>().fill_row_of_contacts(&apex, Direction::Gamma, slices)?;
+    /// assert_eq!((x, y), ([0.6928203230275509], [0.0]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn fill_row_of_contacts(
+        &self,
+        row: &Row,
+        direction: Direction,
+        slices: [&mut [F]; 3],
+    ) -> Result<(), Error> {
+        self.fill(row, slices, |site| self.packing.point(site, direction))
+    }
+
+    /// Writes coordinates that change evenly along a row.
+    fn fill(
+        &self,
+        row: &Row,
+        slices: [&mut [F]; 3],
+        at: impl Fn(Site) -> Result<Vector<BigRational>, Error>,
+    ) -> Result<(), Error> {
+        let spheres = row.i.end.saturating_sub(row.i.start).to_usize();
+        // Not a default: no slice is as long.
+        let needed = spheres.unwrap_or(usize::MAX);
+        if let Some(slice) = slices.iter().find(|slice| slice.len() != needed) {
+            let given = slice.len();
+            return Err(Error::Length { needed, given });
+        }
+        let mut sites = row.clone().into_iter();
+        let Some(first) = sites.next() else {
+            return Ok(());
+        };
+        let shape = self.packing.pile().shape();
+        shape.check(Site {
+            i: row.i.end - 1,
+            ..first
+        })?;
+        let here = self.numbers(at(first)?);
+        let next = match sites.next() {
+            Some(second) => self.numbers(at(second)?),
+            None => here.clone(),
+        };
+        let along = here.into_iter().zip(next);
+        for (((first, second), unit), slice) in along.zip(&self.units).zip(slices) {
+            let step = second - &first;
+            if step.is_zero() {
+                slice.fill(unit.nearest(&first).ok_or_else(overflow::<F>)?);
+            } else if let (Some(first), Some(step)) = (first.to_i64(), step.to_i64()) {
+                for (n, place) in (0..).zip(slice) {
+                    let at = i128::from(first) + n * i128::from(step);
+                    *place = unit.nearest_to(at).ok_or_else(overflow::<F>)?;
+                }
+            } else {
+                for (n, place) in (0..).zip(slice) {
+                    let at = &first + &step * n;
+                    *place = unit.nearest(&at).ok_or_else(overflow::<F>)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns coordinates in the symbolic basis as integers.
+    fn numbers(&self, place: Vector<BigRational>) -> [BigInt; 3] {
+        // The denominator of all of them.
+        let whole = |x: BigRational| (x * &self.halves).to_integer();
+        place.into_array().map(whole)
+    }
+}
+
+fn overflow<F>() -> Error {
+    Error::Overflow {
+        quantity: "a position",
+        scalar: core::any::type_name::<F>(),
+    }
+}
+
+impl<M: Meter> Packing<'_, M> {
+    /// Returns where a sphere touches that below it, in 2R and the symbolic basis, z up from the bottom layer.
+    pub(super) fn point(
+        &self,
+        site: Site,
+        direction: Direction,
+    ) -> Result<Vector<BigRational>, Error> {
+        let lean = upwards(self.forces.contact_direction(site, direction)?);
+        let half = BigRational::new((-1).into(), 2.into());
+        Ok(self.centre(site)? + &lean.scaled(&half))
+    }
+}
