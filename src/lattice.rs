@@ -22,7 +22,7 @@ mod sign;
 mod symmetry;
 
 pub use region::Region;
-pub(crate) use region::{Along, Slopes, Trapezoid};
+pub(crate) use region::{Along, Counts, Slopes, Trapezoid};
 pub use row::{Row, Sites};
 pub use sign::Sign;
 pub use symmetry::Symmetry;

@@ -15,7 +15,7 @@ use num_traits::ToPrimitive;
 
 use super::grid::{Grid, Layer, Pass};
 use super::parallel;
-use crate::lattice::{Along, Slopes};
+use crate::lattice::{Along, Counts, Slopes};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
@@ -304,6 +304,8 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             };
             delays.push(delay);
         }
+        let counts = |(pass, _): &(Pass, _)| pass.region.counts(pass.run.sign, pass.k - pass.from);
+        let counts: Vec<Counts> = passes.iter().map(counts).collect();
         let filled = || {
             self.taken
                 .iter()
@@ -320,7 +322,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
                 // As many delays and ranges as passes.
                 let j = time - delays[place];
                 if self.taken[place].contains(&j) {
-                    let cells = self.pass(grid, pass, ramps, j, turn);
+                    let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn);
                     if place + 1 == passes.len() {
                         finish(&mut self.planes, &cells);
                     }
@@ -335,7 +337,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         grid: &Grid<'_>,
         pass: &Pass,
         ramps: &[Ramps<V>],
-        j: i128,
+        (j, counts): (i128, &Counts),
         turn: &impl Fn(&[V; 3]) -> [V; 3],
     ) -> [Range<usize>; 3] {
         let i = pass.region.row(j);
@@ -344,8 +346,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             *cells = cells.start - start..cells.end - start;
         }
         let n = cells[0].len();
-        let counts = pass.region.row_counts(j, pass.run.sign, pass.k - pass.from);
-        let counts = counts.map(|count| Slopes::new(count, i.start, n));
+        let counts = counts.in_row(j).map(|count| Slopes::new(count, i.start, n));
         for (plane, ramps) in self.planes.iter_mut().zip(ramps) {
             let rows = row(plane, cells.clone());
             if pass.turns {

@@ -19,6 +19,7 @@ use crate::engine::{
 use crate::error::bug;
 use crate::formula::{half_turn, passed_on};
 use crate::lattice::{Region, Row, Site};
+use crate::pile::System;
 use crate::scalar::{Algebra, Exactness, Ring};
 use crate::shape::{Selection, Shape};
 
@@ -46,6 +47,8 @@ pub struct Layers<'p, T: Algebra, M = ()> {
     at: Option<i128>,
     /// How many layers were stopped at.
     stops: usize,
+    /// Whether a number of a sweep may be too great for the scalar.
+    may_overflow: bool,
     meter: M,
 }
 
@@ -99,6 +102,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         )?;
         Ok(Self {
             way: Way::of(&plan, &terms, forces.method, ahead.end - 1)?,
+            may_overflow: may_overflow::<T>(&terms.system, ahead.end - 1),
             terms,
             ahead,
             at: None,
@@ -267,6 +271,16 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     pub(super) fn shape(&self) -> &'p Shape {
         self.terms.system.shape
     }
+}
+
+/// Whether a number of a sweep down to layer `last` may be too great for the scalar: not if it holds twice the bound on all of
+/// them, which roundings do not reach.
+fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
+    if !matches!(T::EXACTNESS, Exactness::Rounded { .. }) {
+        return true;
+    }
+    let twice = BigRational::new(system.bound_of_sweep(last) * 2, system.denominator());
+    !T::from_rational(&twice).is_defined()
 }
 
 /// Splits the first `n` elements off each slice.
@@ -752,6 +766,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
             own: lines.increments_after(changes),
             scale: lines.scale(changes),
             turns: sweep.turned_already() < changes,
+            may_overflow: self.layers.may_overflow,
         };
         let [alpha, beta, gamma] = slices;
         let mut rest = [&mut *alpha, &mut *beta, &mut *gamma];
@@ -786,18 +801,32 @@ struct Below<T: Algebra> {
     scale: T::Numerator,
     /// Whether the sign changes at the layer, and what is carried is not turned yet.
     turns: bool,
+    /// Whether a force may be too great for the scalar.
+    may_overflow: bool,
 }
 
 impl<T: Algebra> Below<T> {
     /// Writes the forces below a row, and returns whether all are numbers.
-    fn write(&self, carried: [&[T::Numerator]; 3], [a, b, c]: [&mut [T]; 3]) -> bool {
-        if self.turns {
-            return self.write_turned(carried, [a, b, c]);
+    fn write(&self, carried: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
+        // In loops of their own: looking at each number takes half as long again.
+        match (self.turns, self.may_overflow) {
+            (false, false) => self.write_checked(carried, out, |_| true),
+            (false, true) => self.write_checked(carried, out, T::is_defined),
+            (true, _) => self.write_turned(carried, out),
         }
+    }
+
+    #[inline]
+    fn write_checked(
+        &self,
+        carried: [&[T::Numerator]; 3],
+        out: [&mut [T]; 3],
+        is_defined: impl Fn(&T) -> bool,
+    ) -> bool {
         let mut defined = true;
-        for ((carried, out), own) in carried.into_iter().zip([a, b, c]).zip(&self.own) {
+        for ((carried, out), own) in carried.into_iter().zip(out).zip(&self.own) {
             for (force, out) in carried.iter().zip(out) {
-                defined &= self.put(passed_on(force.clone(), own), out);
+                defined &= self.put(passed_on(force.clone(), own), out, &is_defined);
             }
         }
         defined
@@ -811,17 +840,17 @@ impl<T: Algebra> Below<T> {
         {
             let turned = half_turn::<T>(&[a.clone(), b.clone(), c.clone()]);
             for ((force, out), own) in turned.into_iter().zip([to_a, to_b, to_c]).zip(&self.own) {
-                defined &= self.put(passed_on(force, own), out);
+                defined &= self.put(passed_on(force, own), out, &T::is_defined);
             }
         }
         defined
     }
 
     #[inline]
-    fn put(&self, force: T::Numerator, out: &mut T) -> bool {
+    fn put(&self, force: T::Numerator, out: &mut T, is_defined: &impl Fn(&T) -> bool) -> bool {
         match T::from_ratio(force, &self.scale) {
             Some(value) => {
-                let defined = value.is_defined();
+                let defined = is_defined(&value);
                 *out = value;
                 defined
             }

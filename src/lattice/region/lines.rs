@@ -31,41 +31,62 @@ impl Region {
         bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
-    /// The counts of [`spheres_above`](Self::spheres_above) along row j, by direction, as functions of i.
+    /// Returns how [`spheres_above`](Self::spheres_above) goes on along row `j`, within the region.
     pub(crate) fn row_counts(&self, j: i128, sign: Sign, steps: i128) -> [Trapezoid; 3] {
-        let constant = |at_zero| Linear { at_zero, slope: 0 };
-        let i = Linear {
-            at_zero: 0,
-            slope: 1,
+        self.counts(sign, steps).in_row(j)
+    }
+
+    /// Returns how [`spheres_above`](Self::spheres_above) goes on along any row, within the region.
+    pub(crate) fn counts(&self, sign: Sign, steps: i128) -> Counts {
+        let constant = |at_zero| Linear {
+            at_zero,
+            along: [0, 0],
         };
+        let [i, j] = [[1, 0], [0, 1]].map(|along| Linear { at_zero: 0, along });
         let (lower, upper) = (self.lower.map(constant), self.upper.map(constant));
-        let (j, most) = (constant(j), constant(steps));
-        let bounds = count::bounds_above(&i, &j, &lower, &upper, &most, sign);
-        bounds.map(|bounds| {
+        let bounds = count::bounds_above(&i, &j, &lower, &upper, &constant(steps), sign);
+        Counts { steps, bounds }
+    }
+}
+
+/// What bounds the counts on the lines above the sites of a region, by direction.
+pub(crate) struct Counts {
+    steps: i128,
+    bounds: [[Linear; 4]; 3],
+}
+
+impl Counts {
+    /// Returns how the counts go on along row `j`.
+    #[inline]
+    pub(crate) fn in_row(&self, j: i128) -> [Trapezoid; 3] {
+        self.bounds.each_ref().map(|bounds| {
             let count = Trapezoid {
-                cap: steps,
+                cap: self.steps,
                 rises: None,
                 falls: None,
             };
-            bounds.into_iter().fold(count, Trapezoid::bounded_by)
+            bounds
+                .iter()
+                .fold(count, |count, bound| count.bounded_by(bound, j))
         })
     }
 }
 
-/// A function of the place along a row, `at_zero` + `slope`·i.
+/// A function of i and j that is linear in both: its value at (0, 0), and by how much it grows along i and j.
 #[derive(Clone, Copy)]
 struct Linear {
     at_zero: i128,
-    slope: i128,
+    along: [i8; 2],
 }
 
 impl Sub<&Self> for Linear {
     type Output = Self;
 
     fn sub(self, rhs: &Self) -> Self {
+        let [[i, j], [other_i, other_j]] = [self.along, rhs.along];
         Self {
             at_zero: self.at_zero - rhs.at_zero,
-            slope: self.slope - rhs.slope,
+            along: [i - other_i, j - other_j],
         }
     }
 }
@@ -80,14 +101,21 @@ pub(crate) struct Trapezoid {
 
 impl Trapezoid {
     /// The lesser of the count and a function that rises by one along the row, falls by one, or is level.
-    fn bounded_by(self, Linear { at_zero, slope }: Linear) -> Self {
-        match slope.cmp(&0) {
+    #[inline]
+    fn bounded_by(self, bound: &Linear, j: i128) -> Self {
+        let [along_i, along_j] = bound.along;
+        let at_zero = match along_j {
+            0 => bound.at_zero,
+            1 => bound.at_zero + j,
+            slope => bound.at_zero + i128::from(slope) * j,
+        };
+        match along_i.cmp(&0) {
             Ordering::Equal => Self {
                 cap: self.cap.min(at_zero),
                 ..self
             },
             Ordering::Greater => Self {
-                rises: self.rises.max(Some(-at_zero)),
+                rises: Some(self.rises.map_or(-at_zero, |from| from.max(-at_zero))),
                 ..self
             },
             Ordering::Less => Self {
