@@ -80,14 +80,10 @@ pub(crate) fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Site>, Refused
 
 /// Adds to a refusal of too many rows the options that ask for fewer.
 pub(crate) fn narrower(error: Error, selection: Selection) -> Refused {
-    let remedy = match (&error, selection) {
-        (Error::TooManyRows { .. }, Selection::All) => Some("--layer or --at"),
-        (Error::TooManyRows { .. }, Selection::Layer(_) | Selection::Base) => Some("--at"),
-        _ => None,
-    };
-    Refused {
-        remedy,
-        ..error.into()
+    match selection {
+        Selection::All => Refused::of_rows(error, "--layer or --at"),
+        Selection::Layer(_) | Selection::Base => Refused::of_rows(error, "--at"),
+        Selection::One(_) => error.into(),
     }
 }
 
@@ -100,14 +96,7 @@ pub(crate) struct Numbers {
     pub(crate) number: Number,
     /// What forces and lengths are multiples of
     #[arg(long, value_enum, default_value = "pile")]
-    units: UnitSystem,
-}
-
-impl Numbers {
-    /// Returns the pile in these units.
-    pub(crate) fn units<'p>(&self, scene: &Scene, pile: &'p Pile) -> Result<Units<'p>, Error> {
-        self.units.of(scene, pile)
-    }
+    pub(crate) units: UnitSystem,
 }
 
 /// How forces are found.
@@ -162,10 +151,6 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    pub(crate) fn target(&self) -> String {
-        target("output", self.file.as_deref())
-    }
-
     /// Returns the format asked for, or that of the ending of the file; the two must agree.
     pub(crate) fn format(&self) -> Result<Format, Failure> {
         agreed("format", self.format, "output", self.file.as_deref())
@@ -191,9 +176,9 @@ impl Output {
         content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {
         let file = self.file.as_deref();
-        Ok(write_to(file, |out| {
+        write_to("output", file, |out| {
             progress.count(out, file.is_none(), content)
-        })?)
+        })
     }
 }
 
@@ -208,20 +193,12 @@ pub(crate) fn agreed(
     match (format, ending) {
         (Some(format), Some(ending)) if format != ending => {
             let (format, ending) = (format.name(), ending.name());
-            Err(Failure::BadUse(format!(
+            Err(Failure::Message(format!(
                 "--{format_option}: {format} is not what the ending of --{file_option} says, {ending}: leave --{format_option} \
                  out, or give the file another ending"
             )))
         }
         (format, ending) => Ok(format.or(ending).unwrap_or(Format::Table)),
-    }
-}
-
-/// Returns where output goes, for messages.
-pub(crate) fn target(option: &str, file: Option<&Path>) -> String {
-    match file {
-        None => "to stdout".into(),
-        Some(path) => format!("--{option} {}", path.display()),
     }
 }
 

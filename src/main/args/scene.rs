@@ -122,7 +122,7 @@ impl SceneOptions {
                 "give radius, mass and gravity in other units",
             ),
         };
-        Failure::BadUse(format!(
+        Failure::Message(format!(
             "{place}: {quantity} does not fit in {scalar}: {remedy}"
         ))
     }
@@ -148,17 +148,15 @@ impl SceneOptions {
 
     /// Returns the refusal as a message: the option or the line of the file to change, what is wrong, and the remedy.
     pub(crate) fn message(scene: Option<&Self>, refused: &Refused) -> String {
-        let line_of = |culprit| {
-            let option = option_of(culprit)?;
-            scene.and_then(|scene| scene.line_of(option))
-        };
+        let line_of = |option| scene.and_then(|scene| scene.line_of(option));
         let error = &refused.error;
-        let place = refused.culprit.and_then(|culprit| {
-            line_of(culprit).or_else(|| Some(format!("--{}", option_of(culprit)?)))
+        let place = refused.culprit.and_then(option_of).map(|option| {
+            let line = line_of(option);
+            line.unwrap_or_else(|| format!("--{option}")) + ": "
         });
-        let place = place.map_or_else(String::new, |place| format!("{place}: "));
+        let place = place.unwrap_or_default();
         // Where the other of two inputs that exclude each other is, if it is in the file.
-        let other = error.conflicts_with().and_then(line_of);
+        let other = error.conflicts_with().and_then(option_of).and_then(line_of);
         let notes = other.or(refused.remedy.map(str::to_owned));
         let notes = notes.map_or_else(String::new, |notes| format!(" ({notes})"));
         format!("{place}{error}{notes}")

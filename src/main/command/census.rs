@@ -7,7 +7,6 @@ use cannonpile::table::{self, Table};
 use cannonpile::{Culprit, Error};
 use clap::Args;
 
-use super::Command;
 use crate::args::{Number, Output};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
@@ -44,11 +43,8 @@ pub(crate) struct Census {
 impl Census {
     fn table(&self) -> Result<Table<'_>, Refused> {
         let Some(base) = self.base else {
-            let entries = census::under_one_sphere(self.layers, !self.standing);
-            let entries = entries.map_err(|error| Refused {
-                remedy: Some("--standing").filter(|_| matches!(error, Error::TooManyRows { .. })),
-                ..error.into()
-            })?;
+            let entries = census::under_one_sphere(self.layers, !self.standing)
+                .map_err(|error| Refused::of_rows(error, "--standing"))?;
             return Ok(table::census(entries));
         };
         let entries = census::on_base(base).map_err(|error| Refused::of(Culprit::Base, error))?;
@@ -59,15 +55,11 @@ impl Census {
     }
 }
 
-impl Command for Census {
-    fn run(&self) -> Result<bool, Failure> {
+impl Census {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let progress = Progress::begin("trying stackings");
         self.output
             .write_table(self.table()?, self.number, &progress)?;
         Ok(true)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }

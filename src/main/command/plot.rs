@@ -9,8 +9,7 @@ use cannonpile::table::WriteError;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
 
-use super::Command;
-use crate::args::{SceneOptions, UnitSystem, one, target};
+use crate::args::{SceneOptions, UnitSystem, one};
 use crate::output::{Failure, Refused, complain, write_to};
 use crate::progress::Progress;
 
@@ -75,7 +74,7 @@ pub(crate) enum Plot {
 #[derive(Args)]
 pub(crate) struct Of {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     #[command(flatten)]
     output: ToFile,
 }
@@ -105,8 +104,8 @@ struct ToFile {
     no_title: bool,
 }
 
-impl Command for Plot {
-    fn run(&self) -> Result<bool, Failure> {
+impl Plot {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let ToFile {
             file,
             width,
@@ -117,7 +116,7 @@ impl Command for Plot {
             width: f64::from(*width),
             title: !no_title,
         });
-        write_to(file.as_deref(), |out| {
+        write_to("output", file.as_deref(), |out| {
             figure.write(out).map_err(WriteError::from)
         })?;
         if let Some(note) = figure.note() {
@@ -126,12 +125,8 @@ impl Command for Plot {
         Ok(true)
     }
 
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.of().scene)
-    }
-
-    fn target(&self) -> String {
-        target("output", self.of().output.file.as_deref())
+    pub(crate) const fn scene(&self) -> &SceneOptions {
+        &self.of().scene
     }
 }
 
@@ -141,7 +136,7 @@ fn keep_to_svg(file: Option<&Path>) -> Result<(), Failure> {
     match file.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
             let svg = file.with_extension("svg");
-            Err(Failure::BadUse(format!(
+            Err(Failure::Message(format!(
                 "--output: a figure is written as SVG, not in the format of {}: name the file {}, and convert it",
                 file.display(),
                 svg.display()

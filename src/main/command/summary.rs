@@ -4,7 +4,6 @@ use cannonpile::Verdict;
 use cannonpile::table;
 use clap::Args;
 
-use super::Command;
 use crate::args::{Numbers, Output, SceneOptions};
 use crate::output::Failure;
 use crate::progress::Progress;
@@ -20,18 +19,18 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Summary {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     #[command(flatten)]
     numbers: Numbers,
     #[command(flatten)]
     output: Output,
 }
 
-impl Command for Summary {
-    fn run(&self) -> Result<bool, Failure> {
+impl Summary {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
         self.output.format()?;
-        let units = self.numbers.units(&scene, &pile)?;
+        let units = self.numbers.units.of(&scene, &pile)?;
         // At the default spacing, where none is given: if that fits.
         let touching = pile.clearance().check(&scene.spacing()?).ok();
         let progress = Progress::begin("finding the extreme forces");
@@ -40,13 +39,5 @@ impl Command for Summary {
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         Ok(matches!(summary.verdict(), None | Some(Verdict::Yes)))
-    }
-
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.scene)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }
