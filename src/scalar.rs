@@ -43,8 +43,8 @@ mod surd;
 pub use double_double::DoubleDouble;
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
+pub use nearest::NearestFloat;
 pub(crate) use nearest::float_between;
-pub use nearest::{Decision, NearestFloat};
 pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;
 

@@ -1,9 +1,9 @@
 //! Every theorem about forces, and their oracle, refuses something: one planted fault each, at least.
 
 use crate::support::answers::{Answers, Contact, Shape, ratio};
-use crate::support::theorems::symmetry::{MIRRORED, TURNS, invariant};
+use crate::support::theorems::symmetry::{MIRRORED, Symmetry, TURNS, invariant};
 use crate::support::theorems::{Verdict, balance, base};
-use cannonpile::lattice::{Direction, Site, Symmetry};
+use cannonpile::lattice::{Direction, Site};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 

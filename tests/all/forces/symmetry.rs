@@ -1,8 +1,8 @@
 //! The symmetries of a pile carry its forces along; the others do not.
 
 use crate::support::answers::{Answers, Shape, ratio};
-use crate::support::theorems::symmetry::{MIRRORED, MIRRORED_DISCS, TURNS, invariant};
-use cannonpile::lattice::{Direction, Site, Symmetry, count};
+use crate::support::theorems::symmetry::{MIRRORED, MIRRORED_DISCS, Symmetry, TURNS, invariant};
+use cannonpile::lattice::{Direction, Site, count};
 
 #[test]
 fn equilateral_piles_have_all_six() {
