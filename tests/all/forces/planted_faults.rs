@@ -82,7 +82,7 @@ fn shear_turned(pile: &mut Answers) {
     }
 }
 
-/// The same weight, but from one corner to another.
+/// The weight in all is right, but some of it went from one corner to another.
 fn load_shifted(pile: &mut Answers) {
     pile.floor.get_mut(&CORNER).unwrap().z += BigRational::one();
     let other = Site { i: 0, j: 4, k: 4 };

@@ -25,7 +25,7 @@ impl Tally {
         self.count(is_nearest(double, &value).and_then(|()| is_nearest(single, &value)));
     }
 
-    /// The same for a rational, which is rounded by itself and as a surd.
+    /// Rounds a rational by itself and as a surd, and judges both.
     pub(crate) fn meet_rational(&mut self, exact: &BigRational) {
         let value = Value::of(&exact.clone().into());
         self.count(
