@@ -124,7 +124,7 @@ impl Scene {
     /// assert_eq!(scene.pile()?.layers(), 10);
     ///
     /// let scene = Scene { sin_phi: Some(parse::rational("1/3")?), ..scene };
-    /// let refused = "sin-phi has no meaning beside stacking: leave one of the two out";
+    /// let refused = "sin-phi has no meaning with stacking: leave one of the two out";
     /// assert_eq!(scene.pile().unwrap_err().to_string(), refused);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```

@@ -14,7 +14,7 @@ struct Whole<'a>(&'a Error);
 impl fmt::Display for Whole<'_> {
     #[expect(
         clippy::too_many_lines,
-        reason = "one text a variant: in one match none can be forgotten"
+        reason = "each variant has its text, and in one match none can be forgotten"
     )]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const LONG: usize = 40;
@@ -109,8 +109,8 @@ impl fmt::Display for Whole<'_> {
             ),
             Error::NoSuchMethod { method } => write!(
                 f,
-                "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
-                 spheres and not of discs; use another, or none to have the cheapest"
+                "the method {method} does not apply to this pile: closed forms are for straight stackings, sweeps \
+                 for spheres and not for discs; choose another, or none for the cheapest"
             ),
             Error::OtherLayer { layer, at } => write!(
                 f,
@@ -192,7 +192,7 @@ impl fmt::Display for Whole<'_> {
                 } else {
                     write!(f, "{digits} rows")?;
                 }
-                write!(f, " are too many to print, at most {limit}: {remedy}")
+                write!(f, " are too many, at most {limit}: {remedy}")
             }
             Error::TooManyMarks {
                 marks,
@@ -212,7 +212,7 @@ impl fmt::Display for Whole<'_> {
                 };
                 write!(
                     f,
-                    "{given} has no meaning beside {beside}{two}: leave one of the two out"
+                    "{given} has no meaning with {beside}{two}: leave one of the two out"
                 )
             }
             Error::TooLarge {

@@ -101,7 +101,10 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     let (title, sight) = if discs {
         ("Force network", "")
     } else {
-        ("Force network in a vertical section", "; one row a layer")
+        (
+            "Force network in a vertical section",
+            "; one row of each layer",
+        )
     };
     let network = Network {
         spheres,

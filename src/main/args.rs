@@ -22,7 +22,7 @@ pub(crate) use scene::SceneOptions;
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct BaseAt {
-    /// One bottom sphere only, as I,J (or K,I,J; discs: I or K,I)
+    /// One bottom sphere only: I,J, or K,I,J with k counted from 0 at the top (discs: I or K,I)
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     at: Option<String>,
 }
@@ -38,7 +38,7 @@ impl BaseAt {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Part {
-    /// One sphere only, as K,I,J, or I,J on the base (discs: K,I or I)
+    /// One sphere only: K,I,J with k counted from 0 at the top, or I,J on the base (discs: K,I or I)
     #[arg(
         long,
         value_name = "K,I,J",
@@ -94,7 +94,7 @@ pub(crate) struct Numbers {
     /// How numbers are printed
     #[arg(long, value_enum, default_value = "exact")]
     pub(crate) number: Number,
-    /// What forces and lengths are multiples of
+    /// The units of forces and lengths
     #[arg(long, value_enum, default_value = "pile")]
     pub(crate) units: UnitSystem,
 }
@@ -142,7 +142,7 @@ impl From<MethodName> for Method {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Output {
-    /// How the table is laid out [default: by the ending of --output, .csv or .json; else table]
+    /// How the table is written [default: by the ending of --output, .csv or .json; else table]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Write to a file, which is replaced only when all is written

@@ -24,7 +24,7 @@ Examples:
   cannonpile export pile --to lammps       input for LAMMPS, and
   cannonpile verify pile/forces.dump       what it measured against the exact forces
 
-'cannonpile COMMAND --help' says more of each. Exit status: 0; 1 if the answer is no; 2 for bad use, with one line on
+'cannonpile COMMAND --help' says more about each. Exit status: 0; 1 if the answer is no; 2 for bad use, with one line on
 stderr.";
 
 /// Exact contact forces in regular piles of spheres.
@@ -146,6 +146,7 @@ fn usage(error: &clap::Error) -> ExitCode {
     let said: Vec<&str> = lines
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
         .collect();
+    let said = said.join(" ").replace(" tip: ", "; tip: ");
     // Clap has a remedy where it knows a similar word, or all words there are.
     let advised = [
         ContextKind::SuggestedArg,
@@ -169,7 +170,7 @@ fn usage(error: &clap::Error) -> ExitCode {
         | ErrorKind::NoEquals => format!("; '{} --help' lists what there is", named_command()),
         _ => String::new(),
     };
-    complain(&format!("{}{remedy}", said.join(" ")));
+    complain(&format!("{said}{remedy}"));
     ExitCode::from(BAD_USE)
 }
 

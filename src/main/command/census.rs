@@ -12,8 +12,9 @@ use crate::output::{Failure, Refused};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Of mirror images one is listed. Beginnings that fail are listed where they first do, with the contact that would have to
-pull. With them a census of L layers has 11(L − 5) + 6 rows, and takes a time that grows like L³.
+Of two mirror images one is listed. A stacking that fails is listed once, at the number of layers at which it first does,
+with the contact that would have to pull. With these a census of L layers has 11L − 50 rows, from six layers on, and takes
+a time that grows like L³.
 
 Examples:
   cannonpile census --layers 6

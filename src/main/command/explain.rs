@@ -2,7 +2,7 @@
 
 use cannonpile::shape::Selection;
 use cannonpile::table::{Explanation, NumberFormat, Table, WriteError};
-use cannonpile::{Pile, Quantity};
+use cannonpile::{Culprit, Error, Pile, Quantity};
 use clap::{Args, ValueEnum};
 
 use crate::args::{ByMethod, Format, Output, Part, SceneOptions, UnitSystem};
@@ -13,12 +13,12 @@ const HELP: &str = "\
 Rows of the plan, which are bounds:
   quantity  what is asked             runs      runs of equal steps that matter
   method    how it is answered        visited   spheres whose forces are found
-  turned    of them those below a change of sign
+  turned    those of them that are below a change of sign
   passes    steps from a layer to the next
   numbers   numbers kept at a time    bits      bits of the widest of them
   planes    machine words for each    roots     square roots taken
   rows      rows of the answer        bytes     memory for the numbers
-counted_visited, counted_turned, … are what a run took.
+counted_visited, counted_turned, … say what the run took.
 
 Examples:
   cannonpile explain --stacking hcp --layers 30
@@ -34,7 +34,7 @@ pub(crate) struct Explain {
     of: Asked,
     #[command(flatten)]
     part: Part,
-    /// What forces are multiples of
+    /// The units of forces
     #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
     units: UnitSystem,
     #[command(flatten)]
@@ -88,7 +88,12 @@ impl Explain {
         let part = self.of.part(self.part.selection(&pile)?, &pile);
         let (quantity, system) = self.of.quantity(self.units);
         let units = self.method.of(system.of(&scene, &pile)?)?;
-        self.write(&Explanation::new(&units, quantity, part)?)?;
+        let explanation = Explanation::new(&units, quantity, part);
+        // Where a layer was named, no sphere was.
+        self.write(&explanation.map_err(|error| match (part, &error) {
+            (Selection::Layer(_), Error::NotOnFloor { .. }) => Refused::of(Culprit::Layer, error),
+            _ => error.into(),
+        })?)?;
         Ok(true)
     }
 

@@ -14,8 +14,8 @@ use crate::output::{Failure, complain, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml is the pile, for --scene.
-Files are written aside, and renamed when all are complete.
+All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml describes it, for
+--scene. Files are written under other names, and renamed when all are complete.
 
 Examples:
   cannonpile export pile --to lammps --layers 10 --spacing 1.2
@@ -24,10 +24,10 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Export {
-    /// The folder, made if it is not there; other files in it stay as they are
+    /// The folder, created if it is missing; other files in it stay as they are
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// For what; several with commas between, or the option again
+    /// What the files are for; several separated by commas, or the option repeated
     #[arg(
         long,
         value_enum,
@@ -46,7 +46,7 @@ pub(crate) struct Export {
         help_heading = "List of the files"
     )]
     list: Option<PathBuf>,
-    /// How the list is laid out [default: by the ending of --list, .csv or .json; else table]
+    /// How the list is written [default: by the ending of --list, .csv or .json; else table]
     #[arg(
         long,
         value_enum,
@@ -59,7 +59,7 @@ pub(crate) struct Export {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Target {
-    /// spheres.csv, contacts.csv, base.csv: in SI, spheres by number; base.csv has the last ones, in order
+    /// spheres.csv, contacts.csv, base.csv: spheres by number; and columns.csv, which explains their columns
     Csv,
     /// For LAMMPS: pile.data, and pile.in, which relaxes it and writes forces.dump
     Lammps,

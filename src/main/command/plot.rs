@@ -39,7 +39,7 @@ pub(crate) enum Plot {
     Sphere {
         #[command(flatten)]
         of: Measured,
-        /// The sphere, as K,I,J, or I,J on the base (discs: K,I or I) [default: in the middle]
+        /// The sphere: K,I,J with k counted from 0 at the top, or I,J on the base (discs: K,I or I) [default: in the middle]
         #[arg(
             long,
             value_name = "K,I,J",
@@ -56,7 +56,7 @@ pub(crate) enum Plot {
     Network {
         #[command(flatten)]
         of: Measured,
-        /// Instead, those of this layer on the next, seen from above; counted from 0 at the top
+        /// Instead, the forces of this layer on the next, seen from above; counted from 0 at the top
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
@@ -84,7 +84,7 @@ pub(crate) struct Of {
 pub(crate) struct Measured {
     #[command(flatten)]
     of: Of,
-    /// What forces and lengths are multiples of; of the pile: lengths of R
+    /// The units of forces and lengths; with pile, lengths are in R
     #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
     units: UnitSystem,
 }
@@ -96,7 +96,7 @@ struct ToFile {
     /// Write to an SVG file, which is replaced only when all is written [default: stdout]
     #[arg(long = "output", value_name = "FILE.svg")]
     file: Option<PathBuf>,
-    /// The width of the figure, in pixels; all in it grows with it
+    /// The width of the figure, in pixels; everything in it is scaled with it
     #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     width: u32,
     /// Leave out the title and the line below it

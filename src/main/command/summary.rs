@@ -9,7 +9,10 @@ use crate::output::Failure;
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Lengths and forces in SI are for R = 1 m, m = 1 kg and g = 1 m/s², unless these are given.
+stands is 'no' if a contact would have to pull, and 'undetermined' if it would, but spheres touch that have no contact in
+this theory, which may hold the pile: 'touching' says where they are, at --spacing. Exit status 1 unless it stands. A force
+that would take too long to find is shown as -. With --units si forces are in N, for R = 1 m, m = 1 kg and g = 1 m/s² unless
+these are given.
 
 Examples:
   cannonpile summary --stacking hcp --layers 7

@@ -27,7 +27,7 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Verify {
     /// A csv table with columns id1, id2, force, and fx, fy, fz if there are vectors; or a LAMMPS dump local file with these
-    /// columns, of which the last snapshot counts. - for stdin
+    /// columns, of which the last snapshot counts; - for stdin
     #[arg(value_name = "FILE")]
     measured: PathBuf,
     #[command(flatten)]

@@ -115,7 +115,11 @@ fn is_brute_force(case: &Case, selection: Selection) {
     for (n, contact) in contacts.enumerate() {
         let contact = contact.unwrap();
         let Site { i, j, k } = contact.site;
-        let Passed { forces: numerators, below, .. } = &passed[usize::try_from(k).unwrap()];
+        let Passed {
+            forces: numerators,
+            below,
+            ..
+        } = &passed[usize::try_from(k).unwrap()];
         let numerator = &numerators[&(j, i)][contact.direction.index()];
         let over = &d * pow(BigInt::from(3), below.changes);
         assert_eq!(contact.force, BigRational::new(numerator.clone(), over));
