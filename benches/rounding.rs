@@ -34,7 +34,7 @@ fn main() {
     let named: Vec<&String> = arguments.iter().filter(|a| !a.starts_with('-')).collect();
     let wanted = |name: &str| named.is_empty() || named.iter().any(|part| name.contains(*part));
 
-    println!("quantity                        cases  wrong  by integers  ns a case");
+    println!("quantity                        cases  wrong  ns a case");
     for (name, tally) in [
         ("random roots", numbers::random_roots as Source),
         ("critical roots", numbers::critical_roots),
@@ -71,10 +71,9 @@ fn report(name: &str, tally: impl FnOnce(&mut Random) -> Tally) {
         cases,
         wrong,
         witness,
-        by_integers,
     } = tally(&mut Random::new(1611));
     #[expect(clippy::cast_precision_loss, reason = "a few digits are printed")]
     let each = start.elapsed().as_secs_f64() * 1e9 / cases as f64;
-    println!("{name:26} {cases:10} {wrong:6} {by_integers:12} {each:10.0}");
+    println!("{name:26} {cases:10} {wrong:6} {each:10.0}");
     assert_eq!(wrong, 0, "{witness:?}");
 }

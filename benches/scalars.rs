@@ -165,7 +165,7 @@ fn quotient(n: &BigUint, d: &BigUint) -> f64 {
     top(&(n << 160_u32)) / top(d) * 2.0_f64.powi(-160)
 }
 
-/// The same bits in every run (xorshift).
+/// Bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {

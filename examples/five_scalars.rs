@@ -24,7 +24,7 @@ fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
     handed_on(&received, &directions(&s), &weight(&own)).z
 }
 
-/// The same for numbers, whatever they are in the scalar.
+/// The answer for these numbers, each turned into the scalar.
 fn answer<T: Algebra>(numbers: &[BigRational; 4]) -> T {
     carried(numbers.each_ref().map(T::from_rational))
 }

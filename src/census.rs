@@ -81,7 +81,7 @@ impl Entry {
 /// The stackings of `layers` layers under one sphere that stand, one of each mirror pair (the one that begins with +);
 /// with `failing`, also the shortest beginnings that fail. In order of their runs.
 ///
-/// Of those that stand there are at most eleven (module documentation); with what fails there are 11(L − 5) + 6 for six
+/// Of those that stand there are at most eleven (module documentation); with what fails there are 11L − 50 for six
 /// layers or more, and the time for all of them grows like L³.
 ///
 /// # Errors
@@ -114,9 +114,9 @@ pub fn under_one_sphere(
     let rows = BigUint::from((11 * layers).unsigned_abs());
     if failing && rows > BigUint::from(MAX_ENTRIES) {
         return Err(Error::TooManyRows {
-            rows: rows - 49_u32,
+            rows: rows - 50_u32,
             limit: MAX_ENTRIES,
-            remedy: "ask for fewer layers, or for those that stand alone",
+            remedy: "ask for fewer layers, or only for those that stand",
         });
     }
     Ok(Search {

@@ -1,4 +1,4 @@
-//! Where the spheres sit: sites, directions, neighbours, symmetries, counts. Integers only.
+//! Where the spheres sit: sites, directions, neighbours, counts. Integers only.
 //!
 //! A pile of L layers has the layers k = 0 (the top) … L−1 (on the floor). Layer k of a triangular
 //! pile holds the sites (i, j, k) with 0 ≤ j ≤ k and 0 ≤ i ≤ k−j; a pile of discs holds those with
@@ -19,13 +19,11 @@ pub mod count;
 mod region;
 mod row;
 mod sign;
-mod symmetry;
 
 pub use region::Region;
 pub(crate) use region::{Along, Counts, Slopes, Trapezoid};
 pub use row::{Row, Sites};
 pub use sign::Sign;
-pub use symmetry::Symmetry;
 
 use alloc::string::ToString;
 use core::fmt;

@@ -154,7 +154,7 @@ impl Pile {
         }
     }
 
-    /// The same pile with a vertical load more on one sphere, in mg.
+    /// Returns the pile with one more vertical load on one sphere, in mg.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
@@ -175,7 +175,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// The same pile with a sphere of another weight, in mg.
+    /// Returns the pile with another weight of one sphere, in mg.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
@@ -195,7 +195,7 @@ impl Pile {
         Ok(self)
     }
 
-    /// The same pile of spheres that weigh nothing: the response to its loads alone.
+    /// Returns the pile with spheres that weigh nothing: its response to its loads alone.
     ///
     /// # Examples
     /// ```

@@ -25,6 +25,27 @@
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
 //! [`Surd`] is not a scalar: it is the exact value c·√r at the edge, where roots come in.
 
+/// Adds and multiplies numbers by value, by way of references.
+macro_rules! by_value {
+    ($scalar:ty $(, $generic:ident: $bound:path)?) => {
+        impl$(<$generic: $bound>)? Add for $scalar {
+            type Output = Self;
+
+            fn add(self, rhs: Self) -> Self {
+                self + &rhs
+            }
+        }
+
+        impl$(<$generic: $bound>)? Mul for $scalar {
+            type Output = Self;
+
+            fn mul(self, rhs: Self) -> Self {
+                self * &rhs
+            }
+        }
+    };
+}
+
 mod double_double;
 mod error_free;
 mod fixed;
@@ -43,8 +64,8 @@ mod surd;
 pub use double_double::DoubleDouble;
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
+pub use nearest::NearestFloat;
 pub(crate) use nearest::float_between;
-pub use nearest::{Decision, NearestFloat};
 pub use polynomial::{Polynomial, Symbol};
 pub use surd::Surd;
 

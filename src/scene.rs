@@ -124,7 +124,7 @@ impl Scene {
     /// assert_eq!(scene.pile()?.layers(), 10);
     ///
     /// let scene = Scene { sin_phi: Some(parse::rational("1/3")?), ..scene };
-    /// let refused = "sin-phi has no meaning beside stacking: leave one of the two out";
+    /// let refused = "sin-phi has no meaning with stacking: leave one of the two out";
     /// assert_eq!(scene.pile().unwrap_err().to_string(), refused);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -171,6 +171,7 @@ impl Scene {
     fn stacked(&self) -> Result<Pile, Error> {
         let pattern = self.stacking.as_ref().unwrap_or(&Pattern::Fcc);
         let spelled = self.layers.or(pattern.layers());
+        let under = |top| Pile::under(top, pattern.stacking(spelled.unwrap_or(LAYERS))?);
         match self.anchor {
             Some(Anchor::Base(base)) => {
                 let layers = match spelled {
@@ -179,10 +180,8 @@ impl Scene {
                 };
                 Pile::on(base, pattern.stacking(layers)?.reversed())
             }
-            Some(Anchor::Top(top)) => {
-                Pile::under(top, pattern.stacking(spelled.unwrap_or(LAYERS))?)
-            }
-            None => Pile::under(Region::SITE, pattern.stacking(spelled.unwrap_or(LAYERS))?),
+            Some(Anchor::Top(top)) => under(top),
+            None => under(Region::SITE),
         }
     }
 
@@ -277,21 +276,15 @@ mod loads {
         loads: &[(At, BigRational)],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(
-            loads
-                .iter()
-                .cloned()
-                .map(|(at, weight)| Load { at, weight }),
-        )
+        let loads = loads.iter().cloned();
+        serializer.collect_seq(loads.map(|(at, weight)| Load { at, weight }))
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Vec<(At, BigRational)>, D::Error> {
         let loads: Vec<Load> = Deserialize::deserialize(deserializer)?;
-        Ok(loads
-            .into_iter()
-            .map(|load| (load.at, load.weight))
-            .collect())
+        let loads = loads.into_iter();
+        Ok(loads.map(|load| (load.at, load.weight)).collect())
     }
 }

@@ -22,16 +22,16 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     }
     let layers = [extent.size(100, 8), extent.size(400, 16)];
     let base = exponent(extent, layers, |pile| {
-        let statics = pile.forces::<f64>();
-        let forces = statics.base(Selection::Base).expect("a base");
+        let forces = pile.forces::<f64>();
+        let floor = forces.base(Selection::Base).expect("a base");
         let normal = (f64::from_i128(pile.layers()) + 2.0) / 3.0;
-        forces.for_each(|force| assert!((force.expect("a force").normal - normal).abs() < 1e-9));
+        floor.for_each(|force| assert!((force.expect("a force").normal - normal).abs() < 1e-9));
     });
     results.push(("base_time_exponent".into(), base));
     let layers = [extent.size(50, 8), extent.size(200, 16)];
     let whole = exponent(extent, layers, |pile| {
-        let statics = pile.forces::<f64>();
-        let contacts = statics.contacts(Selection::All).expect("rows");
+        let forces = pile.forces::<f64>();
+        let contacts = forces.contacts(Selection::All).expect("rows");
         let sum: f64 = contacts
             .map(|contact| contact.expect("a force").force)
             .sum();
@@ -48,7 +48,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
 
 fn one_contact(extent: Extent, layers: i128) -> f64 {
     let pile = Pile::triangular(layers).expect("a pile");
-    let statics = pile.forces::<f64>();
+    let forces = pile.forces::<f64>();
     let repeats = if extent.smoke { 1 } else { 1_000_000 };
     let site = Site {
         i: layers / 5,
@@ -58,7 +58,7 @@ fn one_contact(extent: Extent, layers: i128) -> f64 {
     let times = (0..extent.pairs).map(|_| {
         seconds(|| {
             for _ in 0..repeats {
-                let force = statics.contact(black_box(site), Direction::Beta);
+                let force = forces.contact(black_box(site), Direction::Beta);
                 assert_eq!(force, Ok(f64::from_i128(site.i) + 1.0));
             }
         })
@@ -85,7 +85,7 @@ fn runs(extent: Extent) -> f64 {
     });
     let [small, large] = &piles;
     let ask = |pile: &Pile| {
-        let statics = pile.forces::<BigRational>();
+        let forces = pile.forces::<BigRational>();
         // In the middle, below all changes.
         let region = pile.shape().layer(pile.layers() - 2).expect("a layer");
         let [x, y] = [region.x(), region.y()].map(|range| range.start().midpoint(*range.end()));
@@ -94,11 +94,11 @@ fn runs(extent: Extent) -> f64 {
             j: y,
             k: pile.layers() - 2,
         };
-        let forces = Direction::ALL.map(|d| statics.contact(site, d).expect("a force"));
+        let three = Direction::ALL.map(|d| forces.contact(site, d).expect("a force"));
         // Every sphere is in balance, which no line alone shows.
-        let left = statics.unbalanced(site).expect("forces");
+        let left = forces.unbalanced(site).expect("forces");
         assert_eq!(left.into_array(), [(); 3].map(|()| BigRational::default()));
-        black_box(forces);
+        black_box(three);
     };
     let ratios = (0..extent.pairs).map(|_| seconds(|| ask(large)) / seconds(|| ask(small)));
     median(ratios).ln() / 1e9_f64.ln()

@@ -104,23 +104,23 @@ pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
 }
 
 /// That what a sphere is pushed up by, what it is pushed down by and its weight, 3 f₀ cosθ, add up to nothing.
-fn certify(pile: &Pile, network: &Network, forces: &[[BigRational; 3]]) {
-    let statics = pile.forces::<BigRational>();
+fn certify(pile: &Pile, network: &Network, passed_on: &[[BigRational; 3]]) {
+    let forces = pile.forces::<BigRational>();
     let mut left = vec![Vector::zero(); network.sites.len()];
     for (sum, &site) in left.iter_mut().zip(&network.sites) {
         sum.z = pile.sphere_weight(site).expect("a sphere") * BigRational::from_i128(3);
     }
     let mut directions = Vec::new();
-    for (upper, (below, forces)) in network.below.iter().zip(forces).enumerate() {
+    for (upper, (below, passed_on)) in network.below.iter().zip(passed_on).enumerate() {
         let site = network.sites[upper];
         if upper == 0 || network.sites[upper - 1].k < site.k {
             directions = Vec::from(Direction::ALL.map(|direction| {
-                statics
+                forces
                     .contact_direction(site, direction)
                     .expect("a contact")
             }));
         }
-        for ((&lower, force), direction) in below.iter().zip(forces).zip(&directions) {
+        for ((&lower, force), direction) in below.iter().zip(passed_on).zip(&directions) {
             let push = direction.clone().scaled(force);
             left[upper] = left[upper].clone() + &push;
             left[lower] = left[lower].clone() + &push.map(|x| -x);

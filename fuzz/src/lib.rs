@@ -75,7 +75,7 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Roots round to the nearest float and keep their order; float statics are a few roundings off.
+/// Roots round to the nearest float and keep their order; float forces are a few roundings off.
 #[must_use]
 pub fn rounding(bytes: &[u8]) -> Corpus {
     all_hold(

@@ -1,7 +1,7 @@
 //! A pile written as files.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use num_bigint::BigUint;
 
@@ -252,28 +252,21 @@ impl<'p> PileExport<'p> {
         formats.sort_unstable();
         formats.dedup();
         let files = formats.iter().flat_map(|format| format.files());
-        let files = files
-            .copied()
-            .chain(self.scene.as_ref().map(|_| PileFile::Scene));
-        let files: Vec<(PileFile, PathBuf)> =
-            files.map(|file| (file, folder.join(file.name()))).collect();
-        let mut paths = files.iter();
-        let bytes = folder::write_all(
-            folder,
-            files.iter().map(|(_, path)| path),
-            |out| match paths.next() {
-                Some((file, _)) => self.write_file(*file, out, progress),
-                None => Ok(()),
-            },
-        )?;
-        let written = files.into_iter().zip(bytes);
-        Ok(written
-            .map(|((file, path), bytes)| Written {
-                file,
-                path,
-                rows: self.rows(file),
-                bytes,
-            })
-            .collect())
+        let scene = self.scene.as_ref().map(|_| PileFile::Scene);
+        let files = files.copied().chain(scene);
+        let files: Vec<_> = files.map(|file| (file, folder.join(file.name()))).collect();
+        let mut left = files.iter();
+        let paths = files.iter().map(|(_, path)| path);
+        let bytes = folder::write_all(folder, paths, |out| match left.next() {
+            Some((file, _)) => self.write_file(*file, out, progress),
+            None => Ok(()),
+        })?;
+        let written = |((file, path), bytes)| Written {
+            file,
+            path,
+            rows: self.rows(file),
+            bytes,
+        };
+        Ok(files.into_iter().zip(bytes).map(written).collect())
     }
 }

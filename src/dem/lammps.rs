@@ -101,9 +101,9 @@ fn loads(pile: &NumberedPile<'_>) -> Result<String, Error> {
     if burdens.is_empty() {
         return Ok(String::new());
     }
-    let set = burdens.iter().map(|burden| {
-        let (id, force) = (burden.id, -burden.force);
-        format!("set             atom {id} d_load {force:?}\n")
+    let set = burdens.into_iter().map(|(id, force)| {
+        let upwards = -force;
+        format!("set             atom {id} d_load {upwards:?}\n")
     });
     Ok(format!(
         "# Loads, in N.\nfix             load all property/atom d_load\n{}\

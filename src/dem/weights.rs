@@ -107,13 +107,6 @@ impl PerSphere {
     }
 }
 
-/// A force that acts on a sphere besides the weight of its mass.
-pub(super) struct Burden {
-    pub(super) id: u64,
-    /// Downwards, in N.
-    pub(super) force: f64,
-}
-
 /// The mass that a sphere has in a code in which nothing may have none: its own, or m if it weighs nothing.
 fn inertia(pile: &NumberedPile<'_>, site: Site) -> Result<BigRational, Error> {
     let mass = pile.packing().mass_of(site)?;
@@ -131,8 +124,9 @@ pub(super) fn inertias(pile: &NumberedPile<'_>) -> Result<BTreeMap<Site, f64>, E
     masses.collect()
 }
 
-/// The spheres off the floor on which more or less acts than the weight of their mass.
-pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<Burden>, Error> {
+/// The spheres off the floor on which another force acts than the weight of their mass: their numbers, and how much more,
+/// downwards, in N.
+pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<(u64, f64)>, Error> {
     let (packing, ordinary) = (pile.packing(), ordinary_weight(pile.pile()));
     let floor = pile.pile().layers() - 1;
     let mut burdens = Vec::new();
@@ -142,10 +136,8 @@ pub(super) fn burdens(pile: &NumberedPile<'_>) -> Result<Vec<Burden>, Error> {
         let total = pile.pile().sphere_weight(site)? + pile.pile().load(site)?;
         let force = total * packing.sphere_weight() - pulled;
         if !force.is_zero() {
-            burdens.push(Burden {
-                id: pile.numbering().id(site)?,
-                force: nearest_rational(&force, "a load")?,
-            });
+            let id = pile.numbering().id(site)?;
+            burdens.push((id, nearest_rational(&force, "a load")?));
         }
     }
     Ok(burdens)

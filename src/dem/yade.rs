@@ -27,8 +27,6 @@ pub(super) fn write_spheres(
 /// Writes a script that lets the pile relax, and writes the forces of the last state.
 pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Result<(), WriteError> {
     let springs = Springs::of(pile)?;
-    let loads = burdens(pile)?.into_iter();
-    let loads = by_id(loads.map(|burden| (burden.id, burden.force)));
     let mut masses = Vec::new();
     for (site, mass) in inertias(pile)? {
         masses.push((pile.numbering().id(site)?, mass));
@@ -47,8 +45,8 @@ pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resu
             ("radius", number(springs.radius)),
             ("rest", number(2.0 * springs.rest())),
             ("most_steps", springs.most_steps.to_string()),
-            ("loads", loads),
-            ("masses", by_id(masses.into_iter())),
+            ("loads", by_id(burdens(pile)?)),
+            ("masses", by_id(masses)),
             ("density", number(density(springs.mass, springs.radius)?)),
             ("blocked", blocked.to_owned()),
             ("gravity", number(springs.gravity)),
@@ -59,7 +57,9 @@ pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resu
 }
 
 /// A dictionary of Python.
-fn by_id(numbers: impl Iterator<Item = (u64, f64)>) -> String {
-    let entries = numbers.map(|(id, number)| format!("    {id}: {number:?},\n"));
+fn by_id(numbers: Vec<(u64, f64)>) -> String {
+    let entries = numbers
+        .into_iter()
+        .map(|(id, number)| format!("    {id}: {number:?},\n"));
     format!("{{\n{}}}", entries.collect::<String>())
 }

@@ -12,36 +12,28 @@ use crate::lattice::{Dimension, MAX_LAYERS, Site};
 struct Whole<'a>(&'a Error);
 
 impl fmt::Display for Whole<'_> {
+    #[expect(
+        clippy::too_many_lines,
+        reason = "each variant has its text, and in one match none can be forgotten"
+    )]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt_whole(f)
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&numbers(&Whole(self).to_string()))
-    }
-}
-
-impl Error {
-    /// Errors of sites and layers.
-    fn fmt_whole(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Layers { given } => {
+        const LONG: usize = 40;
+        match self.0 {
+            Error::Layers { given } => {
                 let digits = MAX_LAYERS.ilog10();
                 write!(
                     f,
                     "layers must be at least 1 and at most 10^{digits}, not {given}"
                 )
             }
-            Self::SinPhi { given } => write!(
+            Error::SinPhi { given } => write!(
                 f,
                 "sin phi must lie between 0 and 1, both excluded, not {given}; 1/2 is the equilateral base"
             ),
-            Self::SinPhiOfDiscs => {
+            Error::SinPhiOfDiscs => {
                 f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
             }
-            Self::SiteOutside {
+            Error::SiteOutside {
                 site,
                 layers,
                 dimension,
@@ -65,58 +57,49 @@ impl Error {
                     layers - 1
                 )
             }
-            Self::LayerOutside { layer, layers } => write!(
+            Error::LayerOutside { layer, layers } => write!(
                 f,
                 "no layer {layer}: the layers run from 0 at the top to {} on the floor",
                 layers - 1
             ),
-            Self::OnFloor { site } => write!(
+            Error::OnFloor { site } => write!(
                 f,
                 "the sphere (i,j,k) = {site} rests on the floor and has no contact below; ask for the force on the floor"
             ),
-            Self::NotOnFloor { site, floor } => write!(
+            Error::NotOnFloor { site, floor } => write!(
                 f,
                 "the sphere (i,j,k) = {site} does not touch the floor; spheres of layer k = {floor} do"
             ),
-            Self::NoSuchDirection { direction } => write!(
+            Error::NoSuchDirection { direction } => write!(
                 f,
                 "a pile of discs has no {direction} contacts; its directions are alpha and beta"
             ),
-            _ => self.fmt_shape(f),
-        }
-    }
-}
-
-impl Error {
-    /// Errors of the shape of a pile: regions, stackings, loads.
-    fn fmt_shape(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::EmptyRegion { region } => write!(
+            Error::EmptyRegion { region } => write!(
                 f,
                 "the region {region} has no site: its bounds must leave some i, j and i+j"
             ),
-            Self::RegionTooLarge { region } => write!(
+            Error::RegionTooLarge { region } => write!(
                 f,
                 "the region {region} reaches beyond +-10^{}: use a smaller one, or fewer layers",
                 MAX_LAYERS.ilog10()
             ),
-            Self::RegionSide { given } => write!(
+            Error::RegionSide { given } => write!(
                 f,
                 "a side must be at least 1 and at most 10^{} spheres, not {given}",
                 MAX_LAYERS.ilog10()
             ),
-            Self::RunLength { given } => {
+            Error::RunLength { given } => {
                 write!(f, "a run cannot have {given} steps: use a positive number")
             }
-            Self::TooManyRuns { limit } => write!(
+            Error::TooManyRuns { limit } => write!(
                 f,
                 "a stacking of more than {limit} runs is too long to keep: use fewer sign changes"
             ),
-            Self::LayersOfStacking { layers, spelled } => write!(
+            Error::LayersOfStacking { layers, spelled } => write!(
                 f,
                 "the stacking has {spelled} layers, not {layers}: leave one of the two out"
             ),
-            Self::TooHigh {
+            Error::TooHigh {
                 layers,
                 greatest,
                 base,
@@ -124,26 +107,26 @@ impl Error {
                 f,
                 "{layers} layers are too many on the base {base}: with this stacking it carries at most {greatest}"
             ),
-            Self::NoSuchMethod { method } => write!(
+            Error::NoSuchMethod { method } => write!(
                 f,
-                "the method {method} does not apply to this pile: closed forms are of straight stackings, sweeps of \
-                 spheres and not of discs; use another, or none to have the cheapest"
+                "the method {method} does not apply to this pile: closed forms are for straight stackings, sweeps \
+                 for spheres and not for discs; choose another, or none for the cheapest"
             ),
-            Self::OtherLayer { layer, at } => write!(
+            Error::OtherLayer { layer, at } => write!(
                 f,
                 "a sphere of layer {layer} is not in layer {at}: ask its own layer"
             ),
-            Self::NeedsUnits { quantity } => write!(
+            Error::NeedsUnits { quantity } => write!(
                 f,
                 "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
             ),
-            Self::Length { needed, given } => {
+            Error::Length { needed, given } => {
                 write!(
                     f,
                     "a slice of {given} places for {needed} forces: make it as long"
                 )
             }
-            Self::NegativeLoad {
+            Error::NegativeLoad {
                 quantity,
                 site,
                 given,
@@ -151,18 +134,10 @@ impl Error {
                 f,
                 "the {quantity} of the sphere (i,j,k) = {site} must not be negative, but is {given}"
             ),
-            _ => self.fmt_rest(f),
-        }
-    }
-
-    /// Errors of sizes, numbers and texts.
-    fn fmt_rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const LONG: usize = 40;
-        match self {
-            Self::NotPositive { quantity, given } => {
+            Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
             }
-            Self::Overlap {
+            Error::Overlap {
                 spacing,
                 apart,
                 allowed,
@@ -170,7 +145,7 @@ impl Error {
                 write!(f, "spacing {spacing} lets spheres {apart} overlap: ")?;
                 write_allowed(f, allowed)
             }
-            Self::TooFlat { spacing, limit } => write!(
+            Error::TooFlat { spacing, limit } => write!(
                 f,
                 "spacing {spacing} is too wide for a sphere to rest on those below: a/R must be below {}",
                 Bound {
@@ -178,21 +153,21 @@ impl Error {
                     up: false
                 }
             ),
-            Self::NoSpacing { sin_phi, layers } => write!(
+            Error::NoSpacing { sin_phi, layers } => write!(
                 f,
                 "no spacing keeps the spheres of {layers} layers apart at sin phi = {sin_phi}: use sin phi at most 5/6"
             ),
-            Self::Overflow { quantity, scalar } => write!(
+            Error::Overflow { quantity, scalar } => write!(
                 f,
                 "{quantity} does not fit in {scalar}: ask for it in exact numbers"
             ),
-            Self::NegativeRadicand { given } => {
+            Error::NegativeRadicand { given } => {
                 write!(
                     f,
                     "the root of {given} is not real: the radicand must not be negative"
                 )
             }
-            Self::Misspelled {
+            Error::Misspelled {
                 text,
                 position,
                 found,
@@ -204,8 +179,8 @@ impl Error {
                 }
                 f.write_str(": use one notation, such as ++-+, ABCBC, chh or (2,1,1)")
             }
-            Self::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
-            Self::TooManyRows {
+            Error::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
+            Error::TooManyRows {
                 rows,
                 limit,
                 remedy,
@@ -217,9 +192,9 @@ impl Error {
                 } else {
                     write!(f, "{digits} rows")?;
                 }
-                write!(f, " are too many to print, at most {limit}: {remedy}")
+                write!(f, " are too many, at most {limit}: {remedy}")
             }
-            Self::TooManyMarks {
+            Error::TooManyMarks {
                 marks,
                 what,
                 limit,
@@ -228,7 +203,7 @@ impl Error {
                 f,
                 "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
             ),
-            Self::Excluded { given, beside } => {
+            Error::Excluded { given, beside } => {
                 // Of dimensions only this one excludes anything.
                 let two = if *beside == Culprit::Dimension {
                     " 2"
@@ -237,10 +212,10 @@ impl Error {
                 };
                 write!(
                     f,
-                    "{given} has no meaning beside {beside}{two}: leave one of the two out"
+                    "{given} has no meaning with {beside}{two}: leave one of the two out"
                 )
             }
-            Self::TooLarge {
+            Error::TooLarge {
                 quantity,
                 needed,
                 limit,
@@ -249,17 +224,8 @@ impl Error {
                 f,
                 "{quantity} would take {needed} numbers, more than {limit}: {remedy}"
             ),
-            _ => self.fmt_file(f),
-        }
-    }
-}
-
-impl Error {
-    /// Errors of files, by line.
-    fn fmt_file(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotToml { line, reason } => write!(f, "line {line} is not TOML: {reason}"),
-            Self::UnknownKey {
+            Error::NotToml { line, reason } => write!(f, "line {line} is not TOML: {reason}"),
+            Error::UnknownKey {
                 line,
                 key,
                 nearest,
@@ -271,14 +237,18 @@ impl Error {
                     None => write!(f, ": the keys are {}", known.join(", ")),
                 }
             }
-            Self::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
-            Self::Bug { invariant } => write!(
+            Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Error::Bug { invariant } => write!(
                 f,
                 "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"
             ),
-            // Every variant has its text in one of the four.
-            _ => write!(f, "{self:?}"),
         }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&numbers(&Whole(self).to_string()))
     }
 }
 

@@ -3,8 +3,7 @@
 use num_bigint::{BigInt, BigUint};
 use num_traits::One;
 
-use super::subject::{Subject, loads};
-use crate::lattice::{Region, Site};
+use super::subject::Subject;
 use crate::shape::Shape;
 use crate::{Error, Pile};
 
@@ -20,24 +19,18 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
         parts.extend(anchor(pile.shape()));
     }
     if !pile.is_regular() && !discs {
-        parts.push(format!(
-            "sin φ = {}",
-            brief(&pile.sin_phi().to_string(), 20)
-        ));
+        let s = pile.sin_phi().to_string();
+        parts.push(format!("sin φ = {}", brief(&s, 20)));
     }
     if pile.is_weightless() {
         parts.push("spheres without weight".into());
     }
-    let mut loads = loads(pile);
+    let mut loads = pile.loads();
     match (loads.len(), loads.next()) {
         (0, _) | (_, None) => {}
-        (1, Some((Site { i, j, k }, load))) => {
-            let j = if discs {
-                String::new()
-            } else {
-                format!(",{j}")
-            };
-            parts.push(brief(&format!("{load} mg on {k},{i}{j}"), 20));
+        (1, Some((site, load))) => {
+            let place = format!("{},{}", site.k, subject.indices(site));
+            parts.push(brief(&format!("{load} mg on {place}"), 20));
         }
         (count, _) => parts.push(counted(&count.into(), "load")),
     }
@@ -61,25 +54,13 @@ fn anchor(shape: &Shape) -> Option<String> {
     let base = shape.base();
     let grown = Shape::on(base, shape.stacking().clone());
     if grown.is_ok_and(|grown| grown == *shape) {
-        return Some(format!("base {}", name(&base)));
+        return Some(format!("base {}", brief(&format!("{base:#}"), 40)));
     }
     let top = shape
         .layer(0)
         .ok()
         .filter(|top| !top.site_count().is_one())?;
-    Some(format!("top {}", name(&top)))
-}
-
-/// Returns the name of a region, as the command line takes it.
-fn name(region: &Region) -> String {
-    let (p, q) = (region.x().end() + 1, 1 - region.x().start());
-    let is_hexagon = Region::hexagon(p, q).is_ok_and(|hexagon| hexagon == *region);
-    match (is_hexagon, p == q, q == 1) {
-        (false, ..) => brief(&format!("region:{region}"), 40),
-        (true, true, _) => format!("hexagon:{p}"),
-        (true, false, true) => format!("triangle:{p}"),
-        (true, false, false) => format!("hexagon:{p},{q}"),
-    }
+    Some(format!("top {}", brief(&format!("{top:#}"), 40)))
 }
 
 /// Returns a text without what exceeds some letters.

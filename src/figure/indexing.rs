@@ -39,18 +39,10 @@ const LIMIT: u32 = 150;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
-    let discs = subject.is_of_discs();
     let layer = Layer::new(subject, k, LIMIT, "choose a higher layer")?;
     let panel = layer.panel(1.6, [40.0, 40.0, 168.0]);
     let radius = panel.length(1.0);
-    let words = |Site { i, j, .. }: Site| {
-        let j = if discs {
-            String::new()
-        } else {
-            format!(",{j}")
-        };
-        format!("{i}{j}").replace('-', "−")
-    };
+    let words = |site| subject.indices(site).replace('-', "−");
     let size = |(site, _): &(Site, Point)| fitting(&words(*site), 20.0, 1.65 * radius);
     // The same for all, as large as fits a sphere.
     let size = layer.spheres.iter().map(size).fold(20.0, f64::min);
@@ -70,14 +62,13 @@ pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
 fn rows(layer: &Layer, panel: &Panel) -> Vec<Mark> {
     let next =
         |a: Site, b: Site| (b.i - a.i, b.j - a.j) == (1, 0) || (b.i - a.i, b.j - a.j) == (0, 1);
-    let spheres = &layer.spheres;
-    let pairs = spheres
-        .iter()
-        .flat_map(|a| spheres.iter().map(move |b| (a, b)));
+    let spheres = layer.spheres.iter();
+    let pairs = spheres.flat_map(|a| layer.spheres.iter().map(move |b| (a, b)));
     let pairs = pairs.filter(|((a, _), (b, _))| next(*a, *b));
-    pairs
-        .map(|((_, a), (_, b))| line(panel.at(*a), panel.at(*b), PALE, 1.0))
-        .collect()
+    let line = |((_, a), (_, b)): (&(Site, Point), &(Site, Point))| {
+        line(panel.at(*a), panel.at(*b), PALE, 1.0)
+    };
+    pairs.map(line).collect()
 }
 
 /// Returns the directions of the indices, of the contacts and of the components, as arrows about a height of the page.

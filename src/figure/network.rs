@@ -101,7 +101,10 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     let (title, sight) = if discs {
         ("Force network", "")
     } else {
-        ("Force network in a vertical section", "; one row a layer")
+        (
+            "Force network in a vertical section",
+            "; one row of each layer",
+        )
     };
     let network = Network {
         spheres,
@@ -160,7 +163,7 @@ fn links(
     place: impl Fn(Site) -> Result<Option<Point>, Error>,
 ) -> Result<(Vec<Link>, usize), Error> {
     let (mut links, mut pulling) = (Vec::new(), 0);
-    for contact in subject.contacts(part)? {
+    for contact in subject.forces().contacts(part)? {
         let contact = contact?;
         pulling += usize::from(contact.force.is_negative());
         let lower = below(subject.pile(), contact.site, contact.direction)?;
@@ -194,11 +197,8 @@ impl Network {
             marks.push(line([panel.left, y], [panel.right(), y], BLACK, 1.5).class("floor"));
         }
         for (site, at) in &self.spheres {
-            marks.push(
-                ring(panel.at(*at), radius, PALE, 0.8)
-                    .class("sphere")
-                    .of(*site),
-            );
+            let sphere = ring(panel.at(*at), radius, PALE, 0.8).class("sphere");
+            marks.push(sphere.of(*site));
         }
         // The strongest on top, and pulls over pushes.
         self.links.sort_by(|a, b| {
@@ -207,11 +207,8 @@ impl Network {
         });
         let scale = Scale::of_lines(self.links.iter().map(|link| link.force));
         let widest = (radius * 0.62).min(18.0);
-        marks.extend(
-            self.links
-                .iter()
-                .map(|link| link.mark(&panel, &scale, widest)),
-        );
+        let links = self.links.iter();
+        marks.extend(links.map(|link| link.mark(&panel, &scale, widest)));
         let dot = (radius * 0.13).clamp(0.6, 4.0);
         let dots = self.spheres.values();
         marks.extend(dots.map(|at| circle(panel.at(*at), dot).fill(BLACK)));
@@ -222,12 +219,13 @@ impl Network {
             remarks: self.remarks(),
         };
         let caption = format!("{}{sight}", caption(subject)?);
+        let note = if floor {
+            subject.note()
+        } else {
+            subject.note_of_part(self.pulling > 0)
+        };
         Ok(Figure {
-            note: if floor {
-                subject.note()
-            } else {
-                subject.note_of_part(self.pulling > 0)
-            },
+            note,
             axes: Some(self.axes),
             bar: Some(bar),
             ..Figure::new(title, caption, panel, marks)

@@ -61,10 +61,8 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
     let on_floor = places.iter().filter(|(site, _)| site.k == bottom);
     let on_floor: Vec<Vector> = on_floor.map(|(_, at)| moved(*at, -1.0, UP)).collect();
     let floor = floor(&on_floor, discs);
-    let mut spheres: Vec<_> = places
-        .iter()
-        .map(|(site, at)| (*site, view.see(*at)))
-        .collect();
+    let seen = places.iter().map(|(site, at)| (*site, view.see(*at)));
+    let mut spheres: Vec<_> = seen.collect();
     spheres.sort_by(|(_, a), (_, b)| b.distance.total_cmp(&a.distance));
 
     let rims = spheres.iter().flat_map(|(_, seen)| {
@@ -80,32 +78,21 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
     if let (true, [left, right]) = (discs, ground.as_slice()) {
         marks.push(line(*left, *right, BLACK, 1.5).class("floor"));
     } else {
-        marks.push(
-            polygon(&ground)
-                .class("floor")
-                .fill("#f3f1ec")
-                .stroke(PALE, 1.0),
-        );
+        let floor = polygon(&ground).class("floor").fill("#f3f1ec");
+        marks.push(floor.stroke(PALE, 1.0));
         marks.extend(on_floor.iter().map(|at| shadow(*at, on_page)));
     }
     for (site, seen) in &spheres {
         let radius = panel.length(seen.magnification);
-        let fill = if site.k % 2 == 0 {
-            "url(#even)"
-        } else {
-            "url(#odd)"
-        };
+        let shade = if site.k % 2 == 0 { "even" } else { "odd" };
+        let fill = format!("url(#{shade})");
         let sphere = circle(panel.at(seen.at), radius).class("sphere").of(*site);
         let sphere = sphere.set("data-distance", px(seen.distance)).fill(fill);
         marks.push(sphere.stroke(BLACK, (radius * 0.02).min(0.8)));
     }
     marks.extend(view.axes([84.0, 74.0], discs));
-    let title = if discs {
-        "Pile of discs"
-    } else {
-        "Pile of spheres"
-    };
-    Ok(Figure::new(title.into(), caption(subject)?, panel, marks))
+    let title = format!("Pile of {}", if discs { "discs" } else { "spheres" });
+    Ok(Figure::new(title, caption(subject)?, panel, marks))
 }
 
 const UP: Vector = [0.0, 0.0, 1.0];
@@ -118,11 +105,7 @@ fn view(places: &[(Site, Vector)], discs: bool) -> View {
         .iter()
         .map(|(_, place)| norm(moved(*place, -1.0, target)));
     let distance = DISTANCE * far.fold(2.0, f64::max);
-    if discs {
-        View::of_discs(target)
-    } else {
-        View::new(target, AZIMUTH, ELEVATION, distance)
-    }
+    View::of(discs, target, [AZIMUTH, ELEVATION], distance)
 }
 
 fn mean<'a>(points: impl Iterator<Item = &'a Vector>) -> Vector {
@@ -154,14 +137,9 @@ fn circle_around(middle: Vector, radius: f64, count: u32) -> Vec<Vector> {
 
 /// Returns the shadow of a sphere on the floor, around the point on which it stands.
 fn shadow(at: Vector, on_page: impl Fn(Vector) -> [f64; 2]) -> Mark {
-    let rim: Vec<_> = circle_around(at, 0.95, 24)
-        .into_iter()
-        .map(on_page)
-        .collect();
-    polygon(&rim)
-        .class("shadow")
-        .fill(BLACK)
-        .set("fill-opacity", 0.2)
+    let rim = circle_around(at, 0.95, 24).into_iter().map(on_page);
+    let shadow = polygon(&rim.collect::<Vec<_>>()).class("shadow");
+    shadow.fill(BLACK).set("fill-opacity", 0.2)
 }
 
 /// Returns a way to fill spheres: lit from the upper left, with a dark rim.
@@ -170,11 +148,8 @@ pub(super) fn shade(id: &str, colours: [&str; 3]) -> Mark {
     let gradient = Mark::new("radialGradient").set("id", id);
     let gradient = gradient.measured([("cx", 0.38), ("cy", 0.34), ("r", 0.68)]);
     let add = |gradient: Mark, (offset, colour): (f64, &str)| {
-        gradient.with(
-            Mark::new("stop")
-                .set("offset", offset)
-                .set("stop-color", colour),
-        )
+        let stop = Mark::new("stop").set("offset", offset);
+        gradient.with(stop.set("stop-color", colour))
     };
     Mark::new("defs").with(stops.fold(gradient, add))
 }

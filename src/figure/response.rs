@@ -7,7 +7,7 @@ use super::colour::Scale;
 use super::layer::Layer;
 use super::map::Map;
 use super::page::Figure;
-use super::subject::{Subject, loads};
+use super::subject::Subject;
 use crate::lattice::Site;
 use crate::scalar::Surd;
 use crate::shape::Selection;
@@ -35,7 +35,7 @@ use num_rational::BigRational;
 /// ```
 pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
     let pile = pile.weightless();
-    if loads(&pile).len() > 0 {
+    if pile.loads().len() > 0 {
         return Ok(pile);
     }
     let middle = middle(&pile, 0)?;
@@ -84,7 +84,7 @@ pub fn response(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
         (format!("Response of layer {k}"), handed_on(subject, k)?)
     };
     // Loads below do not act on it.
-    let loads = loads(pile).filter(|(site, _)| site.k <= k);
+    let loads = pile.loads().filter(|(site, _)| site.k <= k);
     let map = Map {
         layer,
         title,
@@ -117,7 +117,7 @@ pub(super) fn middle(pile: &Pile, k: i128) -> Result<Site, Error> {
 /// Returns the vertical parts of what each sphere of a layer passes on, together.
 fn handed_on(subject: &Subject<'_>, k: i128) -> Result<Vec<Surd>, Error> {
     let mut forces: Vec<(Site, BigRational)> = Vec::new();
-    for contact in subject.contacts(Selection::Layer(k))? {
+    for contact in subject.forces().contacts(Selection::Layer(k))? {
         let contact = contact?;
         match forces.last_mut() {
             Some((site, sum)) if *site == contact.site => *sum += contact.force,

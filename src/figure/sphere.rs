@@ -10,7 +10,7 @@ use super::page::Figure;
 use super::panel::Panel;
 use super::pile::shade;
 use super::response::middle;
-use super::subject::{Subject, below, load};
+use super::subject::{Subject, below};
 use super::ticks::{exact_or_short, short};
 use super::view::{Vector, View, moved, norm};
 use crate::lattice::Site;
@@ -48,6 +48,28 @@ struct Force {
     at: Vector,
     /// A contact force in f₀.
     multiple: Option<BigRational>,
+    /// The length of its arrow, in R.
+    length: f64,
+}
+
+impl Force {
+    fn new(
+        [name, origin]: [&'static str; 2],
+        magnitude: f64,
+        along: Vector,
+        at: Vector,
+        multiple: Option<BigRational>,
+    ) -> Self {
+        Self {
+            name,
+            origin,
+            magnitude,
+            along,
+            at,
+            multiple,
+            length: 0.0,
+        }
+    }
 }
 
 /// Returns the sphere that is shown where none is chosen: one near the middle of the layer in the middle.
@@ -97,13 +119,10 @@ pub fn example(pile: &Pile) -> Result<Site, Error> {
 /// ```
 pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
     let site = subject.pile().shape().check(site)?;
-    let (forces, neighbours) = forces(subject, site)?;
+    let (mut forces, neighbours) = forces(subject, site)?;
+    to_scale(&mut forces);
     let discs = subject.is_of_discs();
-    let view = if discs {
-        View::of_discs([0.0; 3])
-    } else {
-        View::new([0.0; 3], AZIMUTH, ELEVATION, f64::INFINITY)
-    };
+    let view = View::of(discs, [0.0; 3], [AZIMUTH, ELEVATION], f64::INFINITY);
     let around = neighbours.iter().map(|centre| view.across(*centre));
     let centres = around.chain([[0.0; 2]]);
     let panel = Panel::around(centres, 1.1, [6.4, 6.8], [20.0, 290.0, 24.0]);
@@ -116,28 +135,17 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
         let outline = ring(place(*centre), radius, GREY, 1.0).class("neighbour");
         marks.push(outline.set("stroke-dasharray", "5 4"));
     }
-    let lengths = lengths(&forces);
-    let shown = || {
-        forces
-            .iter()
-            .zip(&lengths)
-            .filter(|(force, _)| force.magnitude != 0.0)
-    };
-    let is_behind = |force: &Force| view.towards(force.at) < -1e-9;
-    let behind = shown().filter(|(force, _)| is_behind(force));
-    marks.extend(behind.flat_map(|(force, length)| arrows(force, *length, place)));
+    let shown = forces.iter().filter(|force| force.magnitude != 0.0);
+    let (behind, before): (Vec<_>, Vec<_>) =
+        shown.partition(|force| view.towards(force.at) < -1e-9);
+    marks.extend(behind.iter().flat_map(|force| force.arrow(place)));
     let centre = circle(place([0.0; 3]), radius).class("sphere").of(site);
-    marks.push(
-        centre
-            .fill("url(#sphere)")
-            .set("fill-opacity", 0.62)
-            .stroke(BLACK, 1.0),
-    );
-    let before = shown().filter(|(force, _)| !is_behind(force));
-    marks.extend(before.flat_map(|(force, length)| arrows(force, *length, place)));
-    let named = forces.iter().zip(&lengths);
-    marks.extend(named.flat_map(|(force, length)| letter(force, *length, place)));
-    let small = shown().any(|(force, length)| arrows(force, *length, place).len() > 1);
+    let centre = centre.fill("url(#sphere)").set("fill-opacity", 0.62);
+    marks.push(centre.stroke(BLACK, 1.0));
+    marks.extend(before.iter().flat_map(|force| force.arrow(place)));
+    marks.extend(forces.iter().flat_map(|force| force.letter(place)));
+    let mut shown = behind.iter().chain(&before);
+    let small = shown.any(|force| force.is_small(place));
     marks.extend(table(subject, &forces, small)?);
     marks.extend(view.axes([92.0, panel.page - 34.0], discs));
     let Site { i, j, k } = site;
@@ -158,55 +166,40 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
     let pile = subject.pile();
     let directions = pile.dimension().directions();
     let mut touching = Vec::new();
-    for ((&direction, force), name) in directions
-        .iter()
-        .zip(subject.received(site)?)
-        .zip(["a′", "b′", "c′"])
-    {
-        if let Some(upper) = pile.shape().above(site, direction) {
-            touching.push((name, "from above", force, upper));
+    let received = subject.forces().from_above(site)?;
+    let lines = directions.iter().zip(received);
+    for ((direction, force), name) in lines.zip(["a′", "b′", "c′"]) {
+        if let Some(upper) = pile.shape().above(site, *direction) {
+            touching.push(([name, "from above"], force, upper));
         }
     }
     let on_floor = site.k == pile.layers() - 1;
     if !on_floor {
-        let names = ["a", "b", "c"].into_iter();
-        for (contact, name) in subject.contacts(Selection::One(site))?.zip(names) {
+        let contacts = subject.forces().contacts(Selection::One(site))?;
+        for (contact, name) in contacts.zip(["a", "b", "c"]) {
             let contact = contact?;
             let lower = below(pile, site, contact.direction)?;
-            touching.push((name, "from below", contact.force, lower));
+            touching.push(([name, "from below"], contact.force, lower));
         }
     }
     let (mut forces, mut neighbours) = (Vec::new(), Vec::new());
-    for (name, origin, multiple, other) in touching {
+    for (words, multiple, other) in touching {
         let apart = subject.from(site, other)?;
         neighbours.push(apart);
-        let at = apart.map(|part| part / 2.0);
-        forces.push(Force {
-            name,
-            origin,
-            magnitude: subject.force(&multiple)?,
-            along: at.map(|part| -part),
-            at,
-            multiple: Some(multiple),
-        });
+        let (at, along) = (apart.map(|x| x / 2.0), apart.map(|x| x / -2.0));
+        let magnitude = subject.force(&multiple)?;
+        forces.push(Force::new(words, magnitude, along, at, Some(multiple)));
     }
     if on_floor {
         forces.push(from_floor(subject.on_floor(site)?));
     }
-    let mut weights = vec![("w", "weight", pile.sphere_weight(site)?, 0.0)];
-    let load = load(pile, site);
+    let weight = subject.weight(pile.sphere_weight(site)?)?;
+    let centre = [0.0; 3];
+    forces.push(Force::new(["w", "weight"], weight, DOWN, centre, None));
+    let load = pile.load(site)?;
     if !load.is_zero() {
-        weights.push(("p", "load", load, 1.0));
-    }
-    for (name, origin, weight, height) in weights {
-        forces.push(Force {
-            name,
-            origin,
-            magnitude: subject.weight(weight)?,
-            along: DOWN,
-            at: [0.0, 0.0, height],
-            multiple: None,
-        });
+        let load = subject.weight(load)?;
+        forces.push(Force::new(["p", "load"], load, DOWN, UP, None));
     }
     Ok((forces, neighbours))
 }
@@ -215,71 +208,79 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
 fn from_floor([x, y, normal]: Vector) -> Force {
     let magnitude = x.hypot(y).hypot(normal);
     let along = [-x, -y, normal].map(|part| part / magnitude);
-    Force {
-        name: "n",
-        origin: "from the floor",
-        magnitude,
-        along: if magnitude > 0.0 { along } else { UP },
-        at: DOWN,
-        multiple: None,
-    }
+    let along = if magnitude > 0.0 { along } else { UP };
+    Force::new(["n", "from the floor"], magnitude, along, DOWN, None)
 }
 
-/// Returns how long the arrows are, in R: all in one scale, in which the weight stays within the sphere.
-fn lengths(forces: &[Force]) -> Vec<f64> {
+/// Gives the arrows their lengths: all in one scale, in which the weight stays within the sphere.
+fn to_scale(forces: &mut [Force]) {
     let scale = Scale::around_zero(forces.iter().map(|force| force.magnitude));
     let weight = forces.iter().find(|force| force.name == "w");
     let weight = weight.map_or(0.0, |weight| scale.part(weight.magnitude));
     let longest = LONGEST.min(WEIGHT / weight);
-    let length = |force: &Force| scale.part(force.magnitude) * longest;
-    forces.iter().map(length).collect()
-}
-
-/// Returns the ends of an arrow: the weight begins in the centre, what pushes ends on the surface, and what pulls begins
-/// there.
-fn ends(force: &Force, length: f64) -> [Vector; 2] {
-    let far = |length| moved(force.at, length, force.along);
-    if norm(force.at) == 0.0 || length < 0.0 {
-        [force.at, far(length)]
-    } else {
-        [far(-length), force.at]
+    for force in forces {
+        force.length = scale.part(force.magnitude) * longest;
     }
 }
 
-/// Returns the arrow of a force, and a ring where it is too short to be seen.
-fn arrows(force: &Force, length: f64, place: impl Fn(Vector) -> Point) -> Vec<Mark> {
-    let [tail, tip] = ends(force, length).map(&place);
-    let [x, y, z] = force.along.map(|part| part * force.magnitude);
-    let mark = arrow(tail, tip, 4.0, colour(force)).set("data-name", force.name);
-    let mark = mark.valued("data-force", force.magnitude);
-    let mut marks = vec![
-        mark.valued("data-x", x)
-            .valued("data-y", y)
-            .valued("data-z", z),
-    ];
-    if (tip[0] - tail[0]).hypot(tip[1] - tail[1]) < SMALL {
-        marks.push(ring(place(force.at), 7.0, colour(force), 2.0).class("small"));
+impl Force {
+    /// Returns the ends of the arrow: the weight begins in the centre, what pushes ends on the surface, and what pulls
+    /// begins there.
+    fn ends(&self) -> [Vector; 2] {
+        let far = |length| moved(self.at, length, self.along);
+        if norm(self.at) == 0.0 || self.length < 0.0 {
+            [self.at, far(self.length)]
+        } else {
+            [far(-self.length), self.at]
+        }
     }
-    marks
-}
 
-/// Returns the letter of a force, at the end that is farther from the sphere; that of the weight beside it.
-fn letter(force: &Force, length: f64, place: impl Fn(Vector) -> Point) -> [Mark; 2] {
-    const BEYOND: f64 = 16.0;
-    let [tail, tip] = ends(force, length);
-    let at = if norm(force.at) == 0.0 {
-        let [[x, y], [_, below]] = [place(tail), place(tip)];
-        [x - BEYOND, y.midpoint(below)]
-    } else {
-        let far = if norm(tail) > norm(tip) { tail } else { tip };
-        let [from, to] = [place([0.0; 3]), place(force.at)];
-        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-        let beyond = BEYOND / dx.hypot(dy).max(1.0);
-        let [x, y] = place(far);
-        [x + dx * beyond, y + dy * beyond]
-    };
-    let letter = text(at, 19.0, force.name).bold().italic();
-    letter.fill(colour(force)).with_rim()
+    /// Whether the arrow is too short to be seen.
+    fn is_small(&self, place: impl Fn(Vector) -> Point) -> bool {
+        let [tail, tip] = self.ends().map(place);
+        (tip[0] - tail[0]).hypot(tip[1] - tail[1]) < SMALL
+    }
+
+    /// Returns the arrow, and a ring where it is too short to be seen.
+    fn arrow(&self, place: impl Fn(Vector) -> Point) -> Vec<Mark> {
+        let [tail, tip] = self.ends().map(&place);
+        let [x, y, z] = self.along.map(|part| part * self.magnitude);
+        let mark = arrow(tail, tip, 4.0, self.colour()).set("data-name", self.name);
+        let mark = mark.valued("data-force", self.magnitude);
+        let mark = mark.valued("data-x", x).valued("data-y", y);
+        let mut marks = vec![mark.valued("data-z", z)];
+        if self.is_small(&place) {
+            marks.push(ring(place(self.at), 7.0, self.colour(), 2.0).class("small"));
+        }
+        marks
+    }
+
+    /// Returns the letter, at the end that is farther from the sphere; that of the weight at its side.
+    fn letter(&self, place: impl Fn(Vector) -> Point) -> [Mark; 2] {
+        const BEYOND: f64 = 16.0;
+        let [tail, tip] = self.ends();
+        let at = if norm(self.at) == 0.0 {
+            let [[x, y], [_, below]] = [place(tail), place(tip)];
+            [x - BEYOND, y.midpoint(below)]
+        } else {
+            let far = if norm(tail) > norm(tip) { tail } else { tip };
+            let [from, to] = [place([0.0; 3]), place(self.at)];
+            let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+            let beyond = BEYOND / dx.hypot(dy).max(1.0);
+            let [x, y] = place(far);
+            [x + dx * beyond, y + dy * beyond]
+        };
+        let letter = text(at, 19.0, self.name).bold().italic();
+        letter.fill(self.colour()).with_rim()
+    }
+
+    fn colour(&self) -> &'static str {
+        match self.name {
+            "w" | "p" => ORANGE,
+            _ if self.magnitude < 0.0 => PULL,
+            _ => PUSH,
+        }
+    }
 }
 
 fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mark>, Error> {
@@ -294,7 +295,7 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mar
     for force in forces {
         y += 22.0;
         let name = text([LEFT, y], 14.0, force.name).bold().italic().start();
-        marks.push(name.fill(colour(force)));
+        marks.push(name.fill(force.colour()));
         marks.push(text([words, y], 13.0, force.origin).start());
         if let Some(multiple) = &force.multiple {
             let words = exact_or_short(multiple);
@@ -316,12 +317,4 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mar
         marks.push(text([LEFT, y], 13.0, words).fill(colour).start());
     }
     Ok(marks)
-}
-
-fn colour(force: &Force) -> &'static str {
-    match force.name {
-        "w" | "p" => ORANGE,
-        _ if force.magnitude < 0.0 => PULL,
-        _ => PUSH,
-    }
 }

@@ -1,7 +1,7 @@
 //! What a figure is of: a pile with a spacing, and the units of its forces and lengths.
 
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::One;
 
 use super::mark::Point;
 use super::view::Vector;
@@ -10,7 +10,7 @@ use crate::geometry::{self, Spacing};
 use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::Surd;
 use crate::shape::Selection;
-use crate::{ContactForce, Error, FloorForce, Packing, Pile};
+use crate::{Error, FloorForce, Forces, Packing, Pile};
 
 /// A pile as figures measure it.
 ///
@@ -177,17 +177,18 @@ impl<'p> Subject<'p> {
         Ok([i, if self.is_of_discs() { [0.0, i[0]] } else { j }])
     }
 
-    /// Returns the contacts of a part with the spheres below, in f₀.
-    pub(super) fn contacts(
-        &self,
-        part: Selection,
-    ) -> Result<impl Iterator<Item = Result<ContactForce<BigRational>, Error>> + '_, Error> {
-        self.packing.forces().contacts(part)
+    /// `i,j` of a sphere, `i` of a disc.
+    pub(super) fn indices(&self, Site { i, j, .. }: Site) -> String {
+        if self.is_of_discs() {
+            format!("{i}")
+        } else {
+            format!("{i},{j}")
+        }
     }
 
-    /// Returns the contacts of a sphere with those above it, in f₀, by direction.
-    pub(super) fn received(&self, site: Site) -> Result<[BigRational; 3], Error> {
-        self.packing.forces().from_above(site)
+    /// The contact forces, in f₀.
+    pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
+        self.packing.forces()
     }
 
     /// Returns a contact force, in its unit.
@@ -259,17 +260,6 @@ impl<'p> Subject<'p> {
             Err(error) => Some(format!("whether this pile stands is not known: {error}")),
         }
     }
-}
-
-/// Returns the loads of a pile, in mg.
-pub(super) fn loads(pile: &Pile) -> impl ExactSizeIterator<Item = (Site, &BigRational)> {
-    pile.loads()
-}
-
-/// Returns the load on a sphere, in mg.
-pub(super) fn load(pile: &Pile, site: Site) -> BigRational {
-    let found = loads(pile).find(|(loaded, _)| *loaded == site);
-    found.map_or_else(BigRational::zero, |(_, load)| load.clone())
 }
 
 /// Returns the sphere below another, of the pile.

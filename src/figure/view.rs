@@ -44,7 +44,7 @@ pub(super) struct Seen {
 
 impl View {
     /// Returns a camera above the horizontal by `elevation`, over the direction `azimuth` from x towards y, in degrees.
-    pub(super) fn new(target: Vector, azimuth: f64, elevation: f64, distance: f64) -> Self {
+    fn new(target: Vector, azimuth: f64, elevation: f64, distance: f64) -> Self {
         let (sin, cos) = azimuth.to_radians().sin_cos();
         let (rise, level) = elevation.to_radians().sin_cos();
         Self {
@@ -56,9 +56,14 @@ impl View {
         }
     }
 
-    /// Returns a camera infinitely far at the side of a plane of discs.
-    pub(super) fn of_discs(target: Vector) -> Self {
-        Self::new(target, -90.0, 0.0, f64::INFINITY)
+    /// The view of spheres from this azimuth and elevation, in degrees; of discs from −y, and from afar.
+    pub(super) fn of(discs: bool, target: Vector, angles: [f64; 2], distance: f64) -> Self {
+        let ([azimuth, elevation], distance) = if discs {
+            ([-90.0, 0.0], f64::INFINITY)
+        } else {
+            (angles, distance)
+        };
+        Self::new(target, azimuth, elevation, distance)
     }
 
     pub(super) fn see(&self, point: Vector) -> Seen {

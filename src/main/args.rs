@@ -22,7 +22,7 @@ pub(crate) use scene::SceneOptions;
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct BaseAt {
-    /// One bottom sphere only, as I,J (or K,I,J; discs: I or K,I)
+    /// One bottom sphere only: I,J, or K,I,J with k counted from 0 at the top (discs: I or K,I)
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     at: Option<String>,
 }
@@ -38,7 +38,7 @@ impl BaseAt {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Part {
-    /// One sphere only, as K,I,J, or I,J on the base (discs: K,I or I)
+    /// One sphere only: K,I,J with k counted from 0 at the top, or I,J on the base (discs: K,I or I)
     #[arg(
         long,
         value_name = "K,I,J",
@@ -80,14 +80,10 @@ pub(crate) fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Site>, Refused
 
 /// Adds to a refusal of too many rows the options that ask for fewer.
 pub(crate) fn narrower(error: Error, selection: Selection) -> Refused {
-    let remedy = match (&error, selection) {
-        (Error::TooManyRows { .. }, Selection::All) => Some("--layer or --at"),
-        (Error::TooManyRows { .. }, Selection::Layer(_) | Selection::Base) => Some("--at"),
-        _ => None,
-    };
-    Refused {
-        remedy,
-        ..error.into()
+    match selection {
+        Selection::All => Refused::of_rows(error, "--layer or --at"),
+        Selection::Layer(_) | Selection::Base => Refused::of_rows(error, "--at"),
+        Selection::One(_) => error.into(),
     }
 }
 
@@ -98,16 +94,9 @@ pub(crate) struct Numbers {
     /// How numbers are printed
     #[arg(long, value_enum, default_value = "exact")]
     pub(crate) number: Number,
-    /// What forces and lengths are multiples of
+    /// The units of forces and lengths
     #[arg(long, value_enum, default_value = "pile")]
-    units: UnitSystem,
-}
-
-impl Numbers {
-    /// Returns the pile in these units.
-    pub(crate) fn units<'p>(&self, scene: &Scene, pile: &'p Pile) -> Result<Units<'p>, Error> {
-        self.units.of(scene, pile)
-    }
+    pub(crate) units: UnitSystem,
 }
 
 /// How forces are found.
@@ -153,7 +142,7 @@ impl From<MethodName> for Method {
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Output {
-    /// How the table is laid out [default: by the ending of --output, .csv or .json; else table]
+    /// How the table is written [default: by the ending of --output, .csv or .json; else table]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Write to a file, which is replaced only when all is written
@@ -162,10 +151,6 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    pub(crate) fn target(&self) -> String {
-        target("output", self.file.as_deref())
-    }
-
     /// Returns the format asked for, or that of the ending of the file; the two must agree.
     pub(crate) fn format(&self) -> Result<Format, Failure> {
         agreed("format", self.format, "output", self.file.as_deref())
@@ -191,9 +176,9 @@ impl Output {
         content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {
         let file = self.file.as_deref();
-        Ok(write_to(file, |out| {
+        write_to("output", file, |out| {
             progress.count(out, file.is_none(), content)
-        })?)
+        })
     }
 }
 
@@ -208,20 +193,12 @@ pub(crate) fn agreed(
     match (format, ending) {
         (Some(format), Some(ending)) if format != ending => {
             let (format, ending) = (format.name(), ending.name());
-            Err(Failure::BadUse(format!(
+            Err(Failure::Message(format!(
                 "--{format_option}: {format} is not what the ending of --{file_option} says, {ending}: leave --{format_option} \
                  out, or give the file another ending"
             )))
         }
         (format, ending) => Ok(format.or(ending).unwrap_or(Format::Table)),
-    }
-}
-
-/// Returns where output goes, for messages.
-pub(crate) fn target(option: &str, file: Option<&Path>) -> String {
-    match file {
-        None => "to stdout".into(),
-        Some(path) => format!("--{option} {}", path.display()),
     }
 }
 

@@ -1,55 +1,24 @@
 //! The commands, one a file, and what they have in common.
 
-mod base;
-mod census;
-mod completions;
-mod contacts;
-mod explain;
-mod export;
-mod plot;
-mod prove;
-mod scene;
-mod spheres;
-mod summary;
-mod verify;
-
-pub(crate) use base::Base;
-pub(crate) use census::Census;
-pub(crate) use completions::Completions;
-pub(crate) use contacts::Contacts;
-pub(crate) use explain::Explain;
-pub(crate) use export::Export;
-pub(crate) use plot::Plot;
-pub(crate) use prove::Prove;
-pub(crate) use scene::WriteScene;
-pub(crate) use spheres::Spheres;
-pub(crate) use summary::Summary;
-pub(crate) use verify::Verify;
+pub(crate) mod census;
+pub(crate) mod completions;
+pub(crate) mod explain;
+pub(crate) mod export;
+pub(crate) mod forces;
+pub(crate) mod plot;
+pub(crate) mod prove;
+pub(crate) mod scene;
+pub(crate) mod spheres;
+pub(crate) mod summary;
+pub(crate) mod verify;
 
 use cannonpile::Pile;
 use cannonpile::scalar::RealSign;
 use cannonpile::shape::Selection;
 use cannonpile::table::{Cell, Table};
 
-use crate::args::{SceneOptions, target};
-use crate::output::{Failure, complain};
+use crate::output::complain;
 use crate::progress::Progress;
-
-/// A command that was read from the line.
-pub(crate) trait Command {
-    /// Answers, and returns whether the answer is yes.
-    fn run(&self) -> Result<bool, Failure>;
-
-    /// Returns the scene options, of a command that has them.
-    fn scene(&self) -> Option<&SceneOptions> {
-        None
-    }
-
-    /// Returns where the output goes, for messages.
-    fn target(&self) -> String {
-        target("output", None)
-    }
-}
 
 /// Says in one line on stderr that no pile can bear such forces, if that is so.
 fn note_if_it_falls(pile: &Pile) {
@@ -106,17 +75,13 @@ impl Pulls {
     fn note(&self, pile: &Pile, selection: Selection) {
         match selection {
             Selection::All | Selection::Base => note_if_it_falls(pile),
-            Selection::Layer(_) | Selection::One(_) => note_of_part(pile, self.seen.get()),
+            Selection::Layer(_) | Selection::One(_) if self.seen.get() && !pile.is_weightless() => {
+                complain(
+                    "note: this pile does not stand without further contacts: spheres would have to pull here; no other \
+                     forces of these contacts are in balance",
+                );
+            }
+            Selection::Layer(_) | Selection::One(_) => {}
         }
-    }
-}
-
-/// Says in one line on stderr that a pull was among the forces, if there was one.
-fn note_of_part(pile: &Pile, pulls: bool) {
-    if pulls && !pile.is_weightless() {
-        complain(
-            "note: this pile does not stand without further contacts: spheres would have to pull here; no other forces of \
-             these contacts are in balance",
-        );
     }
 }

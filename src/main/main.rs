@@ -9,16 +9,13 @@ mod signals;
 use std::io;
 use std::process::ExitCode;
 
-use cannonpile::table::WriteError;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
 use args::SceneOptions;
-use command::{
-    Base, Census, Command, Completions, Contacts, Explain, Export, Plot, Prove, Spheres, Summary,
-    Verify, WriteScene,
-};
-use output::{Failure, complain, reason};
+use command::forces::{Base, Contacts};
+use command::{census, completions, explain, export, plot, prove, scene, spheres, summary, verify};
+use output::{Failure, complain};
 
 const START: &str = "\
 Examples:
@@ -27,7 +24,7 @@ Examples:
   cannonpile export pile --to lammps       input for LAMMPS, and
   cannonpile verify pile/forces.dump       what it measured against the exact forces
 
-'cannonpile COMMAND --help' says more of each. Exit status: 0; 1 if the answer is no; 2 for bad use, with one line on
+'cannonpile COMMAND --help' says more about each. Exit status: 0; 1 if the answer is no; 2 for bad use, with one line on
 stderr.";
 
 /// Exact contact forces in regular piles of spheres.
@@ -35,62 +32,73 @@ stderr.";
 #[command(version, about, max_term_width = 100, arg_required_else_help = true, after_help = START)]
 struct Arguments {
     #[command(subcommand)]
-    command: Commands,
+    command: Command,
 }
 
 #[derive(Subcommand)]
-enum Commands {
+enum Command {
     /// The pile in one row: counts, weight, extreme forces
-    Summary(Summary),
+    Summary(summary::Summary),
     /// The force of each bottom sphere on the floor
+    #[command(after_help = Base::HELP)]
     Base(Base),
     /// The force of each contact between two spheres
+    #[command(after_help = Contacts::HELP)]
     Contacts(Contacts),
     /// The place, size and mass of each sphere, in SI units
-    Spheres(Spheres),
+    Spheres(spheres::Spheres),
     /// Which stackings stand, under one sphere or on a base
-    Census(Census),
+    Census(census::Census),
     /// How a question would be answered, what that takes at most, and what it took
-    Explain(Explain),
+    Explain(explain::Explain),
     /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
-    Export(Export),
+    Export(export::Export),
     /// The scene as a TOML file, which --scene reads
-    Scene(WriteScene),
+    Scene(scene::WriteScene),
     /// What is proved for every pile, with the proofs; exit status 1 if one fails
-    Prove(Prove),
+    Prove(prove::Prove),
     /// Measured contact forces against the exact ones; exit status 1 if they differ
-    Verify(Verify),
+    Verify(verify::Verify),
     /// A figure, as SVG
     #[command(subcommand, arg_required_else_help = true)]
-    Plot(Plot),
+    Plot(plot::Plot),
     /// A script with which a shell completes commands and options
-    Completions(Completions),
+    Completions(completions::Completions),
 }
 
-impl Commands {
-    /// Returns the command; or the one that is about all the others.
-    fn command(&self) -> Result<&dyn Command, &Completions> {
-        Ok(match self {
-            Self::Summary(command) => command,
-            Self::Base(command) => command,
-            Self::Contacts(command) => command,
-            Self::Spheres(command) => command,
-            Self::Census(command) => command,
-            Self::Explain(command) => command,
-            Self::Export(command) => command,
-            Self::Scene(command) => command,
-            Self::Prove(command) => command,
-            Self::Verify(command) => command,
-            Self::Plot(command) => command,
-            Self::Completions(completions) => return Err(completions),
-        })
+impl Command {
+    /// Answers, and returns whether the answer is yes.
+    fn run(&self) -> Result<bool, Failure> {
+        match self {
+            Self::Summary(command) => command.run(),
+            Self::Base(command) => command.run(),
+            Self::Contacts(command) => command.run(),
+            Self::Spheres(command) => command.run(),
+            Self::Census(command) => command.run(),
+            Self::Explain(command) => command.run(),
+            Self::Export(command) => command.run(),
+            Self::Scene(command) => command.run(),
+            Self::Prove(command) => command.run(),
+            Self::Verify(command) => command.run(),
+            Self::Plot(command) => command.run(),
+            Self::Completions(command) => command.print(Arguments::command()),
+        }
     }
 
-    fn run(&self) -> Result<bool, Failure> {
-        match self.command() {
-            Ok(command) => command.run(),
-            Err(completions) => completions.print(Arguments::command()),
-        }
+    /// Returns the scene options, of a command that has them.
+    const fn scene(&self) -> Option<&SceneOptions> {
+        Some(match self {
+            Self::Summary(command) => &command.scene,
+            Self::Base(command) => &command.scene,
+            Self::Contacts(command) => &command.scene,
+            Self::Spheres(command) => &command.scene,
+            Self::Explain(command) => &command.scene,
+            Self::Export(command) => &command.scene,
+            Self::Scene(command) => &command.scene,
+            Self::Verify(command) => &command.scene,
+            Self::Plot(command) => command.scene(),
+            Self::Census(_) | Self::Prove(_) | Self::Completions(_) => return None,
+        })
     }
 }
 
@@ -106,36 +114,16 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };
-    let failure = match arguments.command.run() {
-        Ok(true) => return ExitCode::SUCCESS,
+    match arguments.command.run() {
+        Ok(true) | Err(Failure::Closed) => return ExitCode::SUCCESS,
         Ok(false) => return ExitCode::from(NO),
-        Err(failure) => failure,
-    };
-    let command = arguments.command.command().ok();
-    let target = || command.map_or_else(|| "to stdout".into(), Command::target);
-    match failure {
-        // The reader has seen enough.
-        Failure::Write(WriteError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
-            return ExitCode::SUCCESS;
-        }
-        Failure::Write(WriteError::File { path, error }) => {
-            cannot_write(&path.display().to_string(), &reason(&error));
-        }
-        // The text of an error may name the file written aside; its kind does not.
-        Failure::Write(WriteError::Io(error)) => cannot_write(&target(), &reason(&error)),
-        Failure::Write(error) => cannot_write(&target(), &error.to_string()),
-        Failure::Refused(refused) => {
-            let message = SceneOptions::message(command.and_then(Command::scene), &refused);
+        Err(Failure::Refused(refused)) => {
+            let message = SceneOptions::message(arguments.command.scene(), &refused);
             complain(&format!("error: {message}"));
         }
-        Failure::BadUse(reason) => complain(&format!("error: {reason}")),
+        Err(Failure::Message(message)) => complain(&format!("error: {message}")),
     }
     ExitCode::from(BAD_USE)
-}
-
-fn cannot_write(target: &str, reason: &str) {
-    let remedy = "choose a place that exists, can be written and has room";
-    complain(&format!("error: cannot write {target}: {reason}; {remedy}"));
 }
 
 /// Prints what clap has to say: help and version as they are, an error in one line with a remedy.
@@ -158,6 +146,7 @@ fn usage(error: &clap::Error) -> ExitCode {
     let said: Vec<&str> = lines
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
         .collect();
+    let said = said.join(" ").replace(" tip: ", "; tip: ");
     // Clap has a remedy where it knows a similar word, or all words there are.
     let advised = [
         ContextKind::SuggestedArg,
@@ -181,7 +170,7 @@ fn usage(error: &clap::Error) -> ExitCode {
         | ErrorKind::NoEquals => format!("; '{} --help' lists what there is", named_command()),
         _ => String::new(),
     };
-    complain(&format!("{}{remedy}", said.join(" ")));
+    complain(&format!("{said}{remedy}"));
     ExitCode::from(BAD_USE)
 }
 

@@ -10,10 +10,10 @@ use cannonpile::{Culprit, Error};
 pub(crate) enum Failure {
     /// The library refused what was given.
     Refused(Refused),
-    /// The output could not be written.
-    Write(WriteError),
-    /// The command line refused it: the option, what is wrong with it, and the remedy.
-    BadUse(String),
+    /// The command line did: the option, what is wrong with it, and the remedy.
+    Message(String),
+    /// The reader has seen enough.
+    Closed,
 }
 
 impl From<Refused> for Failure {
@@ -28,12 +28,24 @@ impl From<Error> for Failure {
     }
 }
 
-impl From<WriteError> for Failure {
-    fn from(error: WriteError) -> Self {
-        match error {
-            WriteError::Answer(error) => error.into(),
-            error => Self::Write(error),
-        }
+impl Failure {
+    /// Returns why nothing was written to the file that this option names, or to stdout.
+    pub(crate) fn of_writing(error: WriteError, option: &str, file: Option<&Path>) -> Self {
+        let file = file.map(|path| format!("--{option} {}", path.display()));
+        let target = file.unwrap_or_else(|| "to stdout".into());
+        let (target, reason) = match error {
+            WriteError::Answer(error) => return error.into(),
+            WriteError::Io(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                return Self::Closed;
+            }
+            // The text of an error may name the file written aside; its kind does not.
+            WriteError::Io(error) => (target, reason(&error)),
+            WriteError::File { path, error } => (path.display().to_string(), reason(&error)),
+            error => (target, error.to_string()),
+        };
+        Self::Message(format!(
+            "cannot write {target}: {reason}; choose a place that exists, can be written and has room"
+        ))
     }
 }
 
@@ -51,6 +63,15 @@ impl Refused {
     pub(crate) fn of(culprit: Culprit, error: Error) -> Self {
         Self {
             culprit: Some(culprit),
+            ..error.into()
+        }
+    }
+
+    /// Adds to a refusal of too many rows the options that ask for fewer.
+    pub(crate) fn of_rows(error: Error, remedy: &'static str) -> Self {
+        let too_many = matches!(error, Error::TooManyRows { .. });
+        Self {
+            remedy: too_many.then_some(remedy),
             ..error.into()
         }
     }
@@ -83,14 +104,22 @@ pub(crate) fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Writes to the file, whole or not at all, or to stdout.
+/// Writes to the file that this option names, whole or not at all, or to stdout.
 pub(crate) fn write_to(
+    option: &str,
     file: Option<&Path>,
     content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), Failure> {
+    let written = match file {
+        Some(path) => write_aside(path, content),
+        None => write_out(content),
+    };
+    written.map_err(|error| Failure::of_writing(error, option, file))
+}
+
+fn write_out(
+    content: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
-    if let Some(path) = file {
-        return write_aside(path, content);
-    }
     let mut out = BufWriter::new(io::stdout().lock());
     content(&mut out)?;
     Ok(out.flush()?)

@@ -202,21 +202,7 @@ impl Mul<&Self> for DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        Add::<&Self>::add(self, &rhs)
-    }
-}
-
-impl Mul for DoubleDouble {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        Mul::<&Self>::mul(self, &rhs)
-    }
-}
+by_value!(DoubleDouble);
 
 impl Zero for DoubleDouble {
     fn zero() -> Self {

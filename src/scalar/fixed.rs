@@ -184,21 +184,7 @@ impl<I: FixedInteger> Mul<&Self> for FixedRational<I> {
     }
 }
 
-impl<I: FixedInteger> Add for FixedRational<I> {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        self.checked(&rhs, CheckedAdd::checked_add)
-    }
-}
-
-impl<I: FixedInteger> Mul for FixedRational<I> {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        self.checked(&rhs, CheckedMul::checked_mul)
-    }
-}
+by_value!(FixedRational<I>, I: FixedInteger);
 
 impl<I: FixedInteger> Neg for FixedRational<I> {
     type Output = Self;

@@ -273,21 +273,7 @@ impl Mul<&Self> for Interval {
     }
 }
 
-impl Add for Interval {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        Add::<&Self>::add(self, &rhs)
-    }
-}
-
-impl Mul for Interval {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        Mul::<&Self>::mul(self, &rhs)
-    }
-}
+by_value!(Interval);
 
 impl Zero for Interval {
     fn zero() -> Self {

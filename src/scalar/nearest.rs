@@ -25,15 +25,6 @@ use super::error_free::power_of_two;
 use super::screen::enclose;
 use sealed::Assemble;
 
-/// What decided a rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Decision {
-    /// Both ends of an enclosure in double-doubles round to the same float.
-    Screen,
-    /// Integers, with a sticky bit: near a tie, or outside the normal floats of `f64`.
-    Integers,
-}
-
 /// A binary floating-point format to round to: `f32` or `f64`. Sealed.
 ///
 /// `f32` is reached directly, never by way of `f64`: rounding twice can miss the nearest.

@@ -441,21 +441,7 @@ impl Mul<&Self> for Polynomial {
     }
 }
 
-impl Add for Polynomial {
-    type Output = Self;
-
-    fn add(self, rhs: Self) -> Self {
-        self.accumulate(&rhs, 1)
-    }
-}
-
-impl Mul for Polynomial {
-    type Output = Self;
-
-    fn mul(self, rhs: Self) -> Self {
-        Mul::mul(self, &rhs)
-    }
-}
+by_value!(Polynomial);
 
 impl Neg for Polynomial {
     type Output = Self;

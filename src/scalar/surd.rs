@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::nearest::{nearest_ratio, nearest_root, screened};
-use super::{Decision, NearestFloat, RealSign};
+use super::{NearestFloat, RealSign};
 use crate::Error;
 
 /// An exact number c·√n, with c rational and n a positive integer.
@@ -291,7 +291,8 @@ impl Surd {
     }
 
     /// Returns the float nearest to the value, ties to even, subnormals included; `None` when it would be infinite.
-    /// Decided, never guessed: see [`nearest_and_how`](Self::nearest_and_how).
+    /// Decided, never guessed: by an enclosure in double-doubles, or, where that holds more than one float, by one integer
+    /// square root and a sticky bit.
     ///
     /// # Examples
     /// ```
@@ -305,39 +306,25 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn nearest<F: NearestFloat>(&self) -> Option<F> {
-        self.nearest_and_how().0
-    }
-
-    /// Returns the nearest float and what decided it: an enclosure in double-doubles, or, where that holds more than one float, one
-    /// integer square root and a sticky bit.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::{Decision, Surd};
-    /// use num_rational::BigRational;
-    ///
-    /// // Just above 2⁵³ + 1, which lies between two floats.
-    /// let n = BigRational::from_integer((1_i64 << 53).into()) + BigRational::from_integer(1.into());
-    /// let root = Surd::sqrt(&n * &n + BigRational::new(1.into(), (1_i64 << 60).into()))?;
-    /// let (float, decision) = root.nearest_and_how::<f64>();
-    /// assert_eq!((float, decision), (Some(9007199254740994.0), Decision::Integers));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn nearest_and_how<F: NearestFloat>(&self) -> (Option<F>, Decision) {
-        let negative = self.coefficient.is_negative();
-        let (n, d) = (self.coefficient.numer(), self.coefficient.denom());
-        let (n, d) = (n.magnitude(), d.magnitude());
-        let root = Some(&self.radicand).filter(|radicand| !radicand.is_one());
-        if let Some(float) = screened(negative, n, d, root) {
-            return (Some(float), Decision::Screen);
-        }
-        let float = match root {
+        let (negative, [n, d], root) = self.parts();
+        self.screened().or_else(|| match root {
             None => nearest_ratio(negative, n, d),
             // Not reduced: a common factor costs more to find than to carry.
             Some(radicand) => nearest_root(negative, &(n * n * radicand), &(d * d)),
-        };
-        (float, Decision::Integers)
+        })
+    }
+
+    /// Returns the nearest float, where the enclosure decides it.
+    fn screened<F: NearestFloat>(&self) -> Option<F> {
+        let (negative, [n, d], root) = self.parts();
+        screened(negative, n, d, root)
+    }
+
+    /// Returns the sign, the magnitudes of numerator and denominator, and what stands under a root.
+    fn parts(&self) -> (bool, [&BigUint; 2], Option<&BigUint>) {
+        let (n, d) = (self.coefficient.numer(), self.coefficient.denom());
+        let root = Some(&self.radicand).filter(|radicand| !radicand.is_one());
+        (n.is_negative(), [n.magnitude(), d.magnitude()], root)
     }
 
     /// Returns the square with the sign of the number, which orders surds as the numbers are ordered.
@@ -494,5 +481,45 @@ impl fmt::Display for Surd {
             write!(f, "{}*", self.coefficient)?;
         }
         write!(f, "sqrt({})", self.radicand)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_bigint::BigInt;
+
+    use super::*;
+
+    fn two_to(power: u32) -> BigRational {
+        BigRational::from_integer(BigInt::from(1) << power)
+    }
+
+    /// Yields (2^p + 1)·(1 ± a hair)·2^e, near the middle between two floats of p bits: no double-double is near enough.
+    fn near_ties(bits: u32) -> impl Iterator<Item = Surd> {
+        let middle = two_to(bits) + BigRational::one();
+        let hairs = [100, 150, 200, 1000].map(|k| two_to(k).recip());
+        let factors = hairs
+            .into_iter()
+            .flat_map(|hair| [BigRational::one() - &hair, BigRational::one() + hair]);
+        let roots = factors.map(move |factor| Surd::sqrt(&middle * &middle * factor).unwrap());
+        let scales = [two_to(80).recip(), two_to(1).recip(), two_to(0), two_to(60)];
+        roots.flat_map(move |root| scales.clone().map(|scale| root.scaled(&scale)))
+    }
+
+    #[test]
+    fn integers_decide_near_ties_and_the_screen_the_rest() {
+        // Without `std` there is no screen for roots.
+        let with_screen = cfg!(feature = "std");
+        for (double, single) in near_ties(53).zip(near_ties(24)) {
+            assert!(double.screened::<f64>().is_none() && single.screened::<f32>().is_none());
+            assert_eq!(double.screened::<f32>().is_some(), with_screen);
+            assert_eq!(single.screened::<f64>().is_some(), with_screen);
+        }
+        // Not one in a hundred thousand is near a tie by chance.
+        for n in (2..5000).filter(|n: &i32| n.isqrt().pow(2) != *n) {
+            let root = Surd::sqrt(BigRational::from_integer(n.into())).unwrap();
+            assert_eq!(root.screened::<f64>().is_some(), with_screen);
+            assert_eq!(root.screened::<f32>().is_some(), with_screen);
+        }
     }
 }

@@ -2,6 +2,8 @@
 //! dimension. What has a type is read by `str::parse`: [`Region`](crate::lattice::Region),
 //! [`Pattern`](crate::stacking::Pattern), [`Spacing`](crate::geometry::Spacing), [`Dimension`], [`Surd`](crate::scalar::Surd).
 
+use alloc::vec::Vec;
+
 use num_rational::BigRational;
 
 pub use crate::scalar::parse::{integer, rational};
@@ -115,39 +117,18 @@ pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
         Dimension::Two => "a disc: K,I, or I on the base",
         Dimension::Three => "a sphere: K,I,J, or I,J on the base",
     };
-    let mut numbers = [0; 3];
-    let mut given = 0;
-    for part in text.split(',') {
-        let slot = numbers
-            .get_mut(given)
-            .ok_or_else(|| Error::syntax(text, expected))?;
-        *slot = integer(part.trim()).map_err(|_| Error::syntax(text, expected))?;
-        given += 1;
-    }
-    let [a, b, c] = numbers;
-    match (dimension, given) {
-        (Dimension::Three, 3) => Ok(At {
-            layer: Some(a),
-            i: b,
-            j: c,
-        }),
-        (Dimension::Three, 2) => Ok(At {
-            layer: None,
-            i: a,
-            j: b,
-        }),
-        (Dimension::Two, 2) => Ok(At {
-            layer: Some(a),
-            i: b,
-            j: 0,
-        }),
-        (Dimension::Two, 1) => Ok(At {
-            layer: None,
-            i: a,
-            j: 0,
-        }),
-        _ => Err(Error::syntax(text, expected)),
-    }
+    let syntax = || Error::syntax(text, expected);
+    // One more than there can be is as wrong as many more.
+    let numbers = text.split(',').take(4).map(|part| integer(part.trim()));
+    let numbers: Vec<i128> = numbers.collect::<Result<_, _>>().map_err(|_| syntax())?;
+    let (layer, i, j) = match (dimension, numbers.as_slice()) {
+        (Dimension::Three, &[k, i, j]) => (Some(k), i, j),
+        (Dimension::Three, &[i, j]) => (None, i, j),
+        (Dimension::Two, &[k, i]) => (Some(k), i, 0),
+        (Dimension::Two, &[i]) => (None, i, 0),
+        _ => return Err(syntax()),
+    };
+    Ok(At { layer, i, j })
 }
 
 /// Reads a load on one sphere, in mg: `K,I,J=W`, or `I,J=W` on the base. Discs: `K,I=W`, `I=W`.

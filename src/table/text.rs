@@ -60,7 +60,8 @@ pub(super) fn write_rows(
             unit => bracketed.push(format_args!("[{unit}]")),
         }
     }
-    let mut page = vec![heads, bracketed];
+    let mut page = vec![heads];
+    page.extend(Some(bracketed).filter(|_| units.fields().any(|unit| !unit.is_empty())));
     let mut widths = vec![0; units.fields().count()];
     // The word stands below on the last page only.
     if let (Some(first), true) = (widths.first_mut(), sums.is_some()) {

@@ -5,7 +5,9 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, above, by_component, int, passed_on, symbol};
+use super::setting::{
+    P, Setting, above, by_component, by_line, equations, int, nothing_left, passed_on, symbol,
+};
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign};
@@ -104,20 +106,16 @@ fn paper_system(f: &Formulas) -> Vec<Step> {
     };
     let [x, y, z] = cross(e_b, e_c);
     let determinant = e_a.x.clone() * &x + &(e_a.y.clone() * &y) + &(e_a.z.clone() * &z);
-    Vec::from([
-        Step::equal("(4a), x: s(α−α'+β−β') − γ+γ'", sum.x, along_x),
-        Step::equal(
-            "(4b), twice y: α−α' − β+β'",
-            sum.y * &int(2),
-            delta_a - &delta_b,
-        ),
-        Step::equal("(4c), z: w − (α−α') − (β−β') − (γ−γ')", sum.z, along_z),
-        Step::equal("along x: s(Δα+Δβ) − Δγ = 0", horizontal, P::zero()),
-        Step::equal("along y: Δα − Δβ = 0", alpha.clone() - beta, P::zero()),
-        Step::equal("along z: Δα+Δβ+Δγ = 2(1+s)", vertical, double.clone()),
-        Step::equal("W = 2(1+s)", setting.weight.clone(), double),
-        Step::equal("ê_a·(ê_b × ê_c) = 1+s", determinant, int(1) + s),
-    ])
+    equations! {
+        "(4a), x: s(α−α'+β−β') − γ+γ'": sum.x => along_x,
+        "(4b), twice y: α−α' − β+β'": sum.y * &int(2) => delta_a - &delta_b,
+        "(4c), z: w − (α−α') − (β−β') − (γ−γ')": sum.z => along_z,
+        "along x: s(Δα+Δβ) − Δγ = 0": horizontal => P::zero(),
+        "along y: Δα − Δβ = 0": alpha.clone() - beta => P::zero(),
+        "along z: Δα+Δβ+Δγ = 2(1+s)": vertical => double.clone(),
+        "W = 2(1+s)": setting.weight.clone() => double,
+        "ê_a·(ê_b × ê_c) = 1+s": determinant => int(1) + s,
+    }
 }
 
 fn unit_directions(f: &Formulas) -> Vec<Step> {
@@ -126,20 +124,17 @@ fn unit_directions(f: &Formulas) -> Vec<Step> {
     let cos2 = P::one() - &sin2;
     let square =
         |v: &Vector<P>| setting.horizontal_square(v) * &sin2 + &(v.z.clone() * &v.z * &cos2);
-    let mut steps: Vec<Step> = setting
-        .directions
-        .iter()
-        .zip(Direction::ALL)
-        .map(|(e, direction)| Step::equal(format!("|ê|² = 1 for {direction}"), square(e), P::one()))
-        .collect();
+    let mut steps = Vec::new();
+    for (e, direction) in setting.directions.iter().zip(Direction::ALL) {
+        let claim = format!("|ê|² = 1 for {direction}");
+        steps.push(Step::equal(claim, square(e), P::one()));
+    }
     let n = ["a", "b", "c"].map(symbol);
     let apart = Vector::combination(&n, &setting.directions);
     let form = (f.squared_distance)(&n, &setting.s, &sin2);
-    steps.push(Step::equal(
-        "the Gram form is the squared length",
-        form,
-        square(&apart),
-    ));
+    steps.extend(equations! {
+        "the Gram form is the squared length": form => square(&apart),
+    });
     steps
 }
 
@@ -150,24 +145,17 @@ fn equilibrium(f: &Formulas) -> Vec<Step> {
     let load = setting.handed_on(f, &here);
     let left = setting.unbalanced(f, &here);
     let mut steps = by_component("supports = −(from above + weight)", supports, -load);
-    steps.extend(by_component(
-        "what is left of all forces is 0",
-        left,
-        Vector::zero(),
-    ));
-    let (g, (own, weight)) = (
-        ["g_1", "g_2", "g_3"].map(symbol),
-        setting.loaded(f, &symbol("n")),
-    );
+    steps.extend(nothing_left("what is left of all forces is 0", left));
+    let g = ["g_1", "g_2", "g_3"].map(symbol);
+    let (own, weight) = setting.loaded(f, &symbol("n"));
     let to_below = passed_on(f, g.clone(), &own);
     for (sign, e) in [
         ("+", setting.directions.clone()),
         ("−", setting.turned_directions(f)),
     ] {
         let left = (f.unbalanced)(&to_below, &e, &g, &e, &weight);
-        let claim =
-            format!("under {sign}, nothing remains of any forces on a sphere of any weight");
-        steps.extend(by_component(&claim, left, Vector::zero()));
+        let claim = "nothing remains of any forces on a sphere of any weight";
+        steps.extend(nothing_left(&format!("under {sign}, {claim}"), left));
     }
     steps
 }
@@ -181,18 +169,13 @@ fn surface(f: &Formulas) -> Vec<Step> {
         ("β on i = 0", (&zero, &j, &k)),
         ("γ on j = 0", (&i, &zero, &k)),
     ];
-    faces
-        .into_iter()
-        .zip(Direction::ALL)
-        .map(|((claim, (i, j, k)), direction)| {
-            let forces = setting.received(f, &(f.above)(i, j, k));
-            Step::equal(
-                format!("no force from above along {claim}"),
-                forces[direction.index()].clone(),
-                P::zero(),
-            )
-        })
-        .collect()
+    let forces = faces.map(|(face, (i, j, k))| (face, setting.received(f, &(f.above)(i, j, k))));
+    let steps = forces.into_iter().zip(Direction::ALL);
+    let step = |((face, forces), direction): ((&str, [P; 3]), Direction)| {
+        let claim = format!("no force from above along {face}");
+        Step::equal(claim, forces[direction.index()].clone(), P::zero())
+    };
+    steps.map(step).collect()
 }
 
 fn action_reaction(f: &Formulas) -> Vec<Step> {
@@ -230,11 +213,8 @@ fn central_force(f: &Formulas) -> Vec<Step> {
         z: int(2) * &k,
     };
     let written_out = "(3j−k, 2i+j−k, 2k)";
-    let mut steps = by_component(
-        &format!("twice the resultant from above is {written_out}"),
-        twice(force),
-        written.clone(),
-    );
+    let claim = format!("twice the resultant from above is {written_out}");
+    let mut steps = by_component(&claim, twice(force), written.clone());
     let claim = format!("twice the position r is {written_out}");
     steps.extend(by_component(&claim, twice(at), written));
     steps
@@ -249,28 +229,18 @@ fn half_turn(f: &Formulas) -> Vec<Step> {
     let g = ["g_1", "g_2", "g_3"].map(symbol);
     let h = ["h_1", "h_2", "h_3"].map(symbol);
     let (turned, other) = ((f.half_turn)(&g), (f.half_turn)(&h));
-    let mut steps = Vec::from([
-        Step::equal("|Gg|² = |g|²", dot(&turned, &turned), dot(&g, &g)),
-        Step::equal("h·Gg = g·Gh", dot(&h, &turned), dot(&g, &other)),
-    ]);
+    let mut steps = equations! {
+        "|Gg|² = |g|²": dot(&turned, &turned) => dot(&g, &g),
+        "h·Gg = g·Gh": dot(&h, &turned) => dot(&g, &other),
+    };
     let sum = g.iter().fold(P::zero(), |sum, x| sum + x);
     for (x, gx) in g.iter().zip(&turned) {
-        let left = (x.clone() + gx) * &int(3);
-        steps.push(Step::equal(
-            "3(g + Gg) = 2(g_1+g_2+g_3)(1,1,1)",
-            left,
-            sum.clone() * &int(2),
-        ));
+        steps.extend(equations! {
+            "3(g + Gg) = 2(g_1+g_2+g_3)(1,1,1)": (x.clone() + gx) * &int(3) => sum.clone() * &int(2),
+        });
     }
     let ones = [P::one(), P::one(), P::one()];
-    let twice = (f.half_turn)(&turned);
-    steps.extend(
-        twice
-            .into_iter()
-            .zip(g)
-            .map(|(left, right)| Step::equal("GGg = g", left, right)),
-    );
-    let fixed = (f.half_turn)(&ones).into_iter().zip(ones);
-    steps.extend(fixed.map(|(left, right)| Step::equal("G(1,1,1) = (1,1,1)", left, right)));
+    steps.extend(by_line("GGg = g", (f.half_turn)(&turned), g));
+    steps.extend(by_line("G(1,1,1) = (1,1,1)", (f.half_turn)(&ones), ones));
     steps
 }

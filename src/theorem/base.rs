@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use super::setting::{
-    P, Setting, above, above_floor, int, last_layer, sum_over_base, sum_over_pile, symbol,
+    P, Setting, above, above_floor, equations, int, last_layer, sum_over_base, sum_over_pile,
+    symbol,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::geometry::Vector;
@@ -111,14 +112,10 @@ fn base_normal(f: &Formulas) -> Vec<Step> {
     let (l, j, s) = (symbol("L"), symbol("j"), symbol("s"));
     let claimed = int(2) * &(int(1) + &s) + &(l.clone() - &int(1) - &j) + &(int(2) * &s * &j);
     let equilateral = on_floor(f, &Setting::equilateral(f)).z;
-    Vec::from([
-        Step::equal(
-            "the normal force on the floor, in mg/W",
-            on_floor(f, &setting).z,
-            claimed,
-        ),
-        Step::equal("for s = 1/2, in mg/3", equilateral, l + &int(2)),
-    ])
+    equations! {
+        "the normal force on the floor, in mg/W": on_floor(f, &setting).z => claimed,
+        "for s = 1/2, in mg/3": equilateral => l + &int(2),
+    }
 }
 
 fn uniform_base(f: &Formulas) -> Vec<Step> {
@@ -134,56 +131,41 @@ fn uniform_base(f: &Formulas) -> Vec<Step> {
     // Not a default: not divisible at all, it shows as a step that fails.
     let quotient = difference.divide_exactly(&factor).unwrap_or_else(P::zero);
     let at_half = difference.substitute(Symbol("s"), &super::setting::half());
-    Vec::from([
-        Step::equal(
-            "difference of two normal forces",
-            difference,
-            factor * &rows,
-        ),
-        Step::equal("s = 1/2: no difference", at_half, P::zero()),
-        Step::equal("divided by 2s−1", quotient.clone(), rows),
-        Step::different(
-            "other s: not zero for spheres of different rows",
-            quotient,
-            P::zero(),
-        ),
-    ])
+    let mut steps = equations! {
+        "difference of two normal forces": difference => factor * &rows,
+        "s = 1/2: no difference": at_half => P::zero(),
+        "divided by 2s−1": quotient.clone() => rows,
+    };
+    let claim = "other s: not zero for spheres of different rows";
+    steps.push(Step::different(claim, quotient, P::zero()));
+    steps
 }
 
 fn weight(f: &Formulas) -> Vec<Step> {
     let setting = Setting::isosceles(f);
     let total = sum_over_base(&on_floor(f, &setting).z);
     let spheres = (f.spheres)(&symbol("L"), 3);
-    Vec::from([Step::equal(
-        "ΣF_z = W·spheres, in mg/W",
-        total,
-        spheres * &setting.weight,
-    )])
+    equations! {
+        "ΣF_z = W·spheres, in mg/W": total => spheres * &setting.weight,
+    }
 }
 
 fn shear(f: &Formulas) -> Vec<Step> {
     let force = on_floor(f, &Setting::equilateral(f));
     let [i, j] = ["i", "j"].map(symbol);
-    Vec::from([
-        Step::equal(
-            "2F_x = −(L−1−3j)",
-            force.x * &int(2),
-            int(3) * &j - &last_layer(),
-        ),
-        Step::equal(
-            "2F_y = −(L−1−2i−j), with √3 in the unit",
-            force.y * &int(2),
-            int(2) * &i + &j - &last_layer(),
-        ),
-    ])
+    equations! {
+        "2F_x = −(L−1−3j)": force.x * &int(2) => int(3) * &j - &last_layer(),
+        "2F_y = −(L−1−2i−j), with √3 in the unit":
+            force.y * &int(2) => int(2) * &i + &j - &last_layer(),
+    }
 }
 
 fn total_shear(f: &Formulas) -> Vec<Step> {
     let force = on_floor(f, &Setting::isosceles(f));
-    Vec::from([
-        Step::equal("ΣF_x = 0", sum_over_base(&force.x), P::zero()),
-        Step::equal("ΣF_y = 0", sum_over_base(&force.y), P::zero()),
-    ])
+    equations! {
+        "ΣF_x = 0": sum_over_base(&force.x) => P::zero(),
+        "ΣF_y = 0": sum_over_base(&force.y) => P::zero(),
+    }
 }
 
 fn total_moment(f: &Formulas) -> Vec<Step> {
@@ -192,23 +174,13 @@ fn total_moment(f: &Formulas) -> Vec<Step> {
     let at = (f.position)(&above_floor(f), &setting.directions);
     let sphere = (f.position)(&above(f), &setting.directions);
     let about_axis = at.x.clone() * &force.y - &(at.y.clone() * &force.x);
-    let lever = |x: &P, at: &P| {
-        (
-            sum_over_base(&(force.z.clone() * at)),
-            sum_over_pile(x) * &setting.weight,
-        )
-    };
-    let (floor_x, weights_x) = lever(&sphere.x, &at.x);
-    let (floor_y, weights_y) = lever(&sphere.y, &at.y);
-    Vec::from([
-        Step::equal(
-            "Σ(x F_y − y F_x) = 0",
-            sum_over_base(&about_axis),
-            P::zero(),
-        ),
-        Step::equal("ΣF_z x = Σ mg x", floor_x, weights_x),
-        Step::equal("ΣF_z y = Σ mg y", floor_y, weights_y),
-    ])
+    let floor = |lever: &P| sum_over_base(&(force.z.clone() * lever));
+    let weights = |lever: &P| sum_over_pile(lever) * &setting.weight;
+    equations! {
+        "Σ(x F_y − y F_x) = 0": sum_over_base(&about_axis) => P::zero(),
+        "ΣF_z x = Σ mg x": floor(&at.x) => weights(&sphere.x),
+        "ΣF_z y = Σ mg y": floor(&at.y) => weights(&sphere.y),
+    }
 }
 
 fn second_moment(f: &Formulas) -> Vec<Step> {
@@ -219,11 +191,11 @@ fn second_moment(f: &Formulas) -> Vec<Step> {
     // H = (L−1−k)·2R cosθ, so H² tan²θ is (L−1−k)² in (2R sinθ)².
     let height = last_layer() - &symbol("k");
     let spheres = setting.horizontal_square(&sphere) + &(height.clone() * &height);
-    Vec::from([Step::equal(
-        "ΣF_z r_b² = W·Σ(r_s² + (L−1−k)²), in mg/W·(2R sinθ)²",
-        sum_over_base(&(normal * &setting.horizontal_square(&at))),
-        sum_over_pile(&spheres) * &setting.weight,
-    )])
+    let moments = normal * &setting.horizontal_square(&at);
+    equations! {
+        "ΣF_z r_b² = W·Σ(r_s² + (L−1−k)²), in mg/W·(2R sinθ)²":
+            sum_over_base(&moments) => sum_over_pile(&spheres) * &setting.weight,
+    }
 }
 
 fn shear_on_axis(f: &Formulas) -> Vec<Step> {
@@ -233,34 +205,22 @@ fn shear_on_axis(f: &Formulas) -> Vec<Step> {
     let [i, j, n] = ["i", "j", "n"].map(symbol);
     let [from_i, from_j] = [i.clone() - &n, j.clone() - &n];
     let twice = force.clone().map(|part| part * &int(2));
-    let mut steps = Vec::from([
-        Step::equal(
-            "twice x is 3j − (L−1)",
-            at.x.clone() * &int(2),
-            int(3) * &j - &last_layer(),
-        ),
-        Step::equal(
-            "twice y is 2i+j − (L−1)",
-            at.y.clone() * &int(2),
-            int(2) * &i + &j - &last_layer(),
-        ),
-        Step::equal("F_x = x", force.x, at.x),
-        Step::equal("F_y = y", force.y, at.y),
-    ]);
+    let mut steps = equations! {
+        "twice x is 3j − (L−1)": at.x.clone() * &int(2) => int(3) * &j - &last_layer(),
+        "twice y is 2i+j − (L−1)": at.y.clone() * &int(2) => int(2) * &i + &j - &last_layer(),
+        "F_x = x": force.x => at.x,
+        "F_y = y": force.y => at.y,
+    };
     for p in 0..3 {
         let layers = int(3) * &n + &int(p + 1);
         let [along_x, along_y] =
             [&twice.x, &twice.y].map(|part| part.substitute(Symbol("L"), &layers));
-        steps.push(Step::equal(
-            format!("L−1 = 3n+{p}: along x, 3(j−n) − {p}"),
-            along_x,
-            int(3) * &from_j - &int(p),
-        ));
-        steps.push(Step::equal(
-            format!("L−1 = 3n+{p}: along y, 2(i−n) + (j−n) − {p}"),
-            along_y,
-            int(2) * &from_i + &from_j - &int(p),
-        ));
+        steps.extend(equations! {
+            (format!("L−1 = 3n+{p}: along x, 3(j−n) − {p}")):
+                along_x => int(3) * &from_j - &int(p),
+            (format!("L−1 = 3n+{p}: along y, 2(i−n) + (j−n) − {p}")):
+                along_y => int(2) * &from_i + &from_j - &int(p),
+        });
     }
     steps
 }
@@ -272,18 +232,11 @@ fn shear_ratio(f: &Formulas) -> Vec<Step> {
     let (last, zero) = (last_layer(), P::zero());
     let square = last.clone() * &last;
     let pairs = a.clone() * &b + &(b * &c) + &(c * &a);
-    let mut steps = Vec::from([
-        Step::equal(
-            "(L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α)",
-            square.clone() - &setting.horizontal_square(&force),
-            int(3) * &pairs,
-        ),
-        Step::equal(
-            "the normal force is L+2 everywhere",
-            force.z,
-            symbol("L") + &int(2),
-        ),
-    ]);
+    let mut steps = equations! {
+        "(L−1)² − |shear|² = 3(N_αN_β + N_βN_γ + N_γN_α)":
+            square.clone() - &setting.horizontal_square(&force) => int(3) * &pairs,
+        "the normal force is L+2 everywhere": force.z => symbol("L") + &int(2),
+    };
     let corners = [(&zero, &zero), (&last, &zero), (&zero, &last)];
     for (direction, (i, j)) in Direction::ALL.into_iter().zip(corners) {
         let there = setting.handed_on(f, &(f.above)(i, j, &last));

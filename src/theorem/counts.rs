@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::setting::{
-    P, above, int, last_layer, sum_off_floor, sum_over_layer, sum_over_pile, symbol,
+    P, above, equations, int, last_layer, sum_off_floor, sum_over_layer, sum_over_pile, symbol,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::lattice::{Direction, Sign};
@@ -68,11 +68,8 @@ fn counts(f: &Formulas) -> Vec<Step> {
     let zero = P::zero();
     let mut steps = Vec::new();
     for (name, n) in names.iter().zip((f.above)(&zero, &zero, &zero)) {
-        steps.push(Step::equal(
-            format!("base case: {name}(0, 0, 0) = 0"),
-            n,
-            zero.clone(),
-        ));
+        let claim = format!("base case: {name}(0, 0, 0) = 0");
+        steps.push(Step::equal(claim, n, zero.clone()));
     }
     for (line, direction) in Direction::ALL.into_iter().enumerate() {
         let [di, dj] = (f.descent)(Sign::Plus, direction).map(int);
@@ -109,34 +106,23 @@ fn rotation(f: &Formulas) -> Vec<Step> {
     let [i, j, k] = ["i", "j", "k"].map(symbol);
     let [n_alpha, n_beta, n_gamma] = above(f);
     let image = (f.above)(&j, &(k.clone() - &i - &j), &k);
-    let carried = [
-        ("N_α of the image is N_β", n_beta),
-        ("N_β of the image is N_γ", n_gamma),
-        ("N_γ of the image is N_α", n_alpha),
-    ];
-    let carried = carried.into_iter().zip(image);
-    carried
-        .map(|((claim, right), left)| Step::equal(claim, left, right))
-        .collect()
+    let [alpha, beta, gamma] = image;
+    equations! {
+        "N_α of the image is N_β": alpha => n_beta,
+        "N_β of the image is N_γ": beta => n_gamma,
+        "N_γ of the image is N_α": gamma => n_alpha,
+    }
 }
 
 fn spheres(f: &Formulas) -> Vec<Step> {
     let (l, k) = (symbol("L"), symbol("k"));
     let one = P::one();
     let cubic = l.clone() * &(l.clone() + &one) * &(l.clone() + &int(2));
-    Vec::from([
-        Step::equal(
-            "Σ 1 over layer k is (k+1)(k+2)/2",
-            sum_over_layer(&one, &k),
-            (f.spheres_in_layer)(&k, 3),
-        ),
-        Step::equal("Σ 1 over the pile", sum_over_pile(&one), (f.spheres)(&l, 3)),
-        Step::equal(
-            "six times that is L(L+1)(L+2)",
-            (f.spheres)(&l, 3) * &int(6),
-            cubic,
-        ),
-    ])
+    equations! {
+        "Σ 1 over layer k is (k+1)(k+2)/2": sum_over_layer(&one, &k) => (f.spheres_in_layer)(&k, 3),
+        "Σ 1 over the pile": sum_over_pile(&one) => (f.spheres)(&l, 3),
+        "six times that is L(L+1)(L+2)": (f.spheres)(&l, 3) * &int(6) => cubic,
+    }
 }
 
 fn contacts(f: &Formulas) -> Vec<Step> {
@@ -166,23 +152,11 @@ fn contacts(f: &Formulas) -> Vec<Step> {
     let below = Direction::ALL
         .iter()
         .fold(P::zero(), |sum, _| sum + &sum_off_floor(&P::one()));
-    steps.extend([
-        Step::equal(
-            "Σ over the spheres off the floor of the contacts below",
-            below,
-            (f.contacts)(&l, 3),
-        ),
-        Step::equal(
-            "Σ over all spheres of the contacts above",
-            in_all,
-            (f.contacts)(&l, 3),
-        ),
-        Step::equal(
-            "twice that is L(L−1)(L+1)",
-            (f.contacts)(&l, 3) * &int(2),
-            closed,
-        ),
-    ]);
+    steps.extend(equations! {
+        "Σ over the spheres off the floor of the contacts below": below => (f.contacts)(&l, 3),
+        "Σ over all spheres of the contacts above": in_all => (f.contacts)(&l, 3),
+        "twice that is L(L−1)(L+1)": (f.contacts)(&l, 3) * &int(2) => closed,
+    });
     steps
 }
 
@@ -196,47 +170,22 @@ fn strengths(f: &Formulas) -> Vec<Step> {
     let counted = row.sum(Symbol("k"), &j, &(last_layer() - &P::one()));
     let over_n = |p: P| p.sum(Symbol("n"), &P::one(), &last_layer());
     let total = over_n(count.clone() * &n);
-    let binomial = [
-        l.clone() + &int(2),
-        l.clone() + &int(1),
-        l.clone(),
-        l.clone() - &int(1),
-    ]
-    .iter()
-    .fold(P::one(), |product, factor| product * factor);
+    let factors = [2, 1, 0, -1].map(|more| l.clone() + &int(more));
+    let binomial = factors
+        .iter()
+        .fold(P::one(), |product, factor| product * factor);
     // Σ over the contacts themselves: (N_γ + 1) over the spheres off the floor.
     let [_, _, gamma] = above(f);
     let by_contact = sum_off_floor(&(gamma + &P::one()));
-    Vec::from([
-        Step::equal(
-            "the spheres with N_γ = n−1 off the floor",
-            counted,
-            count.clone(),
-        ),
-        Step::equal(
-            "Σ over n counts every contact of the direction",
-            over_n(count.clone()) * &int(3),
-            (f.contacts)(&l, 3),
-        ),
-        Step::equal(
-            "Σ of strengths, by n and by contact",
-            total.clone(),
-            by_contact,
-        ),
-        Step::equal(
-            "24 Σ n is (L+2)(L+1)L(L−1)",
-            total.clone() * &int(24),
-            binomial,
-        ),
-        Step::equal(
-            "the mean is (L+2)/4",
-            total.clone() * &int(4),
-            over_n(count.clone()) * &(l.clone() + &int(2)),
-        ),
-        Step::equal(
-            "5 Σ n² = (2L+1) Σ n",
-            over_n(count * &n * &n) * &int(5),
-            total * &(l * &int(2) + &int(1)),
-        ),
-    ])
+    equations! {
+        "the spheres with N_γ = n−1 off the floor": counted => count.clone(),
+        "Σ over n counts every contact of the direction":
+            over_n(count.clone()) * &int(3) => (f.contacts)(&l, 3),
+        "Σ of strengths, by n and by contact": total.clone() => by_contact,
+        "24 Σ n is (L+2)(L+1)L(L−1)": total.clone() * &int(24) => binomial,
+        "the mean is (L+2)/4":
+            total.clone() * &int(4) => over_n(count.clone()) * &(l.clone() + &int(2)),
+        "5 Σ n² = (2L+1) Σ n":
+            over_n(count * &n * &n) * &int(5) => total * &(l * &int(2) + &int(1)),
+    }
 }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, int, last_layer, symbol};
+use super::setting::{P, Setting, equations, int, last_layer, nothing_left, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::scalar::Symbol;
 
@@ -43,32 +43,14 @@ fn discs(f: &Formulas) -> Vec<Step> {
     let force = setting.handed_on(f, &floor);
     let over_base = |p: &P| p.sum(Symbol("i"), &P::zero(), &last_layer());
     let total = over_base(&force.z);
-    let mut steps: Vec<Step> = ["x", "y", "z"]
-        .into_iter()
-        .zip(left.into_array())
-        .map(|(axis, left)| {
-            Step::equal(
-                format!("{axis}: what is left of all forces is 0"),
-                left,
-                P::zero(),
-            )
-        })
-        .collect();
-    steps.extend([
-        Step::equal("normal force, in mg/2", force.z, l.clone() + &int(1)),
-        Step::equal(
-            "shear, in mg tanθ/2",
-            force.x.clone(),
-            int(2) * &i - &last_layer(),
-        ),
-        Step::equal("no force across the plane", force.y, P::zero()),
-        Step::equal(
-            "ΣF_z = 2·discs, in mg/2",
-            total,
-            (f.spheres)(&l, 2) * &int(2),
-        ),
-        Step::equal("ΣF_x = 0", over_base(&force.x), P::zero()),
-    ]);
+    let mut steps = nothing_left("what is left of all forces is 0", left);
+    steps.extend(equations! {
+        "normal force, in mg/2": force.z => l.clone() + &int(1),
+        "shear, in mg tanθ/2": force.x.clone() => int(2) * &i - &last_layer(),
+        "no force across the plane": force.y => P::zero(),
+        "ΣF_z = 2·discs, in mg/2": total => (f.spheres)(&l, 2) * &int(2),
+        "ΣF_x = 0": over_base(&force.x) => P::zero(),
+    });
     steps
 }
 
@@ -99,11 +81,10 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
         .map(|(g, w)| (f.passed_on)(g.clone(), w) - &g)
         .collect();
     let vertical = added.iter().fold(P::zero(), |sum, more| sum + more);
-    steps.push(Step::equal(
-        claim("what the supports push more than the spheres above is the weight"),
-        vertical,
-        weight.clone(),
-    ));
+    steps.extend(equations! {
+        (claim("what the supports push more than the spheres above is the weight")):
+            vertical => weight.clone(),
+    });
     // d times the horizontal part of a direction in d coordinates that sum to zero: d−1 along its own, −1 along the others.
     for coordinate in 0..own.len() {
         let components = added.iter().enumerate().map(|(line, more)| {
@@ -115,10 +96,10 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
             part * more
         });
         let sideways = components.fold(P::zero(), |sum, part| sum + &part);
-        let claim = claim(&format!(
-            "no push to the side, coordinate {}",
+        let claim = format!(
+            "d = {d}: no push to the side, coordinate {}",
             coordinate + 1
-        ));
+        );
         steps.push(Step::equal(claim, sideways, P::zero()));
     }
     // The last count is what the others leave of L−1.
@@ -128,30 +109,21 @@ fn in_dimension(f: &Formulas, d: u32, steps: &mut Vec<Step>) {
         *first = last_layer() - &others;
     }
     for (n, w) in counts.iter().zip(&own) {
-        steps.push(Step::equal(
-            claim("what is passed on is received below"),
-            (f.passed_on)((f.force)(n.clone(), w), w),
-            (f.force)(n.clone() + &P::one(), w),
-        ));
+        steps.extend(equations! {
+            (claim("what is passed on is received below")):
+                (f.passed_on)((f.force)(n.clone(), w), w) => (f.force)(n.clone() + &P::one(), w),
+        });
     }
     let normal = l.clone() + &(dimension.clone() - &int(1));
-    let above = counts
-        .iter()
-        .zip(&own)
-        .map(|(n, w)| (f.force)(n.clone(), w));
-    steps.push(Step::equal(
-        claim("normal force, in mg/d, is L+d−1"),
-        above.fold(weight, |sum, force| sum + &force),
-        normal.clone(),
-    ));
-    steps.push(Step::equal(
-        claim("Σ over the layers of their spheres"),
-        (f.spheres_in_layer)(&k, d).sum(Symbol("k"), &P::zero(), &last_layer()),
-        (f.spheres)(&l, d),
-    ));
-    steps.push(Step::equal(
-        claim("ΣF_z = weight, in mg/d"),
-        normal * &(f.spheres_in_layer)(&last_layer(), d),
-        (f.spheres)(&l, d) * &dimension,
-    ));
+    let above = counts.iter().zip(&own);
+    let above = above.map(|(n, w)| (f.force)(n.clone(), w));
+    let over_layers = |p: P| p.sum(Symbol("k"), &P::zero(), &last_layer());
+    steps.extend(equations! {
+        (claim("normal force, in mg/d, is L+d−1")):
+            above.fold(weight, |sum, force| sum + &force) => normal.clone(),
+        (claim("Σ over the layers of their spheres")):
+            over_layers((f.spheres_in_layer)(&k, d)) => (f.spheres)(&l, d),
+        (claim("ΣF_z = weight, in mg/d")):
+            normal * &(f.spheres_in_layer)(&last_layer(), d) => (f.spheres)(&l, d) * &dimension,
+    });
 }

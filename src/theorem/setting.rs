@@ -131,6 +131,30 @@ pub(super) fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Ve
         .collect()
 }
 
+/// One step for each component: nothing is left over.
+pub(super) fn nothing_left(claim: &str, left: Vector<P>) -> Vec<Step> {
+    by_component(claim, left, Vector::zero())
+}
+
+/// One step for each of three lines.
+pub(super) fn by_line(claim: &str, left: [P; 3], right: [P; 3]) -> impl Iterator<Item = Step> {
+    let sides = left.into_iter().zip(right);
+    sides.map(move |(left, right)| Step::equal(claim, left, right))
+}
+
+/// The steps that say `claim: left => right`, the two sides being the same polynomial. A claim is a literal, or a text in
+/// parentheses.
+macro_rules! equations {
+    ($($claim:literal: $left:expr => $right:expr),+ $(,)?) => {
+        equations! { $(($claim): $left => $right),+ }
+    };
+    ($(($claim:expr): $left:expr => $right:expr),+ $(,)?) => {
+        Vec::from([$(Step::equal($claim, $left, $right)),+])
+    };
+}
+
+pub(super) use equations;
+
 /// The counts of spheres above (i, j, k), all symbols.
 pub(super) fn above(f: &Formulas) -> [P; 3] {
     (f.above)(&symbol("i"), &symbol("j"), &symbol("k"))

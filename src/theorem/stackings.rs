@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::{One, Zero};
 
-use super::setting::{P, Setting, by_component, int, passed_on, symbol};
+use super::setting::{P, Setting, by_line, equations, int, nothing_left, passed_on, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
 use crate::formula::THREE;
 use crate::geometry::Vector;
@@ -157,10 +157,11 @@ fn region_counts(f: &Formulas) -> Vec<Step> {
     let bounds = (f.bounds_above)(&i, &j, &none, &all, &k, Sign::Plus);
     let counts = (f.above)(&i, &j, &k);
     let (sum, rest) = (i.clone() + &j, k - &i - &j);
+    let [rest_i, rest_j] = [&i, &j].map(|index| rest.clone() + index);
     let more = [
         [sum.clone(), j.clone(), i.clone(), P::zero()],
-        [sum_of(&rest, &j), P::zero(), rest.clone(), j],
-        [sum_of(&rest, &i), P::zero(), rest, i],
+        [rest_j, P::zero(), rest.clone(), j],
+        [rest_i, P::zero(), rest, i],
     ];
     let lines = Direction::ALL.into_iter().zip(bounds).zip(counts).zip(more);
     for (((direction, bounds), count), more) in lines {
@@ -173,37 +174,24 @@ fn region_counts(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-fn sum_of(a: &P, b: &P) -> P {
-    a.clone() + b
-}
-
 fn run(f: &Formulas) -> Vec<Step> {
     let (force, m, extra) = (symbol("f"), symbol("m"), symbol("e"));
     let increments = (f.increments)(&symbol("s"));
     let mut steps = Vec::new();
     for (direction, w) in Direction::ALL.into_iter().zip(&increments) {
-        let after = |m: P| (f.passed_on)(force.clone(), &(f.force)(m, w));
-        let claim = format!("base case along {direction}: f after no sphere");
-        steps.push(Step::equal(claim, after(P::zero()), force.clone()));
-        let claim = format!("step along {direction}: an increment more after one sphere more");
-        steps.push(Step::equal(
-            claim,
-            after(m.clone() + &P::one()),
-            (f.passed_on)(after(m.clone()), w),
-        ));
-        let claim = format!("along {direction}: f + m w after m spheres");
-        let sum = force.clone() + &(m.clone() * w);
-        steps.push(Step::equal(claim, after(m.clone()), sum));
-        let claim = format!("along {direction}: e before m spheres, or after");
-        let before = (f.passed_on)(
-            (f.passed_on)(force.clone(), &extra),
-            &(f.force)(m.clone(), w),
-        );
-        steps.push(Step::equal(
-            claim,
-            before,
-            (f.passed_on)(after(m.clone()), &extra),
-        ));
+        let passed_on = |force: &P, m: P| (f.passed_on)(force.clone(), &(f.force)(m, w));
+        let after = |m: P| passed_on(&force, m);
+        let with_extra = (f.passed_on)(force.clone(), &extra);
+        steps.extend(equations! {
+            (format!("base case along {direction}: f after no sphere")):
+                after(P::zero()) => force.clone(),
+            (format!("step along {direction}: an increment more after one sphere more")):
+                after(m.clone() + &P::one()) => (f.passed_on)(after(m.clone()), w),
+            (format!("along {direction}: f + m w after m spheres")):
+                after(m.clone()) => force.clone() + &(m.clone() * w),
+            (format!("along {direction}: e before m spheres, or after")):
+                passed_on(&with_extra, m.clone()) => (f.passed_on)(after(m.clone()), &extra),
+        });
     }
     steps
 }
@@ -216,8 +204,8 @@ fn tripled(f: &Formulas) -> Vec<Step> {
     ];
     let mut steps = Vec::new();
     for (claim, tripled) in ways {
-        let sides = tripled.into_iter().zip((f.half_turn)(&g));
-        steps.extend(sides.map(|(left, turned)| Step::equal(claim, left, turned * &int(3))));
+        let turned = (f.half_turn)(&g).map(|part| part * &int(3));
+        steps.extend(by_line(claim, tripled, turned));
     }
     steps
 }
@@ -234,7 +222,7 @@ fn change_of_sign(f: &Formulas) -> Vec<Step> {
         ("from − to +, nothing remains", &minus, &plus),
     ] {
         let left = (f.unbalanced)(&to_below, below, &g, above, &weight);
-        steps.extend(by_component(claim, left, Vector::zero()));
+        steps.extend(nothing_left(claim, left));
     }
     steps
 }
@@ -277,25 +265,21 @@ fn edge(f: &Formulas) -> Vec<Step> {
         let w = &setting.increments[line];
         let received = (f.passed_on)(force.clone(), &(f.force)(m.clone() - &P::one(), w));
         let sum = force.clone() + &m - &P::one();
-        let claim = format!("{direction}: f + m − 1 at the end of the run");
-        steps.push(Step::equal(claim, received.clone(), sum.clone()));
         let mut g = [P::zero(), P::zero(), P::zero()];
-        g[line] = received;
+        g[line] = received.clone();
         let passed = passed_on(f, (f.half_turn)(&g), &setting.increments);
         let passed = passed[line].clone();
-        let claim = format!("{direction}: 1 − (f+m−1)/3 passed on");
-        steps.push(Step::equal(
-            claim,
-            passed.clone(),
-            P::one() - &sum.div_int(THREE),
-        ));
-        let tripled = passed * &int(3);
-        let claim = format!("{direction}: three times that is 4 − f − m");
-        steps.push(Step::equal(claim, tripled.clone(), int(4) - &force - &m));
+        let tripled = passed.clone() * &int(3);
         let p = symbol("p");
         let long = tripled.substitute(Symbol("m"), &(int(5) + &p));
-        let claim = format!("{direction}: −(1+f+p) with m = 5+p");
-        steps.push(Step::equal(claim, long, -(P::one() + &force + &p)));
+        steps.extend(equations! {
+            (format!("{direction}: f + m − 1 at the end of the run")): received => sum.clone(),
+            (format!("{direction}: 1 − (f+m−1)/3 passed on")):
+                passed => P::one() - &sum.div_int(THREE),
+            (format!("{direction}: three times that is 4 − f − m")):
+                tripled => int(4) - &force - &m,
+            (format!("{direction}: −(1+f+p) with m = 5+p")): long => -(P::one() + &force + &p),
+        });
     }
     steps
 }
@@ -320,28 +304,14 @@ fn horizontal([x, y]: [P; 2]) -> Vector<P> {
 fn first_layer(increments: &[P; 3], name: &str, down: &[Vector<P>; 3]) -> Vec<Step> {
     let third = P::one().div_int(THREE);
     let v = increments.clone().map(|w| w.div_int(THREE));
-    let claims = [
-        ("Σv = 1", sum(&v, |_| P::one()), P::one()),
-        ("Σv² = 1/3", sum(&v, |line| v[line].clone()), third),
-        (
-            "Σv r along x = 0",
-            sum(&v, |line| down[line].x.clone()),
-            P::zero(),
-        ),
-        (
-            "Σv r along y = 0",
-            sum(&v, |line| down[line].y.clone()),
-            P::zero(),
-        ),
-        (
-            "Σv r² = ρ²",
-            sum(&v, |line| dot(&down[line], &down[line])),
-            P::one(),
-        ),
-    ];
-    let step =
-        |(claim, left, right)| Step::equal(format!("first layer, {name}: {claim}"), left, right);
-    claims.map(step).into()
+    let at = |claim: &str| format!("first layer, {name}: {claim}");
+    equations! {
+        (at("Σv = 1")): sum(&v, |_| P::one()) => P::one(),
+        (at("Σv² = 1/3")): sum(&v, |line| v[line].clone()) => third,
+        (at("Σv r along x = 0")): sum(&v, |line| down[line].x.clone()) => P::zero(),
+        (at("Σv r along y = 0")): sum(&v, |line| down[line].y.clone()) => P::zero(),
+        (at("Σv r² = ρ²")): sum(&v, |line| dot(&down[line], &down[line])) => P::one(),
+    }
 }
 
 fn point_load(f: &Formulas) -> Vec<Step> {
@@ -374,51 +344,30 @@ fn point_load(f: &Formulas) -> Vec<Step> {
             };
             let (whole, c) = (sum(&g, |_| P::one()), sum(&g, |line| dot(&r, &from[line])));
             let lower = |line: usize| r.clone() + &to[line];
-            let claims = [
-                ("Σv stays", sum(&passed, |_| P::one()), whole.clone()),
-                (
-                    "Σv² stays",
-                    sum(&passed, |line| passed[line].clone()),
-                    sum(&g, |line| g[line].clone()),
-                ),
-                (
-                    "Σv d along x stays",
-                    sum(&passed, |line| to[line].x.clone()),
-                    sum(&g, |line| from[line].x.clone()),
-                ),
-                (
-                    "Σv d along y stays",
-                    sum(&passed, |line| to[line].y.clone()),
-                    sum(&g, |line| from[line].y.clone()),
-                ),
-                (
-                    "C grows by ρ²Σv",
-                    sum(&passed, |line| dot(&lower(line), &to[line])),
-                    c.clone() + &whole,
-                ),
-                (
-                    "Σv r² grows by 2C + ρ²Σv",
-                    sum(&passed, |line| dot(&lower(line), &lower(line))),
-                    sum(&g, |_| dot(&r, &r)) + &(int(2) * &c) + &whole,
-                ),
-            ];
+            let at = |claim: &str| format!("{above} above, {below} below: {claim}");
+            let claims = equations! {
+                (at("Σv stays")): sum(&passed, |_| P::one()) => whole.clone(),
+                (at("Σv² stays")):
+                    sum(&passed, |line| passed[line].clone()) => sum(&g, |line| g[line].clone()),
+                (at("Σv d along x stays")):
+                    sum(&passed, |line| to[line].x.clone()) => sum(&g, |line| from[line].x.clone()),
+                (at("Σv d along y stays")):
+                    sum(&passed, |line| to[line].y.clone()) => sum(&g, |line| from[line].y.clone()),
+                (at("C grows by ρ²Σv")):
+                    sum(&passed, |line| dot(&lower(line), &to[line])) => c.clone() + &whole,
+                (at("Σv r² grows by 2C + ρ²Σv")):
+                    sum(&passed, |line| dot(&lower(line), &lower(line)))
+                        => sum(&g, |_| dot(&r, &r)) + &(int(2) * &c) + &whole,
+            };
             // Where the sign does not change, sums of the same terms say nothing.
             let kept = if above == below { 4 } else { 0 };
-            steps.extend(claims.into_iter().skip(kept).map(|(claim, left, right)| {
-                Step::equal(
-                    format!("{above} above, {below} below: {claim}"),
-                    left,
-                    right,
-                )
-            }));
+            steps.extend(claims.into_iter().skip(kept));
         }
     }
     let h = ["h_1", "h_2", "h_3"].map(symbol);
     let both = passed_on(f, g.clone(), &h);
     let turned = passed_on(f, (f.half_turn)(&g), &(f.half_turn)(&h));
-    let sides = (f.half_turn)(&both).into_iter().zip(turned);
-    steps.extend(
-        sides.map(|(left, right)| Step::equal("G(g+h) = Gg + Gh, for two loads", left, right)),
-    );
+    let claim = "G(g+h) = Gg + Gh, for two loads";
+    steps.extend(by_line(claim, (f.half_turn)(&both), turned));
     steps
 }

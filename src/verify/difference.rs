@@ -61,10 +61,11 @@ impl Difference {
     }
 
     /// The vectors, measured and exact, if they differ by more than the magnitudes do.
-    fn vectors(&self) -> Option<([f64; 3], [f64; 3])> {
+    fn vectors(&self) -> Option<[(f64, f64, f64); 2]> {
         let measured = self.measured?;
-        let vectors = measured.vector.zip(self.exact_vector)?;
-        (distance(vectors.0, vectors.1) > (measured.force - self.exact).abs()).then_some(vectors)
+        let (vector, exact) = measured.vector.zip(self.exact_vector)?;
+        let differ = distance(vector, exact) > (measured.force - self.exact).abs();
+        differ.then_some([vector, exact].map(Into::into))
     }
 }
 
@@ -80,11 +81,9 @@ impl fmt::Display for Difference {
         let exact = self.exact;
         match (self.measured, self.vectors()) {
             (None, _) => write!(f, "not measured, exact {exact:?} N"),
-            (Some(_), Some((measured, exact))) => write!(
+            (Some(_), Some([measured, exact])) => write!(
                 f,
-                "measured {} N on the upper one, exact {} N",
-                Components(measured),
-                Components(exact)
+                "measured {measured:?} N on the upper one, exact {exact:?} N"
             ),
             (Some(measured), None) => {
                 write!(f, "measured {:?} N, exact {exact:?} N", measured.force)
@@ -117,15 +116,5 @@ impl fmt::Display for Place {
             Dimension::Two => Ok(()),
             Dimension::Three => write!(f, ", j={j}"),
         }
-    }
-}
-
-/// `(0.1, 0.2, -0.3)`.
-struct Components([f64; 3]);
-
-impl fmt::Display for Components {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0;
-        write!(f, "({x:?}, {y:?}, {z:?})")
     }
 }

@@ -194,7 +194,7 @@ impl fmt::Display for Fault {
             Self::Encoding => f.write_str("not a text: write it in UTF-8"),
             Self::LongLine { limit } => write!(
                 f,
-                "longer than {limit} bytes: is this a table with one contact a line?"
+                "longer than {limit} bytes: is this a table with one contact per line?"
             ),
             Self::Dump { error } => error.fmt(f),
             Self::Truncated { announced, found } => write!(

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use num_rational::BigRational;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::comparison::Comparison;
 use super::difference::{Difference, Extra};
@@ -103,76 +103,48 @@ impl<'c> Report<'c> {
             FileFormat::Csv => self.table().write(format, NumberFormat::F64, out),
             FileFormat::Text => {
                 self.table().write(format, NumberFormat::F64, out)?;
-                let comparison = self.comparison;
+                let (comparison, pairs) = (self.comparison, self.extra_pairs());
                 let missing = comparison.missing_contacts();
                 list("missing", missing, comparison.missing(), out)?;
-                list(
-                    "extra",
-                    self.extra_pairs(),
-                    comparison.extra(self.accept),
-                    out,
-                )
+                list("extra", pairs, comparison.extra(self.accept), out)
             }
         }
     }
 
     fn table(self) -> Table<'static> {
         let Self { comparison, accept } = self;
-        let accepted = if comparison.accepted(accept) {
-            "yes"
-        } else {
-            "no"
-        };
+        let accepted = comparison.accepted(accept);
         let worst = comparison.worst().map(ToString::to_string);
         let worst = worst.map_or(Cell::Missing, |words| Cell::Word(words.into()));
         let count = |name, count: u64, meaning| (said(name, meaning), Cell::Integer(count.into()));
         let error = |name, error: f64, meaning| (Column::measured(name, meaning), float(error));
+        let measured = "contacts that were measured";
+        let not_measured = "contacts with a force that were not";
+        let other = "other pairs with a force over accept times the largest";
+        let lesser = "other pairs with a lesser force";
+        let fixed = "pairs of the bottom layer, which are not judged";
         let relative = "of the exact force, of the largest one where that is 0";
+        let beyond = "contacts with an error over accept";
+        let times = "times the exact force is every one that was measured";
         let factor = comparison.common_factor(accept);
+        let factor = factor.map_or(Cell::Missing, float);
         Table::record(vec![
-            (Column::plain("accepted"), accepted.into()),
+            (
+                Column::plain("accepted"),
+                if accepted { "yes" } else { "no" }.into(),
+            ),
             error("accept", accept, ""),
             count("contacts", comparison.contacts(), ""),
-            count(
-                "matched",
-                comparison.matched(),
-                "contacts that were measured",
-            ),
-            count(
-                "missing",
-                comparison.missing(),
-                "contacts with a force that were not",
-            ),
-            count(
-                "extra",
-                comparison.extra(accept),
-                "other pairs with a force over accept times the largest",
-            ),
-            count(
-                "noise",
-                comparison.noise(accept),
-                "other pairs with a lesser force",
-            ),
-            count(
-                "fixed",
-                comparison.fixed(),
-                "pairs of the bottom layer, which are not judged",
-            ),
+            count("matched", comparison.matched(), measured),
+            count("missing", comparison.missing(), not_measured),
+            count("extra", comparison.extra(accept), other),
+            count("noise", comparison.noise(accept), lesser),
+            count("fixed", comparison.fixed(), fixed),
             error("largest_error", comparison.largest_error(), relative),
             error("rms_error", comparison.rms_error(), relative),
             (Column::plain("worst"), worst),
-            count(
-                "beyond",
-                comparison.beyond(accept),
-                "contacts with an error over accept",
-            ),
-            (
-                Column::measured(
-                    "factor",
-                    "times the exact force is every one that was measured",
-                ),
-                factor.map_or(Cell::Missing, float),
-            ),
+            count("beyond", comparison.beyond(accept), beyond),
+            (Column::measured("factor", times), factor),
         ])
     }
 
@@ -240,34 +212,29 @@ fn float(x: f64) -> Cell {
 }
 
 fn contact(difference: &Difference) -> Value {
-    let [upper, lower] = difference.ids;
-    let mut object = Map::new();
-    object.insert("id1".into(), upper.into());
-    object.insert("id2".into(), lower.into());
-    object.extend(place(difference.site, difference.dimension));
-    let measured = difference.measured;
-    let vector = |vector: Option<[f64; 3]>| vector.map(Vec::from);
-    let entries = [
-        ("direction", difference.direction.name().into()),
-        ("measured", measured.map(|measured| measured.force).into()),
-        ("exact", difference.exact.into()),
-        (
-            "measured_vector",
-            vector(measured.and_then(|measured| measured.vector)).into(),
-        ),
-        ("exact_vector", vector(difference.exact_vector).into()),
-        ("error", difference.error.into()),
-    ];
-    let entries = entries.map(|(name, value)| (name.to_owned(), value));
-    object.extend(entries);
-    object.into()
+    let ([upper, lower], measured) = (difference.ids, difference.measured);
+    let [k, i, j] = indices(difference.site);
+    let contact = json!({
+        "id1": upper,
+        "id2": lower,
+        "k": k,
+        "i": i,
+        "j": j,
+        "direction": difference.direction.name(),
+        "measured": measured.map(|measured| measured.force),
+        "exact": difference.exact,
+        "measured_vector": measured.and_then(|measured| measured.vector),
+        "exact_vector": difference.exact_vector,
+        "error": difference.error,
+    });
+    without_j(contact, difference.dimension)
 }
 
 fn pair(extra: &Extra) -> Value {
     let [first, second] = extra.ids;
     let sites = extra.sites.map(|site| {
-        let place: Map<String, Value> = place(site, extra.dimension).collect();
-        place
+        let [k, i, j] = indices(site);
+        without_j(json!({ "k": k, "i": i, "j": j }), extra.dimension)
     });
     json!({
         "id1": first,
@@ -278,11 +245,15 @@ fn pair(extra: &Extra) -> Value {
     })
 }
 
-/// k, i, and j of spheres.
-fn place(site: Site, dimension: Dimension) -> impl Iterator<Item = (String, Value)> {
-    let Site { i, j, k } = site;
-    let j = (dimension == Dimension::Three).then_some(("j", j));
-    let places = [("k", k), ("i", i)].into_iter().chain(j);
-    // Of a pile of so few contacts; a single layer may be wide.
-    places.map(|(name, place)| (name.to_owned(), i64::try_from(place).ok().into()))
+/// k, i and j, as far as they fit: a pile of so few contacts may have a single layer that is wide.
+fn indices(Site { i, j, k }: Site) -> [Option<i64>; 3] {
+    [k, i, j].map(|index| i64::try_from(index).ok())
+}
+
+/// Discs have no j.
+fn without_j(mut place: Value, dimension: Dimension) -> Value {
+    if let (Dimension::Two, Value::Object(entries)) = (dimension, &mut place) {
+        entries.shift_remove("j");
+    }
+    place
 }

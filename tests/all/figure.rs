@@ -183,10 +183,10 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
         assert_eq!(cells.len().to_string(), pile.base_spheres().to_string());
         let sites = pile.rows(Selection::Base).unwrap().flatten();
         assert!(cells.iter().map(site).eq(sites));
-        let statics = pile.forces::<BigRational>();
+        let forces = pile.forces::<BigRational>();
         let mut colours: Vec<(f64, String)> = Vec::new();
         for cell in &cells {
-            let normal = statics.on_floor(site(cell)).unwrap().normal;
+            let normal = forces.on_floor(site(cell)).unwrap().normal;
             assert_eq!(exact(cell), normal);
             let value = number(cell, "data-value");
             assert_eq!(Some(value), Surd::from(normal).nearest());
@@ -453,12 +453,12 @@ fn forces_on_a_sphere_are_in_balance() {
             pile.with_load(first, ratio(5, 3)).unwrap()
         };
         let subject = subject(&pile);
-        let statics = pile.forces::<BigRational>();
+        let forces = pile.forces::<BigRational>();
         for site in pile.shape().sites() {
             let svg = figure::sphere(&subject, site).unwrap().to_string();
-            let forces = arrows(&svg);
+            let shown = arrows(&svg);
             let mut sum = [0.0; 3];
-            for (name, magnitude, vector) in &forces {
+            for (name, magnitude, vector) in &shown {
                 let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
                 assert!((length - magnitude.abs()).abs() < 1e-12 * length, "{name}");
                 for (sum, part) in sum.iter_mut().zip(vector) {
@@ -468,12 +468,12 @@ fn forces_on_a_sphere_are_in_balance() {
             assert!(sum.iter().all(|part| part.abs() < 1e-10), "{site}: {sum:?}");
             // An arrow for each force that acts.
             let acts = |force: &BigRational| usize::from(!force.is_zero());
-            let above = statics.from_above(site).unwrap();
+            let above = forces.from_above(site).unwrap();
             let mut acting: usize = above.iter().map(acts).sum();
             if site.k == pile.layers() - 1 {
-                acting += acts(&statics.on_floor(site).unwrap().normal);
+                acting += acts(&forces.on_floor(site).unwrap().normal);
             } else {
-                let below = statics.contacts(Selection::One(site)).unwrap();
+                let below = forces.contacts(Selection::One(site)).unwrap();
                 acting += below
                     .map(|contact| acts(&contact.unwrap().force))
                     .sum::<usize>();
@@ -481,7 +481,7 @@ fn forces_on_a_sphere_are_in_balance() {
             acting += acts(&pile.sphere_weight(site).unwrap());
             let loaded = !pile.is_weightless() && Some(site) == pile.shape().sites().next();
             acting += usize::from(loaded);
-            assert_eq!(forces.len(), acting, "{site}");
+            assert_eq!(shown.len(), acting, "{site}");
         }
     }
 }
@@ -544,8 +544,8 @@ fn what_pulls_is_seen_and_said() {
                 .contains(">This pile does not stand without further contacts: ")
         );
     }
-    let statics = pile.forces::<BigRational>();
-    let all = statics.contacts(Selection::All).unwrap();
+    let forces = pile.forces::<BigRational>();
+    let all = forces.contacts(Selection::All).unwrap();
     let zero = BigRational::zero();
     let pulling = all
         .filter(|contact| contact.as_ref().unwrap().force < zero)

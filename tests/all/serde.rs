@@ -250,13 +250,13 @@ fn floats_keep_their_last_bit() {
 fn answers() {
     let region = Region::hexagon(2, 2).unwrap();
     let pile = Pile::under(region, "+-++-".parse().unwrap()).unwrap();
-    let statics = pile.forces::<BigRational>();
-    let forces: Vec<ContactForce<BigRational>> = statics
+    let forces = pile.forces::<BigRational>();
+    let contacts: Vec<ContactForce<BigRational>> = forces
         .contacts(Selection::All)
         .unwrap()
         .collect::<Result<_, _>>()
         .unwrap();
-    back(&forces);
+    back(&contacts);
     let floats = pile.forces::<f64>();
     back(
         &floats
@@ -266,7 +266,7 @@ fn answers() {
             .unwrap()[0],
     );
     back(
-        &statics
+        &forces
             .base(Selection::Base)
             .unwrap()
             .collect::<Result<Vec<FloorForce<BigRational>>, _>>()
@@ -287,7 +287,7 @@ fn answers() {
             .collect::<Result<Vec<FloorForce<Surd>>, _>>()
             .unwrap(),
     );
-    let vector = statics
+    let vector = forces
         .contact_direction(Site::APEX, Direction::Beta)
         .unwrap();
     assert_eq!(back(&vector), r#"{"x":"1/2","y":"-1/2","z":"-1"}"#);

@@ -176,13 +176,13 @@ impl Answers {
     /// Asks the library for every sphere and every contact.
     pub(crate) fn of(shape: &Shape, layers: i128) -> Self {
         let pile = shape.pile(layers);
-        let statics = pile.forces::<BigRational>();
-        let mut answers = Self::none(shape, layers, statics.increment_sum().unwrap());
+        let forces = pile.forces::<BigRational>();
+        let mut answers = Self::none(shape, layers, forces.increment_sum().unwrap());
         for site in shape.sites(layers) {
             let sphere = Sphere {
-                position: statics.position(site).unwrap(),
-                from_above: statics.from_above(site).unwrap(),
-                resultant_above: statics.resultant_above(site).unwrap(),
+                position: forces.position(site).unwrap(),
+                from_above: forces.from_above(site).unwrap(),
+                resultant_above: forces.resultant_above(site).unwrap(),
             };
             answers.spheres.insert(site, sphere);
             if site.k == layers - 1 {
@@ -191,7 +191,7 @@ impl Answers {
                     shear_x,
                     shear_y,
                     ..
-                } = statics.on_floor(site).unwrap();
+                } = forces.on_floor(site).unwrap();
                 let force = Vector {
                     x: shear_x,
                     y: shear_y,
@@ -202,8 +202,8 @@ impl Answers {
             }
             for direction in shape.directions() {
                 let contact = Contact {
-                    force: statics.contact(site, *direction).unwrap(),
-                    vector: statics.contact_vector(site, *direction).unwrap(),
+                    force: forces.contact(site, *direction).unwrap(),
+                    vector: forces.contact_vector(site, *direction).unwrap(),
                 };
                 answers.contacts.insert((site, *direction), contact);
             }

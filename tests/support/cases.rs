@@ -153,7 +153,7 @@ pub(crate) fn all_on(base: &Bounds) -> Vec<String> {
     found
 }
 
-/// The same numbers in every run: Knuth's linear congruence.
+/// Numbers that are the same in every run: Knuth's linear congruence.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {

@@ -38,21 +38,21 @@ fn text(error: &cannonpile::Error) -> String {
 }
 
 /// Sphere by sphere, contact by contact: by lines.
-pub(crate) fn one_by_one(pile: &Pile, forces: &Forces) -> Outcome {
-    let statics: cannonpile::Forces<BigRational> = pile.forces();
-    for (at, expected) in &forces.above {
-        let above = statics.from_above(site(*at)).map_err(|e| text(&e))?;
+pub(crate) fn one_by_one(pile: &Pile, known: &Forces) -> Outcome {
+    let forces: cannonpile::Forces<BigRational> = pile.forces();
+    for (at, expected) in &known.above {
+        let above = forces.from_above(site(*at)).map_err(|e| text(&e))?;
         same(&format!("above {at:?}"), &above, expected)?;
     }
-    for (at, expected) in &forces.below {
+    for (at, expected) in &known.below {
         for (m, expected) in expected.iter().enumerate() {
-            let force = statics.contact(site(*at), direction(m));
+            let force = forces.contact(site(*at), direction(m));
             let force = force.map_err(|e| text(&e))?;
             same(&format!("contact {at:?} {m}"), &force, expected)?;
         }
     }
-    for (at, expected) in &forces.floor {
-        let force = statics.on_floor(site(*at)).map_err(|e| text(&e))?;
+    for (at, expected) in &known.floor {
+        let force = forces.on_floor(site(*at)).map_err(|e| text(&e))?;
         same(&format!("floor {at:?}"), &components(force), expected)?;
     }
     Ok(())
@@ -65,14 +65,14 @@ pub(crate) fn in_rows(pile: &Pile, forces: &Forces) -> Outcome {
 }
 
 /// The contacts of a part of the pile.
-pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Forces) -> Outcome {
+pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, known: &Forces) -> Outcome {
     let layers = match selection {
         Selection::Layer(k) => k..k + 1,
         _ => 0..pile.layers(),
     };
-    let statics: cannonpile::Forces<BigRational> = pile.forces();
-    let mut contacts = statics.contacts(selection).map_err(|e| text(&e))?;
-    let expected = forces.below.iter();
+    let forces: cannonpile::Forces<BigRational> = pile.forces();
+    let mut contacts = forces.contacts(selection).map_err(|e| text(&e))?;
+    let expected = known.below.iter();
     for (at, expected) in expected.filter(|(at, _)| layers.contains(&at.0)) {
         for (m, expected) in expected.iter().enumerate() {
             let contact = contacts.next().ok_or("too few contacts")?;
@@ -88,10 +88,10 @@ pub(crate) fn contacts_in_rows(pile: &Pile, selection: Selection, forces: &Force
     same("contacts beyond", &contacts.count(), &0)
 }
 
-fn base_in_rows(pile: &Pile, forces: &Forces) -> Outcome {
-    let statics: cannonpile::Forces<BigRational> = pile.forces();
-    let mut base = statics.base(Selection::Base).map_err(|e| text(&e))?;
-    for (at, expected) in &forces.floor {
+fn base_in_rows(pile: &Pile, known: &Forces) -> Outcome {
+    let forces: cannonpile::Forces<BigRational> = pile.forces();
+    let mut base = forces.base(Selection::Base).map_err(|e| text(&e))?;
+    for (at, expected) in &known.floor {
         let force = base.next().ok_or("too few bottom spheres")?;
         let force = force.map_err(|e| text(&e))?;
         same("a bottom sphere", &place(force.site), at)?;

@@ -15,32 +15,32 @@ use crate::output::{Failure, Refused, option_of, reason};
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
-    /// Read these options from a TOML file, - for stdin; those on the line win over it
+    /// Read these options from a TOML file, - for stdin; options on the command line win over it
     #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
     scene_file: Option<NamedFile>,
-    /// Number of layers, 1 to 10^36 [default: 10, those of a stacking that is spelled out, or as many as a base carries]
+    /// Number of layers, 1 to 10^36 [default: 10; as many as a stacking that is spelled out has, or as a base carries]
     #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
     layers: Option<i128>,
-    /// How layers follow one another: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); from the top, or from
-    /// the base up with --base [default: fcc]
+    /// How the layers are stacked: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); read from the top, or with
+    /// --base from the base up [default: fcc]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = str::parse::<Pattern>)]
     stacking: Option<Pattern>,
     /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "base")]
     top: Option<Region>,
-    /// Grow up from this layer
+    /// Grow up from this layer, instead of down from --top
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
     base: Option<Region>,
     /// 2 for discs, 3 for spheres [default: 3]
     #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = str::parse::<Dimension>)]
     dimension: Option<Dimension>,
-    /// Sine of the azimuth phi of the base triangle, between 0 and 1 [default: 1/2, equilateral]
+    /// Sine of the azimuth phi of the base triangle, between 0 and 1; without --stacking, --top and --base [default: 1/2, equilateral]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
     sin_phi: Option<BigRational>,
-    /// A vertical load on one sphere, in mg; may be given again; those of a file are left out then
+    /// A vertical load W on one sphere, in mg; I,J=W on the base; may be repeated; takes the place of all loads of a file
     #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
     load: Vec<String>,
-    /// The spheres weigh nothing: only the loads act; --weightless=false wins over a file
+    /// The spheres weigh nothing: only the loads act; --weightless=false overrides a file
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
     /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
@@ -122,7 +122,7 @@ impl SceneOptions {
                 "give radius, mass and gravity in other units",
             ),
         };
-        Failure::BadUse(format!(
+        Failure::Message(format!(
             "{place}: {quantity} does not fit in {scalar}: {remedy}"
         ))
     }
@@ -148,17 +148,15 @@ impl SceneOptions {
 
     /// Returns the refusal as a message: the option or the line of the file to change, what is wrong, and the remedy.
     pub(crate) fn message(scene: Option<&Self>, refused: &Refused) -> String {
-        let line_of = |culprit| {
-            let option = option_of(culprit)?;
-            scene.and_then(|scene| scene.line_of(option))
-        };
+        let line_of = |option| scene.and_then(|scene| scene.line_of(option));
         let error = &refused.error;
-        let place = refused.culprit.and_then(|culprit| {
-            line_of(culprit).or_else(|| Some(format!("--{}", option_of(culprit)?)))
+        let place = refused.culprit.and_then(option_of).map(|option| {
+            let line = line_of(option);
+            line.unwrap_or_else(|| format!("--{option}")) + ": "
         });
-        let place = place.map_or_else(String::new, |place| format!("{place}: "));
+        let place = place.unwrap_or_default();
         // Where the other of two inputs that exclude each other is, if it is in the file.
-        let other = error.conflicts_with().and_then(line_of);
+        let other = error.conflicts_with().and_then(option_of).and_then(line_of);
         let notes = other.or(refused.remedy.map(str::to_owned));
         let notes = notes.map_or_else(String::new, |notes| format!(" ({notes})"));
         format!("{place}{error}{notes}")

@@ -7,14 +7,14 @@ use cannonpile::table::{self, Table};
 use cannonpile::{Culprit, Error};
 use clap::Args;
 
-use super::Command;
 use crate::args::{Number, Output};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Of mirror images one is listed. Beginnings that fail are listed where they first do, with the contact that would have to
-pull. With them a census of L layers has 11(L − 5) + 6 rows, and takes a time that grows like L³.
+Of two mirror images one is listed. A stacking that fails is listed once, at the number of layers at which it first does,
+with the contact that would have to pull. With these a census of L layers has 11L − 50 rows, from six layers on, and takes
+a time that grows like L³.
 
 Examples:
   cannonpile census --layers 6
@@ -44,11 +44,8 @@ pub(crate) struct Census {
 impl Census {
     fn table(&self) -> Result<Table<'_>, Refused> {
         let Some(base) = self.base else {
-            let entries = census::under_one_sphere(self.layers, !self.standing);
-            let entries = entries.map_err(|error| Refused {
-                remedy: Some("--standing").filter(|_| matches!(error, Error::TooManyRows { .. })),
-                ..error.into()
-            })?;
+            let entries = census::under_one_sphere(self.layers, !self.standing)
+                .map_err(|error| Refused::of_rows(error, "--standing"))?;
             return Ok(table::census(entries));
         };
         let entries = census::on_base(base).map_err(|error| Refused::of(Culprit::Base, error))?;
@@ -59,15 +56,11 @@ impl Census {
     }
 }
 
-impl Command for Census {
-    fn run(&self) -> Result<bool, Failure> {
+impl Census {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let progress = Progress::begin("trying stackings");
         self.output
             .write_table(self.table()?, self.number, &progress)?;
         Ok(true)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }

@@ -1,12 +1,9 @@
 //! Completions for shells, on stdout.
 
-use std::io::{self, Write};
-
-use cannonpile::table::WriteError;
 use clap::Args;
 use clap_complete::Shell;
 
-use crate::output::Failure;
+use crate::output::{Failure, write_to};
 
 /// `completions`: bash has them after `source <(cannonpile completions bash)`.
 #[derive(Args)]
@@ -25,8 +22,7 @@ impl Completions {
     pub(crate) fn print(&self, mut line: clap::Command) -> Result<bool, Failure> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut line, "cannonpile", &mut script);
-        let written = io::stdout().lock().write_all(&script);
-        written.map_err(WriteError::from)?;
+        write_to("output", None, |out| Ok(out.write_all(&script)?))?;
         Ok(true)
     }
 }

@@ -2,10 +2,9 @@
 
 use cannonpile::shape::Selection;
 use cannonpile::table::{Explanation, NumberFormat, Table, WriteError};
-use cannonpile::{Error, Pile, Quantity};
+use cannonpile::{Culprit, Error, Pile, Quantity};
 use clap::{Args, ValueEnum};
 
-use super::Command;
 use crate::args::{ByMethod, Format, Output, Part, SceneOptions, UnitSystem};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
@@ -14,12 +13,12 @@ const HELP: &str = "\
 Rows of the plan, which are bounds:
   quantity  what is asked             runs      runs of equal steps that matter
   method    how it is answered        visited   spheres whose forces are found
-  turned    of them those below a change of sign
+  turned    those of them that are below a change of sign
   passes    steps from a layer to the next
   numbers   numbers kept at a time    bits      bits of the widest of them
   planes    machine words for each    roots     square roots taken
   rows      rows of the answer        bytes     memory for the numbers
-counted_visited, counted_turned, … are what a run took.
+counted_visited, counted_turned, … say what the run took.
 
 Examples:
   cannonpile explain --stacking hcp --layers 30
@@ -29,13 +28,13 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Explain {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     /// What is asked of the spheres
     #[arg(long, value_enum, default_value = "contacts", help_heading = "Output")]
     of: Asked,
     #[command(flatten)]
     part: Part,
-    /// What forces are multiples of
+    /// The units of forces
     #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
     units: UnitSystem,
     #[command(flatten)]
@@ -84,11 +83,26 @@ impl Asked {
 }
 
 impl Explain {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let part = self.of.part(self.part.selection(&pile)?, &pile);
+        let (quantity, system) = self.of.quantity(self.units);
+        let units = self.method.of(system.of(&scene, &pile)?)?;
+        let explanation = Explanation::new(&units, quantity, part);
+        // Where a layer was named, no sphere was.
+        self.write(&explanation.map_err(|error| match (part, &error) {
+            (Selection::Layer(_), Error::NotOnFloor { .. }) => Refused::of(Culprit::Layer, error),
+            _ => error.into(),
+        })?)?;
+        Ok(true)
+    }
+
     /// Writes the plan, before anything is run, and then what was counted.
     fn write(&self, explanation: &Explanation<'_>) -> Result<(), Failure> {
         let format = self.output.format()?;
         if !self.no_run {
-            explanation.check().map_err(narrower)?;
+            let asked = explanation.check();
+            asked.map_err(|error| Refused::of_rows(error, "--layer, --at or --no-run"))?;
         }
         let progress = Progress::begin("counting");
         self.output.write(&progress, |out| {
@@ -103,33 +117,5 @@ impl Explain {
             write(explanation.table(None))?;
             write(Explanation::counted(&explanation.run()?))
         })
-    }
-}
-
-/// Adds to a refusal of too many rows the options that ask for fewer.
-fn narrower(error: Error) -> Refused {
-    let many = matches!(error, Error::TooManyRows { .. });
-    Refused {
-        remedy: many.then_some("--layer, --at or --no-run"),
-        ..error.into()
-    }
-}
-
-impl Command for Explain {
-    fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
-        let part = self.of.part(self.part.selection(&pile)?, &pile);
-        let (quantity, system) = self.of.quantity(self.units);
-        let units = self.method.of(system.of(&scene, &pile)?)?;
-        self.write(&Explanation::new(&units, quantity, part)?)?;
-        Ok(true)
-    }
-
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.scene)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }

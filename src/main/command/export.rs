@@ -8,14 +8,14 @@ use cannonpile::dem::{self, PileExport, PileFile, PileFormat, Written};
 use cannonpile::table::{NumberFormat, WriteError};
 use clap::{Args, ValueEnum};
 
-use super::{Command, note_if_it_falls};
-use crate::args::{Format, SceneOptions, agreed, target};
+use super::note_if_it_falls;
+use crate::args::{Format, SceneOptions, agreed};
 use crate::output::{Failure, complain, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml is the pile, for --scene. Files are written aside, and renamed
-when all are complete.
+All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml describes it, for
+--scene. Files are written under other names, and renamed when all are complete.
 
 Examples:
   cannonpile export pile --to lammps --layers 10 --spacing 1.2
@@ -24,10 +24,10 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Export {
-    /// The folder, made if it is not there; other files in it stay as they are
+    /// The folder, created if it is missing; other files in it stay as they are
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// For what; several with commas between, or the option again
+    /// What the files are for; several separated by commas, or the option repeated
     #[arg(
         long,
         value_enum,
@@ -37,7 +37,7 @@ pub(crate) struct Export {
     )]
     to: Vec<Target>,
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     /// Write the list of the files to this file, not to stdout
     #[arg(
         long,
@@ -46,7 +46,7 @@ pub(crate) struct Export {
         help_heading = "List of the files"
     )]
     list: Option<PathBuf>,
-    /// How the list is laid out [default: by the ending of --list, .csv or .json; else table]
+    /// How the list is written [default: by the ending of --list, .csv or .json; else table]
     #[arg(
         long,
         value_enum,
@@ -59,7 +59,7 @@ pub(crate) struct Export {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Target {
-    /// spheres.csv, contacts.csv, base.csv: in SI, spheres by number; base.csv has the last ones, in order
+    /// spheres.csv, contacts.csv, base.csv: spheres by number; and columns.csv, which explains their columns
     Csv,
     /// For LAMMPS: pile.data, and pile.in, which relaxes it and writes forces.dump
     Lammps,
@@ -86,9 +86,9 @@ impl Target {
 /// From this many bytes on it is said before how much will be written.
 const MUCH: u64 = 1_000_000_000;
 
-impl Command for Export {
+impl Export {
     /// Writes the files, and then what they are.
-    fn run(&self) -> Result<bool, Failure> {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
         let packing = scene.packing(&pile)?;
         let files = PileExport::new(&packing)?.with_scene(scene.to_toml());
@@ -107,9 +107,9 @@ impl Command for Export {
         drop(progress);
         let written = written.map_err(|error| match error {
             WriteError::Answer(error) => self.scene.beyond_floats(error.into(), &scene),
-            error => error.into(),
+            error => Failure::of_writing(error, "list", self.list.as_deref()),
         })?;
-        write_to(self.list.as_deref(), |out| {
+        write_to("list", self.list.as_deref(), |out| {
             dem::files(&written).write(format.into(), NumberFormat::Exact, out)
         })?;
         note_if_it_falls(&pile);
@@ -117,16 +117,6 @@ impl Command for Export {
         Ok(true)
     }
 
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.scene)
-    }
-
-    fn target(&self) -> String {
-        target("list", self.list.as_deref())
-    }
-}
-
-impl Export {
     /// Returns the formats asked for, each once.
     fn formats(&self) -> Vec<PileFormat> {
         let asked: Vec<_> = self.to.iter().flat_map(|target| target.formats()).collect();
@@ -144,7 +134,7 @@ impl Export {
         let mut paths = files.map(|file| self.folder.join(file.name()));
         if paths.any(|path| place(&path) == place(list)) {
             let list = list.display();
-            return Err(Failure::BadUse(format!(
+            return Err(Failure::Message(format!(
                 "--list: {list} is one of the files of the export: name another file for the list"
             )));
         }
@@ -165,7 +155,7 @@ impl Export {
         // Where this is not known, the disk will say it.
         let room = there.and_then(|folder| fs4::available_space(folder).ok());
         if let Some(room) = room.filter(|room| *room < bytes) {
-            return Err(Failure::BadUse(format!(
+            return Err(Failure::Message(format!(
                 "DIR: {folder} would take about {gigabytes} GB, and its disk has room for {}: choose another disk, fewer \
                  formats or fewer layers",
                 indicatif::DecimalBytes(room)

@@ -9,8 +9,7 @@ use cannonpile::table::WriteError;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
 
-use super::Command;
-use crate::args::{SceneOptions, UnitSystem, one, target};
+use crate::args::{SceneOptions, UnitSystem, one};
 use crate::output::{Failure, Refused, complain, write_to};
 use crate::progress::Progress;
 
@@ -40,7 +39,7 @@ pub(crate) enum Plot {
     Sphere {
         #[command(flatten)]
         of: Measured,
-        /// The sphere, as K,I,J, or I,J on the base (discs: K,I or I) [default: in the middle]
+        /// The sphere: K,I,J with k counted from 0 at the top, or I,J on the base (discs: K,I or I) [default: in the middle]
         #[arg(
             long,
             value_name = "K,I,J",
@@ -57,7 +56,7 @@ pub(crate) enum Plot {
     Network {
         #[command(flatten)]
         of: Measured,
-        /// Instead, those of this layer on the next, seen from above; counted from 0 at the top
+        /// Instead, the forces of this layer on the next, seen from above; counted from 0 at the top
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
@@ -75,7 +74,7 @@ pub(crate) enum Plot {
 #[derive(Args)]
 pub(crate) struct Of {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     #[command(flatten)]
     output: ToFile,
 }
@@ -85,7 +84,7 @@ pub(crate) struct Of {
 pub(crate) struct Measured {
     #[command(flatten)]
     of: Of,
-    /// What forces and lengths are multiples of; of the pile: lengths of R
+    /// The units of forces and lengths; with pile, lengths are in R
     #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
     units: UnitSystem,
 }
@@ -97,7 +96,7 @@ struct ToFile {
     /// Write to an SVG file, which is replaced only when all is written [default: stdout]
     #[arg(long = "output", value_name = "FILE.svg")]
     file: Option<PathBuf>,
-    /// The width of the figure, in pixels; all in it grows with it
+    /// The width of the figure, in pixels; everything in it is scaled with it
     #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     width: u32,
     /// Leave out the title and the line below it
@@ -105,8 +104,8 @@ struct ToFile {
     no_title: bool,
 }
 
-impl Command for Plot {
-    fn run(&self) -> Result<bool, Failure> {
+impl Plot {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let ToFile {
             file,
             width,
@@ -117,7 +116,7 @@ impl Command for Plot {
             width: f64::from(*width),
             title: !no_title,
         });
-        write_to(file.as_deref(), |out| {
+        write_to("output", file.as_deref(), |out| {
             figure.write(out).map_err(WriteError::from)
         })?;
         if let Some(note) = figure.note() {
@@ -126,12 +125,8 @@ impl Command for Plot {
         Ok(true)
     }
 
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.of().scene)
-    }
-
-    fn target(&self) -> String {
-        target("output", self.of().output.file.as_deref())
+    pub(crate) const fn scene(&self) -> &SceneOptions {
+        &self.of().scene
     }
 }
 
@@ -141,7 +136,7 @@ fn keep_to_svg(file: Option<&Path>) -> Result<(), Failure> {
     match file.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
             let svg = file.with_extension("svg");
-            Err(Failure::BadUse(format!(
+            Err(Failure::Message(format!(
                 "--output: a figure is written as SVG, not in the format of {}: name the file {}, and convert it",
                 file.display(),
                 svg.display()

@@ -5,7 +5,6 @@ use cannonpile::theorem::{self, Listing};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use super::Command;
 use crate::args::{Format, Output};
 use crate::output::Failure;
 use crate::progress::Progress;
@@ -25,8 +24,8 @@ pub(crate) struct Prove {
     output: Output,
 }
 
-impl Command for Prove {
-    fn run(&self) -> Result<bool, Failure> {
+impl Prove {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let format = self.output.format()?;
         let progress = Progress::begin("proving");
         let name = self.theorem.as_deref();
@@ -57,9 +56,5 @@ impl Command for Prove {
             Ok(())
         })?;
         Ok(all_hold)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }

@@ -4,7 +4,7 @@ use cannonpile::shape::Selection;
 use cannonpile::table;
 use clap::Args;
 
-use super::{Command, note_if_it_falls};
+use super::note_if_it_falls;
 use crate::args::{Numbers, Output, Part, SceneOptions, narrower, spheres};
 use crate::output::Failure;
 use crate::progress::Progress;
@@ -21,7 +21,7 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Spheres {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     #[command(flatten)]
     part: Part,
     #[command(flatten)]
@@ -30,8 +30,8 @@ pub(crate) struct Spheres {
     output: Output,
 }
 
-impl Command for Spheres {
-    fn run(&self) -> Result<bool, Failure> {
+impl Spheres {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
@@ -47,13 +47,5 @@ impl Command for Spheres {
             note_if_it_falls(&pile);
         }
         Ok(true)
-    }
-
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.scene)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }

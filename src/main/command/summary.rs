@@ -4,13 +4,15 @@ use cannonpile::Verdict;
 use cannonpile::table;
 use clap::Args;
 
-use super::Command;
 use crate::args::{Numbers, Output, SceneOptions};
 use crate::output::Failure;
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Lengths and forces in SI are for R = 1 m, m = 1 kg and g = 1 m/s², unless these are given.
+stands is 'no' if a contact would have to pull, and 'undetermined' if it would, but spheres touch that have no contact in
+this theory, which may hold the pile: 'touching' says where they are, at --spacing. Exit status 1 unless it stands. A force
+that would take too long to find is shown as -. With --units si forces are in N, for R = 1 m, m = 1 kg and g = 1 m/s² unless
+these are given.
 
 Examples:
   cannonpile summary --stacking hcp --layers 7
@@ -20,18 +22,18 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Summary {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     #[command(flatten)]
     numbers: Numbers,
     #[command(flatten)]
     output: Output,
 }
 
-impl Command for Summary {
-    fn run(&self) -> Result<bool, Failure> {
+impl Summary {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
         self.output.format()?;
-        let units = self.numbers.units(&scene, &pile)?;
+        let units = self.numbers.units.of(&scene, &pile)?;
         // At the default spacing, where none is given: if that fits.
         let touching = pile.clearance().check(&scene.spacing()?).ok();
         let progress = Progress::begin("finding the extreme forces");
@@ -40,13 +42,5 @@ impl Command for Summary {
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         Ok(matches!(summary.verdict(), None | Some(Verdict::Yes)))
-    }
-
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.scene)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }

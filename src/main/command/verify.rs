@@ -9,7 +9,7 @@ use cannonpile::scene::Scene;
 use cannonpile::verify::{self, Reading, Refusal, Report};
 use clap::Args;
 
-use super::{Command, note_if_it_falls};
+use super::note_if_it_falls;
 use crate::args::{Output, SceneOptions};
 use crate::output::{Failure, complain, reason};
 use crate::progress::Progress;
@@ -27,11 +27,11 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Verify {
     /// A csv table with columns id1, id2, force, and fx, fy, fz if there are vectors; or a LAMMPS dump local file with these
-    /// columns, of which the last snapshot counts. - for stdin
+    /// columns, of which the last snapshot counts; - for stdin
     #[arg(value_name = "FILE")]
     measured: PathBuf,
     #[command(flatten)]
-    scene: SceneOptions,
+    pub(crate) scene: SceneOptions,
     /// The greatest relative error accepted; 0 for forces that are the nearest floats
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
@@ -39,12 +39,12 @@ pub(crate) struct Verify {
     output: Output,
 }
 
-impl Command for Verify {
+impl Verify {
     /// Compares, and returns whether the file is accepted.
-    fn run(&self) -> Result<bool, Failure> {
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
         if self.measured == Path::new("-") && self.scene.is_from_stdin() {
             let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
-            return Err(Failure::BadUse(reason.into()));
+            return Err(Failure::Message(reason.into()));
         }
         let (scene, pile) = self.scene.read()?;
         let packing = scene.packing(&pile)?;
@@ -64,14 +64,6 @@ impl Command for Verify {
         }
         note_if_it_falls(&pile);
         Ok(comparison.accepted(self.accept))
-    }
-
-    fn scene(&self) -> Option<&SceneOptions> {
-        Some(&self.scene)
-    }
-
-    fn target(&self) -> String {
-        self.output.target()
     }
 }
 
@@ -94,7 +86,7 @@ impl Verify {
 
     fn refused(&self, refusal: Refusal, scene: &Scene) -> Failure {
         let name = self.name();
-        Failure::BadUse(match refusal {
+        Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
             Refusal::Io(error) => format!(

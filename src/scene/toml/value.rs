@@ -139,17 +139,17 @@ pub(super) fn line_of(file: &str, start: usize) -> usize {
 pub(super) fn not_toml(file: &str, error: &::toml::de::Error) -> Error {
     let span = error.span().unwrap_or_default();
     let line = line_of(file, span.start);
-    let mut reason: String = error.message().chars().flat_map(printable).collect();
+    let printable = |c: char| {
+        if c.is_control() {
+            c.escape_debug().to_string()
+        } else {
+            c.into()
+        }
+    };
+    let mut reason: String = error.message().chars().map(printable).collect();
     let at = file.get(span).unwrap_or_default().trim();
     if !at.is_empty() {
         reason = format!("{reason}, at '{}'", Error::quoted(at));
     }
     Error::NotToml { line, reason }
-}
-
-/// A character, escaped if it would break the line.
-fn printable(c: char) -> impl Iterator<Item = char> {
-    let escaped = c.is_control().then(|| c.escape_debug());
-    let plain = (!c.is_control()).then_some(c);
-    escaped.into_iter().flatten().chain(plain)
 }

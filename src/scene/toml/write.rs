@@ -45,51 +45,33 @@ impl Scene {
             };
             file.key(comment, "stacking", &quoted(stacking));
         }
-        match &self.anchor {
-            Some(Anchor::Top(top)) => {
-                file.key(
-                    "The top layer, from which the pile grows down.",
-                    "top",
-                    &quoted(format_args!("{top:#}")),
-                );
-            }
-            Some(Anchor::Base(base)) => {
-                file.key(
-                    "The bottom layer, from which the pile grows up.",
-                    "base",
-                    &quoted(format_args!("{base:#}")),
-                );
-            }
-            None => {}
+        if let Some(anchor) = &self.anchor {
+            let (key, end, way, region) = match anchor {
+                Anchor::Top(top) => ("top", "top", "down", top),
+                Anchor::Base(base) => ("base", "bottom", "up", base),
+            };
+            let comment = format!("The {end} layer, from which the pile grows {way}.");
+            file.key(&comment, key, &quoted(format_args!("{region:#}")));
         }
         let dimension = self.dimension.number().to_string();
         file.key("2 for discs, 3 for spheres.", "dimension", &dimension);
         if let Some(s) = &self.sin_phi {
-            file.key(
-                "Sine of the azimuth phi of the base triangle.",
-                "sin-phi",
-                &number(s),
-            );
+            let comment = "Sine of the azimuth phi of the base triangle.";
+            file.key(comment, "sin-phi", &number(s));
         }
         if !self.loads.is_empty() {
             file.key(self.loads_comment(), "load", &self.loads_array());
         }
         if self.weightless {
-            file.key(
-                "The spheres weigh nothing: only the loads act.",
-                "weightless",
-                "true",
-            );
+            let comment = "The spheres weigh nothing: only the loads act.";
+            file.key(comment, "weightless", "true");
         }
         if let Some(spacing) = &self.spacing {
             let comment = "Half the distance of horizontal neighbours over the radius, a/R.";
             file.key(comment, "spacing", &number(spacing));
         }
-        file.key(
-            "Radius R of a sphere, in m.",
-            "radius",
-            &number(&self.radius),
-        );
+        let radius = number(&self.radius);
+        file.key("Radius R of a sphere, in m.", "radius", &radius);
         file.key("Mass m of a sphere, in kg.", "mass", &number(&self.mass));
         file.key("Gravity g, in m/s².", "gravity", &number(&self.gravity));
         file.0

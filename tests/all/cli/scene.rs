@@ -139,13 +139,13 @@ fn a_refusal_tells_the_file_from_the_line() {
     for (question, parts) in [
         (
             "base --sin-phi 1/3",
-            &["error: --sin-phi: ", "beside top", "line 3, top"][..],
+            &["error: --sin-phi: ", "with top", "line 3, top"][..],
         ),
         (
             "base --dimension 2",
             &[
                 "error: --scene",
-                "line 3, top: top has no meaning beside dimension 2",
+                "line 3, top: top has no meaning with dimension 2",
             ],
         ),
         (

@@ -76,8 +76,8 @@ const SMALL: [i128; 3] = [7, 8, 9];
 /// third checks it. False if the way leads outside.
 fn grows_evenly(high: &High, small: &BTreeMap<i128, Forces>, way: Way) -> bool {
     let of_small = SMALL.map(|t| {
-        let (forces, at) = (&small[&(way.steps * t)], way.at(high, t));
-        let both = forces.above.get(&at).zip(forces.floor.get(&at));
+        let (known, at) = (&small[&(way.steps * t)], way.at(high, t));
+        let both = known.above.get(&at).zip(known.floor.get(&at));
         both.map(|(above, floor)| [above.clone(), floor.clone()].concat())
     });
     let [Some(first), Some(second), Some(third)] = of_small else {
@@ -91,10 +91,10 @@ fn grows_evenly(high: &High, small: &BTreeMap<i128, Forces>, way: Way) -> bool {
     assert_eq!(foretold(SMALL[2]), third, "{} {:?}", high.head, way.start);
     for t in [40, HIGH] {
         let (pile, at) = (high.pile(way.steps * t), site(way.at(high, t)));
-        let statics = pile.forces::<BigRational>();
-        let floor = statics.on_floor(at).unwrap();
+        let forces = pile.forces::<BigRational>();
+        let floor = forces.on_floor(at).unwrap();
         let floor = [floor.normal, floor.shear_x, floor.shear_y];
-        let answers = [statics.from_above(at).unwrap(), floor].concat();
+        let answers = [forces.from_above(at).unwrap(), floor].concat();
         assert_eq!(answers, foretold(t), "{} {at}", high.head);
     }
     true
@@ -168,7 +168,7 @@ fn a_straight_pile_of_a_nonillion_layers_upon_one_as_high() {
     let (upper, lower) = (HIGH, HIGH / 10);
     let pile = Pile::under(Region::SITE, format!("({upper},{lower})").parse().unwrap()).unwrap();
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);
-    let statics = pile.forces::<BigRational>();
+    let forces = pile.forces::<BigRational>();
     let big = |n: i128| BigRational::from_integer(n.into());
     let passed_on = |i: i128, j: i128, m: usize| {
         let g = [upper - i - j, i, j];
@@ -187,24 +187,24 @@ fn a_straight_pile_of_a_nonillion_layers_upon_one_as_high() {
             let (i, j) = starts[m];
             passed_on(i, j, m) + big(lower - 1)
         });
-        assert_eq!(statics.from_above(bottom), Ok(expected));
+        assert_eq!(forces.from_above(bottom), Ok(expected));
     }
 }
 
 #[test]
 fn rows_longer_than_one_tree_are_those_of_single_spheres() {
     let pile = Pile::under(Region::SITE, format!("(2,1,{HIGH})").parse().unwrap()).unwrap();
-    let statics = pile.forces::<BigRational>();
+    let forces = pile.forces::<BigRational>();
     assert_eq!(pile.plan(Selection::Base).unwrap().method, Method::Tree);
-    for force in statics.base(Selection::Base).unwrap().take(2500) {
+    for force in forces.base(Selection::Base).unwrap().take(2500) {
         let force = force.unwrap();
-        assert_eq!(statics.on_floor(force.site), Ok(force));
+        assert_eq!(forces.on_floor(force.site), Ok(force));
     }
-    let contacts = statics.contacts(Selection::Layer(HIGH / 2)).unwrap();
+    let contacts = forces.contacts(Selection::Layer(HIGH / 2)).unwrap();
     for contact in contacts.take(3 * 2500) {
         let contact = contact.unwrap();
         assert_eq!(
-            statics.contact(contact.site, contact.direction),
+            forces.contact(contact.site, contact.direction),
             Ok(contact.force)
         );
     }

@@ -91,18 +91,18 @@ fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
     let counters = Counters::default();
     // Wide enough for the isosceles one, narrow enough for changes of sign.
     let spacing = Spacing::new(ratio(3, 2)).unwrap();
-    let (mut statics, packing) = (pile.forces::<BigRational>(), Packing::new(pile, &spacing));
+    let (mut forces, packing) = (pile.forces::<BigRational>(), Packing::new(pile, &spacing));
     let mut packing = packing.unwrap();
     if let Some(method) = question.method {
-        (statics, packing) = (statics.by(method)?, packing.by(method)?);
+        (forces, packing) = (forces.by(method)?, packing.by(method)?);
     }
-    let (statics, packing) = (statics.metered(&counters), packing.metered(&counters));
+    let (forces, packing) = (forces.metered(&counters), packing.metered(&counters));
     let part = question.part;
     match question.quantity {
-        Quantity::ContactMultiples => drop(all(statics.contacts(part)?)?),
+        Quantity::ContactMultiples => drop(all(forces.contacts(part)?)?),
         Quantity::ContactMagnitudes => drop(all(packing.magnitudes(part)?)?),
         Quantity::ContactVectors => drop(all(packing.contacts(part)?)?),
-        Quantity::FloorMultiples => drop(all(statics.base(part)?)?),
+        Quantity::FloorMultiples => drop(all(forces.base(part)?)?),
         Quantity::FloorForces => drop(all(packing.base(part)?)?),
         Quantity::Positions => drop(all(packing.positions(part)?)?),
         other => panic!("{other} is not asked here"),
@@ -163,9 +163,9 @@ fn all_methods_agree() {
         let exact = pile.forces::<BigRational>();
         for part in parts(&pile) {
             let contacts = |method: Option<Method>| -> Option<Vec<_>> {
-                let statics = exact.clone();
-                let statics = method.map_or(Ok(statics.clone()), |m| statics.by(m)).ok()?;
-                Some(all(statics.contacts(part).unwrap()).unwrap())
+                let forces = exact.clone();
+                let forces = method.map_or(Ok(forces.clone()), |m| forces.by(m)).ok()?;
+                Some(all(forces.contacts(part).unwrap()).unwrap())
             };
             let cheapest = contacts(None).unwrap();
             let unfit = unfit(&pile);
@@ -177,15 +177,15 @@ fn all_methods_agree() {
             }
             for contact in cheapest {
                 for method in METHODS.into_iter().filter(|method| Some(*method) != unfit) {
-                    let statics = exact.clone().by(method).unwrap();
-                    let one = statics.contact(contact.site, contact.direction).unwrap();
+                    let forces = exact.clone().by(method).unwrap();
+                    let one = forces.contact(contact.site, contact.direction).unwrap();
                     assert_eq!(one, contact.force, "{method} {contact:?}");
                 }
             }
         }
         for method in METHODS.into_iter().filter(|m| Some(*m) != unfit(&pile)) {
-            let base = |statics: cannonpile::Forces<'_, BigRational>| {
-                all(statics.base(Selection::Base).unwrap()).unwrap()
+            let base = |forces: cannonpile::Forces<'_, BigRational>| {
+                all(forces.base(Selection::Base).unwrap()).unwrap()
             };
             assert_eq!(base(exact.clone().by(method).unwrap()), base(exact.clone()));
         }
@@ -317,13 +317,13 @@ fn layers_say_what_they_do_not_do() {
 fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     let pile = Pile::triangular(1_000_000).unwrap();
     let counters = Counters::default();
-    let statics = pile.forces::<f64>().metered(&counters);
+    let forces = pile.forces::<f64>().metered(&counters);
     let site = Site {
         i: 123_456,
         j: 7,
         k: 700_000,
     };
-    let force = statics.contact(site, Direction::Beta).unwrap();
+    let force = forces.contact(site, Direction::Beta).unwrap();
     assert!((force - 123_457.0).abs() < 0.5);
     assert_eq!((counters.visited(), counters.turned()), (1, 0));
 }
@@ -408,9 +408,9 @@ fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
     let plan = pile.plan(Selection::One(site)).unwrap();
     assert_eq!(plan.method, Method::Sweep);
     let counters = Counters::default();
-    let statics = pile.forces::<f64>().metered(&counters);
-    let forces = all(statics.contacts(Selection::One(site)).unwrap()).unwrap();
-    assert_eq!(forces.len(), 3);
+    let forces = pile.forces::<f64>().metered(&counters);
+    let three = all(forces.contacts(Selection::One(site)).unwrap()).unwrap();
+    assert_eq!(three.len(), 3);
     for (name, most, counted) in promises(&plan, &counters) {
         assert!(BigUint::from(counted) <= most, "{counted} {name}");
     }

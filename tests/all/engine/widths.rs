@@ -110,24 +110,28 @@ fn what_weighs_less_does_not_make_up_for_a_load() {
 /// The sweep of the whole pile beside brute force; the tree for one contact of many.
 fn is_brute_force(case: &Case, selection: Selection) {
     let (passed, d) = (brute::all(&case.balance), brute::denominator(&case.balance));
-    let statics = case.pile.forces::<BigRational>();
-    let contacts = statics.contacts(selection).unwrap();
+    let forces = case.pile.forces::<BigRational>();
+    let contacts = forces.contacts(selection).unwrap();
     for (n, contact) in contacts.enumerate() {
         let contact = contact.unwrap();
         let Site { i, j, k } = contact.site;
-        let Passed { forces, below, .. } = &passed[usize::try_from(k).unwrap()];
-        let numerator = &forces[&(j, i)][contact.direction.index()];
+        let Passed {
+            forces: numerators,
+            below,
+            ..
+        } = &passed[usize::try_from(k).unwrap()];
+        let numerator = &numerators[&(j, i)][contact.direction.index()];
         let over = &d * pow(BigInt::from(3), below.changes);
         assert_eq!(contact.force, BigRational::new(numerator.clone(), over));
         if n % 499 == 0 {
-            let one = statics.contact(contact.site, contact.direction);
+            let one = forces.contact(contact.site, contact.direction);
             assert_eq!(one, Ok(contact.force));
         }
     }
     let front = &passed.last().expect("a step").below;
     let weight = brute::numerator(&case.balance, &d);
     let unit = pow(BigInt::from(3), front.changes);
-    let base = statics.base(Selection::Base).unwrap();
+    let base = forces.base(Selection::Base).unwrap();
     for force in base {
         let force = force.unwrap();
         let Site { i, j, k } = force.site;

@@ -96,19 +96,19 @@ fn arrows_of_any_pile_are_the_exact_forces() {
     for pile in piles() {
         let svg = figure::shear(&subject(&pile)).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
-        let forces = forces(&document);
+        let shown = forces(&document);
         let sites = pile.rows(Selection::Base).unwrap().flatten();
-        assert!(forces.iter().map(|(site, _)| *site).eq(sites));
-        let statics = pile.forces::<BigRational>();
+        assert!(shown.iter().map(|(site, _)| *site).eq(sites));
+        let forces = pile.forces::<BigRational>();
         let cos2 = BigRational::from_integer(1.into()) - pile.sin_phi() * pile.sin_phi();
         let across = Surd::sqrt(cos2 * BigRational::from_integer(4.into())).unwrap();
-        for (site, force) in &forces {
-            let exact = statics.on_floor(*site).unwrap();
+        for (site, force) in &shown {
+            let exact = forces.on_floor(*site).unwrap();
             let [x, y] = [Surd::from(exact.shear_x), across.scaled(&exact.shear_y)];
             assert_eq!(force.map(Some), [x, y].map(|part| part.nearest()));
         }
         let drawn = of_class(&document, "arrow");
-        let acting = forces
+        let acting = shown
             .iter()
             .filter(|(_, force)| force.iter().any(|part| *part != 0.0));
         assert_eq!(drawn.len(), acting.count());

@@ -70,14 +70,14 @@ fn piles() -> Vec<Pile> {
 
 /// The extremes over every bottom sphere.
 fn over_all(pile: &Pile) -> [BigRational; 3] {
-    let statics = pile.forces::<BigRational>();
-    let forces: Vec<_> = statics
+    let forces = pile.forces::<BigRational>();
+    let on_floor: Vec<_> = forces
         .base(Selection::Base)
         .unwrap()
         .map(Result::unwrap)
         .collect();
-    let normals = || forces.iter().map(|force| force.normal.clone());
-    let loaded = forces.iter().filter(|force| !force.normal.is_zero());
+    let normals = || on_floor.iter().map(|force| force.normal.clone());
+    let loaded = on_floor.iter().filter(|force| !force.normal.is_zero());
     let ratios = loaded.map(|force| {
         let shear2 =
             &force.shear_x * &force.shear_x + ratio(3, 1) * &force.shear_y * &force.shear_y;
@@ -106,7 +106,7 @@ fn of_contacts() {
     let mut failures = 0;
     for pile in piles() {
         let standing = pile.standing().unwrap();
-        let statics = pile.forces::<BigRational>();
+        let forces = pile.forces::<BigRational>();
         let changes = pile.shape().stacking().runs().scan(0, |layer, run| {
             *layer += run.steps;
             Some(*layer)
@@ -120,7 +120,7 @@ fn of_contacts() {
         let mut least: Option<ContactForce<BigRational>> = None;
         let mut first_failure = None;
         for k in layers {
-            for contact in statics.contacts(Selection::Layer(k)).unwrap() {
+            for contact in forces.contacts(Selection::Layer(k)).unwrap() {
                 let contact = contact.unwrap();
                 if contact.force < BigRational::zero() && first_failure.is_none() {
                     first_failure = Some(contact.site.k);

@@ -17,13 +17,13 @@ use crate::support::oracles::balance::{Balance, Place, ratio};
 pub(crate) type Base = Vec<(Place, [BigRational; 3])>;
 
 pub(crate) fn base(case: &Case) -> Base {
-    let statics: Forces<BigRational> = case.pile.forces();
-    let forces = statics.base(Selection::Base).unwrap().map(|force| {
+    let forces: Forces<BigRational> = case.pile.forces();
+    let bottom = forces.base(Selection::Base).unwrap().map(|force| {
         let force = force.unwrap();
         let place = (force.site.k, force.site.j, force.site.i);
         (place, [force.normal, force.shear_x, force.shear_y])
     });
-    forces.collect()
+    bottom.collect()
 }
 
 /// The squared distance from the axis, in (2R sinθ)².

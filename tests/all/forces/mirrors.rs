@@ -18,14 +18,14 @@ struct Answers {
 
 impl Answers {
     fn of(pile: &Pile) -> Self {
-        let statics: Forces<BigRational> = pile.forces();
+        let forces: Forces<BigRational> = pile.forces();
         Self {
-            contacts: statics
+            contacts: forces
                 .contacts(Selection::All)
                 .unwrap()
                 .map(Result::unwrap)
                 .collect(),
-            floor: statics
+            floor: forces
                 .base(Selection::Base)
                 .unwrap()
                 .map(Result::unwrap)

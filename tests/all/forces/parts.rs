@@ -11,10 +11,10 @@ use crate::support::cases::{Random, stacking};
 use crate::support::oracles::balance::ratio;
 
 fn contacts(
-    statics: &Forces<'_, BigRational>,
+    forces: &Forces<'_, BigRational>,
     part: Selection,
 ) -> Vec<Result<ContactForce<BigRational>, Error>> {
-    match statics.contacts(part) {
+    match forces.contacts(part) {
         Ok(contacts) => contacts.collect(),
         Err(error) => vec![Err(error)],
     }
@@ -23,17 +23,17 @@ fn contacts(
 #[test]
 fn one_sphere_has_its_three_contacts_or_its_force_on_the_floor() {
     let pile = Pile::under(Region::SITE, stacking("+-+-+-")).unwrap();
-    let statics: Forces<BigRational> = pile.forces();
+    let forces: Forces<BigRational> = pile.forces();
     for site in pile.shape().sites() {
-        let own = contacts(&statics, Selection::One(site));
+        let own = contacts(&forces, Selection::One(site));
         if site.k == 6 {
             assert!(own.is_empty());
-            let floor: Vec<_> = statics.base(Selection::One(site)).unwrap().collect();
-            assert_eq!(floor, [statics.on_floor(site)]);
+            let floor: Vec<_> = forces.base(Selection::One(site)).unwrap().collect();
+            assert_eq!(floor, [forces.on_floor(site)]);
         } else {
-            let forces = own.into_iter().map(|contact| contact.unwrap());
-            let expected = cannonpile::lattice::Direction::ALL.map(|d| statics.contact(site, d));
-            assert!(forces.map(|c| Ok(c.force)).eq(expected));
+            let own = own.into_iter().map(|contact| contact.unwrap());
+            let expected = cannonpile::lattice::Direction::ALL.map(|d| forces.contact(site, d));
+            assert!(own.map(|c| Ok(c.force)).eq(expected));
         }
     }
 }
@@ -77,9 +77,9 @@ fn loads_on_isosceles_piles_and_on_discs() {
         for _ in 0..40 {
             let (at, load) = (sites[random.below(sites.len())], random.rational());
             let loaded = pile.clone().with_load(at, load.clone()).unwrap();
-            let statics = loaded.forces::<BigRational>();
+            let forces = loaded.forces::<BigRational>();
             let pairs = contacts(&bare, Selection::All).into_iter();
-            let pairs = pairs.zip(contacts(&statics, Selection::All));
+            let pairs = pairs.zip(contacts(&forces, Selection::All));
             for (without, with) in pairs {
                 let (without, with) = (without.unwrap(), with.unwrap());
                 let (site, n) = (with.site, with.site.k - at.k);
@@ -92,7 +92,7 @@ fn loads_on_isosceles_piles_and_on_discs() {
                 };
                 assert_eq!(with.force - without.force, more, "{site}");
             }
-            let base = statics.base(Selection::Base).unwrap();
+            let base = forces.base(Selection::Base).unwrap();
             let normal: BigRational = base.map(|force| force.unwrap().normal).sum();
             assert_eq!(normal, loaded.weight());
             is_least(&loaded);

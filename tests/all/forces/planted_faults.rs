@@ -1,9 +1,9 @@
 //! Every theorem about forces, and their oracle, refuses something: one planted fault each, at least.
 
 use crate::support::answers::{Answers, Contact, Shape, ratio};
-use crate::support::theorems::symmetry::{MIRRORED, TURNS, invariant};
+use crate::support::theorems::symmetry::{MIRRORED, Symmetry, TURNS, invariant};
 use crate::support::theorems::{Verdict, balance, base};
-use cannonpile::lattice::{Direction, Site, Symmetry};
+use cannonpile::lattice::{Direction, Site};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -82,7 +82,7 @@ fn shear_turned(pile: &mut Answers) {
     }
 }
 
-/// The same weight, but from one corner to another.
+/// The weight in all is right, but some of it went from one corner to another.
 fn load_shifted(pile: &mut Answers) {
     pile.floor.get_mut(&CORNER).unwrap().z += BigRational::one();
     let other = Site { i: 0, j: 4, k: 4 };

@@ -23,8 +23,8 @@ fn loaded(signs: &str) -> Case {
 }
 
 fn response(case: &Case) -> Response {
-    let statics: Forces<BigRational> = case.pile.forces();
-    let contacts = statics.contacts(Selection::All).unwrap();
+    let forces: Forces<BigRational> = case.pile.forces();
+    let contacts = forces.contacts(Selection::All).unwrap();
     let mut response = vec![Vec::new(); case.balance.signs.len()];
     for contact in contacts {
         let contact = contact.unwrap();
@@ -168,7 +168,7 @@ const FORCES_OF_HCP: [&[(i64, usize)]; 6] = [
     ],
 ];
 
-/// The same by squared distance from the line of the load: the sum over the ring, as its numerator over 3^(depth−1).
+/// The response by squared distance from the line of the load: the sum over the ring, as its numerator over 3^(depth−1).
 const RINGS_OF_HCP: [&[(i64, i64)]; 6] = [
     &[(1, 1)],
     &[(0, -1), (3, 4)],

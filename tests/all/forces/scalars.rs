@@ -12,21 +12,21 @@ use crate::support::cases::{Bounds, Case, Random, repeated};
 use crate::support::oracles::balance::{Forces, direction, ratio, site};
 
 /// Every answer of a pile in one scalar with the true value, one by one and in rows.
-fn answers<T: Algebra>(case: &Case, forces: &Forces) -> Vec<(Result<T, Error>, BigRational)> {
-    let statics = case.pile.forces::<T>();
+fn answers<T: Algebra>(case: &Case, known: &Forces) -> Vec<(Result<T, Error>, BigRational)> {
+    let forces = case.pile.forces::<T>();
     let mut answers = Vec::new();
-    let mut contacts = statics.contacts(Selection::All).unwrap();
-    for (at, expected) in &forces.below {
+    let mut contacts = forces.contacts(Selection::All).unwrap();
+    for (at, expected) in &known.below {
         for (m, expected) in expected.iter().enumerate() {
-            let one = statics.contact(site(*at), direction(m));
+            let one = forces.contact(site(*at), direction(m));
             let in_rows = contacts.next().expect("a contact");
             answers.push((one, expected.clone()));
             answers.push((in_rows.map(|contact| contact.force), expected.clone()));
         }
     }
-    let mut base = statics.base(Selection::Base).unwrap();
-    for (at, expected) in &forces.floor {
-        let one = statics.on_floor(site(*at));
+    let mut base = forces.base(Selection::Base).unwrap();
+    for (at, expected) in &known.floor {
+        let one = forces.on_floor(site(*at));
         for force in [one, base.next().expect("a bottom sphere")] {
             let components = match force {
                 Ok(force) => [force.normal, force.shear_x, force.shear_y].map(Ok),
@@ -160,6 +160,6 @@ fn fixed_rationals_are_equal_or_refused() {
 #[test]
 fn the_statics_are_of_the_pile_that_was_asked() {
     let case = Case::under(&Bounds::triangle(2), "+-");
-    let statics: cannonpile::Forces<f64> = case.pile.forces();
-    assert_eq!(statics.pile(), &case.pile);
+    let forces: cannonpile::Forces<f64> = case.pile.forces();
+    assert_eq!(forces.pile(), &case.pile);
 }

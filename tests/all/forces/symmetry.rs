@@ -1,8 +1,8 @@
 //! The symmetries of a pile carry its forces along; the others do not.
 
 use crate::support::answers::{Answers, Shape, ratio};
-use crate::support::theorems::symmetry::{MIRRORED, MIRRORED_DISCS, TURNS, invariant};
-use cannonpile::lattice::{Direction, Site, Symmetry, count};
+use crate::support::theorems::symmetry::{MIRRORED, MIRRORED_DISCS, Symmetry, TURNS, invariant};
+use cannonpile::lattice::{Direction, Site, count};
 
 #[test]
 fn equilateral_piles_have_all_six() {
@@ -38,11 +38,11 @@ fn isosceles_piles_have_the_mirror_and_no_other() {
 /// The contact forces alone, no vectors: the rotation fails there too.
 #[test]
 fn an_isosceles_base_is_felt_in_the_magnitudes() {
-    let statics = |shape: &Shape| {
+    let forces = |shape: &Shape| {
         let pile = shape.pile(2);
         Direction::ALL.map(|direction| pile.forces().contact(Site::APEX, direction))
     };
-    let [alpha, beta, gamma] = statics(&Shape::Spheres(ratio(2, 5)));
+    let [alpha, beta, gamma] = forces(&Shape::Spheres(ratio(2, 5)));
     assert_eq!(alpha, beta);
     assert_ne!(alpha, gamma);
     assert_eq!(gamma, Ok(ratio(4, 5)));

@@ -227,24 +227,24 @@ fn polynomials_take_the_exact_value() {
 
 /// All that can be asked of a pile.
 fn answers<T: Algebra>(pile: &Pile) -> Result<Vec<T>, Error> {
-    let statics = pile.forces::<T>();
-    let mut all = vec![statics.increment_sum()?];
+    let forces = pile.forces::<T>();
+    let mut all = vec![forces.increment_sum()?];
     for direction in Direction::ALL {
-        all.extend(statics.direction(direction)?.into_array());
+        all.extend(forces.direction(direction)?.into_array());
     }
     for site @ Site { k, .. } in pile.shape().sites() {
-        all.extend(statics.from_above(site)?);
-        all.extend(statics.position(site)?.into_array());
-        all.extend(statics.resultant_above(site)?.into_array());
+        all.extend(forces.from_above(site)?);
+        all.extend(forces.position(site)?.into_array());
+        all.extend(forces.resultant_above(site)?.into_array());
         if k < pile.layers() - 1 {
-            all.extend(statics.unbalanced(site)?.into_array());
+            all.extend(forces.unbalanced(site)?.into_array());
             for direction in pile.dimension().directions() {
-                all.push(statics.contact(site, *direction)?);
-                all.extend(statics.contact_vector(site, *direction)?.into_array());
+                all.push(forces.contact(site, *direction)?);
+                all.extend(forces.contact_vector(site, *direction)?.into_array());
             }
         }
     }
-    for force in statics.base(Selection::Base)? {
+    for force in forces.base(Selection::Base)? {
         let force = force?;
         all.extend([force.normal, force.shear_x, force.shear_y]);
     }

@@ -2,7 +2,7 @@
 //!
 //! The bench `rounding` judges ten million in the same way.
 
-use cannonpile::scalar::{Decision, Surd};
+use cannonpile::scalar::Surd;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
@@ -81,32 +81,16 @@ fn near_ties(bits: u32) -> impl Iterator<Item = Surd> {
 }
 
 #[test]
-fn integers_decide_near_ties_and_the_screen_the_rest() {
-    let decision = |surd: &Surd| surd.nearest_and_how::<f64>().1;
-    assert!(near_ties(53).all(|surd| decision(&surd) == Decision::Integers));
-    let decision = |surd: &Surd| surd.nearest_and_how::<f32>().1;
-    assert!(near_ties(24).all(|surd| decision(&surd) == Decision::Integers));
-
+fn near_ties_and_roots_of_integers_are_rounded_to_the_nearest() {
     let mut tally = Tally::default();
     for surd in near_ties(53).chain(near_ties(24)) {
         tally.meet(&surd);
     }
-    // Each lies beside a tie of one format only; without `std` there is no screen for roots.
-    let screened = if cfg!(feature = "std") { 64 } else { 0 };
-    let decided = (tally.cases, tally.wrong, tally.by_integers + screened);
-    assert_eq!(decided, (64, 0, 128));
-
-    let mut tally = Tally::default();
+    assert_eq!((tally.cases, tally.wrong), (64, 0));
     for n in (2..5000).filter(|n: &i64| n.isqrt().pow(2) != *n) {
         tally.meet(&Surd::sqrt(ratio(n, 1)).expect("not negative"));
     }
-    // Not one in a hundred thousand is near a tie by chance.
-    let expected = if cfg!(feature = "std") {
-        0
-    } else {
-        2 * tally.cases
-    };
-    assert_eq!((tally.wrong, tally.by_integers), (0, expected));
+    assert_eq!(tally.wrong, 0);
 }
 
 #[test]

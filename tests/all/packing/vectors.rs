@@ -26,32 +26,32 @@ fn way(balance: &Balance, from: Place, to: Place) -> Vector<BigRational> {
 }
 
 fn agrees(case: &Case) {
-    let (balance, forces) = (&case.balance, case.balance.forces());
-    let statics: Forces<BigRational> = case.pile.forces();
+    let (balance, known) = (&case.balance, case.balance.forces());
+    let forces: Forces<BigRational> = case.pile.forces();
     let first = balance.places().next().expect("a sphere");
-    let origin = statics.position(site(first)).unwrap();
+    let origin = forces.position(site(first)).unwrap();
     for at in balance.places() {
-        let from_first = statics.position(site(at)).unwrap() - &origin;
+        let from_first = forces.position(site(at)).unwrap() - &origin;
         assert_eq!(from_first, way(balance, first, at), "{at:?}");
         let mut resultant = Vector::zero();
         for m in 0..3 {
             if let Some(above) = balance.above(at, m) {
-                let force = &forces.above[&at][m];
+                let force = &known.above[&at][m];
                 resultant = resultant + &way(balance, above, at).map(|c| c * force);
             }
         }
-        assert_eq!(statics.resultant_above(site(at)), Ok(resultant), "{at:?}");
-        let Some(below) = forces.below.get(&at) else {
+        assert_eq!(forces.resultant_above(site(at)), Ok(resultant), "{at:?}");
+        let Some(below) = known.below.get(&at) else {
             continue;
         };
         for (m, force) in below.iter().enumerate() {
             let to = balance.below(at, m).expect("off the floor");
             // On the upper sphere: away from the lower one.
             let expected = way(balance, to, at).map(|c| c * force);
-            let vector = statics.contact_vector(site(at), direction(m));
+            let vector = forces.contact_vector(site(at), direction(m));
             assert_eq!(vector, Ok(expected), "{at:?} {m}");
         }
-        assert_eq!(statics.unbalanced(site(at)), Ok(Vector::zero()), "{at:?}");
+        assert_eq!(forces.unbalanced(site(at)), Ok(Vector::zero()), "{at:?}");
     }
 }
 

@@ -10,7 +10,7 @@ use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
 /// Pairs of operands for each operation.
 const PAIRS: u32 = 25_000;
 
-/// The same bits in every run (xorshift).
+/// Bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {

@@ -8,7 +8,7 @@ use num_traits::{One, Pow, Zero};
 /// Pairs of points for each operation.
 const PAIRS: u32 = 50_000;
 
-/// The same bits in every run (xorshift).
+/// Bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {

@@ -23,7 +23,7 @@ fn constant(n: i64, d: i64) -> P {
     P::constant(&ratio(n, d))
 }
 
-/// The same bits in every run (xorshift).
+/// Bits that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {

@@ -46,7 +46,7 @@ fn over_pile(p: &P) -> P {
     layer.sum(Symbol("k"), &zero, &last)
 }
 
-/// The same for L = 0 … 12 layers, sphere by sphere.
+/// The sums for L = 0 … 12 layers, sphere by sphere.
 fn one_by_one([a, b, c]: [u32; 3]) -> Vec<i128> {
     let mut sums = vec![0];
     let mut sum = 0;

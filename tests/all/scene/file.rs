@@ -166,7 +166,7 @@ fn refusals_name_the_line_and_the_key() {
         ("top = 'hexagon:0'", &["line 1, top", "at least 1"]),
         (
             "base = 'hexagon:2'\n\ntop = 'hexagon:2'",
-            &["line 3, top", "beside base"],
+            &["line 3, top", "with base"],
         ),
         ("load = '0,0,0=1'", &["line 1, load", "an array of loads"]),
         ("load = [\n'0,0,0=1',\n'0,0=x']", &["line 3, load", "'x'"]),

@@ -114,9 +114,9 @@ fn no_invalid_pile_comes_in() {
         (text(2, "1/2", "++", site, "[]"), "sin-phi"),
         (
             text(2, "0", "+-", site, "[]"),
-            "stacking has no meaning beside dimension 2",
+            "stacking has no meaning with dimension 2",
         ),
-        (text(2, "0", "++", base, "[]"), "no meaning beside"),
+        (text(2, "0", "++", base, "[]"), "no meaning with"),
         (text(3, "1/2", "++", base, &load(3, "1")), "no layer 3"),
         (
             text(3, "1/2", "++", base, &load(2, "-1")),

@@ -13,7 +13,7 @@ fn one_layer_is_its_own_mirror_image() {
     assert_eq!(one.mirrored(), one);
 }
 
-/// The same stacking in two notations is refused in both.
+/// A stacking that is refused in one notation is refused in the other.
 #[test]
 fn the_limit_of_runs_holds_in_every_notation() {
     let runs = MAX_RUNS + 1;

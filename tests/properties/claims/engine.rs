@@ -37,27 +37,27 @@ pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checke
         format!("{described:?}")
     })?;
     let (contacts, floor) = (contacts_of(&solved), floor_of(&solved));
-    let statics = pile.forces();
+    let forces = pile.forces();
     // A pile equal to another is the same pile: nothing depends on which of them is asked.
     let twin = pile.clone();
-    for statics in [pile.forces(), twin.forces()] {
-        let swept: Result<Contacts, Error> = statics.contacts(Selection::All)?.collect();
+    for forces in [pile.forces(), twin.forces()] {
+        let swept: Result<Contacts, Error> = forces.contacts(Selection::All)?.collect();
         agree(&swept?, &contacts)?;
-        let swept: Result<Floor, Error> = statics.base(Selection::Base)?.collect();
+        let swept: Result<Floor, Error> = forces.base(Selection::Base)?.collect();
         same("the base", &swept?, &floor)?;
     }
-    of_one_layer(&statics, k, &contacts)?;
-    filled(&statics, i128::try_from(given).unwrap_or(0), &contacts)?;
+    of_one_layer(&forces, k, &contacts)?;
+    filled(&forces, i128::try_from(given).unwrap_or(0), &contacts)?;
     // A tree for every sphere would be slow where there are many.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
-        one_sphere(&statics, *site, &solved)?;
+        one_sphere(&forces, *site, &solved)?;
     }
     bears_what_acts(&floor, &solved)?;
     same("the weight", &pile.weight(), &solved.acting.values().sum())
 }
 
-/// The same in floats: off by roundings of the greatest force there may be.
+/// In floats the answer is off by roundings of the greatest force there may be.
 pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let solved = Solved::of(&described);
@@ -67,7 +67,7 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
         return Ok(());
     }
     let pile = described.pile()?;
-    let statics = pile.forces::<f64>();
+    let forces = pile.forces::<f64>();
     let within = (&acting + ratio(1, 1)) * ratio(1, 1 << 40);
     let near = |got: f64, want: &BigRational| {
         let got = BigRational::from_float(got).unwrap_or_default();
@@ -75,12 +75,12 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
             format!("{got} is not {want}")
         })
     };
-    let swept: Result<Vec<_>, Error> = statics.contacts(Selection::All)?.collect();
+    let swept: Result<Vec<_>, Error> = forces.contacts(Selection::All)?.collect();
     let contacts = contacts_of(&solved);
     for (got, want) in swept?.iter().zip(&contacts) {
         near(got.force, &want.force)?;
     }
-    let swept: Result<Vec<_>, Error> = statics.base(Selection::Base)?.collect();
+    let swept: Result<Vec<_>, Error> = forces.base(Selection::Base)?.collect();
     let floor = floor_of(&solved);
     for (got, want) in swept?.iter().zip(&floor) {
         near(got.normal, &want.normal)?;
@@ -99,26 +99,26 @@ fn agree(got: &Contacts, want: &Contacts) -> Checked {
     same("the contacts", &got.len(), &want.len())
 }
 
-fn of_one_layer(statics: &Exact<'_>, k: i128, contacts: &Contacts) -> Checked {
-    let swept: Result<Contacts, Error> = statics.contacts(Selection::Layer(k))?.collect();
+fn of_one_layer(forces: &Exact<'_>, k: i128, contacts: &Contacts) -> Checked {
+    let swept: Result<Contacts, Error> = forces.contacts(Selection::Layer(k))?.collect();
     let here = contacts.iter().filter(|contact| contact.site.k == k);
     agree(&swept?, &here.cloned().collect())
 }
 
 /// Layers filled into slices, from one in the middle of the pile on.
-fn filled(statics: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
-    let mut layers = statics.layers(Selection::All)?;
+fn filled(forces: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
+    let mut layers = forces.layers(Selection::All)?;
     while let Some(layer) = layers.next_layer()? {
         if layer.is_floor() || layer.k() < from {
             continue;
         }
-        let mut forces = [(); 3].map(|()| vec![BigRational::zero(); layer.spheres()]);
-        layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
+        let mut slices = [(); 3].map(|()| vec![BigRational::zero(); layer.spheres()]);
+        layer.fill(slices.each_mut().map(Vec::as_mut_slice))?;
         let here = contacts
             .iter()
             .filter(|contact| contact.site.k == layer.k());
         for (n, contact) in here.enumerate() {
-            let force = &forces[contact.direction.index()][n / 3];
+            let force = &slices[contact.direction.index()][n / 3];
             same("a force in a slice", force, &contact.force)?;
         }
     }
@@ -126,33 +126,33 @@ fn filled(statics: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
 }
 
 /// What the library says of one sphere, by the lines above it.
-fn one_sphere(statics: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
+fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
     let sphere = (site.k, (site.j, site.i));
     same(
         "the forces from above",
-        &statics.from_above(site)?,
+        &forces.from_above(site)?,
         &solved.received[&sphere],
     )?;
-    let Some(forces) = solved.passed_on.get(&sphere) else {
+    let Some(passed_on) = solved.passed_on.get(&sphere) else {
         let floor = floor_of(solved);
         let want = floor.iter().find(|force| force.site == site).cloned();
         return same(
             "the force on the floor",
-            &Some(statics.on_floor(site)?),
+            &Some(forces.on_floor(site)?),
             &want,
         );
     };
-    for (direction, force) in Direction::ALL.into_iter().zip(forces) {
-        same("a force", &statics.contact(site, direction)?, force)?;
+    for (direction, force) in Direction::ALL.into_iter().zip(passed_on) {
+        same("a force", &forces.contact(site, direction)?, force)?;
     }
-    let one: Result<Contacts, Error> = statics.contacts(Selection::One(site))?.collect();
+    let one: Result<Contacts, Error> = forces.contacts(Selection::One(site))?.collect();
     let one = one?.into_iter().map(|contact| contact.force);
-    demand(one.eq(forces.iter().cloned()), || {
+    demand(one.eq(passed_on.iter().cloned()), || {
         format!("the rows of {site} give others")
     })?;
     same(
         "what is left over",
-        &statics.unbalanced(site)?,
+        &forces.unbalanced(site)?,
         &Vector::zero(),
     )
 }
@@ -231,10 +231,10 @@ mod planted {
         let solved = Solved::of(&described());
         let judge = |described: &Described| {
             let pile: Pile = described.pile().unwrap();
-            let statics = pile.forces();
+            let forces = pile.forces();
             let low = Site { i: 0, j: 1, k: 4 };
-            one_sphere(&statics, low, &solved).is_ok()
-                && of_one_layer(&statics, 3, &contacts_of(&solved)).is_ok()
+            one_sphere(&forces, low, &solved).is_ok()
+                && of_one_layer(&forces, 3, &contacts_of(&solved)).is_ok()
         };
         assert!(judge(&described()));
         let spoils: [fn(&mut Described); 5] = [

@@ -27,11 +27,11 @@ pub(crate) fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
 /// Every sphere of a small pile, and the totals over the base.
 pub(crate) fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::small_pile(u)?;
-    let statics = pile.forces();
+    let forces = pile.forces();
     for site in pile.shape().sites() {
-        sphere(&statics, site)?;
+        sphere(&forces, site)?;
     }
-    let base: Result<Vec<_>, _> = statics.base(Selection::Base)?.collect();
+    let base: Result<Vec<_>, _> = forces.base(Selection::Base)?.collect();
     bears_the_weight(
         &base?,
         &BigRational::from_integer(pile.sphere_count().into()),
@@ -53,20 +53,20 @@ pub(crate) fn on_floor(u: &mut Unstructured<'_>) -> Checked {
 }
 
 /// Balance at `site`, and both views of each contact below it.
-fn sphere(statics: &Exact<'_>, site: Site) -> Checked {
-    let forces = forces_on(statics, site)?;
-    for component in forces.iter().flat_map(|f| [&f.x, &f.y, &f.z]) {
+fn sphere(forces: &Exact<'_>, site: Site) -> Checked {
+    let acting = forces_on(forces, site)?;
+    for component in acting.iter().flat_map(|f| [&f.x, &f.y, &f.z]) {
         in_lowest_terms(component)?;
     }
-    balance(&forces)?;
-    for &direction in statics.pile().dimension().directions() {
-        let pyramid = statics.pile().shape();
+    balance(&acting)?;
+    for &direction in forces.pile().dimension().directions() {
+        let pyramid = forces.pile().shape();
         if let Some(below) = pyramid.below(site, direction) {
-            let on_site = statics.contact_vector(site, direction)?;
-            balance(&[on_site, on_lower(statics, site, below, direction)?])?;
+            let on_site = forces.contact_vector(site, direction)?;
+            balance(&[on_site, on_lower(forces, site, below, direction)?])?;
         }
         if pyramid.above(site, direction).is_none() {
-            let force = &statics.from_above(site)?[direction.index()];
+            let force = &forces.from_above(site)?[direction.index()];
             same("a force at the surface", force, &BigRational::zero())?;
         }
     }
@@ -83,20 +83,20 @@ fn balance(forces: &[Vector<BigRational>]) -> Checked {
 
 /// All forces on a sphere, in f₀: its weight, the pushes of its supports or of the floor, and the reactions
 /// to what the spheres above say that they push with.
-fn forces_on(statics: &Exact<'_>, site: Site) -> Result<Vec<Vector<BigRational>>, Error> {
-    let pile = statics.pile();
+fn forces_on(forces: &Exact<'_>, site: Site) -> Result<Vec<Vector<BigRational>>, Error> {
+    let pile = forces.pile();
     // W: a weight mg is W in mg/W. Discs have s = 0.
     let weight = (BigRational::one() + pile.sin_phi()) * ratio(2, 1);
-    let mut forces = vec![Vector {
+    let mut acting = vec![Vector {
         z: weight.clone(),
         ..Vector::zero()
     }];
     for &direction in pile.dimension().directions() {
         if let Some(above) = pile.shape().above(site, direction) {
-            forces.push(-statics.contact_vector(above, direction)?);
+            acting.push(-forces.contact_vector(above, direction)?);
         }
         if pile.shape().below(site, direction).is_some() {
-            forces.push(statics.contact_vector(site, direction)?);
+            acting.push(forces.contact_vector(site, direction)?);
         }
     }
     if site.k == pile.layers() - 1 {
@@ -105,26 +105,26 @@ fn forces_on(statics: &Exact<'_>, site: Site) -> Result<Vec<Vector<BigRational>>
             shear_x,
             shear_y,
             ..
-        } = statics.on_floor(site)?;
+        } = forces.on_floor(site)?;
         let on_floor = Vector {
             x: shear_x,
             y: shear_y,
             z: normal,
         };
-        forces.push(-on_floor.scaled(&weight));
+        acting.push(-on_floor.scaled(&weight));
     }
-    Ok(forces)
+    Ok(acting)
 }
 
 /// The force of a contact on the lower sphere, as that one tells it, along the line of centres.
 fn on_lower(
-    statics: &Exact<'_>,
+    forces: &Exact<'_>,
     upper: Site,
     lower: Site,
     direction: Direction,
 ) -> Result<Vector<BigRational>, Error> {
-    let centres = statics.position(lower)? - &statics.position(upper)?;
-    Ok(centres.scaled(&statics.from_above(lower)?[direction.index()]))
+    let centres = forces.position(lower)? - &forces.position(upper)?;
+    Ok(centres.scaled(&forces.from_above(lower)?[direction.index()]))
 }
 
 /// The floor bears the weight, in mg, and is not pushed sideways.
@@ -201,12 +201,12 @@ mod planted {
     #[test]
     fn a_contact_mistaken_for_its_neighbour_is_caught() {
         let pile = tall();
-        let statics = pile.forces();
+        let forces = pile.forces();
         let below = pile.shape().below(SITE, Direction::Beta).unwrap();
-        let seen = on_lower(&statics, SITE, below, Direction::Beta).unwrap();
+        let seen = on_lower(&forces, SITE, below, Direction::Beta).unwrap();
         for (direction, same) in [(Direction::Beta, true), (Direction::Alpha, false)] {
             let views = [
-                statics.contact_vector(SITE, direction).unwrap(),
+                forces.contact_vector(SITE, direction).unwrap(),
                 seen.clone(),
             ];
             assert_eq!(balance(&views).is_ok(), same);

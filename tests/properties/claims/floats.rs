@@ -131,12 +131,12 @@ fn counts(site: Site) -> [BigRational; 3] {
 
 /// Σ |c_m ê_m| for c_m ≥ 0, by component.
 fn magnitudes(
-    statics: &Forces<'_, BigRational>,
+    forces: &Forces<'_, BigRational>,
     coefficients: &[BigRational; 3],
 ) -> Result<Vector<BigRational>, Error> {
     let mut sum = Vector::zero();
     for (direction, coefficient) in Direction::ALL.into_iter().zip(coefficients) {
-        let e = statics.direction(direction)?.map(|c| c.abs());
+        let e = forces.direction(direction)?.map(|c| c.abs());
         sum = sum + &e.scaled(coefficient);
     }
     Ok(sum)

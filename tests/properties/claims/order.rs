@@ -64,7 +64,7 @@ fn signed_square(c: &BigRational, r: &BigRational) -> SignedSquare {
     c * c.abs() * r
 }
 
-/// The same of a surd, from its parts.
+/// The signed square of a surd, from its parts.
 fn square_of(x: &Surd) -> SignedSquare {
     let radicand = BigRational::from_integer(x.radicand().clone().into());
     signed_square(x.coefficient(), &radicand)

@@ -178,7 +178,7 @@ fn tie_of_f64(x: f64) -> BigRational {
     exactly(x) + step / BigInt::from(2)
 }
 
-/// The same among the `f32`.
+/// The middle between two neighbours among the `f32`.
 fn tie_of_f32(u: &mut Unstructured<'_>) -> Result<BigRational> {
     let x = f32::from_bits(u.int_in_range(0..=f32::MAX.to_bits())?);
     let above = f64::from(x.next_up());

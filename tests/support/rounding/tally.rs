@@ -1,6 +1,6 @@
 //! How many roundings were judged, and how many were wrong.
 
-use cannonpile::scalar::{Decision, NearestFloat, Surd};
+use cannonpile::scalar::{NearestFloat, Surd};
 use num_rational::BigRational;
 
 use crate::support::judge::{Float, Value, Verdict, is_nearest};
@@ -15,19 +15,17 @@ pub(crate) struct Tally {
     pub(crate) wrong: u64,
     /// The first of those.
     pub(crate) witness: Option<String>,
-    /// How many roundings of surds the screen could not tell, and integers decided.
-    pub(crate) by_integers: u64,
 }
 
 impl Tally {
     /// Rounds a value and judges it.
     pub(crate) fn meet(&mut self, exact: &Surd) {
         let value = Value::of(exact);
-        let (double, single) = (self.rounded::<f64>(exact), self.rounded::<f32>(exact));
+        let (double, single) = (exact.nearest::<f64>(), exact.nearest::<f32>());
         self.count(is_nearest(double, &value).and_then(|()| is_nearest(single, &value)));
     }
 
-    /// The same for a rational, which is rounded by itself and as a surd.
+    /// Rounds a rational by itself and as a surd, and judges both.
     pub(crate) fn meet_rational(&mut self, exact: &BigRational) {
         let value = Value::of(&exact.clone().into());
         self.count(
@@ -40,13 +38,6 @@ impl Tally {
     /// Judges a float that was rounded before; `None` stands for an infinite one.
     pub(crate) fn meet_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
         self.count(is_nearest(got, &Value::of(exact)));
-    }
-
-    /// The float that the library calls nearest; every surd of tests and bench is rounded here.
-    fn rounded<F: NearestFloat>(&mut self, exact: &Surd) -> Option<F> {
-        let (float, decision) = exact.nearest_and_how();
-        self.by_integers += u64::from(decision == Decision::Integers);
-        float
     }
 
     fn count(&mut self, verdict: Verdict) {

@@ -24,7 +24,7 @@ pub(crate) struct Forces<T> {
 }
 
 impl<T: Clone> Forces<T> {
-    /// The same of every number.
+    /// Every number, changed in one way.
     pub(crate) fn map<U>(self, image: impl Fn(T) -> U) -> Forces<U> {
         let of = |spheres: Vec<OfSphere<T>>| {
             let mapped = spheres
@@ -58,7 +58,7 @@ impl<T: Algebra> Forces<T> {
     }
 
     fn one_by_one(pile: &Pile) -> Result<Self, Error> {
-        let statics = pile.forces::<T>();
+        let forces = pile.forces::<T>();
         let floor = pile.layers() - 1;
         let mut layers = vec![0, floor / 3, floor / 2, floor - 1];
         layers.dedup();
@@ -66,7 +66,7 @@ impl<T: Algebra> Forces<T> {
         for k in layers {
             for [i, j] in places(&pile.shape().layer(k)?) {
                 let site = Site { i, j, k };
-                let [a, b, c] = Direction::ALL.map(|along| statics.contact(site, along));
+                let [a, b, c] = Direction::ALL.map(|along| forces.contact(site, along));
                 contacts.push(OfSphere {
                     site,
                     values: [a?, b?, c?],
@@ -75,22 +75,22 @@ impl<T: Algebra> Forces<T> {
         }
         let places = places(&pile.shape().base());
         let on_floor = places.into_iter().map(|[i, j]| {
-            let force = statics.on_floor(Site { i, j, k: floor })?;
+            let force = forces.on_floor(Site { i, j, k: floor })?;
             Ok(OfSphere {
                 site: force.site,
                 values: [force.normal, force.shear_x, force.shear_y],
             })
         });
         let floor = on_floor.collect::<Result<_, Error>>()?;
-        Self::with_positions(&statics, contacts, floor)
+        Self::with_positions(&forces, contacts, floor)
     }
 
     fn swept(pile: &Pile) -> Result<Self, Error> {
-        let statics = pile.forces::<T>();
+        let forces = pile.forces::<T>();
         let part = Selection::Layer(pile.layers() - 2);
         let (before, stride) = middle_row(pile, part)?;
         let mut contacts = Vec::new();
-        let mut below = statics.contacts(part)?.skip(3 * before);
+        let mut below = forces.contacts(part)?.skip(3 * before);
         for n in 0..SAMPLE * stride {
             let (Some(a), Some(b), Some(c)) = (below.next(), below.next(), below.next()) else {
                 break;
@@ -104,7 +104,7 @@ impl<T: Algebra> Forces<T> {
             }
         }
         let (before, stride) = middle_row(pile, Selection::Base)?;
-        let on_floor = statics.base(Selection::Base)?.skip(before);
+        let on_floor = forces.base(Selection::Base)?.skip(before);
         let on_floor = on_floor.step_by(stride).take(SAMPLE);
         let on_floor = on_floor.map(|force| {
             let force = force?;
@@ -114,18 +114,18 @@ impl<T: Algebra> Forces<T> {
             })
         });
         let floor = on_floor.collect::<Result<_, Error>>()?;
-        Self::with_positions(&statics, contacts, floor)
+        Self::with_positions(&forces, contacts, floor)
     }
 
     fn with_positions(
-        statics: &cannonpile::Forces<'_, T>,
+        forces: &cannonpile::Forces<'_, T>,
         contacts: Vec<OfSphere<T>>,
         floor: Vec<OfSphere<T>>,
     ) -> Result<Self, Error> {
         let positions = contacts.iter().map(|OfSphere { site, .. }| {
             Ok(OfSphere {
                 site: *site,
-                values: statics.position(*site)?.into_array(),
+                values: forces.position(*site)?.into_array(),
             })
         });
         Ok(Self {

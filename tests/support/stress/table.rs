@@ -214,7 +214,7 @@ impl Quantity {
         Ok(worst)
     }
 
-    /// The same in SI, and of positions the points of contact too.
+    /// The answers in SI; among the positions are the points of contact too.
     fn in_si(
         self,
         exact: &Forces<BigRational>,

@@ -1,11 +1,59 @@
 //! Which mappings of a pile onto itself carry its forces along.
 
 use cannonpile::geometry::Vector;
-use cannonpile::lattice::Symmetry;
+use cannonpile::lattice::{Direction, Site};
 use num_rational::BigRational;
 
 use super::{Verdict, same};
 use crate::support::answers::{Answers, ratio};
+
+/// A symmetry of the pile: the site whose count along α is the old count along the first direction
+/// given, and so on.
+///
+/// Every permutation maps the sites of a triangular pile onto themselves. On an equilateral base all
+/// six are symmetries of the forces; on an isosceles one, and for discs, only the identity and the
+/// mirror α ↔ β.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Symmetry([Direction; 3]);
+
+impl Symmetry {
+    /// The paper's rotation about the axis, {j → k−i−j, i → j}: (i, j, k) goes to (j, k−i−j, k).
+    pub(crate) const ROTATION: Self = Self([Direction::Beta, Direction::Gamma, Direction::Alpha]);
+
+    /// The mirror that exchanges α and β: (i, j, k) goes to (k−i−j, j, k).
+    pub(crate) const MIRROR: Self = Self([Direction::Beta, Direction::Alpha, Direction::Gamma]);
+
+    /// All six permutations of the directions, the identity first, then the rotations.
+    pub(crate) const ALL: [Self; 6] = {
+        use Direction::{Alpha, Beta, Gamma};
+        [
+            Self([Alpha, Beta, Gamma]),
+            Self::ROTATION,
+            Self([Gamma, Alpha, Beta]),
+            Self::MIRROR,
+            Self([Alpha, Gamma, Beta]),
+            Self([Gamma, Beta, Alpha]),
+        ]
+    };
+
+    /// Returns the image of a site; `None` if it leaves `i128`, which no site of a pile does.
+    pub(crate) fn apply(self, site: Site) -> Option<Site> {
+        let Site { i, j, k } = site;
+        let [_, i, j] = self.permute(&[k.checked_sub(i)?.checked_sub(j)?, i, j]);
+        Some(Site { i, j, k })
+    }
+
+    /// Returns the counts of spheres above the image of a site, from those above the site, in any scalar.
+    pub(crate) fn permute<T: Clone>(self, above: &[T; 3]) -> [T; 3] {
+        self.0.map(|direction| above[direction.index()].clone())
+    }
+
+    /// Returns the direction whose line is carried to the line of `direction`: the count along `direction` at an image
+    /// is the count along this one at the site it comes from.
+    pub(crate) fn source(self, direction: Direction) -> Direction {
+        self.0[direction.index()]
+    }
+}
 
 /// A linear map of the horizontal plane, by rows, in halves: ((xx, xy), (yx, yy)) acts on components
 /// (x, y) of the symbolic basis.

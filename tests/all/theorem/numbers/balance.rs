@@ -28,9 +28,9 @@ fn increments_solve_the_papers_system() {
     let proof = prove("paper-system");
     for s in sines() {
         let pile = Pile::isosceles(2, s.clone()).expect("a pile");
-        let statics = pile.forces::<Q>();
+        let forces = pile.forces::<Q>();
         let [alpha, beta, gamma] = Direction::ALL
-            .map(|direction| statics.contact(Site::APEX, direction).expect("a contact"));
+            .map(|direction| forces.contact(Site::APEX, direction).expect("a contact"));
         let at = [("s", s.clone())];
         assert_eq!(
             value(&proof, "along x", &at),
@@ -40,7 +40,7 @@ fn increments_solve_the_papers_system() {
         assert_eq!(value(&proof, "along z", &at), alpha + beta + gamma);
         assert_eq!(
             value(&proof, "W =", &at),
-            statics.increment_sum().expect("W")
+            forces.increment_sum().expect("W")
         );
     }
 }
@@ -77,14 +77,14 @@ fn distances_are_those_between_positions() {
 fn supports_bear_what_lies_above() {
     let proof = prove("equilibrium");
     every_sphere(|pile, site, values| {
-        let statics = pile.forces::<Q>();
+        let forces = pile.forces::<Q>();
         if site.k == pile.layers() - 1 {
             return;
         }
-        let contact = |site, direction| statics.contact_vector(site, direction).expect("a contact");
+        let contact = |site, direction| forces.contact_vector(site, direction).expect("a contact");
         let mut supports = Vector::zero();
         let mut load = Vector {
-            z: statics.increment_sum().expect("W"),
+            z: forces.increment_sum().expect("W"),
             ..Vector::zero()
         };
         for direction in Direction::ALL {
@@ -97,7 +97,7 @@ fn supports_bear_what_lies_above() {
             ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: supports"), values));
         assert_eq!(of_theorem, supports.into_array());
         assert_eq!(of_theorem, (-load).into_array());
-        let left = statics.unbalanced(site).expect("forces").into_array();
+        let left = forces.unbalanced(site).expect("forces").into_array();
         assert_eq!(
             ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: what is left"), values)),
             left
@@ -109,15 +109,15 @@ fn supports_bear_what_lies_above() {
 fn surfaces_receive_nothing_and_others_what_is_given() {
     let (surface, reaction) = (prove("surface"), prove("action-reaction"));
     every_sphere(|pile, site, values| {
-        let statics = pile.forces::<Q>();
-        let received = statics.from_above(site).expect("forces");
+        let forces = pile.forces::<Q>();
+        let received = forces.from_above(site).expect("forces");
         for (direction, received) in Direction::ALL.into_iter().zip(received) {
             if let Some(above) = pile.shape().above(site, direction) {
                 let mut values = at_site(above);
                 values.push(("s", pile.sin_phi().clone()));
                 let given = value(&reaction, &format!("{direction}: given"), &values);
                 assert_eq!(given, received);
-                assert_eq!(given, statics.contact(above, direction).expect("a contact"));
+                assert_eq!(given, forces.contact(above, direction).expect("a contact"));
             } else {
                 let claim = ["along α", "along β", "along γ"][direction.index()];
                 assert_eq!(value(&surface, claim, values), received);
@@ -130,10 +130,10 @@ fn surfaces_receive_nothing_and_others_what_is_given() {
 fn resultants_are_positions() {
     let proof = prove("central-force");
     for pile in equilateral_piles(8) {
-        let statics = pile.forces::<Q>();
+        let forces = pile.forces::<Q>();
         for site in pile.shape().sites() {
-            let force = statics.resultant_above(site).expect("a force");
-            let at = statics.position(site).expect("a position");
+            let force = forces.resultant_above(site).expect("a force");
+            let at = forces.position(site).expect("a position");
             for (what, vector) in [("the resultant", force), ("the position", at)] {
                 let of_theorem = ["x", "y", "z"].map(|axis| {
                     let claim = format!("{axis}: twice {what}");

@@ -21,10 +21,10 @@ struct Bottom {
 }
 
 fn base(pile: &Pile) -> Vec<Bottom> {
-    let statics = pile.forces::<Q>();
-    let weight = statics.increment_sum().expect("W");
+    let forces = pile.forces::<Q>();
+    let weight = forces.increment_sum().expect("W");
     let of_force = |force: FloorForce<Q>| {
-        let at = statics.position(force.site).expect("a position");
+        let at = forces.position(force.site).expect("a position");
         let mut values = at_layers(pile);
         values.extend([("i", int(force.site.i)), ("j", int(force.site.j))]);
         let force = FloorForce {
@@ -40,8 +40,8 @@ fn base(pile: &Pile) -> Vec<Bottom> {
             values,
         }
     };
-    let forces = statics.base(Selection::Base).expect("rows");
-    forces
+    let bottom = forces.base(Selection::Base).expect("rows");
+    bottom
         .map(|force| of_force(force.expect("a force")))
         .collect()
 }
@@ -57,12 +57,12 @@ fn over(base: &[Bottom], term: impl Fn(&Bottom) -> Q) -> Q {
 
 /// Σ over all spheres, times their weight W.
 fn weighed(pile: &Pile, term: impl Fn(Site, Q, Q) -> Q) -> Q {
-    let statics = pile.forces::<Q>();
+    let forces = pile.forces::<Q>();
     let of_sphere = |site| {
-        let at = statics.position(site).expect("a position");
+        let at = forces.position(site).expect("a position");
         term(site, at.x, at.y)
     };
-    pile.shape().sites().map(of_sphere).sum::<Q>() * statics.increment_sum().expect("W")
+    pile.shape().sites().map(of_sphere).sum::<Q>() * forces.increment_sum().expect("W")
 }
 
 #[test]

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Direction, Site, Symmetry};
+use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::Selection;
 use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
+
+use crate::support::theorems::symmetry::Symmetry;
 
 use super::{at_site, equilateral_piles, int, prove, value};
 

@@ -13,10 +13,10 @@ fn discs_on_the_floor() {
     let proof = prove("discs");
     for layers in 1..=12 {
         let pile = Pile::discs(layers).expect("a pile");
-        let statics = pile.forces::<Q>();
+        let forces = pile.forces::<Q>();
         let l = ("L", int(layers));
         let (mut total, mut sideways) = (Q::zero(), Q::zero());
-        for force in statics.base(Selection::Base).expect("rows") {
+        for force in forces.base(Selection::Base).expect("rows") {
             let FloorForce {
                 site,
                 normal,
@@ -41,7 +41,7 @@ fn discs_on_the_floor() {
             let Site { i, k, .. } = site;
             let values = [("i", int(i)), ("k", int(k))];
             let left = ["x", "y", "z"].map(|axis| value(&proof, &format!("{axis}: "), &values));
-            assert_eq!(left, statics.unbalanced(site).expect("forces").into_array());
+            assert_eq!(left, forces.unbalanced(site).expect("forces").into_array());
         }
     }
 }

@@ -1,0 +1,121 @@
+//! `base` and `contacts`: the forces on the floor, and those between spheres.
+
+use cannonpile::scene::Scene;
+use cannonpile::shape::Selection;
+use cannonpile::table::{self, Table, Units};
+use cannonpile::{Culprit, Error, Pile};
+use clap::Args;
+
+use super::Pulls;
+use crate::args::{BaseAt, ByMethod, Numbers, Output, Part, SceneOptions, narrower, spheres};
+use crate::output::{Failure, Refused};
+use crate::progress::Progress;
+
+/// A scene, which of its spheres are asked about, and how the forces are found and shown.
+#[derive(Args)]
+pub(crate) struct Forces<P: Args> {
+    #[command(flatten)]
+    pub(crate) scene: SceneOptions,
+    #[command(flatten)]
+    part: P,
+    #[command(flatten)]
+    numbers: Numbers,
+    #[command(flatten)]
+    method: ByMethod,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// `base`: the force of each bottom sphere on the floor.
+pub(crate) type Base = Forces<BaseAt>;
+
+/// `contacts`: the force of each contact between two spheres.
+pub(crate) type Contacts = Forces<Part>;
+
+/// A table of forces.
+struct Asked {
+    doing: &'static str,
+    /// The column with the force, positive for a push.
+    column: &'static str,
+    /// How many rows a sphere has.
+    rows: usize,
+    table: for<'p> fn(&Units<'p>, Selection) -> Result<Table<'p>, Error>,
+}
+
+impl<P: Args> Forces<P> {
+    fn write(
+        &self,
+        scene: &Scene,
+        pile: &Pile,
+        selection: Selection,
+        asked: &Asked,
+    ) -> Result<bool, Failure> {
+        self.output.format()?;
+        let rows = spheres(pile, selection)? * asked.rows;
+        let progress = Progress::of_rows(asked.doing, rows.try_into().ok());
+        let units = self.method.of(self.numbers.units.of(scene, pile)?)?;
+        let table = (asked.table)(&units, selection).map_err(|error| narrower(error, selection))?;
+        let pulls = Pulls::in_column(asked.column);
+        self.output
+            .write_table(pulls.watch(table), self.numbers.number, &progress)?;
+        drop(progress);
+        pulls.note(pile, selection);
+        Ok(true)
+    }
+}
+
+impl Base {
+    pub(crate) const HELP: &str = "\
+Columns: i, j; normal, downwards, in mg; shear_x in mg·tanθ and shear_y in √3·mg·tanθ (2cosφ·mg·tanθ for another base
+triangle), also in csv and json; with --units si all in N, for m = 1 kg and g = 1 m/s² unless these are given.
+
+Examples:
+  cannonpile base --layers 10
+  cannonpile base --layers 10 --spacing 6/5 --units si --number f64 --output base.csv
+  cannonpile base --layers 1000000000000000000000000000000 --at 5,7";
+
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let selection = self.part.selection(&pile)?;
+        let asked = Asked {
+            doing: "forces on the floor",
+            column: "normal",
+            rows: 1,
+            table: table::base,
+        };
+        self.write(&scene, &pile, selection, &asked)
+    }
+}
+
+impl Contacts {
+    pub(crate) const HELP: &str = "\
+Each row is a sphere (k, i, j), counted from k = 0 at the top, and its contact with the sphere below it in one direction.
+The force is positive for a push, in mg/(3cosθ); with --units si in N and m, for R = 1 m, m = 1 kg and g = 1 m/s² unless
+these are given, with the force on the upper sphere fx, fy, fz and the point of contact x, y, z.
+
+Examples:
+  cannonpile contacts --layers 4
+  cannonpile contacts --stacking hcp --layers 7 --layer 4
+  cannonpile contacts --layers 20 --units si --number f64 --output contacts.csv";
+
+    pub(crate) fn run(&self) -> Result<bool, Failure> {
+        let (scene, pile) = self.scene.read()?;
+        let selection = self.part.selection(&pile)?;
+        if let Selection::One(site) = selection
+            && site.k == pile.layers() - 1
+        {
+            return Err(Refused {
+                remedy: Some("the command base"),
+                ..Refused::of(Culprit::Site, Error::OnFloor { site })
+            }
+            .into());
+        }
+        let asked = Asked {
+            doing: "contact forces",
+            column: "force",
+            rows: pile.dimension().directions().len(),
+            table: table::contacts,
+        };
+        self.write(&scene, &pile, selection, &asked)
+    }
+}
