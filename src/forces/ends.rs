@@ -4,8 +4,9 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
 use super::Forces;
+use super::screen::Screen;
 use crate::Error;
-use crate::engine::{Engine, Quantity, Received, Wanted, trees_are_cheaper};
+use crate::engine::{Engine, Method, Quantity, Received, Wanted, exact_sweep, trees_are_cheaper};
 use crate::geometry::Vector;
 use crate::lattice::Site;
 use crate::shape::Selection;
@@ -13,12 +14,14 @@ use crate::shape::Selection;
 impl Forces<'_, BigRational> {
     /// Shows the forces of bottom spheres on the floor as integers (shear_x, shear_y, normal), and returns the
     /// denominator of all of them: of the corners of a straight pile under one sphere; of those spheres between which
-    /// the forces are linear, where they are far fewer; or of every bottom sphere.
+    /// the forces are linear, where they are far fewer; or of every bottom sphere, but those whose floats tell that others
+    /// are more extreme. `across` is 4cos²φ.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10⁸ of them.
     pub(crate) fn ends_of_base(
         &self,
+        across: &BigRational,
         mut meet: impl FnMut(&Vector<BigInt>),
     ) -> Result<BigInt, Error> {
         const MOST: u64 = 100_000_000;
@@ -51,9 +54,24 @@ impl Forces<'_, BigRational> {
             }
         } else {
             let plan = self.plan(&rows, Quantity::FloorMultiples)?;
-            let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
-            for site in rows.flatten() {
-                meet(site, &engine.received((lines, &terms.system), site, ())?);
+            if plan.method == Method::Sweep {
+                let mut sweep = exact_sweep(lines, &terms.system, floor)?;
+                sweep.advance(floor, ())?;
+                let screen = Screen::over(rows.clone(), (terms, &sweep), across)?;
+                for row in rows {
+                    let sites = match &screen {
+                        Some(screen) => screen.candidates(row)?,
+                        None => row.into_iter().collect(),
+                    };
+                    for site in sites {
+                        meet(site, &sweep.received(site)?);
+                    }
+                }
+            } else {
+                let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
+                for site in rows.flatten() {
+                    meet(site, &engine.received((lines, &terms.system), site, ())?);
+                }
             }
         }
         Ok(terms.floor_unit(changes))

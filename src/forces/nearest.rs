@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
@@ -13,7 +12,6 @@ use crate::Error;
 use crate::engine::{Descent, Meter, Planes, Readout, Table, Unit};
 use crate::error::bug;
 use crate::formula::tripled_half_turn;
-use crate::geometry::Vector;
 use crate::lattice::Site;
 use crate::scalar::{NearestFloat, Surd};
 
@@ -309,7 +307,7 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
     pub fn fill_base(&self, slices: [&mut [F]; 3]) -> Result<(), Error> {
         if self.is_floor()
             && let Some((terms, sweep)) = self.layer.exact_sweep()
-            && let Some(readout) = self.floor_from_limbs(terms)
+            && let Some(readout) = terms.floor_from_limbs(&self.units.floor)
         {
             return self.fill_from_limbs((terms, sweep), &readout, slices, |site| {
                 let force = self.layer.on_floor(site)?;
@@ -346,24 +344,6 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
             own: terms.lines.increments_after(changes),
             units: [unit.clone(), unit.clone(), unit],
         }
-    }
-
-    /// Returns what normal force and shear under an ordinary bottom sphere are made of, unless the factors are long.
-    fn floor_from_limbs(&self, terms: &Terms<'_, BigRational>) -> Option<Readout> {
-        let changes = terms.system.shape.changes_above(self.k());
-        let (lines, own) = terms.floor_factors(self.k(), changes);
-        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
-            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
-            Some([a?.into(), b?.into(), c?.into()])
-        };
-        let [unit_x, unit_y, unit_normal] = &self.units.floor;
-        let denominator = terms.floor_unit(changes);
-        let unit = |unit: &Surd| Unit::new(unit.clone(), denominator.clone());
-        Some(Readout {
-            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
-            own: [own.z, own.x, own.y],
-            units: [unit(unit_normal), unit(unit_x), unit(unit_y)],
-        })
     }
 
     /// Writes what a readout makes of the limbs of a sweep, and what spheres with extra weights and loads have instead.
