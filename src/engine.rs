@@ -24,6 +24,7 @@ mod rows;
 mod single;
 mod sweep;
 mod table;
+mod thirds;
 mod tree;
 
 pub(crate) use cells::Cells;
@@ -35,7 +36,7 @@ pub(crate) use nearest::{Readout, Unit};
 pub use plan::Plan;
 pub(crate) use plan::{Keeping, trees_are_cheaper};
 pub use question::{Method, Quantity, Question};
-pub(crate) use rows::{Engine, exact_sweep};
+pub(crate) use rows::{Engine, exact_sweep, shortest_exact_sweep};
 pub(crate) use single::{closed_contact, plain_sweep, received};
 pub(crate) use sweep::Descent;
 pub(crate) use table::Table;

@@ -11,10 +11,11 @@
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
-use num_traits::ToPrimitive;
+use num_traits::{ToPrimitive, Zero};
 
 use super::grid::{Grid, Layer, Pass};
 use super::parallel;
+use super::thirds::Piece;
 use crate::lattice::{Along, Slopes};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
@@ -74,6 +75,15 @@ impl<V: Clone> Plane<V> {
         Self(core::array::from_fn(
             |_| alloc::vec![zero.clone(); grid.cells],
         ))
+    }
+
+    /// Takes the numbers to the cells of the next window.
+    pub(super) fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece], zero: &V) {
+        let Self(had) = core::mem::replace(self, Self::new(next, zero));
+        for Piece { from, to, length } in pieces {
+            let numbers = &had[from.0][from.1..from.1 + length];
+            self.0[to.0][to.1..to.1 + length].clone_from_slice(numbers);
+        }
     }
 
     /// What the three lines of a sphere carry.
@@ -142,7 +152,7 @@ fn make_in_bands<V>(
 /// How many bands are worth the work of these passes.
 fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
     // Not a default: only whether threads are worth it hangs on it.
-    let sites = |(pass, _): &(Pass, _)| pass.region.site_count().to_usize().unwrap_or(usize::MAX);
+    let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
     // Threads are not asked for where they are not worth it.
@@ -166,7 +176,7 @@ fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
     let whole: Vec<Range<i128>> = passes
         .iter()
         .map(|(pass, _)| {
-            let rows = pass.region.y();
+            let rows = pass.part.y();
             *rows.start()..rows.end() + 1
         })
         .collect();
@@ -338,7 +348,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         j: i128,
         turn: &impl Fn(&[V; 3]) -> [V; 3],
     ) -> [Range<usize>; 3] {
-        let i = pass.region.row(j);
+        let i = pass.part.row(j);
         let mut cells = grid.row(j, &i, pass.shift);
         for (cells, start) in cells.iter_mut().zip(self.starts) {
             *cells = cells.start - start..cells.end - start;
@@ -542,6 +552,14 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         );
         self.plane.add_to(cells, values);
         Ok(())
+    }
+
+    fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece]) {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        self.plane.move_to(next, pieces, &T::Numerator::zero());
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {

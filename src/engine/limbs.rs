@@ -35,6 +35,7 @@
 //! made together, row after row ([`make`]), and each row carries when the last of them has been over it.
 
 use alloc::vec::Vec;
+use core::cmp::Ordering::{Equal, Less};
 use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -45,6 +46,8 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::cells::{Plane, Ramps, make, row};
 use super::grid::{Grid, Layer, Pass};
+use super::parallel;
+use super::thirds::Piece;
 use crate::Error;
 use crate::error::bug;
 use crate::formula::{force, tripled_apart};
@@ -210,8 +213,8 @@ impl Planes {
             "passes come before what they lead to"
         );
         self.carry()?;
-        let mut least: Option<(Vec<i64>, [i128; 2], Direction)> = None;
-        for row in pass.region.rows(pass.k) {
+        let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
+        for row in pass.part.rows(pass.k) {
             let cells = grid.row(row.j, &row.i, pass.shift);
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
@@ -219,19 +222,24 @@ impl Planes {
                     // From the top limb down, limbs in [−2^50, 2^50) compare like digits: what is below a limb is less
                     // than one of its units.
                     let limbs = rows.iter().map(|row| row[direction.index()][n]);
-                    let less = match &least {
-                        Some((least, ..)) => limbs.clone().lt(least.iter().copied()),
-                        None => true,
+                    let order = match &least {
+                        Some((least, ..)) => limbs.clone().cmp(least.iter().copied()),
+                        None => Less,
                     };
-                    if less {
-                        least = Some((limbs.collect(), [i, row.j], direction));
+                    // In row order the first of whole layers is met first; of a third its images may come before.
+                    if order == Less || order == Equal && grid.corner.is_some() {
+                        let first = grid.first_image([i, row.j], direction, pass.k)?;
+                        match &mut least {
+                            Some((_, place)) if order == Equal => *place = first.min(*place),
+                            _ => least = Some((limbs.collect(), first)),
+                        }
                     }
                 }
             }
         }
-        let least = least.map(|(limbs, place, direction)| Least {
+        let least = least.map(|(limbs, (j, i, direction))| Least {
             numerator: value(limbs.iter()),
-            place,
+            place: [i, j],
             direction,
         });
         least.ok_or_else(|| bug("a layer has a sphere"))
@@ -288,6 +296,16 @@ impl Layer<BigRational> for Planes {
         }
         // Loads on one line may follow each other without a pass between them.
         self.carry_at(cells)
+    }
+
+    fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece]) {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        parallel::for_each(self.limbs.iter_mut().collect(), |plane| {
+            plane.move_to(next, pieces, &0);
+        });
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {

@@ -6,7 +6,9 @@ use num_rational::BigRational;
 use super::Forces;
 use super::screen::Screen;
 use crate::Error;
-use crate::engine::{Engine, Method, Quantity, Received, Wanted, exact_sweep, trees_are_cheaper};
+use crate::engine::{
+    Engine, Method, Quantity, Received, Wanted, shortest_exact_sweep, trees_are_cheaper,
+};
 use crate::geometry::Vector;
 use crate::lattice::Site;
 use crate::shape::Selection;
@@ -55,10 +57,12 @@ impl Forces<'_, BigRational> {
         } else {
             let plan = self.plan(&rows, Quantity::FloorMultiples)?;
             if plan.method == Method::Sweep {
-                let mut sweep = exact_sweep(lines, &terms.system, floor)?;
+                let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
                 sweep.advance(floor, ())?;
-                let screen = Screen::over(rows.clone(), (terms, &sweep), across)?;
-                for row in rows {
+                // Images have the same normal force, and as great a shear.
+                let rows = || sweep.part().map(|part| part.rows(floor));
+                let screen = Screen::over(rows()?, (terms, &sweep), across)?;
+                for row in rows()? {
                     let sites = match &screen {
                         Some(screen) => screen.candidates(row)?,
                         None => row.into_iter().collect(),
