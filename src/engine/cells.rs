@@ -15,7 +15,7 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::grid::{Grid, Layer, Pass};
 use super::parallel;
-use super::thirds::Piece;
+use super::thirds::{Moves, Piece};
 use crate::lattice::{Along, Slopes};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
@@ -77,12 +77,25 @@ impl<V: Clone> Plane<V> {
         ))
     }
 
-    /// Takes the numbers to the cells of the next window.
-    pub(super) fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece], zero: &V) {
-        let Self(had) = core::mem::replace(self, Self::new(next, zero));
-        for Piece { from, to, length } in pieces {
-            let numbers = &had[from.0][from.1..from.1 + length];
-            self.0[to.0][to.1..to.1 + length].clone_from_slice(numbers);
+    /// Takes the numbers to the cells of the next window: those of a direction in other memory, which is left with what
+    /// they had.
+    pub(super) fn move_to(&mut self, other: &mut Vec<V>, next: &Grid<'_>, moves: &Moves, zero: &V) {
+        let images = moves.images.iter();
+        let images: Vec<_> = images
+            .map(|Piece { from, to, .. }| (to, self.0[from.0][from.1].clone()))
+            .collect();
+        for (line, numbers) in self.0.iter_mut().enumerate() {
+            other.clear();
+            other.reserve_exact(next.cells);
+            other.resize(next.cells, zero.clone());
+            for Piece { from, to, length } in moves.rows.iter().filter(|row| row.to.0 == line) {
+                let row = &numbers[from.1..from.1 + length];
+                other[to.1..to.1 + length].clone_from_slice(row);
+            }
+            for (to, image) in images.iter().filter(|(to, _)| to.0 == line) {
+                other[to.1] = image.clone();
+            }
+            core::mem::swap(numbers, other);
         }
     }
 
@@ -554,12 +567,13 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         Ok(())
     }
 
-    fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece]) {
+    fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
         debug_assert!(
             self.waiting.is_empty(),
             "passes come before what they lead to"
         );
-        self.plane.move_to(next, pieces, &T::Numerator::zero());
+        let zero = T::Numerator::zero();
+        self.plane.move_to(&mut Vec::new(), next, moves, &zero);
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {

@@ -16,7 +16,7 @@ use core::ops::Range;
 
 use num_bigint::BigUint;
 
-use super::thirds::Piece;
+use super::thirds::Moves;
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::Region;
@@ -225,7 +225,7 @@ pub(crate) trait Layer<T: Algebra> {
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error>;
 
     /// Takes the numbers to the cells of the next window.
-    fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece]);
+    fn move_to(&mut self, next: &Grid<'_>, moves: &Moves);
 
     /// What the three lines of a sphere carry.
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];

@@ -46,8 +46,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::cells::{Plane, Ramps, make, row};
 use super::grid::{Grid, Layer, Pass};
-use super::parallel;
-use super::thirds::Piece;
+use super::thirds::Moves;
 use crate::Error;
 use crate::error::bug;
 use crate::formula::{force, tripled_apart};
@@ -103,6 +102,8 @@ pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: 
 pub(crate) struct Planes {
     /// The planes that the numbers fill by now, the lowest first; further down they are more.
     limbs: Vec<Plane<i64>>,
+    /// Memory for moves, kept so that it grows in place.
+    spare: Vec<i64>,
     /// No less than 2√3·B·D.
     bound: BigInt,
     /// Passes that were asked for and not made yet.
@@ -119,6 +120,7 @@ impl Planes {
         let size = Size::new(&bound, 0);
         Self {
             limbs: alloc::vec![Plane::new(grid, &0); size.planes],
+            spare: Vec::new(),
             bound,
             waiting: Vec::new(),
             passes: 0,
@@ -180,6 +182,12 @@ impl Planes {
         );
         let top_down = self.limbs.iter().rev();
         top_down.map(|plane| plane.slices(cells.clone())).collect()
+    }
+
+    /// Whether the three lines of two spheres carry the same limbs, and so the same numbers.
+    pub(super) fn are_alike(&self, [one, other]: [[usize; 3]; 2]) -> bool {
+        let mut planes = self.limbs.iter();
+        planes.all(|plane| plane.carried(one) == plane.carried(other))
     }
 
     /// Brings the lower limbs into [−2^50, 2^50).
@@ -298,14 +306,14 @@ impl Layer<BigRational> for Planes {
         self.carry_at(cells)
     }
 
-    fn move_to(&mut self, next: &Grid<'_>, pieces: &[Piece]) {
+    fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
         debug_assert!(
             self.waiting.is_empty(),
             "passes come before what they lead to"
         );
-        parallel::for_each(self.limbs.iter_mut().collect(), |plane| {
-            plane.move_to(next, pieces, &0);
-        });
+        for plane in &mut self.limbs {
+            plane.move_to(&mut self.spare, next, moves, &0);
+        }
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {

@@ -67,8 +67,8 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         while k > self.k {
             if self.k == self.grid.last {
                 self.layer.catch_up(&self.grid)?;
-                let (next, pieces) = self.grid.next_window()?;
-                self.layer.move_to(&next, &pieces);
+                let (next, moves) = self.grid.next_window()?;
+                self.layer.move_to(&next, &moves);
                 self.grid = next;
             }
             let pass = self.grid.pass(self.k, k)?;
@@ -187,6 +187,13 @@ impl Descent<'_, BigRational, Planes> {
         }
         let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
         readout.write(&self.layer.slices(&cells), out)
+    }
+
+    /// Whether two spheres that are kept of this layer receive and weigh the same; it may not be seen of all that do.
+    pub(crate) fn are_alike(&self, sites: [Site; 2]) -> bool {
+        let extra = |site| self.lines.extra_weights.contains_key(site);
+        let cells = sites.map(|Site { i, j, k }| self.grid.site(i, j, k));
+        !sites.iter().any(extra) && self.layer.are_alike(cells)
     }
 
     /// Returns the least number on the lines of this layer, and where it is.

@@ -30,8 +30,17 @@ use crate::shape::Shape;
 /// are beside the part.
 const LAYERS: i128 = 10;
 
+/// From where the numbers of the next window come.
+#[derive(Default)]
+pub(crate) struct Moves {
+    /// From the same lines.
+    pub(super) rows: Vec<Piece>,
+    /// One by one from images.
+    pub(super) images: Vec<Piece>,
+}
+
 /// Numbers that are in other cells in the next window: direction and first cell in both, and how many.
-pub(crate) struct Piece {
+pub(super) struct Piece {
     pub(super) from: (usize, usize),
     pub(super) to: (usize, usize),
     pub(super) length: usize,
@@ -59,13 +68,13 @@ impl<'p> Grid<'p> {
     ///
     /// # Errors
     /// [`Error::Bug`] where the sweep ends.
-    pub(super) fn next_window(&self) -> Result<(Self, Vec<Piece>), Error> {
+    pub(super) fn next_window(&self) -> Result<(Self, Moves), Error> {
         if self.last == self.end {
             return Err(bug("a sweep is asked of layers that it leads to"));
         }
         let next = Self::window(self.shape, self.end, self.last)?;
-        let pieces = self.pieces(&next)?;
-        Ok((next, pieces))
+        let moves = self.moves_to(&next)?;
+        Ok((next, moves))
     }
 
     fn window(shape: &'p Shape, end: i128, first: i128) -> Result<Self, Error> {
@@ -148,10 +157,10 @@ impl<'p> Grid<'p> {
     }
 
     /// Returns from where the numbers of the next window come.
-    fn pieces(&self, next: &Self) -> Result<Vec<Piece>, Error> {
+    fn moves_to(&self, next: &Self) -> Result<Moves, Error> {
         let k = self.last;
         let (had, wanted) = (self.part(k)?, next.part(k)?);
-        let mut pieces = Vec::new();
+        let mut moves = Moves::default();
         for row in wanted.rows(k) {
             let same = had.row_within(row.j);
             let same = if same.is_empty() {
@@ -162,7 +171,7 @@ impl<'p> Grid<'p> {
             let cells = |grid: &Self| grid.row(row.j, &same, grid.shift(k));
             if !same.is_empty() {
                 let lines = cells(self).into_iter().zip(cells(next)).enumerate();
-                pieces.extend(lines.map(|(line, (from, to))| Piece {
+                moves.rows.extend(lines.map(|(line, (from, to))| Piece {
                     from: (line, from.start),
                     to: (line, to.start),
                     length: from.len(),
@@ -171,7 +180,7 @@ impl<'p> Grid<'p> {
             for i in (row.i.start..same.start).chain(same.end..row.i.end) {
                 let ([x, y], turns) = self.kept([i, row.j], k)?;
                 let (from, to) = (self.site(x, y, k), next.site(i, row.j, k));
-                pieces.extend((0..3).map(|line| {
+                moves.images.extend((0..3).map(|line| {
                     let image = turned(line, turns);
                     Piece {
                         from: (image, from[image]),
@@ -181,7 +190,7 @@ impl<'p> Grid<'p> {
                 }));
             }
         }
-        Ok(pieces)
+        Ok(moves)
     }
 }
 

@@ -60,15 +60,26 @@ impl Forces<'_, BigRational> {
                 let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
                 sweep.advance(floor, ())?;
                 // Images have the same normal force, and as great a shear.
-                let rows = || sweep.part().map(|part| part.rows(floor));
-                let screen = Screen::over(rows()?, (terms, &sweep), across)?;
-                for row in rows()? {
-                    let sites = match &screen {
+                let part = sweep.part()?;
+                let mut screen = Screen::new((terms, &sweep), across);
+                if let Some(screen) = &mut screen {
+                    // Some rows first, so that few spheres are more extreme than those before them.
+                    for row in part.rows(floor).step_by(16) {
+                        screen.candidates(row)?;
+                    }
+                }
+                let mut last = None;
+                for row in part.rows(floor) {
+                    let sites = match &mut screen {
                         Some(screen) => screen.candidates(row)?,
                         None => row.into_iter().collect(),
                     };
                     for site in sites {
-                        meet(site, &sweep.received(site)?);
+                        // Of an even base most are extreme.
+                        if last.is_none_or(|last| !sweep.are_alike([last, site])) {
+                            meet(site, &sweep.received(site)?);
+                            last = Some(site);
+                        }
                     }
                 }
             } else {

@@ -6,7 +6,7 @@
 //! 2^−100 ≤ |n| < 2^200, |x| and |y| < 2^200, and 2^−100 ≤ c ≤ 4. The second term is what squares below 2^−1000 may lose,
 //! over n² ≥ 2^−200. If r is the greatest of all and m the greatest float, r′ ≥ (1 − 11u)/(1 + 11u)·m − 2^−795, which is
 //! more than (1 − 32u)·m for m ≥ 2^−700. What is beyond these bounds is left to long integers, and so are spheres that
-//! weigh more than others.
+//! weigh more than others. All that holds with the extremes of those met so far in place of the extremes of all.
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
@@ -26,7 +26,7 @@ const TINY: f64 = f64::from_bits(323 << 52);
 const SMALL: f64 = f64::from_bits(923 << 52);
 const GREAT: f64 = f64::from_bits(1223 << 52);
 
-/// The extremes of the floats of a base, to which those of a sphere are held.
+/// The extremes of the floats met so far, to which those of a sphere are held.
 pub(super) struct Screen<'s, 'p> {
     sweep: &'s Descent<'p, BigRational, Planes>,
     readout: Readout,
@@ -44,65 +44,53 @@ pub(super) struct Screen<'s, 'p> {
 type Floats = (f64, Option<f64>);
 
 impl<'s, 'p> Screen<'s, 'p> {
-    /// Returns the extremes of the floats of the rows of a base that a sweep is at, unless one of them is no float or their
-    /// errors are not known.
-    ///
-    /// # Errors
-    /// [`Error::Bug`].
-    pub(super) fn over(
-        rows: impl Iterator<Item = Row>,
+    /// Returns the screen of a base that a sweep is at, unless its floats are not to be had.
+    pub(super) fn new(
         (terms, sweep): (
             &Terms<'_, BigRational>,
             &'s Descent<'p, BigRational, Planes>,
         ),
         across: &BigRational,
-    ) -> Result<Option<Self>, Error> {
+    ) -> Option<Self> {
         let one = || Surd::from(BigRational::from_i128(1));
-        let readout = terms.floor_from_limbs(&[one(), one(), one()]);
         let across = Surd::from(across.clone()).nearest::<f64>();
-        let (Some(readout), Some(across)) = (readout, across.filter(|c| *c >= SMALL)) else {
-            return Ok(None);
-        };
-        let mut screen = Self {
+        Some(Self {
             sweep,
-            readout,
-            across,
+            readout: terms.floor_from_limbs(&[one(), one(), one()])?,
+            across: across.filter(|c| *c >= SMALL)?,
             extras: terms.lines.extras_in(sweep.k()..sweep.k() + 1).collect(),
             least: f64::INFINITY,
             most: f64::NEG_INFINITY,
             ratio: 0.0,
-        };
-        for row in rows {
-            let Some(floats) = screen.floats(&row)? else {
-                return Ok(None);
-            };
-            for (site, (normal, ratio)) in row.into_iter().zip(floats) {
-                if !screen.extras.contains(&site) {
-                    screen.least = screen.least.min(normal);
-                    screen.most = screen.most.max(normal);
-                    screen.ratio = ratio.map_or(screen.ratio, |ratio| screen.ratio.max(ratio));
-                }
-            }
-        }
-        Ok((screen.ratio >= TINY).then_some(screen))
+        })
     }
 
-    /// Returns the spheres of a row that can be extreme.
+    /// Returns the spheres of a row that can be extreme among all that were met.
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(super) fn candidates(&self, row: Row) -> Result<Vec<Site>, Error> {
-        let floats = self.floats(&row)?;
-        let floats = floats.ok_or_else(|| bug("a row that had floats has them again"))?;
-        let greatest = self.ratio * (1.0 - 16.0 * f64::EPSILON);
-        let can_be = |(site, (normal, ratio)): &(Site, Floats)| {
+    pub(super) fn candidates(&mut self, row: Row) -> Result<Vec<Site>, Error> {
+        let Some(floats) = self.floats(&row)? else {
+            return Ok(row.into_iter().collect());
+        };
+        let spheres = || row.clone().into_iter().zip(&floats);
+        for (_, (normal, ratio)) in spheres().filter(|(site, _)| !self.extras.contains(site)) {
+            self.least = self.least.min(*normal);
+            self.most = self.most.max(*normal);
+            self.ratio = ratio.map_or(self.ratio, |ratio| self.ratio.max(ratio));
+        }
+        let greatest = if self.ratio < TINY {
+            0.0
+        } else {
+            self.ratio * (1.0 - 16.0 * f64::EPSILON)
+        };
+        let can_be = |(site, (normal, ratio)): &(Site, &Floats)| {
             *normal <= self.least
                 || *normal >= self.most
                 || ratio.is_none_or(|ratio| ratio >= greatest)
                 || self.extras.contains(site)
         };
-        let sites = row.into_iter().zip(floats).filter(can_be);
-        Ok(sites.map(|(site, _)| site).collect())
+        Ok(spheres().filter(can_be).map(|(site, _)| site).collect())
     }
 
     fn floats(&self, row: &Row) -> Result<Option<Vec<Floats>>, Error> {
