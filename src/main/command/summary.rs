@@ -6,11 +6,12 @@ use clap::Args;
 
 use super::Command;
 use crate::args::{Numbers, Output, SceneOptions};
-use crate::output::Failure;
+use crate::output::{Failure, complain};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Lengths and forces in SI are for R = 1 m, m = 1 kg and g = 1 m/s², unless these are given.
+Lengths and forces in SI are for R = 1 m, m = 1 kg and g = 1 m/s², unless these are given. Why a column is empty is said in
+a note on stderr.
 
 Examples:
   cannonpile summary --stacking hcp --layers 7
@@ -33,12 +34,17 @@ impl Command for Summary {
         self.output.format()?;
         let units = self.numbers.units(&scene, &pile)?;
         // At the default spacing, where none is given: if that fits.
-        let touching = pile.clearance().check(&scene.spacing()?).ok();
+        let touching = pile.clearance().check(&scene.spacing()?);
         let progress = Progress::begin("finding the extreme forces");
-        let summary = table::Summary::new(&units, touching)?;
+        let summary = table::Summary::new(&units, touching.clone().ok())?;
         let table = summary.table()?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;
+        drop(progress);
+        let touching = touching.err().map(|error| ("touching", error.to_string()));
+        for (columns, reason) in summary.left_out().into_iter().chain(touching) {
+            complain(&format!("note: no {columns}: {reason}"));
+        }
         Ok(matches!(summary.verdict(), None | Some(Verdict::Yes)))
     }
 
