@@ -13,9 +13,8 @@ use core::ops::{Add, Range};
 
 use num_traits::{ToPrimitive, Zero};
 
-use super::grid::{Grid, Layer, Pass};
+use super::grid::{Grid, Layer, Moves, Pass, Piece};
 use super::parallel;
-use super::thirds::{Moves, Piece};
 use crate::lattice::{Along, Slopes};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};

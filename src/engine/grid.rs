@@ -16,7 +16,6 @@ use core::ops::Range;
 
 use num_bigint::BigUint;
 
-use super::thirds::Moves;
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::Region;
@@ -153,6 +152,19 @@ impl<'p> Grid<'p> {
         }
     }
 
+    /// Returns the spheres of a layer that a sweep keeps.
+    ///
+    /// # Errors
+    /// [`Error::LayerOutside`].
+    pub(crate) fn part(&self, k: i128) -> Result<Region, Error> {
+        let layer = self.shape.layer(k)?;
+        match self.corner {
+            // Lower by one for each + step.
+            Some(corner) => cut(&layer, corner, (self.last - k).midpoint(self.shift(k))),
+            None => Ok(layer),
+        }
+    }
+
     pub(super) fn shift(&self, k: i128) -> i128 {
         self.shape.shift(self.last) - self.shape.shift(k)
     }
@@ -199,6 +211,22 @@ impl<'p> Grid<'p> {
     }
 }
 
+/// From where the numbers of the next window come.
+#[derive(Default)]
+pub(crate) struct Moves {
+    /// From the same lines.
+    pub(super) rows: Vec<Piece>,
+    /// One by one from images.
+    pub(super) images: Vec<Piece>,
+}
+
+/// Numbers that are in other cells in the next window: direction and first cell in both, and how many.
+pub(super) struct Piece {
+    pub(super) from: (usize, usize),
+    pub(super) to: (usize, usize),
+    pub(super) length: usize,
+}
+
 /// The numbers of a layer, in one of the ways they are kept.
 pub(crate) trait Layer<T: Algebra> {
     /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there. May note it only.
@@ -229,6 +257,12 @@ pub(crate) trait Layer<T: Algebra> {
 
     /// What the three lines of a sphere carry.
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];
+}
+
+/// The sites not below a corner that is so much lower.
+pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
+    let part = region.above(corner.map(|bound| bound - lower));
+    part.ok_or_else(|| bug("a third of a layer has a sphere"))
 }
 
 /// The number of sites in a range that fits in memory.

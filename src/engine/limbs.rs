@@ -45,8 +45,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::cells::{Plane, Ramps, make, row};
-use super::grid::{Grid, Layer, Pass};
-use super::thirds::Moves;
+use super::grid::{Grid, Layer, Moves, Pass};
 use crate::Error;
 use crate::error::bug;
 use crate::formula::{force, tripled_apart};

@@ -17,9 +17,7 @@
 //! of which it has the part, widened by as far as lines move on the way. Below it the next window begins: what its first
 //! layer has more than the last one of the window above is copied from images.
 
-use alloc::vec::Vec;
-
-use super::grid::Grid;
+use super::grid::{Grid, Moves, Piece, cut};
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Direction, Region};
@@ -29,22 +27,6 @@ use crate::shape::Shape;
 /// The layers of a window, unless one run is longer: twice as many as passes wait, so that few cells are copied, and few
 /// are beside the part.
 const LAYERS: i128 = 10;
-
-/// From where the numbers of the next window come.
-#[derive(Default)]
-pub(crate) struct Moves {
-    /// From the same lines.
-    pub(super) rows: Vec<Piece>,
-    /// One by one from images.
-    pub(super) images: Vec<Piece>,
-}
-
-/// Numbers that are in other cells in the next window: direction and first cell in both, and how many.
-pub(super) struct Piece {
-    pub(super) from: (usize, usize),
-    pub(super) to: (usize, usize),
-    pub(super) length: usize,
-}
 
 /// Whether the forces of a pile are the same after a third of a turn.
 pub(crate) fn are_thirds_alike(system: &System<'_>) -> bool {
@@ -92,19 +74,6 @@ impl<'p> Grid<'p> {
         let reach = (last - first).midpoint(net.abs());
         let cells = cut(&region, corner, reach)?;
         Ok(Self::over(shape, [last, end], Some(corner), &cells))
-    }
-
-    /// Returns the spheres of a layer that a sweep keeps.
-    ///
-    /// # Errors
-    /// [`Error::LayerOutside`].
-    pub(crate) fn part(&self, k: i128) -> Result<Region, Error> {
-        let layer = self.shape.layer(k)?;
-        match self.corner {
-            // Lower by one for each + step.
-            Some(corner) => cut(&layer, corner, (self.last - k).midpoint(self.shift(k))),
-            None => Ok(layer),
-        }
     }
 
     /// Returns the images of a sphere, each by one turn more: only itself where whole layers are kept.
@@ -203,12 +172,6 @@ pub(super) fn turned(line: usize, turns: usize) -> usize {
 fn sum(region: &Region) -> Result<i128, Error> {
     let sum = region.sum_of_turn();
     sum.ok_or_else(|| bug("every layer of a pile is mapped onto itself if its base is"))
-}
-
-/// The sites not below a corner that is so much lower.
-fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
-    let part = region.above(corner.map(|bound| bound - lower));
-    part.ok_or_else(|| bug("a third of a layer has a sphere"))
 }
 
 #[cfg(test)]
