@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | *closed* | by counting the spheres on a line, paper, (8) and (9) | `tree.rs`, which such a line begins |
 //! | *tree* | the lines above one sphere, which begin at the changes of sign | `tree.rs` |
-//! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs | `sweep.rs`, `cells.rs`, `limbs.rs` |
+//! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs; of extremes a third of it | `sweep.rs`, `cells.rs`, `limbs.rs`, `thirds.rs` |
 //! | *table* | the distinct forces of a straight pile, copied row by row | `table.rs` |
 //!
 //! Engines know a [`System`](crate::pile::System), not a pile. They count and pass on by the functions of
@@ -24,6 +24,7 @@ mod rows;
 mod single;
 mod sweep;
 mod table;
+mod thirds;
 mod tree;
 
 pub(crate) use cells::Cells;
@@ -35,7 +36,7 @@ pub(crate) use nearest::{Readout, Unit};
 pub use plan::Plan;
 pub(crate) use plan::{Keeping, trees_are_cheaper};
 pub use question::{Method, Quantity, Question};
-pub(crate) use rows::{Engine, exact_sweep, received_in};
+pub(crate) use rows::{Engine, exact_sweep, received_in, shortest_exact_sweep};
 pub(crate) use single::{closed_contact, plain_sweep, received};
 pub(crate) use sweep::Descent;
 pub(crate) use table::Table;

@@ -10,6 +10,7 @@ mod ends;
 mod layers;
 mod nearest;
 mod numerators;
+mod screen;
 mod sums;
 mod terms;
 mod walk;

@@ -21,7 +21,8 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::engine::{
-    Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, exact_sweep, trees_are_cheaper,
+    Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, shortest_exact_sweep,
+    trees_are_cheaper,
 };
 use crate::error::bug;
 use crate::formula;
@@ -303,7 +304,7 @@ impl Pile {
             }
             return layers.iter().map(|k| least_at_ends(&lines, *k)).collect();
         }
-        let mut sweep = exact_sweep(&lines, &system, last + 1)?;
+        let mut sweep = shortest_exact_sweep(&lines, &system, last + 1)?;
         let least = layers.iter().map(|k| {
             sweep.advance(*k, ())?;
             least_passed_on(&mut sweep, &lines)

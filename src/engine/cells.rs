@@ -11,9 +11,9 @@
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
-use num_traits::ToPrimitive;
+use num_traits::{ToPrimitive, Zero};
 
-use super::grid::{Grid, Layer, Pass};
+use super::grid::{Grid, Layer, Moves, Pass, Piece};
 use super::parallel;
 use crate::lattice::{Along, Counts, Slopes};
 use crate::scalar::{Algebra, Ring};
@@ -74,6 +74,28 @@ impl<V: Clone> Plane<V> {
         Self(core::array::from_fn(
             |_| alloc::vec![zero.clone(); grid.cells],
         ))
+    }
+
+    /// Takes the numbers to the cells of the next window: those of a direction in other memory, which is left with what
+    /// they had.
+    pub(super) fn move_to(&mut self, other: &mut Vec<V>, next: &Grid<'_>, moves: &Moves, zero: &V) {
+        let images = moves.images.iter();
+        let images: Vec<_> = images
+            .map(|Piece { from, to, .. }| (to, self.0[from.0][from.1].clone()))
+            .collect();
+        for (line, numbers) in self.0.iter_mut().enumerate() {
+            other.clear();
+            other.reserve_exact(next.cells);
+            other.resize(next.cells, zero.clone());
+            for Piece { from, to, length } in moves.rows.iter().filter(|row| row.to.0 == line) {
+                let row = &numbers[from.1..from.1 + length];
+                other[to.1..to.1 + length].clone_from_slice(row);
+            }
+            for (to, image) in images.iter().filter(|(to, _)| to.0 == line) {
+                other[to.1] = image.clone();
+            }
+            core::mem::swap(numbers, other);
+        }
     }
 
     /// What the three lines of a sphere carry.
@@ -142,7 +164,7 @@ fn make_in_bands<V>(
 /// How many bands are worth the work of these passes.
 fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
     // Not a default: only whether threads are worth it hangs on it.
-    let sites = |(pass, _): &(Pass, _)| pass.region.site_count().to_usize().unwrap_or(usize::MAX);
+    let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
     let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
     // Threads are not asked for where they are not worth it.
@@ -166,7 +188,7 @@ fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
     let whole: Vec<Range<i128>> = passes
         .iter()
         .map(|(pass, _)| {
-            let rows = pass.region.y();
+            let rows = pass.part.y();
             *rows.start()..rows.end() + 1
         })
         .collect();
@@ -340,7 +362,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         (j, counts): (i128, &Counts),
         turn: &impl Fn(&[V; 3]) -> [V; 3],
     ) -> [Range<usize>; 3] {
-        let i = pass.region.row(j);
+        let i = pass.part.row(j);
         let mut cells = grid.row(j, &i, pass.shift);
         for (cells, start) in cells.iter_mut().zip(self.starts) {
             *cells = cells.start - start..cells.end - start;
@@ -543,6 +565,15 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         );
         self.plane.add_to(cells, values);
         Ok(())
+    }
+
+    fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        let zero = T::Numerator::zero();
+        self.plane.move_to(&mut Vec::new(), next, moves, &zero);
     }
 
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3] {

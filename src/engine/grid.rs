@@ -29,8 +29,12 @@ pub(crate) const MAX_NUMBERS: u64 = 1 << 27;
 #[derive(Clone, Debug)]
 pub(crate) struct Grid<'p> {
     pub(super) shape: &'p Shape,
-    /// The last layer of the sweep, which names the cells.
+    /// The layer that names the cells: the last one of the sweep, or of its window.
     pub(super) last: i128,
+    /// The last layer of the sweep.
+    pub(super) end: i128,
+    /// The least i and i+j of layer `last`, if a third of each layer is kept.
+    pub(super) corner: Option<[i128; 2]>,
     first_row: i128,
     /// By row of the last layer: its first site and that site's cell.
     rows: Vec<(i128, usize)>,
@@ -49,6 +53,8 @@ pub(crate) struct Pass {
     /// The layer that it leads to.
     pub(crate) k: i128,
     pub(crate) region: Region,
+    /// The spheres of it that are kept.
+    pub(crate) part: Region,
     /// The net number of + steps from layer `k` to the last one.
     pub(super) shift: i128,
 }
@@ -68,20 +74,31 @@ impl<'p> Grid<'p> {
     /// [`Error::TooLarge`], with the size; [`Error::LayerOutside`].
     pub(crate) fn new(shape: &'p Shape, last: i128, planes: usize) -> Result<Self, Error> {
         Self::numbers(shape, last, planes)?;
-        let region = shape.layer(last)?;
+        Ok(Self::over(shape, [last, last], None, &shape.layer(last)?))
+    }
+
+    /// The cells of a sweep to layer `end`, named by the places of layer `last` in a region.
+    pub(super) fn over(
+        shape: &'p Shape,
+        [last, end]: [i128; 2],
+        corner: Option<[i128; 2]>,
+        region: &Region,
+    ) -> Self {
         let mut rows = Vec::new();
         let mut cells = 0;
         for row in region.rows(last) {
             rows.push((row.i.start, cells));
             cells += length(&row.i);
         }
-        Ok(Self {
+        Self {
             shape,
             last,
+            end,
+            corner,
             first_row: *region.y().start(),
             rows,
             cells,
-        })
+        }
     }
 
     /// How many numbers they are.
@@ -102,11 +119,12 @@ impl<'p> Grid<'p> {
     }
 
     /// Returns the next pass on the way from layer `from` down to layer `to`: through one run, or as far as it is asked
-    /// for. `None` where there is none.
+    /// for, and not beyond the cells. `None` where there is none.
     ///
     /// # Errors
     /// [`Error::Bug`] if a line of the layer that it leads to has no cell.
     pub(crate) fn pass(&self, from: i128, to: i128) -> Result<Option<Pass>, Error> {
+        let to = to.min(self.last);
         if from >= to {
             return Ok(None);
         }
@@ -115,14 +133,15 @@ impl<'p> Grid<'p> {
         let k = run.to.min(to);
         let pass = Pass {
             run,
-            turns: k == run.to && k < self.shape.layers() - 1 && k < self.last,
+            turns: k == run.to && k < self.shape.layers() - 1 && k < self.end,
             from,
             k,
             region: self.shape.layer(k)?,
+            part: self.part(k)?,
             shift: self.shift(k),
         };
         // Layers are convex, and so are the places their lines lead to: the corners speak for all.
-        let places = pass.region.corners().into_iter().flat_map(|[i, j]| {
+        let places = pass.part.corners().into_iter().flat_map(|[i, j]| {
             let shift = pass.shift;
             [[i, j], [i + shift, j], [i, j + shift]]
         });
@@ -130,6 +149,19 @@ impl<'p> Grid<'p> {
             Ok(Some(pass))
         } else {
             Err(bug("every line of a layer goes on to the last one"))
+        }
+    }
+
+    /// Returns the spheres of a layer that a sweep keeps.
+    ///
+    /// # Errors
+    /// [`Error::LayerOutside`].
+    pub(crate) fn part(&self, k: i128) -> Result<Region, Error> {
+        let layer = self.shape.layer(k)?;
+        match self.corner {
+            // Lower by one for each + step.
+            Some(corner) => cut(&layer, corner, (self.last - k).midpoint(self.shift(k))),
+            None => Ok(layer),
         }
     }
 
@@ -179,6 +211,22 @@ impl<'p> Grid<'p> {
     }
 }
 
+/// From where the numbers of the next window come.
+#[derive(Default)]
+pub(crate) struct Moves {
+    /// From the same lines.
+    pub(super) rows: Vec<Piece>,
+    /// One by one from images.
+    pub(super) images: Vec<Piece>,
+}
+
+/// Numbers that are in other cells in the next window: direction and first cell in both, and how many.
+pub(super) struct Piece {
+    pub(super) from: (usize, usize),
+    pub(super) to: (usize, usize),
+    pub(super) length: usize,
+}
+
 /// The numbers of a layer, in one of the ways they are kept.
 pub(crate) trait Layer<T: Algebra> {
     /// Adds the increments of a pass, by direction, and turns what it ends at if the sign changes there. May note it only.
@@ -204,8 +252,17 @@ pub(crate) trait Layer<T: Algebra> {
     /// As for [`pass`](Self::pass).
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error>;
 
+    /// Takes the numbers to the cells of the next window.
+    fn move_to(&mut self, next: &Grid<'_>, moves: &Moves);
+
     /// What the three lines of a sphere carry.
     fn at(&self, cells: [usize; 3]) -> [T::Numerator; 3];
+}
+
+/// The sites not below a corner that is so much lower.
+pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Region, Error> {
+    let part = region.above(corner.map(|bound| bound - lower));
+    part.ok_or_else(|| bug("a third of a layer has a sphere"))
 }
 
 /// The number of sites in a range that fits in memory.

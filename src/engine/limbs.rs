@@ -35,6 +35,7 @@
 //! made together, row after row ([`make`]), and each row carries when the last of them has been over it.
 
 use alloc::vec::Vec;
+use core::cmp::Ordering::{Equal, Less};
 use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -44,7 +45,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::cells::{Plane, Ramps, make, row};
-use super::grid::{Grid, Layer, Pass};
+use super::grid::{Grid, Layer, Moves, Pass};
 use crate::Error;
 use crate::error::bug;
 use crate::formula::{force, tripled_apart};
@@ -100,6 +101,8 @@ pub(crate) fn bound(layers: i128, spheres: &BigUint, ordinary: &BigInt, extras: 
 pub(crate) struct Planes {
     /// The planes that the numbers fill by now, the lowest first; further down they are more.
     limbs: Vec<Plane<i64>>,
+    /// Memory for moves, kept so that it grows in place.
+    spare: Vec<i64>,
     /// No less than 2√3·B·D.
     bound: BigInt,
     /// Passes that were asked for and not made yet.
@@ -116,6 +119,7 @@ impl Planes {
         let size = Size::new(&bound, 0);
         Self {
             limbs: alloc::vec![Plane::new(grid, &0); size.planes],
+            spare: Vec::new(),
             bound,
             waiting: Vec::new(),
             passes: 0,
@@ -179,6 +183,12 @@ impl Planes {
         top_down.map(|plane| plane.slices(cells.clone())).collect()
     }
 
+    /// Whether the three lines of two spheres carry the same limbs, and so the same numbers.
+    pub(super) fn are_alike(&self, [one, other]: [[usize; 3]; 2]) -> bool {
+        let mut planes = self.limbs.iter();
+        planes.all(|plane| plane.carried(one) == plane.carried(other))
+    }
+
     /// Brings the lower limbs into [−2^50, 2^50).
     fn carry(&mut self) -> Result<(), Error> {
         self.passes = 0;
@@ -210,8 +220,8 @@ impl Planes {
             "passes come before what they lead to"
         );
         self.carry()?;
-        let mut least: Option<(Vec<i64>, [i128; 2], Direction)> = None;
-        for row in pass.region.rows(pass.k) {
+        let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
+        for row in pass.part.rows(pass.k) {
             let cells = grid.row(row.j, &row.i, pass.shift);
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
@@ -219,19 +229,24 @@ impl Planes {
                     // From the top limb down, limbs in [−2^50, 2^50) compare like digits: what is below a limb is less
                     // than one of its units.
                     let limbs = rows.iter().map(|row| row[direction.index()][n]);
-                    let less = match &least {
-                        Some((least, ..)) => limbs.clone().lt(least.iter().copied()),
-                        None => true,
+                    let order = match &least {
+                        Some((least, ..)) => limbs.clone().cmp(least.iter().copied()),
+                        None => Less,
                     };
-                    if less {
-                        least = Some((limbs.collect(), [i, row.j], direction));
+                    // In row order the first of whole layers is met first; of a third its images may come before.
+                    if order == Less || order == Equal && grid.corner.is_some() {
+                        let first = grid.first_image([i, row.j], direction, pass.k)?;
+                        match &mut least {
+                            Some((_, place)) if order == Equal => *place = first.min(*place),
+                            _ => least = Some((limbs.collect(), first)),
+                        }
                     }
                 }
             }
         }
-        let least = least.map(|(limbs, place, direction)| Least {
+        let least = least.map(|(limbs, (j, i, direction))| Least {
             numerator: value(limbs.iter()),
-            place,
+            place: [i, j],
             direction,
         });
         least.ok_or_else(|| bug("a layer has a sphere"))
@@ -288,6 +303,16 @@ impl Layer<BigRational> for Planes {
         }
         // Loads on one line may follow each other without a pass between them.
         self.carry_at(cells)
+    }
+
+    fn move_to(&mut self, next: &Grid<'_>, moves: &Moves) {
+        debug_assert!(
+            self.waiting.is_empty(),
+            "passes come before what they lead to"
+        );
+        for plane in &mut self.limbs {
+            plane.move_to(&mut self.spare, next, moves, &0);
+        }
     }
 
     fn at(&self, cells: [usize; 3]) -> [BigInt; 3] {

@@ -14,6 +14,7 @@ use super::plan::{CHUNK, Plan, last_of};
 use super::question::Method;
 use super::single::{by_tree, plain_sweep, received};
 use super::sweep::Descent;
+use super::thirds::are_thirds_alike;
 use super::tree::Wanted;
 use crate::Error;
 use crate::error::bug;
@@ -152,6 +153,23 @@ pub(crate) fn received_in<T: Algebra>(
         received.extend(forces.map(|forces| Received { forces, changes }));
     }
     Ok(received)
+}
+
+/// Returns the same sweep, of a third of each layer where the others are images of it.
+///
+/// # Errors
+/// As for [`exact_sweep`].
+pub(crate) fn shortest_exact_sweep<'p>(
+    lines: &Lines<'p, BigRational>,
+    system: &System<'_>,
+    last: i128,
+) -> Result<Descent<'p, BigRational, Planes>, Error> {
+    if !are_thirds_alike(system) {
+        return exact_sweep(lines, system, last);
+    }
+    let grid = Grid::of_thirds(lines.shape, last, system.size_of_sweep(last).planes)?;
+    let layer = Planes::new(&grid, system.bound_of_sweep(last));
+    Ok(Descent::new(lines.clone(), grid, layer))
 }
 
 impl<T: Algebra> Piece<T> {

@@ -15,9 +15,10 @@ use super::limbs::{Least, Planes};
 use super::lines::{Lines, Received};
 use super::meter::Meter;
 use super::nearest::{Readout, Unit};
+use super::thirds::turned;
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Row, Site};
+use crate::lattice::{Region, Row, Site};
 use crate::scalar::{Algebra, NearestFloat};
 
 /// A pile on its way down: the forces of one layer.
@@ -50,19 +51,35 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         self.k
     }
 
+    /// Returns the spheres of this layer that are kept: all, or a third of them, of which the others are images.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(crate) fn part(&self) -> Result<Region, Error> {
+        self.grid.part(self.k)
+    }
+
     /// Goes down to layer `k`, if it is further down.
     ///
     /// # Errors
     /// [`Error::Bug`].
     pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) -> Result<(), Error> {
-        while let Some(pass) = self.grid.pass(self.k, k)? {
+        while k > self.k {
+            if self.k == self.grid.last {
+                self.layer.catch_up(&self.grid)?;
+                let (next, moves) = self.grid.next_window()?;
+                self.layer.move_to(&next, &moves);
+                self.grid = next;
+            }
+            let pass = self.grid.pass(self.k, k)?;
+            let pass = pass.ok_or_else(|| bug("a pass leads further down"))?;
             self.add_extras_here()?;
             self.add_extras(pass.from + 1..pass.k)?;
             let increments = self.lines.increments_after(pass.run.index);
             self.layer.pass(&self.grid, &pass, &increments)?;
             meter.pass();
             if M::COUNTS && pass.turns {
-                let sites = pass.region.site_count().to_usize();
+                let sites = pass.part.site_count().to_usize();
                 // Not a default: more than a counter holds are counted as the most.
                 meter.turn(sites.unwrap_or(usize::MAX));
             }
@@ -103,9 +120,12 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         if site.k != self.k {
             return Err(bug("a sweep is asked of the layer that it is at"));
         }
-        let cells = self.grid.site(site.i, site.j, site.k);
+        let ([i, j], turns) = self.grid.kept([site.i, site.j], site.k)?;
+        let mut forces = self.layer.at(self.grid.site(i, j, site.k));
+        // Each from the line that the turns lead it to.
+        forces.rotate_left(turned(0, turns));
         Ok(Received {
-            forces: self.layer.at(cells),
+            forces,
             changes: self.changes(),
         })
     }
@@ -161,11 +181,19 @@ impl Descent<'_, BigRational, Planes> {
         (readout, units): (&Readout, &[Unit; 3]),
         out: [&mut [F]; 3],
     ) -> Result<bool, Error> {
-        if row.k != self.k {
-            return Err(bug("a sweep is asked of the layer that it is at"));
+        let kept = self.part()?.row_within(row.j);
+        if row.k != self.k || row.i.start < kept.start || row.i.end > kept.end {
+            return Err(bug("a sweep is asked of rows that it keeps"));
         }
         let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
         readout.write(units, &self.layer.slices(&cells), out)
+    }
+
+    /// Whether two spheres that are kept of this layer receive and weigh the same; it may not be seen of all that do.
+    pub(crate) fn are_alike(&self, sites: [Site; 2]) -> bool {
+        let extra = |site| self.lines.extra_weights.contains_key(site);
+        let cells = sites.map(|Site { i, j, k }| self.grid.site(i, j, k));
+        !sites.iter().any(extra) && self.layer.are_alike(cells)
     }
 
     /// Returns the least number on the lines of this layer, and where it is.

@@ -4,8 +4,11 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
 use super::Forces;
+use super::screen::Screen;
 use crate::Error;
-use crate::engine::{Engine, Quantity, Received, Wanted, trees_are_cheaper};
+use crate::engine::{
+    Engine, Method, Quantity, Received, Wanted, shortest_exact_sweep, trees_are_cheaper,
+};
 use crate::geometry::Vector;
 use crate::lattice::Site;
 use crate::shape::Selection;
@@ -13,12 +16,14 @@ use crate::shape::Selection;
 impl Forces<'_, BigRational> {
     /// Shows the forces of bottom spheres on the floor as integers (shear_x, shear_y, normal), and returns the
     /// denominator of all of them: of the corners of a straight pile under one sphere; of those spheres between which
-    /// the forces are linear, where they are far fewer; or of every bottom sphere.
+    /// the forces are linear, where they are far fewer; or of every bottom sphere, but those whose floats tell that others
+    /// are more extreme. `across` is 4cos²φ.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10⁸ of them.
     pub(crate) fn ends_of_base(
         &self,
+        across: &BigRational,
         mut meet: impl FnMut(&Vector<BigInt>),
     ) -> Result<BigInt, Error> {
         const MOST: u64 = 100_000_000;
@@ -51,9 +56,37 @@ impl Forces<'_, BigRational> {
             }
         } else {
             let plan = self.plan(&rows, Quantity::FloorMultiples)?;
-            let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
-            for site in rows.flatten() {
-                meet(site, &engine.received((lines, &terms.system), site, ())?);
+            if plan.method == Method::Sweep {
+                let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
+                sweep.advance(floor, ())?;
+                // Images have the same normal force, and as great a shear.
+                let part = sweep.part()?;
+                let mut screen = Screen::new((terms, &sweep), across);
+                if let Some(screen) = &mut screen {
+                    // Some rows first, so that few spheres are more extreme than those before them.
+                    for row in part.rows(floor).step_by(16) {
+                        screen.candidates(row)?;
+                    }
+                }
+                let mut last = None;
+                for row in part.rows(floor) {
+                    let sites = match &mut screen {
+                        Some(screen) => screen.candidates(row)?,
+                        None => row.into_iter().collect(),
+                    };
+                    for site in sites {
+                        // Of an even base most are extreme.
+                        if last.is_none_or(|last| !sweep.are_alike([last, site])) {
+                            meet(site, &sweep.received(site)?);
+                            last = Some(site);
+                        }
+                    }
+                }
+            } else {
+                let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
+                for site in rows.flatten() {
+                    meet(site, &engine.received((lines, &terms.system), site, ())?);
+                }
             }
         }
         Ok(terms.floor_unit(changes))

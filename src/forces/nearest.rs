@@ -150,14 +150,9 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
                 })
             }
             Asked::Floor => {
-                let changes = self.shape().changes_above(k);
-                let [x, y, normal] = units.floor.each_ref();
-                let denominator = terms.floor_unit(changes);
                 return Ok(Source::Lines {
-                    units: Box::new(
-                        [normal, x, y].map(|unit| Unit::new(unit.clone(), denominator.clone())),
-                    ),
-                    readout: self.floor_readout(k, changes),
+                    units: Box::new(terms.floor_units(&units.floor)),
+                    readout: terms.floor_readout(),
                 });
             }
         };
@@ -192,20 +187,6 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
                 lines
             },
             own: terms.lines.increments_after(changes),
-        })
-    }
-
-    /// Returns what normal force and shear under an ordinary bottom sphere are made of, unless the factors are long.
-    fn floor_readout(&self, k: i128, changes: usize) -> Option<Readout> {
-        let (terms, _) = self.exact_sweep()?;
-        let (lines, own) = terms.floor_factors(k, changes);
-        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
-            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
-            Some([a?.into(), b?.into(), c?.into()])
-        };
-        Some(Readout {
-            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
-            own: [own.z, own.x, own.y],
         })
     }
 

@@ -1,13 +1,17 @@
 //! What forces are made of, as numerators over known denominators.
 
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
 use super::FloorForce;
 use crate::Error;
-use crate::engine::{Lines, Meter, Method, Received, Wanted, received};
+use crate::engine::{Lines, Meter, Method, Readout, Received, Unit, Wanted, received};
 use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, Site};
 use crate::pile::System;
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::{Algebra, Ring, Surd};
 
 /// A system of equations in the numerators of a scalar: what spheres add to their lines, and the lines' directions.
 #[derive(Clone, Debug)]
@@ -118,7 +122,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
 
     /// Returns what the numerators of [`floor_numerators`](Self::floor_numerators) of an ordinary sphere are made of: the
     /// factor of each force from above, and what the weight comes to.
-    pub(super) fn floor_factors(
+    fn floor_factors(
         &self,
         k: i128,
         changes: usize,
@@ -164,6 +168,38 @@ impl<'p, T: Algebra> Terms<'p, T> {
             None | Some(Sign::Plus) => directions,
             Some(Sign::Minus) => directions.map(Vector::turned_about_z),
         }
+    }
+}
+
+impl Terms<'_, BigRational> {
+    /// Returns what normal force, shear along x and shear along y under an ordinary bottom sphere are made of, unless the
+    /// factors are long.
+    pub(super) fn floor_readout(&self) -> Option<Readout> {
+        let (floor, changes) = self.floor_and_changes();
+        let (lines, own) = self.floor_factors(floor, changes);
+        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
+            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
+            Some([a?.into(), b?.into(), c?.into()])
+        };
+        Some(Readout {
+            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
+            own: [own.z, own.x, own.y],
+        })
+    }
+
+    /// Returns the units of normal force, shear along x and shear along y, from those of shear along x and y and of normal
+    /// force.
+    pub(super) fn floor_units(&self, [x, y, normal]: &[Surd; 3]) -> [Unit; 3] {
+        let (_, changes) = self.floor_and_changes();
+        let denominator = self.floor_unit(changes);
+        [normal, x, y].map(|unit| Unit::new(unit.clone(), denominator.clone()))
+    }
+
+    /// Returns the bottom layer, and the changes of sign above it.
+    fn floor_and_changes(&self) -> (i128, usize) {
+        let shape = self.system.shape;
+        let floor = shape.layers() - 1;
+        (floor, shape.changes_above(floor))
     }
 }
 

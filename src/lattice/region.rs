@@ -286,6 +286,20 @@ impl Region {
         s0 - x0 - y0 == x1 + y1 - s1
     }
 
+    /// Returns the s for which (i, j) → (j, s−i−j), a third of a turn, maps the region onto itself, if there is one.
+    pub(crate) fn sum_of_turn(&self) -> Option<i128> {
+        let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        let (sum, alike) = (s0 + x1, [x0, x1] == [y0, y1]);
+        (alike && s1 + x0 == sum).then_some(sum)
+    }
+
+    /// Returns the sites with these i and i+j at least; `None` if there is none.
+    pub(crate) fn above(&self, [x, s]: [i128; 2]) -> Option<Self> {
+        let [x0, y0, s0] = self.lower;
+        let lower = [x0.max(x), y0, s0.max(s)];
+        Self { lower, ..*self }.tightened()
+    }
+
     /// Returns the number of sites, of any size.
     ///
     /// The parallelogram x × y less the two corner triangles that s cuts off.
@@ -328,6 +342,16 @@ impl Region {
     pub(crate) fn row(&self, j: i128) -> core::ops::Range<i128> {
         let ([x0, _, s0], [x1, _, s1]) = (self.lower, self.upper);
         x0.max(s0 - j)..x1.min(s1 - j) + 1
+    }
+
+    /// Returns the range of i in row j: an empty one of a row that is none of the region's.
+    pub(crate) fn row_within(&self, j: i128) -> core::ops::Range<i128> {
+        let row = self.row(j);
+        if self.y().contains(&j) {
+            row
+        } else {
+            row.start..row.start
+        }
     }
 
     /// Returns the six corners in turn. Where a side has one site only, two corners are one place.

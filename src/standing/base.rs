@@ -39,7 +39,7 @@ impl Pile {
     ///
     /// The normal force is linear in i and j between few places, and the ratio the norm of a linear function over it: of
     /// a straight pile under one sphere the extremes are at its corners, of others with few changes of sign among few
-    /// spheres of each row. Otherwise every bottom sphere is looked at.
+    /// spheres of each row. Otherwise every bottom sphere is looked at, in floats first, which leave few to exact numbers.
     ///
     /// # Errors
     /// [`Error::TooLarge`] if more than 10⁸ bottom spheres would have to be looked at, or one of them depends on too many
@@ -61,7 +61,7 @@ impl Pile {
         let s = self.sin_phi();
         let across = BigRational::from_i128(4) * (BigRational::one() - s * s);
         let mut extremes = Extremes::default();
-        let unit = forces.ends_of_base(|force| extremes.meet(force, &across))?;
+        let unit = forces.ends_of_base(&across, |force| extremes.meet(force, &across))?;
         extremes.over(&unit)
     }
 }

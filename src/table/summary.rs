@@ -11,7 +11,7 @@ use crate::lattice::Dimension;
 use crate::scalar::Surd;
 use crate::shape::Selection;
 use crate::stacking::Stacking;
-use crate::{BaseExtremes, ContactForce, Error, Pile, Standing, Verdict};
+use crate::{BaseExtremes, ContactForce, Error, Method, Pile, Standing, Verdict};
 
 /// What there is to say of a pile in one row, and whether it stands.
 ///
@@ -34,8 +34,10 @@ pub struct Summary<'p> {
     units: Units<'p>,
     touching: Option<Vec<Apart>>,
     standing: Standing,
-    /// Empty for a base too large to look at every sphere.
-    base: Option<BaseExtremes>,
+    /// Or why there are none.
+    base: Result<BaseExtremes, Error>,
+    /// How the base is answered, or why it cannot be as a whole.
+    method: Result<Method, Error>,
 }
 
 impl<'p> Summary<'p> {
@@ -62,16 +64,61 @@ impl<'p> Summary<'p> {
     /// ```
     pub fn new(units: &Units<'p>, touching: Option<Vec<Apart>>) -> Result<Self, Error> {
         let pile = units.pile();
-        let base = match pile.base_extremes() {
-            Err(Error::TooLarge { .. }) => None,
-            base => Some(base?),
-        };
+        let plan = pile.plan(Selection::Base);
         Ok(Self {
             units: units.clone(),
             touching,
+            base: unless_too_large(pile.base_extremes())?,
             standing: pile.standing()?,
-            base,
+            method: unless_too_large(plan.map(|plan| plan.method))?,
         })
+    }
+
+    /// Returns the columns that are empty, each with the reason and what can be done; `touching` is left to the caller, who
+    /// knows why it was not given.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::table::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert!(Summary::new(&Units::of_pile(&pile), None)?.left_out().is_empty());
+    /// let one = Pile::triangular(1)?;
+    /// let left_out = Summary::new(&Units::of_pile(&one), None)?.left_out();
+    /// assert_eq!(left_out, [("min_contact", "a single layer has no contacts".to_owned())]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn left_out(&self) -> Vec<(&'static str, String)> {
+        let stands = self.verdict().is_none();
+        let stands = stands.then(|| {
+            "of a pile without weight it is not asked: give the spheres their weight".to_owned()
+        });
+        let Standing {
+            least,
+            first_failure,
+            ..
+        } = &self.standing;
+        let least = least.is_none().then(|| match first_failure {
+            None => "a single layer has no contacts".to_owned(),
+            Some(k) => format!(
+                "the pile fails below layer k = {k} already, and in the layers further down more than 10^9 numbers would \
+                 have to be compared: use fewer layers"
+            ),
+        });
+        let base = self.base.as_ref().err().map(ToString::to_string);
+        let method = self.method.as_ref().err().map(ToString::to_string);
+        let reasons = [
+            ("stands", stands),
+            ("min_contact", least),
+            ("normal_min, normal_max, max_shear_ratio", base),
+            ("plan", method),
+        ];
+        let left_out = reasons
+            .into_iter()
+            .filter_map(|(columns, reason)| Some((columns, reason?)));
+        left_out.collect()
     }
 
     /// Whether the pile stands; `None` for spheres without weight, of which it is not asked.
@@ -95,7 +142,7 @@ impl<'p> Summary<'p> {
     /// One row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres, normal_min,
     /// normal_max, max_shear_ratio, touching, plan`.
     ///
-    /// The weight is that of all spheres with their loads.
+    /// The weight is that of all spheres with their loads. Why a column is empty is told by [`left_out`](Self::left_out).
     ///
     /// # Errors
     /// Those of the forces are handed on.
@@ -129,22 +176,18 @@ impl<'p> Summary<'p> {
                 .into()
         };
         let of_base = |value: fn(&BaseExtremes) -> &BigRational| {
-            self.base
-                .as_ref()
-                .map_or(Cell::Missing, |base| in_units(value(base)))
+            let base = self.base.as_ref();
+            base.map_or(Cell::Missing, |base| in_units(value(base)))
         };
-        let ratio = self.base.as_ref().map(|base| match &tan {
+        let ratio = self.base.as_ref().ok().map(|base| match &tan {
             None => base.max_shear_ratio.clone(),
             Some(tan) => tan.clone() * &base.max_shear_ratio,
         });
         let ratio_unit = if tan.is_none() { "tanθ" } else { "" };
         let least = self.standing.least.as_ref();
         let least = least.map(|contact| self.least(contact)).transpose()?;
-        let plan = match pile.plan(Selection::Base) {
-            // Its base cannot be answered whole.
-            Err(Error::TooLarge { .. }) => Cell::Missing,
-            plan => Cell::Word(plan?.method.to_string().into()),
-        };
+        let method = self.method.as_ref().map(Method::to_string);
+        let plan = method.map_or(Cell::Missing, |method| Cell::Word(method.into()));
         let plain = |name, cell: Cell| (Column::plain(name), cell);
         let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
         let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
@@ -190,6 +233,14 @@ impl<'p> Summary<'p> {
             Units::Pile(_) => Ok(contact.force.clone().into()),
             Units::Si(packing) => packing.contact(contact.site, contact.direction),
         }
+    }
+}
+
+/// Keeps the error of what is too large apart from others.
+fn unless_too_large<T>(answer: Result<T, Error>) -> Result<Result<T, Error>, Error> {
+    match answer {
+        Err(error @ Error::TooLarge { .. }) => Ok(Err(error)),
+        answer => answer.map(Ok),
     }
 }
 

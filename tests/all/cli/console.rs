@@ -46,7 +46,7 @@ console! {
     prove: 5;
     scene: 10;
     spheres: 14;
-    summary: 28;
+    summary: 31;
     verify: 13;
 }
 

@@ -86,9 +86,35 @@ fn over_all(pile: &Pile) -> [BigRational; 3] {
     [normals().min(), normals().max(), ratios.max()].map(Option::unwrap_or_default)
 }
 
+/// Piles whose base is swept, with loads: on the floor, so great that floats are of no use, or nothing but loads.
+fn swept() -> Vec<Pile> {
+    let skewed = Region::new(-3..=2, 0..=5, -2..=4).unwrap();
+    let mut piles = Vec::new();
+    for (top, stacking) in [
+        (Region::SITE, "+-+-+-+-+-+-+-+-+-+-+-+-+"),
+        (Region::hexagon(3, 2).unwrap(), "-++-+---+-++-+-"),
+        (Region::triangle(5).unwrap(), "(3,2,1,4,1,1,2)"),
+        (skewed, "+-+--++-+-"),
+    ] {
+        let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+        let sites: Vec<Site> = pile.shape().sites().collect();
+        let last = sites[sites.len() - 9];
+        let loaded = |site, load| pile.clone().with_load(site, load).unwrap();
+        let great = BigRational::from_integer(num_bigint::BigInt::from(7).pow(150));
+        piles.extend([
+            loaded(last, ratio(1000, 3)),
+            loaded(sites[0], ratio(1, 1)).weightless(),
+            loaded(sites[1], great.clone()),
+            loaded(sites[0], great.recip()).weightless(),
+            pile.clone(),
+        ]);
+    }
+    piles
+}
+
 #[test]
 fn of_the_base() {
-    for pile in piles() {
+    for pile in piles().into_iter().chain(swept()) {
         let BaseExtremes {
             normal_min,
             normal_max,

@@ -1,0 +1,321 @@
+//! Sweeps of a third of each layer, of piles whose forces are the same after a third of a turn.
+//!
+//! # The turn
+//! A layer with bounds x₀ ≤ i, j ≤ x₁ and s − x₁ ≤ i+j ≤ s − x₀ is mapped onto itself by (i, j) → (j, s−i−j), which leads α
+//! to γ, γ to β and β to α. A + step adds 1 to s, a − step takes 1 from it, and the layer below is mapped onto itself the
+//! same way. If no sphere weighs more than others and all lines grow alike, so are the forces.
+//!
+//! # The part that is kept
+//! With a = s−i−j the turn leads (a, i, j) to (i, j, a). Of three numbers in a circle, less their mean, one is not positive
+//! and the next not negative: of the three images of a site one has a ≤ s/3 ≤ i. So these sites are enough, i ≥ ⌈s/3⌉ and
+//! i+j ≥ s − ⌊s/3⌋: a region again, cut off at a corner.
+//!
+//! # Windows
+//! What a sphere receives comes from (i, j), (i−n, j), (i, j−n) of the layer n + steps further up, or from (i, j), (i+n, j),
+//! (i, j+n) of that n − steps further up. So the part of a layer follows from that of a layer above if its corner lies lower
+//! there by one for each + step between them. A window is a few runs with such parts: its cells are named by its last layer,
+//! of which it has the part, widened by as far as lines move on the way. Below it the next window begins: what its first
+//! layer has more than the last one of the window above is copied from images.
+
+use super::grid::{Grid, Moves, Piece, cut};
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::{Direction, Region};
+use crate::pile::System;
+use crate::shape::Shape;
+
+/// The layers of a window, unless one run is longer: twice as many as passes wait, so that few cells are copied, and few
+/// are beside the part.
+const LAYERS: i128 = 10;
+
+/// Whether the forces of a pile are the same after a third of a turn.
+pub(crate) fn are_thirds_alike(system: &System<'_>) -> bool {
+    let [a, b, c] = &system.increments;
+    let even = a == b && b == c && system.fills_its_layers();
+    // What is above a base that is mapped onto itself, or below such a top, is so too.
+    even && system.loading.extras().next().is_none() && system.shape.base().sum_of_turn().is_some()
+}
+
+impl<'p> Grid<'p> {
+    /// Returns the first window of a sweep of thirds from the top to layer `end`, each cell of `planes` numbers.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn of_thirds(shape: &'p Shape, end: i128, planes: usize) -> Result<Self, Error> {
+        Self::numbers(shape, end, planes)?;
+        Self::window(shape, end, 0)
+    }
+
+    /// Returns the window below this one, and from where its numbers come.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] where the sweep ends.
+    pub(super) fn next_window(&self) -> Result<(Self, Moves), Error> {
+        if self.last == self.end {
+            return Err(bug("a sweep is asked of layers that it leads to"));
+        }
+        let next = Self::window(self.shape, self.end, self.last)?;
+        let moves = self.moves_to(&next)?;
+        Ok((next, moves))
+    }
+
+    fn window(shape: &'p Shape, end: i128, first: i128) -> Result<Self, Error> {
+        let mut last = end;
+        if let Some(run) = shape.stretch_to(first + 1) {
+            let within = |index| shape.stretch(index).filter(|run| run.to - first <= LAYERS);
+            let more = (run.index + 1..).map_while(within);
+            last = more.fold(run.to, |_, run| run.to).min(end);
+        }
+        let region = shape.layer(last)?;
+        let s = sum(&region)?;
+        let corner = [-(-s).div_euclid(3), s - s.div_euclid(3)];
+        let net = shape.shift(last) - shape.shift(first);
+        // The more of + and − steps: the mean of their sum and difference.
+        let reach = (last - first).midpoint(net.abs());
+        let cells = cut(&region, corner, reach)?;
+        Ok(Self::over(shape, [last, end], Some(corner), &cells))
+    }
+
+    /// Returns the images of a sphere, each by one turn more: only itself where whole layers are kept.
+    ///
+    /// # Errors
+    /// [`Error::LayerOutside`].
+    pub(super) fn images(
+        &self,
+        place: [i128; 2],
+        k: i128,
+    ) -> Result<impl Iterator<Item = [i128; 2]> + use<>, Error> {
+        let s = match self.corner {
+            Some(_) => Some(sum(&self.shape.layer(k)?)?),
+            None => None,
+        };
+        let next = move |[i, j]: &[i128; 2]| s.map(|s| [*j, s - i - j]);
+        Ok(core::iter::successors(Some(place), next).take(3))
+    }
+
+    /// Returns the image of a sphere that is kept, and how many turns lead there.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn kept(&self, place: [i128; 2], k: i128) -> Result<([i128; 2], usize), Error> {
+        if self.corner.is_none() {
+            return Ok((place, 0));
+        }
+        let part = self.part(k)?;
+        let mut images = self.images(place, k)?.zip(0..);
+        let kept = images.find(|([i, j], _)| part.contains(*i, *j));
+        kept.ok_or_else(|| bug("one of three images is kept"))
+    }
+
+    /// Returns the first of the images of a line of layer `k`, in row order: its row, place and direction.
+    ///
+    /// # Errors
+    /// [`Error::LayerOutside`].
+    pub(super) fn first_image(
+        &self,
+        place: [i128; 2],
+        direction: Direction,
+        k: i128,
+    ) -> Result<(i128, i128, Direction), Error> {
+        let images = self.images(place, k)?.zip(0..);
+        let images =
+            images.map(|([i, j], turns)| (j, i, Direction::ALL[turned(direction.index(), turns)]));
+        images
+            .min()
+            .ok_or_else(|| bug("a line is an image of itself"))
+    }
+
+    /// Returns from where the numbers of the next window come.
+    fn moves_to(&self, next: &Self) -> Result<Moves, Error> {
+        let k = self.last;
+        let (had, wanted) = (self.part(k)?, next.part(k)?);
+        let mut moves = Moves::default();
+        for row in wanted.rows(k) {
+            let same = had.row_within(row.j);
+            let same = if same.is_empty() {
+                row.i.start..row.i.start
+            } else {
+                same
+            };
+            let cells = |grid: &Self| grid.row(row.j, &same, grid.shift(k));
+            if !same.is_empty() {
+                let lines = cells(self).into_iter().zip(cells(next)).enumerate();
+                moves.rows.extend(lines.map(|(line, (from, to))| Piece {
+                    from: (line, from.start),
+                    to: (line, to.start),
+                    length: from.len(),
+                }));
+            }
+            for i in (row.i.start..same.start).chain(same.end..row.i.end) {
+                let ([x, y], turns) = self.kept([i, row.j], k)?;
+                let (from, to) = (self.site(x, y, k), next.site(i, row.j, k));
+                moves.images.extend((0..3).map(|line| {
+                    let image = turned(line, turns);
+                    Piece {
+                        from: (image, from[image]),
+                        to: (line, to[line]),
+                        length: 1,
+                    }
+                }));
+            }
+        }
+        Ok(moves)
+    }
+}
+
+/// The direction that so many turns lead a direction to: α to γ, γ to β, β to α.
+pub(super) fn turned(line: usize, turns: usize) -> usize {
+    (line + 2 * turns) % 3
+}
+
+/// The i+j+a of a layer that is mapped onto itself.
+fn sum(region: &Region) -> Result<i128, Error> {
+    let sum = region.sum_of_turn();
+    sum.ok_or_else(|| bug("every layer of a pile is mapped onto itself if its base is"))
+}
+
+#[cfg(test)]
+mod tests {
+    use num_rational::BigRational;
+
+    use super::*;
+    use crate::Pile;
+    use crate::engine::{Lines, exact_sweep, shortest_exact_sweep};
+
+    /// One sphere, six-sided and three-sided tops, one elsewhere, and a base; changes everywhere, seldom, and mixed.
+    fn piles() -> Vec<Pile> {
+        let hexagon = Region::hexagon(3, 2).unwrap();
+        let elsewhere = Region::new(5..=8, 5..=8, 9..=12).unwrap();
+        let tops = [
+            Region::SITE,
+            hexagon,
+            Region::triangle(4).unwrap(),
+            elsewhere,
+        ];
+        let alternating = "+-".repeat(14);
+        let mixed = "+-++---+".repeat(3);
+        let stackings = [alternating.as_str(), &mixed, "(2,9,1,1,14,1,1)", "-(12,3)"];
+        let mut piles = Vec::new();
+        for stacking in stackings {
+            let under = |top| Pile::under(top, stacking.parse().unwrap()).unwrap();
+            piles.extend(
+                tops.into_iter()
+                    .flat_map(|top| [under(top), under(top.mirrored())]),
+            );
+        }
+        let base = Region::hexagon(14, 17).unwrap();
+        piles.push(Pile::on(base, "+--++-+-+-+--+".parse().unwrap()).unwrap());
+        piles
+    }
+
+    /// All spheres, and the least lines, of every so many layers.
+    fn compare(pile: &Pile, stops: i128) {
+        let (system, last) = (pile.system(), pile.layers() - 1);
+        assert!(are_thirds_alike(&system));
+        let lines = Lines::<BigRational>::new(&system);
+        let mut whole = exact_sweep(&lines, &system, last).unwrap();
+        let mut third = shortest_exact_sweep(&lines, &system, last).unwrap();
+        for k in (0..=last).filter(|k| (last - k) % stops == 0) {
+            whole.advance(k, ()).unwrap();
+            third.advance(k, ()).unwrap();
+            let what = alloc::format!("{} {k} {stops}", pile.shape().stacking());
+            for site in pile.shape().layer(k).unwrap().rows(k).flatten() {
+                let [whole, third] = [&whole, &third].map(|sweep| sweep.received(site));
+                assert_eq!(
+                    whole.unwrap().forces,
+                    third.unwrap().forces,
+                    "{what} {site}"
+                );
+            }
+            if k > 0 {
+                assert_eq!(whole.least().unwrap(), third.least().unwrap(), "{what}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_third_is_the_whole() {
+        for pile in piles() {
+            // Layer after layer, and far, so that passes wait.
+            for stops in [1, 2, 7, pile.layers() - 1] {
+                compare(&pile, stops);
+            }
+        }
+        // So large that threads take bands of it, with the feature `rayon`.
+        for stacking in ["+-".repeat(45), "+-++-".repeat(15)] {
+            let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
+            compare(&pile, 30);
+        }
+    }
+
+    /// Whether, window after window, each layer's part has a third of its spheres and all that its part receives from, if
+    /// corners lie this much higher.
+    fn are_parts_enough(pile: &Pile, higher: i128) -> bool {
+        let shape = pile.shape();
+        let mut grid = Grid::of_thirds(shape, shape.layers() - 1, 1).unwrap();
+        let mut k = 0;
+        let part = |grid: &Grid<'_>, k| {
+            let mut grid = grid.clone();
+            if 3 < k && k < grid.last {
+                grid.corner = grid.corner.map(|corner| corner.map(|c| c + higher));
+            }
+            grid.part(k).unwrap()
+        };
+        loop {
+            let kept = part(&grid, k);
+            let layer = shape.layer(k).unwrap();
+            let has = |[i, j]: [i128; 2]| kept.contains(i, j);
+            let sites = layer.rows(k).flatten();
+            let mut sites = sites.map(|site| grid.images([site.i, site.j], k).unwrap());
+            if !sites.all(|mut images| images.any(has)) {
+                return false;
+            }
+            if k == grid.end {
+                return true;
+            }
+            if k == grid.last {
+                grid = grid.next_window().unwrap().0;
+                continue;
+            }
+            for site in part(&grid, k + 1).rows(k + 1).flatten() {
+                let lines = Direction::ALL.map(|direction| shape.above(site, direction));
+                if !lines
+                    .into_iter()
+                    .flatten()
+                    .all(|above| has([above.i, above.j]))
+                {
+                    return false;
+                }
+            }
+            k += 1;
+        }
+    }
+
+    #[test]
+    fn parts_follow_from_each_other_and_narrower_ones_do_not() {
+        let mut narrower = 0;
+        for pile in piles() {
+            assert!(are_parts_enough(&pile, 0), "{}", pile.shape().stacking());
+            narrower += usize::from(!are_parts_enough(&pile, 1));
+        }
+        assert_eq!(narrower, piles().len());
+    }
+
+    #[test]
+    fn what_is_not_symmetric_is_swept_whole() {
+        let pile = |top| Pile::under(top, "+-+".parse().unwrap()).unwrap();
+        let hexagon = Region::hexagon(3, 2).unwrap();
+        let top = *pile(hexagon).shape().sites().next().as_ref().unwrap();
+        let one = BigRational::from_integer(1.into());
+        assert!(are_thirds_alike(&pile(hexagon).weightless().system()));
+        for pile in [
+            pile(hexagon).with_load(top, one).unwrap(),
+            pile(Region::new(0..=2, 0..=2, 0..=4).unwrap()),
+            pile(Region::new(0..=2, 0..=1, 0..=2).unwrap()),
+            Pile::discs(4).unwrap(),
+            Pile::isosceles(4, BigRational::new(1.into(), 3.into())).unwrap(),
+        ] {
+            assert!(!are_thirds_alike(&pile.system()));
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Which bottom spheres can be extreme: nearest floats decide, and leave few to long integers.
+//!
+//! Rounding to the nearest float keeps the order, so the least normal force is among those whose float is least, and the
+//! greatest likewise. Of the squared ratio of shear to normal force, r = (x² + c·y²)/n² with c = 4cos²φ, the float r′ has
+//! ten roundings on its way, numbers that come in twice counted twice: with u = 2^−53, |r′ − r| ≤ 11u·r + 2^−796, where
+//! 2^−100 ≤ |n| < 2^200, |x| and |y| < 2^200, and 2^−100 ≤ c ≤ 4. The second term is what squares below 2^−1000 may lose,
+//! over n² ≥ 2^−200. If r is the greatest of all and m the greatest float, r′ ≥ (1 − 11u)/(1 + 11u)·m − 2^−795, which is
+//! more than (1 − 32u)·m for m ≥ 2^−700. What is beyond these bounds is left to long integers, and so are spheres that
+//! weigh more than others. All that holds with the extremes of those met so far in place of the extremes of all.
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use super::terms::Terms;
+use crate::Error;
+use crate::engine::{Descent, Planes, Readout, Unit};
+use crate::error::bug;
+use crate::lattice::{Row, Site};
+use crate::scalar::{Ring, Surd};
+
+/// 2^−700, 2^−100 and 2^200.
+const TINY: f64 = f64::from_bits(323 << 52);
+const SMALL: f64 = f64::from_bits(923 << 52);
+const GREAT: f64 = f64::from_bits(1223 << 52);
+
+/// The extremes of the floats met so far, to which those of a sphere are held.
+pub(super) struct Screen<'s, 'p> {
+    sweep: &'s Descent<'p, BigRational, Planes>,
+    readout: Readout,
+    units: [Unit; 3],
+    /// 4cos²φ.
+    across: f64,
+    /// Spheres that weigh more than others.
+    extras: BTreeSet<Site>,
+    least: f64,
+    most: f64,
+    /// The greatest squared ratio.
+    ratio: f64,
+}
+
+/// The float of a normal force, and the squared ratio where its error is known.
+type Floats = (f64, Option<f64>);
+
+impl<'s, 'p> Screen<'s, 'p> {
+    /// Returns the screen of a base that a sweep is at, unless its floats are not to be had.
+    pub(super) fn new(
+        (terms, sweep): (
+            &Terms<'_, BigRational>,
+            &'s Descent<'p, BigRational, Planes>,
+        ),
+        across: &BigRational,
+    ) -> Option<Self> {
+        let one = || Surd::from(BigRational::from_i128(1));
+        let across = Surd::from(across.clone()).nearest::<f64>();
+        Some(Self {
+            sweep,
+            readout: terms.floor_readout()?,
+            units: terms.floor_units(&[one(), one(), one()]),
+            across: across.filter(|c| *c >= SMALL)?,
+            extras: terms.lines.extras_in(sweep.k()..sweep.k() + 1).collect(),
+            least: f64::INFINITY,
+            most: f64::NEG_INFINITY,
+            ratio: 0.0,
+        })
+    }
+
+    /// Returns the spheres of a row that can be extreme among all that were met.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn candidates(&mut self, row: Row) -> Result<Vec<Site>, Error> {
+        let Some(floats) = self.floats(&row)? else {
+            return Ok(row.into_iter().collect());
+        };
+        let spheres = || row.clone().into_iter().zip(&floats);
+        for (_, (normal, ratio)) in spheres().filter(|(site, _)| !self.extras.contains(site)) {
+            self.least = self.least.min(*normal);
+            self.most = self.most.max(*normal);
+            self.ratio = ratio.map_or(self.ratio, |ratio| self.ratio.max(ratio));
+        }
+        let greatest = if self.ratio < TINY {
+            0.0
+        } else {
+            self.ratio * (1.0 - 16.0 * f64::EPSILON)
+        };
+        let can_be = |(site, (normal, ratio)): &(Site, &Floats)| {
+            *normal <= self.least
+                || *normal >= self.most
+                || ratio.is_none_or(|ratio| ratio >= greatest)
+                || self.extras.contains(site)
+        };
+        Ok(spheres().filter(can_be).map(|(site, _)| site).collect())
+    }
+
+    fn floats(&self, row: &Row) -> Result<Option<Vec<Floats>>, Error> {
+        let spheres = (row.i.end - row.i.start).to_usize();
+        let spheres = spheres.ok_or_else(|| bug("a row of a sweep fits in memory"))?;
+        let mut floats = [(); 3].map(|()| alloc::vec![0.0_f64; spheres]);
+        let out = floats.each_mut().map(Vec::as_mut_slice);
+        if !self
+            .sweep
+            .nearest_row(row, (&self.readout, &self.units), out)?
+        {
+            return Ok(None);
+        }
+        let [normal, x, y] = floats;
+        let floats = normal.into_iter().zip(x.into_iter().zip(y));
+        let floats = floats.map(|(n, (x, y))| {
+            let known = (SMALL..GREAT).contains(&n.abs()) && x.abs().max(y.abs()) < GREAT;
+            (n, known.then(|| (x * x + self.across * (y * y)) / (n * n)))
+        });
+        Ok(Some(floats.collect()))
+    }
+}
