@@ -55,7 +55,9 @@
 //! | the force of one sphere on the floor | [`.on_floor(site)`](Forces::on_floor) |
 //! | all of them, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
 //! | many, fast, into slices | [`.layers(part)`](Forces::layers), and of these the [nearest floats](Layers::nearest) or [exact integers](Layers::numerators) |
-//! | the same in newtons and metres | a [`Packing`] |
+//! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for nearest floats in slices |
+//! | rows of them, for what is larger than memory | [`fill_row`](NearestLayers::fill_row) and its like; [`packing.places()`](Packing::places) for centres and points of contact |
+//! | totals | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
 //! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | which stackings stand | [`census`] |
 //! | what is proved for every pile | [`theorem`] |
