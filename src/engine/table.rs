@@ -14,38 +14,39 @@ use num_traits::ToPrimitive;
 use super::parallel;
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Along, Row, Slopes};
+use crate::lattice::{Along, Row, Sign, Slopes};
 use crate::pile::System;
 use crate::shape::Shape;
 
 /// The distinct contact forces of a straight pile, by direction: what 1, 2, 3, … increments come to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Table<V> {
-    /// By direction; the n-th is that of n+1 increments. As long as there are layers above the floor.
+    /// By direction; the n-th is that of n+1 increments.
     tables: [Vec<V>; 3],
     shape: Shape,
 }
 
-/// The most layers of a table; the contacts of as many take 10¹⁹ bytes.
-const MOST_LAYERS: i128 = 1_000_000;
+/// The most increments of a table; the contacts of as many layers take 10¹⁹ bytes.
+const MOST: i128 = 1_000_000;
 
 impl<V> Table<V> {
-    /// Returns the table of the values of n increments along a line, or `None` for a pile that has none: with changes of
-    /// sign or loads, of spheres that do not weigh mg, of discs, or of more than a million layers.
+    /// Returns the table of the values of n ≤ `most` increments along a line, or `None` where there is none: of piles with
+    /// changes of sign or loads, of spheres that do not weigh mg, of discs, or for more than a million increments.
     ///
     /// # Errors
     /// Those of `value`.
     pub(crate) fn new(
         system: &System<'_>,
+        most: i128,
         value: impl Fn(i128, usize) -> Result<V, Error>,
     ) -> Result<Option<Self>, Error> {
         let shape = system.shape;
         let few = system.is_straight() && system.is_even() && system.fills_its_layers();
-        if !few || shape.layers() > MOST_LAYERS {
+        if !few || most > MOST {
             return Ok(None);
         }
         let table = |line: usize| {
-            (1..shape.layers())
+            (1..=most)
                 .map(|n| value(n, line))
                 .collect::<Result<Vec<V>, Error>>()
         };
@@ -126,11 +127,17 @@ impl<V: Clone + Send + Sync> Table<V> {
         Ok(())
     }
 
-    /// Writes the forces below consecutive spheres of a row of any straight pile.
+    /// Writes the forces below consecutive spheres of a row of any straight pile; on the floor those below it if the pile went
+    /// on.
     pub(crate) fn fill_row(&self, row: &Row, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let region = self.shape.layer(row.k)?;
-        let sign = self.shape.sign_below(row.k);
-        let sign = sign.ok_or_else(|| bug("a layer above the floor rests on another"))?;
+        let shape = &self.shape;
+        // One sign for all steps; a single layer has none, and no sphere above another.
+        let step = shape.sign_below(row.k).or(shape.sign_below(row.k - 1));
+        let sign = match step {
+            Some(sign) => sign,
+            None => Sign::Plus,
+        };
         let counts = region.row_counts(row.j, sign, row.k);
         for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {
             let n = slice.len();

@@ -250,6 +250,11 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         table.fill(self.above_the_floor(), slices)
     }
 
+    /// The most increments that a contact force of the part is.
+    pub(super) fn most_increments(&self) -> i128 {
+        most_increments(self.shape(), self.ahead.end - 1)
+    }
+
     /// Whether the layers are filled from the distinct forces of a straight pile.
     pub(super) fn is_from_table(&self) -> bool {
         self.table().is_some()
@@ -327,14 +332,23 @@ impl<'p, T: Algebra> Way<'p, T> {
             let force = lines.ordinary(T::Numerator::from_i128(n), line);
             super::edge("a contact force", force, &scale)
         };
-        Ok(match Table::new(system, multiple)? {
-            Some(table) if plan.method == Method::Closed => Self::Table(Box::new(table)),
-            _ => Self::Single {
+        let table = match plan.method {
+            Method::Closed => Table::new(system, most_increments(system.shape, last), multiple)?,
+            Method::Tree | Method::Sweep => None,
+        };
+        Ok(match table {
+            Some(table) => Self::Table(Box::new(table)),
+            None => Self::Single {
                 method,
                 in_pieces: plan.method == Method::Tree,
             },
         })
     }
+}
+
+/// The most increments on a line of contacts down to layer `last`.
+fn most_increments(shape: &Shape, last: i128) -> i128 {
+    (last + 1).min(shape.layers() - 1)
 }
 
 impl<'p, M: Meter> Layers<'p, BigRational, M> {

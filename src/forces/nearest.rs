@@ -42,6 +42,12 @@ enum Asked {
 enum Source<F> {
     /// From the distinct forces of a straight pile.
     Table(Table<F>),
+    /// From the numbers of increments on the lines that lead to the floor of a straight pile.
+    Counts {
+        table: Table<i64>,
+        readout: Readout,
+        units: Box<[Unit; 3]>,
+    },
     /// From what the lines carry, of which limbs are read as they are.
     Lines {
         units: Box<[Unit; 3]>,
@@ -122,7 +128,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     ) -> Result<NearestLayers<'p, F, M>, Error> {
         let table = match self.source(&units, Asked::Contacts, 0)? {
             Source::Table(table) => Some(table),
-            Source::Lines { .. } => None,
+            Source::Lines { .. } | Source::Counts { .. } => None,
         };
         Ok(NearestLayers {
             layers: self,
@@ -150,8 +156,19 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
                 })
             }
             Asked::Floor => {
+                let units = Box::new(terms.floor_units(&units.floor));
+                if self.is_from_table()
+                    && let Some(readout) = terms.floor_readout_of_counts()
+                    && let Some(table) = Table::new(&terms.system, k + 1, |n, _| small(n))?
+                {
+                    return Ok(Source::Counts {
+                        table,
+                        readout,
+                        units,
+                    });
+                }
                 return Ok(Source::Lines {
-                    units: Box::new(terms.floor_units(&units.floor)),
+                    units,
                     readout: terms.floor_readout(),
                 });
             }
@@ -162,7 +179,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
                 let force = units[line].nearest(&terms.lines.ordinary(n.into(), line));
                 force.ok_or_else(|| asked.overflow::<F>())
             };
-            let table = Table::new(&terms.system, nearest)?;
+            let table = Table::new(&terms.system, self.most_increments(), nearest)?;
             return table
                 .map(Source::Table)
                 .ok_or_else(|| bug("what was filled from a table is filled from a table"));
@@ -200,6 +217,21 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
         let (units, readout) = match source {
             Source::Table(table) => return table.fill_row(row, [a, b, c]),
             Source::Lines { units, readout } => (units, readout),
+            Source::Counts {
+                table,
+                readout,
+                units,
+            } => {
+                let mut counts = [(); 3].map(|()| alloc::vec![0; a.len()]);
+                table.fill_row(row, counts.each_mut().map(Vec::as_mut_slice))?;
+                let lines = counts.each_ref().map(Vec::as_slice);
+                let defined = readout.write(units, &[lines], [a, b, c])?;
+                return if defined {
+                    Ok(())
+                } else {
+                    Err(asked.overflow::<F>())
+                };
+            }
         };
         if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep()) {
             let out = [&mut *a, &mut *b, &mut *c];
@@ -254,6 +286,11 @@ fn nearest<F: NearestFloat>(
         nearest(unit_y, y)?,
         nearest(unit_z, z)?,
     ])
+}
+
+/// A number of increments in a table, which has not more than a million of them.
+fn small(n: i128) -> Result<i64, Error> {
+    i64::try_from(n).map_err(|_| bug("a table has few increments"))
 }
 
 impl Asked {
@@ -368,13 +405,13 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     /// use cannonpile::shape::Selection;
     /// use num_rational::BigRational;
     ///
-    /// let pile = Pile::triangular(1_000_000)?;
+    /// let pile = Pile::triangular(10_000)?;
     /// let forces = pile.forces::<BigRational>();
-    /// let mut layers = forces.layers(Selection::Layer(999_998))?.nearest::<f64>()?;
+    /// let mut layers = forces.layers(Selection::Layer(9998))?.nearest::<f64>()?;
     /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
-    /// let row = Row { k: 999_998, j: 7, i: 100..103 };
+    /// let row = Row { k: 9998, j: 7, i: 100..103 };
     /// layers.fill_row(&row, [&mut alpha, &mut beta, &mut gamma])?;
-    /// assert_eq!((alpha, beta), ([999_892.0, 999_891.0, 999_890.0], [101.0, 102.0, 103.0]));
+    /// assert_eq!((alpha, beta), ([9892.0, 9891.0, 9890.0], [101.0, 102.0, 103.0]));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_row(&mut self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
@@ -485,7 +522,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
             return table.fill_row(row, slices);
         }
         let known = |(what, at, source): &(Asked, i128, Source<F>)| {
-            *what == asked && (*at == k || matches!(source, Source::Table(_)))
+            *what == asked && (*at == k || !matches!(source, Source::Lines { .. }))
         };
         if !self.prepared.iter().any(known) {
             self.prepared.retain(|(what, ..)| *what != asked);

@@ -176,15 +176,22 @@ impl Terms<'_, BigRational> {
     /// factors are long.
     pub(super) fn floor_readout(&self) -> Option<Readout> {
         let (floor, changes) = self.floor_and_changes();
-        let (lines, own) = self.floor_factors(floor, changes);
-        let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
-            let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
-            Some([a?.into(), b?.into(), c?.into()])
-        };
-        Some(Readout {
-            combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
-            own: [own.z, own.x, own.y],
-        })
+        readout(&self.floor_factors(floor, changes))
+    }
+
+    /// Returns the same of the numbers of increments on the lines, that of the sphere itself among them, in a straight pile.
+    pub(super) fn floor_readout_of_counts(&self) -> Option<Readout> {
+        let (floor, changes) = self.floor_and_changes();
+        let (lines, mut own) = self.floor_factors(floor, changes);
+        let increments = self.lines.increments_after(changes);
+        let [a, b, c] = [0, 1, 2].map(|line| lines[line].clone().scaled(&increments[line]));
+        for line in [&a, &b, &c] {
+            own = own - line;
+        }
+        // In one limb.
+        let is_short = |x: &BigInt| x.bits() < 62;
+        let short = is_short(&own.x) && is_short(&own.y) && is_short(&own.z);
+        readout(&([a, b, c], own)).filter(|_| short)
     }
 
     /// Returns the units of normal force, shear along x and shear along y, from those of shear along x and y and of normal
@@ -201,6 +208,18 @@ impl Terms<'_, BigRational> {
         let floor = shape.layers() - 1;
         (floor, shape.changes_above(floor))
     }
+}
+
+/// Returns what makes normal force, shear along x and shear along y of the factor of each line and what is added.
+fn readout((lines, own): &([Vector<BigInt>; 3], Vector<BigInt>)) -> Option<Readout> {
+    let factors = |part: fn(&Vector<BigInt>) -> &BigInt| {
+        let [a, b, c] = lines.each_ref().map(|line| part(line).to_i16());
+        Some([a?.into(), b?.into(), c?.into()])
+    };
+    Some(Readout {
+        combination: [factors(|v| &v.z)?, factors(|v| &v.x)?, factors(|v| &v.y)?],
+        own: [&own.z, &own.x, &own.y].map(Clone::clone),
+    })
 }
 
 /// Returns the one of three that belongs to a direction.
