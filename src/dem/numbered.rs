@@ -6,7 +6,7 @@ use crate::lattice::{Direction, Row, Site};
 use crate::scalar::Surd;
 use crate::shape::{Numbering, Selection};
 use crate::table::refuse_beyond;
-use crate::{Error, FloorForce, Packing, Pile};
+use crate::{Error, FloorForce, NearestLayers, Packing, Pile};
 
 /// A packing, and the numbers of its spheres.
 ///
@@ -190,7 +190,13 @@ impl<'p> NumberedPile<'p> {
     pub(super) fn forces(
         &self,
     ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
-        let mut layers = self.packing.layers::<f64>(Selection::All)?;
+        self.forces_of(self.packing.layers(Selection::All)?)
+    }
+
+    fn forces_of(
+        &self,
+        mut layers: NearestLayers<'p, f64>,
+    ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
         Ok(each(self.pieces_above_the_floor()?, move |piece| {
             let mut forces = columns(piece);
             layers.fill_row(piece, forces.each_mut().map(Vec::as_mut_slice))?;
@@ -307,8 +313,9 @@ impl<'p> NumberedPile<'p> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contacts(&self) -> Result<impl Iterator<Item = Result<NumberedContact, Error>>, Error> {
-        let keeps_digits = self.packing.layers::<f64>(Selection::Base)?.keeps_digits();
-        Ok(self.forces()?.map(move |contact| {
+        let layers = self.packing.layers::<f64>(Selection::All)?;
+        let keeps_digits = layers.keeps_digits();
+        Ok(self.forces_of(layers)?.map(move |contact| {
             let contact = contact?;
             if keeps_digits || contact.force.is_normal() {
                 return Ok(contact);

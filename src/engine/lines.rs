@@ -18,7 +18,7 @@ use num_traits::{One, Zero, pow};
 use super::meter::Meter;
 use crate::formula::{self, force, half_turn, passed_on};
 use crate::lattice::Sign;
-use crate::lattice::{Direction, Site};
+use crate::lattice::{Direction, Row, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Shape, Stretch};
@@ -160,7 +160,15 @@ impl<'p, T: Algebra> Lines<'p, T> {
         })
     }
 
-    /// What the spheres of these layers add to their lines beside an ordinary weight.
+    /// The spheres of a row that weigh more or less than an ordinary one, or carry loads.
+    pub(crate) fn extras_in_row(&self, row: &Row) -> impl Iterator<Item = Site> + '_ {
+        let Row { k, j, ref i } = *row;
+        let [start, end] = [i.start, i.end].map(|i| Site { i, j, k });
+        let sites = self.extra_weights.range(start..end.max(start));
+        sites.map(|(site, _)| *site)
+    }
+
+    /// The spheres of some layers that weigh more or less than an ordinary one, or carry loads.
     pub(crate) fn extras_in(
         &self,
         layers: core::ops::Range<i128>,

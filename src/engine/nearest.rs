@@ -2,7 +2,7 @@
 //!
 //! An integer over a denominator times c·√r is n·v with v = c·√r/denominator. v is enclosed once, in a double-double; of n the
 //! leading bits are taken, and what is left out is bounded. If both ends of the product round to one float, so does the
-//! value between them, and no root, no gcd and no long integer is needed. Else, once in 10⁵ or at a tie, the exact
+//! value between them, and no root, no gcd and no long integer is needed. Else, once in some hundreds or at a tie, the exact
 //! [`Surd`] decides.
 
 use num_bigint::BigInt;

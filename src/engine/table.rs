@@ -132,11 +132,12 @@ impl<V: Clone + Send + Sync> Table<V> {
     pub(crate) fn fill_row(&self, row: &Row, slices: [&mut [V]; 3]) -> Result<(), Error> {
         let region = self.shape.layer(row.k)?;
         let shape = &self.shape;
-        // One sign for all steps; a single layer has none, and no sphere above another.
-        let step = shape.sign_below(row.k).or(shape.sign_below(row.k - 1));
-        let sign = match step {
+        // One sign for all steps.
+        let sign = match shape.sign_below(row.k).or(shape.sign_below(row.k - 1)) {
             Some(sign) => sign,
-            None => Sign::Plus,
+            // No sphere is above another.
+            None if shape.layers() == 1 => Sign::Plus,
+            None => return Err(bug("a layer of a pile rests on another, or is rested on")),
         };
         let counts = region.row_counts(row.j, sign, row.k);
         for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {

@@ -17,7 +17,7 @@ use crate::engine::{
     plain_sweep, received_in,
 };
 use crate::error::bug;
-use crate::formula::{half_turn, passed_on};
+use crate::formula::{half_turn, passed_on, triples};
 use crate::lattice::{Region, Row, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness, Ring};
@@ -279,9 +279,10 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
 }
 
 /// Whether a number of a sweep down to layer `last` may be too great for the scalar: not if it holds twice the bound on all of
-/// them, which roundings do not reach.
+/// them. With 24 bits or more roundings would reach as far after half a million passes, of which no layer fits in memory.
 fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
-    if !matches!(T::EXACTNESS, Exactness::Rounded { .. }) {
+    let is_fine = matches!(T::EXACTNESS, Exactness::Rounded { bits: 24.. });
+    if !is_fine || triples::<T>() {
         return true;
     }
     let twice = BigRational::new(system.bound_of_sweep(last) * 2, system.denominator());

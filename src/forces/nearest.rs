@@ -126,9 +126,14 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
         self,
         units: Units,
     ) -> Result<NearestLayers<'p, F, M>, Error> {
-        let table = match self.source(&units, Asked::Contacts, 0)? {
-            Source::Table(table) => Some(table),
-            Source::Lines { .. } | Source::Counts { .. } => None,
+        // The floor has no contacts below it.
+        let table = if self.above_the_floor().is_empty() {
+            None
+        } else {
+            match self.source(&units, Asked::Contacts, 0)? {
+                Source::Table(table) => Some(table),
+                Source::Lines { .. } | Source::Counts { .. } => None,
+            }
         };
         Ok(NearestLayers {
             layers: self,
@@ -239,8 +244,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
                 return Err(asked.overflow::<F>());
             }
             // Spheres that weigh more or less than the others, or carry loads.
-            let extras = self.terms.lines.extras_in(row.k..row.k + 1);
-            for site in extras.filter(|site| site.j == row.j && row.i.contains(&site.i)) {
+            for site in self.terms.lines.extras_in_row(row) {
                 let place = (site.i - row.i.start).to_usize();
                 let place = place.filter(|place| *place < a.len());
                 let place = place.ok_or_else(|| bug("a slice is as long as its row"))?;
@@ -395,7 +399,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     /// memory. Rows come in their order; layers without one may be left out.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above one that was written;
+    /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above one that was written, or not of the part;
     /// [`Error::Length`], [`Error::Overflow`].
     ///
     /// # Examples
@@ -418,8 +422,8 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         self.write(Asked::Contacts, row, slices)
     }
 
-    /// Whether every contact force but zero is rounded to a normal float, with all its digits: each is an integer multiple of
-    /// the unit over a denominator.
+    /// Whether it is certain that every contact force but zero is rounded to a normal float, with all its digits: each is an
+    /// integer multiple of the unit over a denominator, which may be less than any of them.
     ///
     /// # Examples
     /// ```
@@ -500,7 +504,12 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
 
     fn write(&mut self, asked: Asked, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
         let (shape, Row { k, j, i }) = (self.layers.shape(), row.clone());
-        let spheres = i.end.saturating_sub(i.start).to_usize();
+        let length = if i.is_empty() {
+            0
+        } else {
+            i.end.saturating_sub(i.start)
+        };
+        let spheres = length.to_usize();
         // Not a default: no slice is as long.
         check_lengths(spheres.unwrap_or(usize::MAX), &slices)?;
         if i.is_empty() {

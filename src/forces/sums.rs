@@ -3,6 +3,7 @@
 //! Every line goes on to the next layer, so the forces of a layer on the next one sum to what that layer receives. Adding
 //! increments and turning act on sums as on the forces of one sphere.
 
+use alloc::collections::BTreeMap;
 use core::ops::Range;
 
 use num_bigint::BigInt;
@@ -16,12 +17,16 @@ use crate::engine::Meter;
 use crate::formula::{self, force, half_turn, passed_on};
 use crate::shape::{Selection, Stretch};
 
+/// The most layers that are summed one by one.
+const MOST_LAYERS: u64 = 10_000_000;
+
 impl<M: Meter> Forces<'_, BigRational, M> {
     /// Returns the sum of all contact forces that [`contacts`](Self::contacts) gives of a part, in f₀. Takes as long as the
     /// part has layers, and the pile changes of sign, loads and weights of its own.
     ///
     /// # Errors
-    /// [`Error::LayerOutside`], [`Error::SiteOutside`].
+    /// [`Error::LayerOutside`], [`Error::SiteOutside`]; [`Error::TooLarge`] for more than ten million layers, or one sphere
+    /// too far below too many changes of sign.
     ///
     /// # Examples
     /// ```
@@ -51,21 +56,34 @@ impl<M: Meter> Forces<'_, BigRational, M> {
             }
             Selection::One(site) => return Ok(self.to_below(site)?.iter().sum()),
         };
-        let mut sum = BigRational::zero();
+        if layers.end - layers.start > MOST_LAYERS.into() {
+            return Err(Error::TooLarge {
+                quantity: "the sum over these layers",
+                needed: (layers.end - layers.start).unsigned_abs().into(),
+                limit: MOST_LAYERS,
+                remedy: "ask for single layers",
+            });
+        }
+        // By the number of changes above them, whose sums have one denominator.
+        let mut sums: BTreeMap<usize, BigInt> = BTreeMap::new();
         let add = |[a, b, c]: &[BigInt; 3], changes| {
-            let scale = terms.lines.scale(changes);
-            sum += edge::<BigRational>("a sum of forces", a + b + c, &scale)?;
-            Ok(())
+            *sums.entry(changes).or_default() += a + b + c;
         };
-        terms.pass_layers_on(layers, add)?;
-        Ok(sum)
+        terms.pass_layers_on(layers, add);
+        let quantity = "a sum of forces";
+        let mut total = BigRational::zero();
+        for (changes, sum) in sums {
+            total += edge::<BigRational>(quantity, sum, &terms.lines.scale(changes))?;
+        }
+        Ok(total)
     }
 
     /// Returns the sums of the forces that [`base`](Self::base) gives of a part: normal in mg, shear_x in mg·tanθ, shear_y in
     /// 2cosφ·mg·tanθ. Of the whole base they are the weight of the pile with its loads, and nothing.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part that is not of the base.
+    /// [`Error::SiteOutside`], [`Error::LayerOutside`]; [`Error::NotOnFloor`] for a part that is not of the base;
+    /// [`Error::TooLarge`] for one sphere too far below too many changes of sign.
     ///
     /// # Examples
     /// ```
@@ -88,7 +106,7 @@ impl<M: Meter> Forces<'_, BigRational, M> {
         }
         terms.system.check_on_floor(&self.pile.rows(part)?)?;
         let lines = &terms.lines;
-        let (received, changes) = terms.pass_layers_on(floor..floor, |_, _| Ok(()))?;
+        let (received, changes) = terms.pass_layers_on(floor..floor, |_, _| ());
         let ordinary = lines.ordinary_weight(changes);
         let spheres = BigInt::from(terms.system.shape.layer(floor)?.site_count());
         let extras = lines.extras_in(floor..floor + 1);
@@ -107,8 +125,8 @@ impl Terms<'_, BigRational> {
     fn pass_layers_on(
         &self,
         layers: Range<i128>,
-        mut show: impl FnMut(&[BigInt; 3], usize) -> Result<(), Error>,
-    ) -> Result<([BigInt; 3], usize), Error> {
+        mut show: impl FnMut(&[BigInt; 3], usize),
+    ) -> ([BigInt; 3], usize) {
         let mut sums = [(); 3].map(|()| BigInt::zero());
         let mut changes = 0;
         let runs = (0..).map_while(|run| self.system.shape.stretch(run));
@@ -121,10 +139,10 @@ impl Terms<'_, BigRational> {
             sums = self.with_own(sums, &run, run.from..asked.start);
             for k in asked {
                 sums = self.with_own(sums, &run, k..k + 1);
-                show(&sums, changes)?;
+                show(&sums, changes);
             }
         }
-        Ok((sums, changes))
+        (sums, changes)
     }
 
     /// Adds what the spheres of some layers of a run add to their lines, by direction.

@@ -32,7 +32,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Returns the sites in rows of at most `sites` of them.
+    /// Returns the sites in rows of at most `sites` of them, which is one at the least.
     ///
     /// # Examples
     /// ```

@@ -13,7 +13,6 @@ pub(crate) mod summary;
 pub(crate) mod verify;
 
 use cannonpile::Pile;
-use cannonpile::scalar::RealSign;
 use cannonpile::shape::Selection;
 use cannonpile::table::{Cell, Table};
 
@@ -63,9 +62,7 @@ impl Pulls {
             return table;
         };
         table.inspect(move |row| {
-            if let Some(Cell::Number(force)) = row.get(place)
-                && force.sign() == RealSign::Negative
-            {
+            if row.get(place).is_some_and(Cell::is_negative) {
                 self.seen.set(true);
             }
         })

@@ -9,6 +9,7 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::upwards;
 use crate::engine::{Meter, Unit};
+use crate::error::bug;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Row, Site};
 use crate::scalar::{NearestFloat, Surd};
@@ -134,7 +135,12 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
         slices: [&mut [F]; 3],
         at: impl Fn(Site) -> Result<Vector<BigRational>, Error>,
     ) -> Result<(), Error> {
-        let spheres = row.i.end.saturating_sub(row.i.start).to_usize();
+        let length = if row.i.is_empty() {
+            0
+        } else {
+            row.i.end.saturating_sub(row.i.start)
+        };
+        let spheres = length.to_usize();
         // Not a default: no slice is as long.
         let needed = spheres.unwrap_or(usize::MAX);
         if let Some(slice) = slices.iter().find(|slice| slice.len() != needed) {
@@ -150,9 +156,9 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
             i: row.i.end - 1,
             ..first
         })?;
-        let here = self.numbers(at(first)?);
+        let here = self.numbers(at(first)?)?;
         let next = match sites.next() {
-            Some(second) => self.numbers(at(second)?),
+            Some(second) => self.numbers(at(second)?)?,
             None => here.clone(),
         };
         let along = here.into_iter().zip(next);
@@ -166,7 +172,7 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
                     *place = unit.nearest_to(at).ok_or_else(overflow::<F>)?;
                 }
             } else {
-                for (n, place) in (0..).zip(slice) {
+                for (n, place) in (0_u64..).zip(slice) {
                     let at = &first + &step * n;
                     *place = unit.nearest(&at).ok_or_else(overflow::<F>)?;
                 }
@@ -176,10 +182,12 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
     }
 
     /// Returns coordinates in the symbolic basis as integers.
-    fn numbers(&self, place: Vector<BigRational>) -> [BigInt; 3] {
-        // The denominator of all of them.
-        let whole = |x: BigRational| (x * &self.halves).to_integer();
-        place.into_array().map(whole)
+    fn numbers(&self, place: Vector<BigRational>) -> Result<[BigInt; 3], Error> {
+        let [x, y, z] = place.into_array().map(|x| x * &self.halves);
+        if x.is_integer() && y.is_integer() && z.is_integer() {
+            return Ok([x, y, z].map(|x| x.to_integer()));
+        }
+        Err(bug("all coordinates have one denominator"))
     }
 }
 

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
+use num_traits::Signed;
 
 use super::line::Line;
 use crate::Error;
@@ -68,6 +69,27 @@ impl From<&'static str> for Cell {
 }
 
 impl Cell {
+    /// Whether it is a number below zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::table::Cell;
+    ///
+    /// assert!(Cell::F64(-0.5).is_negative());
+    /// assert!(!Cell::from("-1").is_negative());
+    /// ```
+    #[must_use]
+    pub fn is_negative(&self) -> bool {
+        match self {
+            Self::Integer(n) => n.is_negative(),
+            Self::Index(n) => n.is_negative(),
+            Self::Number(x) => x.coefficient().is_negative(),
+            Self::F64(x) => *x < 0.0,
+            Self::F32(x) => *x < 0.0,
+            Self::Word(_) | Self::Flag(_) | Self::Missing => false,
+        }
+    }
+
     /// Adds the text of the cell to a line, so often as its column has heads, or both ends of a number if it is shown
     /// as an interval; `column` is named if the number does not fit.
     pub(super) fn show(

@@ -56,7 +56,7 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
     if pile.dimension() == Dimension::Three {
         columns.push(Column::summed("shear_y", units.shear_y()));
     }
-    let (count, bounds) = (rows.site_count(), bounds(&columns, units));
+    let (count, bounds) = (rows.site_count(), bounds(&columns, units, selection)?);
     let made = units.clone();
     let rows = move |numbers| {
         Ok(match rounding(numbers, selection) {
@@ -201,7 +201,7 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         columns.extend(["fx", "fy", "fz"].map(|name| Column::measured(name, "N")));
         columns.extend(["x", "y", "z"].map(|name| Column::measured(name, "m")));
     }
-    let bounds = bounds(&columns, units);
+    let bounds = bounds(&columns, units, selection)?;
     let made = units.clone();
     let rows = move |numbers| match rounding(numbers, selection) {
         Some(Rounding::F64) => rounded_contacts::<f64>(&made, selection),
@@ -294,14 +294,18 @@ pub(crate) fn narrower(selection: Selection) -> &'static str {
 }
 
 /// A row that no row of the table exceeds, for the columns that hold forces and places.
-fn bounds(columns: &[Column], units: &Units<'_>) -> Vec<Cell> {
-    let force = units.greatest_force();
+fn bounds(columns: &[Column], units: &Units<'_>, selection: Selection) -> Result<Vec<Cell>, Error> {
+    // The rows of one sphere are few enough to be looked at themselves.
+    if let Selection::One(_) = selection {
+        return Ok(Vec::new());
+    }
+    let force = units.greatest_force(selection)?;
     let bound = |column: &Column| match (column.unit, units) {
         ("", _) => Cell::Missing,
         ("m", Units::Si(packing)) => greatest_place(packing).into(),
         _ => force.clone().into(),
     };
-    columns.iter().map(bound).collect()
+    Ok(columns.iter().map(bound).collect())
 }
 
 /// A length that no coordinate of a centre exceeds: from the origin on it takes as many steps of 2R as layers, and as
@@ -353,7 +357,7 @@ pub fn spheres<'p>(packing: &Packing<'p>, selection: Selection) -> Result<Table<
     columns.push(Column::plain("fixed"));
     let bound = |column: &Column| match column.unit {
         "m" => greatest_place(packing).into(),
-        "kg" => (pile.weight() * packing.mass()).into(),
+        "kg" => greatest_mass(packing).into(),
         _ => Cell::Missing,
     };
     let bounds = columns.iter().map(bound).collect();
@@ -413,6 +417,13 @@ fn sphere_cells(packing: &Packing<'_>, (id, site): (BigInt, Site), centre: [Cell
     cells.push(packing.mass_of(site)?.into());
     cells.push(Cell::Flag(site.k + 1 == pile.layers()));
     Ok(cells)
+}
+
+/// The mass of the heaviest sphere, or more.
+fn greatest_mass(packing: &Packing<'_>) -> BigRational {
+    let special = packing.pile().weights().map(|(_, weight)| weight);
+    let greatest = special.fold(BigRational::one(), |most, weight| most.max(weight.clone()));
+    greatest * packing.mass()
 }
 
 /// The weight of the spheres of a part without their loads, in mg.

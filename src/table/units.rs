@@ -1,8 +1,9 @@
 //! What numbers are in: multiples of mg, or newtons and metres.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use crate::lattice::Dimension;
+use crate::lattice::{Dimension, Site};
 use crate::scalar::{NearestFloat, Ring, Surd};
 use crate::shape::Selection;
 use crate::{Error, FloorForce, Forces, Method, NearestLayers, Packing, Pile, Places};
@@ -104,11 +105,11 @@ impl<'p> Units<'p> {
         }
     }
 
-    /// A number that no force of the pile exceeds. In mg or f₀: over a layer the squares of the forces add up to no more
-    /// than that of √3 times the sum of all weights.
-    pub(super) fn greatest_force(&self) -> Surd {
-        let bound = self.pile().weight() * BigRational::from_i128(3);
-        match self {
+    /// A number that no force of a part exceeds. In mg or f₀: over a layer the squares of the forces add up to no more
+    /// than that of √3 times the sum of all weights down to it.
+    pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
+        let bound = weight_down_to(self.pile(), part)? * BigRational::from_i128(3);
+        Ok(match self {
             Self::Pile(_) => bound.into(),
             // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.
             Self::Si(packing) => {
@@ -117,7 +118,7 @@ impl<'p> Units<'p> {
                 // 1/cosθ and tanθ are both at most this; a rational bound is enough.
                 (unit / cos2).into()
             }
-        }
+        })
     }
 
     pub(super) fn force(&self) -> &'static str {
@@ -175,4 +176,28 @@ impl Units<'_> {
     pub(super) fn method(&self) -> Option<Method> {
         self.forces().method()
     }
+}
+
+/// Returns what the spheres of the layers of a part and of those above weigh, with their loads, in mg; not less.
+fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
+    let Selection::Layer(k) = part else {
+        return Ok(pile.weight());
+    };
+    let spheres = match pile
+        .rows(Selection::Layer(k + 1))
+        .ok()
+        .and_then(|mut rows| rows.next())
+    {
+        Some(row) => pile.shape().before(Site {
+            i: row.i.start,
+            j: row.j,
+            k: row.k,
+        })?,
+        None => return Ok(pile.weight()),
+    };
+    let special = pile.loads().chain(pile.weights());
+    let special = special
+        .filter(|(site, _)| site.k <= k)
+        .map(|(_, weight)| weight);
+    Ok(BigRational::from(BigInt::from(spheres)) + special.sum::<BigRational>())
 }

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::cell::NumberFormat;
 use super::error::WriteError;
 use super::line::Line;
-use super::rows::{Layout, Table, show};
+use super::rows::{Layout, RowIter, Table, show};
 use super::{json, text};
 
 /// How a table is written.
@@ -18,6 +18,9 @@ pub enum FileFormat {
     /// An array of objects, one a row.
     Json,
 }
+
+/// How many rows are looked at before the heads are written: the contacts of one sphere.
+const FIRST: usize = 3;
 
 impl Table<'_> {
     /// Writes the table. Memory does not grow with the number of rows.
@@ -49,7 +52,15 @@ impl Table<'_> {
         let mut line = Line::default();
         show(&self.columns, &self.bounds, numbers, &mut line)?;
         let is_counted = self.row_count().is_some();
-        let rows = (self.rows)(numbers)?;
+        let mut rows = (self.rows)(numbers)?;
+        // What the first rows cannot be is refused before anything is written; one sphere has no more.
+        let mut first = Vec::new();
+        for row in rows.by_ref().take(FIRST) {
+            let row = row?;
+            show(&self.columns, &row, numbers, &mut line)?;
+            first.push(Ok(row));
+        }
+        let rows: RowIter<'_> = Box::new(first.into_iter().chain(rows));
         let columns = &self.columns;
         match (format, self.layout) {
             (FileFormat::Json, _) => json::write(columns, rows, numbers, out),

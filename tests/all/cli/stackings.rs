@@ -1,15 +1,29 @@
 //! Stackings, tops, bases and loads on the command line, and which piles stand.
 
-use super::{cannonpile, refusal, stdout};
+use super::{cannonpile, only_reasons, refusal, stdout};
 
 /// The named columns of the one row of a summary, and the exit status.
 fn summary(arguments: &str, names: &[&str]) -> (Vec<String>, Option<i32>) {
     let output = cannonpile(&format!("summary {arguments} --format csv"));
-    assert!(output.stderr.is_empty(), "{arguments}: {output:?}");
-    let csv = String::from_utf8(output.stdout).expect("text");
+    let csv = String::from_utf8(output.stdout.clone()).expect("text");
     let mut reader = csv::Reader::from_reader(csv.as_bytes());
     let headers = reader.headers().expect("headers").clone();
     let row = reader.records().next().expect("a row").expect("a record");
+    // Why a column is empty is said, and nothing else.
+    assert!(only_reasons(&output.stderr), "{arguments}: {output:?}");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let notes = said
+        .lines()
+        .filter_map(|line| line.strip_prefix("note: no "));
+    let columns = notes.filter_map(|note| note.split_once(": "));
+    let explained: Vec<&str> = columns.flat_map(|(names, _)| names.split(", ")).collect();
+    for (name, value) in headers.iter().zip(&row) {
+        assert_eq!(
+            explained.contains(&name),
+            value.is_empty(),
+            "{arguments}: {said}"
+        );
+    }
     let column = |name: &&str| {
         let place = headers.iter().position(|header| header == *name);
         row[place.expect("a column")].to_owned()
@@ -183,4 +197,51 @@ fn a_verdict_on_what_is_too_large() {
             Some(1)
         )
     );
+}
+
+/// In every number format: of a layer what it shows tells, and nothing else is asked.
+#[test]
+fn a_layer_that_pulls_is_noted() {
+    for number in ["exact", "f64", "f32", "interval"] {
+        for (layer, pulls) in [(6, true), (2, false)] {
+            for units in ["pile", "si"] {
+                let arguments = format!(
+                    "contacts --stacking hcp --layers 9 --layer {layer} --number {number} --units {units}"
+                );
+                let output = cannonpile(&arguments);
+                let said = String::from_utf8(output.stderr).expect("text");
+                assert_eq!(said.contains("pull here"), pulls, "{arguments}: {said}");
+            }
+        }
+    }
+}
+
+/// Parts that fit are not refused for what the rest of the pile weighs.
+#[test]
+fn what_fits_is_not_refused() {
+    let huge = "1000000000000000000000000000000000000";
+    for (arguments, row) in [
+        (
+            format!("base --layers {huge} --at 5,7"),
+            "5,7,3.3333332e35,-1.6666666e35,-1.6666666e35",
+        ),
+        (
+            format!("contacts --layers {huge} --layer 0"),
+            "0,0,0,alpha,1.0",
+        ),
+        (
+            format!("spheres --layers {huge} --at 0,0,0 --spacing 1 --radius 1e-36"),
+            "1,0,0,0,0.0,0.0,1.6329932,1e-36,1.0,0",
+        ),
+        (
+            "spheres --layers 2 --load 0,0,0=1e39 --at 1,0,0".to_owned(),
+            "2,1,0,0,-0.6928203,-1.2,0.0,1.0,1.0,1",
+        ),
+    ] {
+        let csv = stdout(&format!("{arguments} --number f32 --format csv"));
+        assert_eq!(csv.lines().nth(1), Some(row), "{arguments}");
+    }
+    // Nothing is written before it is refused.
+    refusal("base --layers 4 --at 1,1 --units si --mass 1e39 --number f32 --format csv");
+    refusal("contacts --layers 4 --units si --mass 1e39 --number f32 --format csv");
 }

@@ -1,5 +1,7 @@
 //! Rows of nearest floats, in any pieces and by any method, and sums, are those of what is asked for one by one.
 
+use std::ops::Range;
+
 use cannonpile::lattice::{Row, Site};
 use cannonpile::scalar::{NearestFloat, Surd};
 use cannonpile::shape::Selection;
@@ -155,6 +157,8 @@ fn what_no_row_can_be_is_refused() {
     ));
     assert!(matches!(asked(4, 0, 0..1, 1), Err(Error::OnFloor { .. })));
     assert_eq!(asked(2, 0, 3..3, 0), Ok(()));
+    let reversed = Range { start: 3, end: 1 };
+    assert_eq!(asked(2, 0, reversed, 0), Ok(()));
     let mut base = [[0.0]; 3];
     let slices = base.each_mut().map(<[f64; 1]>::as_mut_slice);
     let above = layers.fill_row_of_base(
@@ -207,6 +211,35 @@ fn sums_are_those_of_all_rows() {
             assert_eq!(forces.sum_on_floor(part), Ok(sums), "{pile:?} {part:?}");
         }
     }
+}
+
+#[test]
+fn sums_of_huge_piles() {
+    let pile = Pile::triangular(10_i128.pow(36)).expect("a pile");
+    let forces = pile.forces::<BigRational>();
+    let refused = forces.sum_of_contacts(Selection::All);
+    assert!(
+        matches!(refused, Err(Error::TooLarge { .. })),
+        "{refused:?}"
+    );
+    // All that is above.
+    let layer = forces
+        .sum_of_contacts(Selection::Layer(10_i128.pow(30)))
+        .expect("a sum");
+    let spheres = pile.shape().before(Site {
+        i: 0,
+        j: 0,
+        k: 10_i128.pow(30) + 1,
+    });
+    assert_eq!(
+        layer,
+        BigRational::from_integer((spheres.expect("a sphere") * 3_u32).into())
+    );
+    let [normal, x, y] = forces.sum_on_floor(Selection::Base).expect("sums");
+    assert_eq!(
+        (normal, x, y),
+        (pile.weight(), BigRational::zero(), BigRational::zero())
+    );
 }
 
 /// Forces below the normal floats, and zeros.
