@@ -176,6 +176,8 @@ fn sum(region: &Region) -> Result<i128, Error> {
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec::Vec;
+
     use num_rational::BigRational;
 
     use super::*;
