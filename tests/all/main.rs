@@ -2,32 +2,45 @@
 //!
 //! What they share stands in `tests/support`: oracles, the judges of theorems and of roundings, piles made twice. Random
 //! tests are in `tests/properties`. A test of what several rooms do together stands with the lowest of them.
+//!
+//! Without `std` only roots are taken in another way, so only what rounds is built then.
 
 #[path = "../support/mod.rs"]
 mod support;
 
 mod scalar {
     mod double_double;
+    #[cfg(feature = "std")]
     mod fixed_width;
+    #[cfg(feature = "std")]
     mod flaws;
+    #[cfg(feature = "std")]
     mod half;
+    #[cfg(feature = "std")]
     mod interval;
+    #[cfg(feature = "std")]
     mod laws;
     mod nearest;
+    #[cfg(feature = "std")]
     mod pair;
+    #[cfg(feature = "std")]
     mod polynomial;
+    #[cfg(feature = "std")]
     mod sums;
     mod surd;
 }
 
+#[cfg(feature = "std")]
 mod lattice;
 
+#[cfg(feature = "std")]
 mod stacking {
     mod definitions;
     mod long;
     mod notations;
 }
 
+#[cfg(feature = "std")]
 mod shape {
     mod counts;
     mod edges;
@@ -37,15 +50,18 @@ mod shape {
     mod numbering;
 }
 
+#[cfg(feature = "std")]
 mod geometry {
     mod clearance;
     mod positions;
 }
 
+#[cfg(feature = "std")]
 mod formula {
     mod one_body;
 }
 
+#[cfg(feature = "std")]
 mod engine {
     mod high;
     mod methods;
@@ -54,22 +70,37 @@ mod engine {
 }
 
 mod forces {
+    #[cfg(feature = "std")]
     mod against_oracle;
+    #[cfg(feature = "std")]
     mod agreement;
+    #[cfg(feature = "std")]
     mod contracts;
+    #[cfg(feature = "std")]
     mod equilibrium;
+    #[cfg(feature = "std")]
     mod extremes;
+    #[cfg(feature = "std")]
     pub(crate) mod invariants;
     mod layers;
+    #[cfg(feature = "std")]
     mod loads;
+    #[cfg(feature = "std")]
     mod mirrors;
+    #[cfg(feature = "std")]
     mod parts;
+    #[cfg(feature = "std")]
     mod planted;
+    #[cfg(feature = "std")]
     mod planted_faults;
+    #[cfg(feature = "std")]
     mod response;
     mod rows;
+    #[cfg(feature = "std")]
     mod scalars;
+    #[cfg(feature = "std")]
     mod stress_table;
+    #[cfg(feature = "std")]
     mod symmetry;
 }
 
@@ -78,11 +109,13 @@ mod packing {
     mod vectors;
 }
 
+#[cfg(feature = "std")]
 mod census {
     mod all_stackings;
     pub(crate) mod brute;
 }
 
+#[cfg(feature = "std")]
 mod theorem;
 
 #[cfg(feature = "toml")]
@@ -105,6 +138,8 @@ mod figure;
 #[cfg(feature = "cli")]
 mod cli;
 
+#[cfg(feature = "std")]
 mod error;
 
+#[cfg(feature = "std")]
 mod house;
