@@ -15,11 +15,13 @@
 //!
 //! The unit in which a pile is walked is the [`Row`]: fixed k and j, consecutive i.
 
+mod axis;
 pub mod count;
 mod region;
 mod row;
 mod sign;
 
+pub use axis::{Axis, HorizontalContact};
 pub use region::Region;
 pub(crate) use region::{Along, Counts, Slopes, Trapezoid};
 pub use row::{Row, Sites};

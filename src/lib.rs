@@ -60,6 +60,7 @@
 //! | totals | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
 //! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | which stackings stand | [`census`] |
+//! | whether forces with horizontal contacts (a = R) are what somebody says, checked anew | [`certificate`] |
 //! | what is proved for every pile | [`theorem`] |
 //! | how a question is answered, and what that takes | [`Pile::plan`], [`Counters`] |
 //! | a pile as a user describes it | [`scene::Scene`] |
@@ -82,6 +83,7 @@
 //! | answers | `engine` (private) | the [`Plan`], and the engines it chooses among |
 //! | | [`Forces`], [`Packing`] | the one thing to ask, in pile units and in SI |
 //! | | [`Standing`], [`census`] | which piles stand |
+//! | | [`certificate`] | what is claimed of horizontal contacts, and its checker |
 //! | | [`theorem`] | what is proved for every pile: of [`formula`], and of nothing else |
 //! | tools | [`scene`], `serde`, `table`, `dem`, `verify`, `figure` | files in and out, pictures; each behind a feature |
 //! | roof | [`Error`] | what can be wrong with a question, and [which input](Culprit) is to blame |
@@ -116,6 +118,7 @@
 extern crate alloc;
 
 pub mod census;
+pub mod certificate;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod dem;

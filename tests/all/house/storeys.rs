@@ -17,6 +17,7 @@ const STOREYS: &[(&str, &[&str])] = &[
             "packing",
             "standing",
             "census",
+            "certificate",
             "horizontal",
             "disorder",
             "theorem",

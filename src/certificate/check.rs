@@ -1,0 +1,547 @@
+//! The checker: the balance of a sphere, its transpose, and signs.
+
+use alloc::boxed::Box;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use core::fmt;
+
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::{Certificate, Claim, Extreme};
+use crate::formula::tripled_half_turn;
+use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Sign, Site};
+use crate::{Error, Pile};
+
+/// Why a certificate is refused: the first equation that does not hold.
+///
+/// # Examples
+/// ```
+/// use cannonpile::certificate::Refusal;
+/// use cannonpile::lattice::{Direction, Site};
+/// use num_rational::BigRational;
+///
+/// let force = BigRational::from_integer((-2).into());
+/// let refusal = Refusal::Pulls { site: Site::APEX, direction: Direction::Beta, force };
+/// assert_eq!(refusal.to_string(), "the contact (0,0,0) beta would have to pull: its force is -2");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The pile has no horizontal contacts of this kind: sin φ is neither 1/2 nor that of discs.
+    NoSuchPile {
+        /// sin φ.
+        sin_phi: BigRational,
+    },
+    /// The stiffness ratio is not positive.
+    Stiffness {
+        /// What it is.
+        given: BigRational,
+    },
+    /// A horizontal contact that the pile lacks, or one between spheres on the floor, which are held.
+    NoContact {
+        /// The contact.
+        contact: HorizontalContact,
+    },
+    /// A field on a sphere that the pile lacks, or that is on the floor.
+    NoSphere {
+        /// The site.
+        site: Site,
+    },
+    /// The normal force is asked of a sphere that is not on the floor.
+    NotOnFloor {
+        /// The site.
+        site: Site,
+    },
+    /// A horizontal contact that pulls.
+    HorizontalPulls {
+        /// The contact.
+        contact: HorizontalContact,
+        /// Its force.
+        force: BigRational,
+    },
+    /// A sloping contact that pulls.
+    Pulls {
+        /// The upper sphere.
+        site: Site,
+        /// The direction of the contact.
+        direction: Direction,
+        /// Its force.
+        force: BigRational,
+    },
+    /// A drop D that is not as the claim needs it.
+    Drop {
+        /// The upper sphere.
+        site: Site,
+        /// The direction of the contact.
+        direction: Direction,
+        /// D.
+        drop: BigRational,
+        /// `at least`, `at most` or `equal to`.
+        relation: &'static str,
+        /// What it was to be.
+        needed: BigRational,
+    },
+    /// A compression c that is not as the claim needs it.
+    Compression {
+        /// The contact.
+        contact: HorizontalContact,
+        /// c, times the stiffness ratio.
+        compression: BigRational,
+        /// `at least`, `at most` or `equal to`.
+        relation: &'static str,
+        /// What it was to be.
+        needed: BigRational,
+    },
+    /// The work of the weights, Σ w φ, is not positive.
+    Work {
+        /// The sum.
+        work: BigRational,
+    },
+    /// The field proves another bound.
+    Bound {
+        /// What is claimed.
+        claimed: BigRational,
+        /// What the field proves.
+        proved: BigRational,
+    },
+    /// The forces attain another normal force.
+    Attained {
+        /// What is claimed.
+        claimed: BigRational,
+        /// What they attain.
+        attained: BigRational,
+    },
+    /// The pile does not answer.
+    Pile(Error),
+}
+
+impl From<Error> for Box<Refusal> {
+    fn from(error: Error) -> Self {
+        Self::new(Refusal::Pile(error))
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchPile { sin_phi } => write!(
+                f,
+                "neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
+            ),
+            Self::Stiffness { given } => {
+                write!(f, "the stiffness ratio must be positive, not {given}")
+            }
+            Self::NoContact { contact } => {
+                write!(
+                    f,
+                    "there is no horizontal contact {contact} above the floor"
+                )
+            }
+            Self::NoSphere { site } => write!(f, "there is no sphere {site} above the floor"),
+            Self::NotOnFloor { site } => write!(f, "there is no sphere {site} on the floor"),
+            Self::HorizontalPulls { contact, force } => write!(
+                f,
+                "the horizontal contact {contact} would have to pull: its force is {force}"
+            ),
+            Self::Pulls {
+                site,
+                direction,
+                force,
+            } => write!(
+                f,
+                "the contact {site} {direction} would have to pull: its force is {force}"
+            ),
+            Self::Drop {
+                site,
+                direction,
+                drop,
+                relation,
+                needed,
+            } => write!(
+                f,
+                "the drop along the contact {site} {direction} is {drop} and was to be {relation} {needed}"
+            ),
+            Self::Compression {
+                contact,
+                compression,
+                relation,
+                needed,
+            } => write!(
+                f,
+                "the compression of the horizontal contact {contact} is {compression} and was to be {relation} {needed}"
+            ),
+            Self::Work { work } => {
+                write!(f, "the work of the weights must be positive, and is {work}")
+            }
+            Self::Bound { claimed, proved } => {
+                write!(f, "the field proves the bound {proved}, not {claimed}")
+            }
+            Self::Attained { claimed, attained } => write!(
+                f,
+                "the forces attain the normal force {attained}, not {claimed}"
+            ),
+            Self::Pile(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {}
+
+/// The most spheres of a pile that is checked.
+const MOST_SPHERES: u64 = 10_000_000;
+
+/// Three numbers of a sphere, by direction.
+type Triple = [BigRational; 3];
+
+impl Certificate {
+    /// Checks every equation of the claim.
+    ///
+    /// Takes a few operations on rationals for each contact of the pile.
+    ///
+    /// # Errors
+    /// The first equation that does not hold.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::certificate::{Certificate, Claim, Refusal};
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let claim = Claim::CannotStand;
+    /// let certificate = Certificate { pile, claim, horizontal: [].into(), field: [].into() };
+    /// assert!(matches!(*certificate.check().unwrap_err(), Refusal::Work { .. }));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn check(&self) -> Result<(), Box<Refusal>> {
+        let pile = &self.pile;
+        if !pile.is_regular() && pile.dimension() == Dimension::Three {
+            let sin_phi = pile.sin_phi().clone();
+            return Err(Box::new(Refusal::NoSuchPile { sin_phi }));
+        }
+        let spheres = pile.sphere_count();
+        if spheres > MOST_SPHERES.into() {
+            return Err(Box::new(Refusal::Pile(Error::TooLarge {
+                quantity: "a check of every sphere",
+                needed: spheres,
+                limit: MOST_SPHERES,
+                remedy: "certify a smaller pile",
+            })));
+        }
+        let floor = pile.layers() - 1;
+        for (contact, force) in &self.horizontal {
+            if !contacts(pile, contact.site).contains(contact) {
+                let contact = *contact;
+                return Err(Box::new(Refusal::NoContact { contact }));
+            }
+            if force.is_negative() {
+                let (contact, force) = (*contact, force.clone());
+                return Err(Box::new(Refusal::HorizontalPulls { contact, force }));
+            }
+        }
+        let outside = |site: &&Site| !pile.shape().contains(**site) || site.k == floor;
+        if let Some(site) = self.field.keys().find(outside) {
+            return Err(Box::new(Refusal::NoSphere { site: *site }));
+        }
+        match &self.claim {
+            Claim::Stands => self.forces().map(drop),
+            Claim::CannotStand => {
+                let zero = BigRational::zero();
+                self.signs("at most", |_| zero.clone())?;
+                let work = self.work()?;
+                if work.is_positive() {
+                    Ok(())
+                } else {
+                    Err(Box::new(Refusal::Work { work }))
+                }
+            }
+            Claim::Least(extreme) => self.extreme(extreme, "at most"),
+            Claim::Greatest(extreme) => self.extreme(extreme, "at least"),
+            Claim::Elastic { stiffness_ratio } => self.elastic(stiffness_ratio),
+        }
+    }
+
+    /// The forces of all sloping contacts from the balance of each sphere, from the top: none may pull.
+    fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
+        let (pile, mut forces) = (&self.pile, BTreeMap::<Site, Triple>::new());
+        for site in pile
+            .shape()
+            .sites()
+            .take_while(|site| site.k < pile.layers() - 1)
+        {
+            let mut balance = turned(pile, site.k, &received(pile, &forces, site));
+            let horizontal = self.pushed(site);
+            for direction in pile.dimension().directions() {
+                let l = direction.index();
+                balance[l] += weight(pile, site)?;
+                balance[l] -= sigma(pile, site.k) * &horizontal[l];
+                if balance[l].is_negative() {
+                    let (direction, force) = (*direction, balance[l].clone());
+                    return Err(Box::new(Refusal::Pulls {
+                        site,
+                        direction,
+                        force,
+                    }));
+                }
+            }
+            forces.insert(site, balance);
+        }
+        Ok(forces)
+    }
+
+    /// H: what the horizontal contacts of a sphere add to its balance.
+    fn pushed(&self, site: Site) -> Triple {
+        let mut sum = zeros();
+        for (contact, leads_away) in around(site) {
+            if let Some(force) = self.horizontal.get(&contact) {
+                let [a, b] = contact.axis.ends().map(Direction::index);
+                let [from, to] = if leads_away { [a, b] } else { [b, a] };
+                sum[from] -= force;
+                sum[to] += force;
+            }
+        }
+        sum
+    }
+
+    fn field(&self, site: Site) -> Triple {
+        // Not a default: φ is zero on spheres that are not listed.
+        self.field.get(&site).cloned().unwrap_or_else(zeros)
+    }
+
+    /// D of all contacts of a sphere: the transpose of its balance.
+    fn drops(&self, site: Site) -> Triple {
+        let (pile, mut drops) = (&self.pile, self.field(site));
+        for direction in pile.dimension().directions() {
+            if let Some(support) = pile.shape().below(site, *direction) {
+                let l = direction.index();
+                let [alpha, beta, gamma] = turned(pile, support.k, &self.field(support));
+                drops[l] -= [alpha, beta, gamma][l].clone();
+            }
+        }
+        drops
+    }
+
+    /// c of a horizontal contact.
+    fn compression(&self, contact: HorizontalContact, neighbour: Site) -> BigRational {
+        let [a, b] = contact.axis.ends().map(Direction::index);
+        let [here, there] = [contact.site, neighbour].map(|site| self.field(site));
+        let difference = |field: &Triple| &field[b] - &field[a];
+        sigma(&self.pile, contact.site.k) * (difference(&here) - difference(&there))
+    }
+
+    /// Σ w φ.
+    fn work(&self) -> Result<BigRational, Box<Refusal>> {
+        let directions = self.pile.dimension().directions();
+        let mut work = BigRational::zero();
+        for (site, field) in &self.field {
+            let weight = weight(&self.pile, *site)?;
+            work += directions
+                .iter()
+                .map(|l| &weight * &field[l.index()])
+                .sum::<BigRational>();
+        }
+        Ok(work)
+    }
+
+    /// Every D is at most, or at least, what is needed of a contact with this support; every c is so of zero.
+    fn signs(
+        &self,
+        relation: &'static str,
+        needed: impl Fn(Site) -> BigRational,
+    ) -> Result<(), Box<Refusal>> {
+        let (pile, zero) = (&self.pile, BigRational::zero());
+        for site in pile
+            .shape()
+            .sites()
+            .take_while(|site| site.k < pile.layers() - 1)
+        {
+            let drops = self.drops(site);
+            for direction in pile.dimension().directions() {
+                let drop = &drops[direction.index()];
+                let support = pile.shape().below(site, *direction);
+                let needed = support.map_or_else(BigRational::zero, &needed);
+                if !is(drop, relation, &needed) {
+                    let (direction, drop) = (*direction, drop.clone());
+                    return Err(Box::new(Refusal::Drop {
+                        site,
+                        direction,
+                        drop,
+                        relation,
+                        needed,
+                    }));
+                }
+            }
+            for contact in contacts(pile, site) {
+                let compression = self.compression_of(contact);
+                if !is(&compression, relation, &zero) {
+                    let needed = zero;
+                    return Err(Box::new(Refusal::Compression {
+                        contact,
+                        compression,
+                        relation,
+                        needed,
+                    }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn compression_of(&self, contact: HorizontalContact) -> BigRational {
+        let neighbour = contact.neighbour();
+        neighbour.map_or_else(BigRational::zero, |neighbour| {
+            self.compression(contact, neighbour)
+        })
+    }
+
+    fn extreme(&self, extreme: &Extreme, relation: &'static str) -> Result<(), Box<Refusal>> {
+        let (pile, site) = (&self.pile, extreme.site);
+        if site.k != pile.layers() - 1 || !pile.shape().contains(site) {
+            return Err(Box::new(Refusal::NotOnFloor { site }));
+        }
+        self.signs(relation, |support| {
+            BigRational::from_integer(i32::from(support == site).into())
+        })?;
+        let directions = BigRational::from_integer(pile.dimension().number().into());
+        let normal =
+            |sum: BigRational| Ok::<_, Box<Refusal>>(weight(pile, site)? + sum / &directions);
+        let (claimed, proved) = (extreme.normal.clone(), normal(self.work()?)?);
+        if proved != claimed {
+            return Err(Box::new(Refusal::Bound { claimed, proved }));
+        }
+        if extreme.attained {
+            let received = received(pile, &self.forces()?, site);
+            let attained = normal(received.into_iter().sum())?;
+            if attained != claimed {
+                return Err(Box::new(Refusal::Attained { claimed, attained }));
+            }
+        }
+        Ok(())
+    }
+
+    fn elastic(&self, stiffness_ratio: &BigRational) -> Result<(), Box<Refusal>> {
+        if !stiffness_ratio.is_positive() {
+            let given = stiffness_ratio.clone();
+            return Err(Box::new(Refusal::Stiffness { given }));
+        }
+        let (pile, forces) = (&self.pile, self.forces()?);
+        for (site, forces) in forces {
+            let drops = self.drops(site);
+            for direction in pile.dimension().directions() {
+                let [drop, force] = [&drops, &forces].map(|of| of[direction.index()].clone());
+                let relation = where_it_bears(&force);
+                if !is(&drop, relation, &force) {
+                    let (direction, needed) = (*direction, force);
+                    return Err(Box::new(Refusal::Drop {
+                        site,
+                        direction,
+                        drop,
+                        relation,
+                        needed,
+                    }));
+                }
+            }
+            for contact in contacts(pile, site) {
+                let compression = stiffness_ratio * self.compression_of(contact);
+                // Not a default: a contact that is not listed bears nothing.
+                let needed = self
+                    .horizontal
+                    .get(&contact)
+                    .cloned()
+                    .unwrap_or_else(BigRational::zero);
+                let relation = where_it_bears(&needed);
+                if !is(&compression, relation, &needed) {
+                    return Err(Box::new(Refusal::Compression {
+                        contact,
+                        compression,
+                        relation,
+                        needed,
+                    }));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn where_it_bears(force: &BigRational) -> &'static str {
+    if force.is_positive() {
+        "equal to"
+    } else {
+        "at most"
+    }
+}
+
+fn is(number: &BigRational, relation: &str, needed: &BigRational) -> bool {
+    match relation {
+        "at most" => number <= needed,
+        "at least" => number >= needed,
+        _ => number == needed,
+    }
+}
+
+fn zeros() -> Triple {
+    core::array::from_fn(|_| BigRational::zero())
+}
+
+/// What a sphere receives from above, by direction.
+fn received(pile: &Pile, forces: &BTreeMap<Site, Triple>, site: Site) -> Triple {
+    Direction::ALL.map(|direction| {
+        let above = pile
+            .shape()
+            .above(site, direction)
+            .and_then(|above| forces.get(&above));
+        above.map_or_else(BigRational::zero, |forces| {
+            forces[direction.index()].clone()
+        })
+    })
+}
+
+/// T of layer k: the half-turn where the sign changes there.
+fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
+    let signs = [k - 1, k].map(|k| pile.shape().sign_below(k));
+    match signs {
+        [Some(above), Some(below)] if above != below => {
+            tripled_half_turn(numbers).map(|tripled| tripled / BigRational::from_integer(3.into()))
+        }
+        _ => numbers.clone(),
+    }
+}
+
+/// σ: +1 or −1.
+fn sigma(pile: &Pile, k: i128) -> BigRational {
+    match pile.shape().sign_below(k) {
+        Some(Sign::Minus) => -BigRational::one(),
+        _ => BigRational::one(),
+    }
+}
+
+/// Weight and load of a sphere, in mg: what it adds to each line, in f₀.
+fn weight(pile: &Pile, site: Site) -> Result<BigRational, Error> {
+    Ok(pile.sphere_weight(site)? + pile.load(site)?)
+}
+
+/// The six places of horizontal contacts around a sphere, and whether each leads away from it.
+fn around(site: Site) -> impl Iterator<Item = (HorizontalContact, bool)> {
+    Axis::ALL.into_iter().flat_map(move |axis| {
+        let [a, b] = axis.ends();
+        let back = site
+            .step(Sign::Plus, a, 1)
+            .and_then(|site| site.step(Sign::Plus, b, -1));
+        let back = back.map(|site| (HorizontalContact { site, axis }, false));
+        core::iter::once((HorizontalContact { site, axis }, true)).chain(back)
+    })
+}
+
+/// The horizontal contacts that lead away from a sphere off the floor.
+fn contacts(pile: &Pile, site: Site) -> Vec<HorizontalContact> {
+    let shape = pile.shape();
+    let is_there = |contact: &HorizontalContact| {
+        let neighbour = contact.neighbour();
+        site.k < pile.layers() - 1
+            && shape.contains(site)
+            && neighbour.is_some_and(|neighbour| shape.contains(neighbour))
+    };
+    let contacts = Axis::ALL.map(|axis| HorizontalContact { site, axis });
+    contacts.into_iter().filter(is_there).collect()
+}
