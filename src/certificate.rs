@@ -17,7 +17,7 @@
 //! each sphere off the floor, and there φ = 0. With q_l the support of p,
 //!
 //! * drop: D_l(p) = φ_l(p) − (T φ(q_l))_l,
-//! * compression: c(p; a→b) = σ{[φ_b − φ_a](p) − [φ_b − φ_a](p′)}, p′ = p + d_b − d_a,
+//! * compression: c(p; a→b) = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)), p′ = p + d_b − d_a,
 //! * virtual work: Σ f_l D_l + Σ X c = Σ w φ_l, for **every** solution of the equations of balance.
 //!
 //! The last is an identity: each equation times φ, summed. It turns a field with the right signs into a proof about
