@@ -272,6 +272,18 @@ pub enum Error {
         /// The narrower question.
         remedy: &'static str,
     },
+    /// Horizontal contacts of a pile whose neighbours do not all touch at a = R.
+    NoHorizontalContacts {
+        /// sin φ of the pile.
+        sin_phi: BigRational,
+    },
+    /// A pile that no forces balance which only push, horizontal contacts included.
+    CannotStand,
+    /// A program over contact forces whose solution in floats leads to no exact one.
+    NotSolved {
+        /// The equations of balance that it has.
+        equations: usize,
+    },
     /// Something that cannot be, by the named invariant: a fault of this library and of no input.
     Bug {
         /// What was to hold, and does not.

@@ -130,6 +130,9 @@ pub mod figure;
 mod forces;
 pub mod formula;
 pub mod geometry;
+#[cfg(feature = "horizontal")]
+#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+pub mod horizontal;
 pub mod lattice;
 mod packing;
 #[doc = include_str!("paper.md")]

@@ -10,7 +10,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::{Certificate, Claim, Extreme};
 use crate::formula::tripled_half_turn;
-use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Sign, Site};
+use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
 use crate::{Error, Pile};
 
 /// Why a certificate is refused: the first equation that does not hold.
@@ -215,7 +215,7 @@ impl Certificate {
     /// ```
     pub fn check(&self) -> Result<(), Box<Refusal>> {
         let pile = &self.pile;
-        if !pile.is_regular() && pile.dimension() == Dimension::Three {
+        if !pile.is_regular() {
             let sin_phi = pile.sin_phi().clone();
             return Err(Box::new(Refusal::NoSuchPile { sin_phi }));
         }
@@ -230,7 +230,8 @@ impl Certificate {
         }
         let floor = pile.layers() - 1;
         for (contact, force) in &self.horizontal {
-            if !contacts(pile, contact.site).contains(contact) {
+            let mut from = contacts(pile, contact.site).into_iter();
+            if !from.any(|(there, _)| there == *contact) {
                 let contact = *contact;
                 return Err(Box::new(Refusal::NoContact { contact }));
             }
@@ -371,8 +372,8 @@ impl Certificate {
                     }));
                 }
             }
-            for contact in contacts(pile, site) {
-                let compression = self.compression_of(contact);
+            for (contact, neighbour) in contacts(pile, site) {
+                let compression = self.compression(contact, neighbour);
                 if !is(&compression, relation, &zero) {
                     let needed = zero;
                     return Err(Box::new(Refusal::Compression {
@@ -385,13 +386,6 @@ impl Certificate {
             }
         }
         Ok(())
-    }
-
-    fn compression_of(&self, contact: HorizontalContact) -> BigRational {
-        let neighbour = contact.neighbour();
-        neighbour.map_or_else(BigRational::zero, |neighbour| {
-            self.compression(contact, neighbour)
-        })
     }
 
     fn extreme(&self, extreme: &Extreme, relation: &'static str) -> Result<(), Box<Refusal>> {
@@ -441,8 +435,8 @@ impl Certificate {
                     }));
                 }
             }
-            for contact in contacts(pile, site) {
-                let compression = stiffness_ratio * self.compression_of(contact);
+            for (contact, neighbour) in contacts(pile, site) {
+                let compression = stiffness_ratio * self.compression(contact, neighbour);
                 // Not a default: a contact that is not listed bears nothing.
                 let needed = self
                     .horizontal
@@ -534,14 +528,15 @@ fn around(site: Site) -> impl Iterator<Item = (HorizontalContact, bool)> {
 }
 
 /// The horizontal contacts that lead away from a sphere off the floor.
-fn contacts(pile: &Pile, site: Site) -> Vec<HorizontalContact> {
+fn contacts(pile: &Pile, site: Site) -> Vec<(HorizontalContact, Site)> {
     let shape = pile.shape();
-    let is_there = |contact: &HorizontalContact| {
-        let neighbour = contact.neighbour();
-        site.k < pile.layers() - 1
-            && shape.contains(site)
-            && neighbour.is_some_and(|neighbour| shape.contains(neighbour))
-    };
-    let contacts = Axis::ALL.map(|axis| HorizontalContact { site, axis });
-    contacts.into_iter().filter(is_there).collect()
+    let is_free = site.k < pile.layers() - 1 && shape.contains(site);
+    let contacts = Axis::ALL.into_iter().filter(|_| is_free);
+    let contacts = contacts.filter_map(|axis| {
+        let contact = HorizontalContact { site, axis };
+        Some((contact, contact.neighbour()?))
+    });
+    contacts
+        .filter(|(_, neighbour)| shape.contains(*neighbour))
+        .collect()
 }

@@ -50,6 +50,8 @@ pub enum Culprit {
     Method,
     /// The type of number that the answer is to be.
     Number,
+    /// κ′/κ of horizontal contacts.
+    StiffnessRatio,
     /// The text of a file.
     File,
 }
@@ -82,6 +84,7 @@ impl Culprit {
             Self::Layer => "layer",
             Self::Method => "method",
             Self::Number => "number",
+            Self::StiffnessRatio => "stiffness-ratio",
             Self::File => "file",
         }
     }
@@ -119,11 +122,16 @@ impl Error {
             | Self::RegionTooLarge { .. }
             | Self::TooLarge { .. }
             | Self::TooManyRows { .. }
+            | Self::NotSolved { .. }
             | Self::TooManyMarks { .. } => Culprit::Layers,
-            Self::RunLength { .. } | Self::TooManyRuns { .. } | Self::Misspelled { .. } => {
-                Culprit::Stacking
-            }
-            Self::SinPhi { .. } | Self::SinPhiOfDiscs | Self::NoSpacing { .. } => Culprit::SinPhi,
+            Self::CannotStand
+            | Self::RunLength { .. }
+            | Self::TooManyRuns { .. }
+            | Self::Misspelled { .. } => Culprit::Stacking,
+            Self::SinPhi { .. }
+            | Self::SinPhiOfDiscs
+            | Self::NoSpacing { .. }
+            | Self::NoHorizontalContacts { .. } => Culprit::SinPhi,
             Self::NegativeLoad { .. } => Culprit::Load,
             Self::Overlap { .. } | Self::TooFlat { .. } => Culprit::Spacing,
             Self::Excluded { given, .. } => *given,

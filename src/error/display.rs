@@ -112,6 +112,17 @@ impl fmt::Display for Whole<'_> {
                 "the method {method} does not apply to this pile: closed forms are for straight stackings, sweeps \
                  for spheres and not for discs; choose another, or none for the cheapest"
             ),
+            Error::NoHorizontalContacts { sin_phi } => write!(
+                f,
+                "neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
+            ),
+            Error::CannotStand => f.write_str(
+                "this pile cannot stand: no forces that only push balance it, horizontal contacts included",
+            ),
+            Error::NotSolved { equations } => write!(
+                f,
+                "no exact solution was found of {equations} equations of balance: ask for a smaller pile"
+            ),
             Error::OtherLayer { layer, at } => write!(
                 f,
                 "a sphere of layer {layer} is not in layer {at}: ask its own layer"

@@ -1,0 +1,404 @@
+//! What a bottom sphere can bear.
+
+use alloc::collections::BTreeMap;
+use alloc::vec;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::network::{Network, touches};
+use super::program::Program;
+use crate::certificate::{Certificate, Claim, Extreme};
+use crate::lattice::{Axis, Dimension, HorizontalContact, Site};
+use crate::{Error, Pile};
+
+/// The least and the greatest normal force of a bottom sphere on the floor, over all forces that balance the pile and
+/// only push.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Site;
+///
+/// let corner = Site { i: 3, j: 0, k: 3 };
+/// let bounds = Pile::triangular(4)?.bounds(corner)?;
+/// // (L + 2)/3 and L − 2/3.
+/// assert_eq!([bounds.least.normal, bounds.greatest.normal].map(|n| n.to_string()), ["2", "10/3"]);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NormalBounds {
+    /// The least.
+    pub least: NormalBound,
+    /// The greatest.
+    pub greatest: NormalBound,
+}
+
+/// One of the two bounds of a bottom sphere.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Site;
+///
+/// let inner = Site { i: 1, j: 1, k: 3 };
+/// let least = Pile::triangular(4)?.bounds(inner)?.least;
+/// // An arch can take off everything but its own weight.
+/// assert_eq!((least.normal.to_string(), least.attained), ("1".to_owned(), true));
+/// assert_eq!(least.certificate.unwrap().check(), Ok(()));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NormalBound {
+    /// The normal force, in mg.
+    pub normal: BigRational,
+    /// Whether some forces attain it; if not, no forces pass it, and how close they come is not known.
+    pub attained: bool,
+    /// The proof; none where it would have a number for each of more than 10⁵ spheres, and the bound is that of a formula
+    /// for all L ([`paper`](crate::paper#arching)).
+    pub certificate: Option<Certificate>,
+}
+
+/// Which of the two.
+#[derive(Clone, Copy)]
+enum End {
+    Least,
+    Greatest,
+}
+
+/// The most spheres of a certificate that is made from a formula.
+const MOST_SPHERES: u32 = 100_000;
+
+impl Pile {
+    /// Returns the least and the greatest normal force of a bottom sphere at a = R, horizontal contacts included.
+    ///
+    /// Straight piles of equal spheres under one sphere have formulas, for any number of layers: at a corner both bounds, elsewhere
+    /// the least. All else is a linear program over the forces of all contacts, whose solution is made exact and
+    /// certified.
+    ///
+    /// # Errors
+    /// [`Error::NotOnFloor`] or [`Error::SiteOutside`] of a site that is no bottom sphere; [`Error::NoHorizontalContacts`]; [`Error::TooLarge`];
+    /// [`Error::CannotStand`] if there are no such forces.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Region, Site};
+    ///
+    /// let pile = Pile::under(Region::SITE, "++-".parse()?)?;
+    /// let bounds = pile.bounds(Site { i: 0, j: 0, k: 3 })?;
+    /// assert!(bounds.least.attained && bounds.greatest.attained);
+    /// assert!(bounds.least.normal < bounds.greatest.normal);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn bounds(&self, site: Site) -> Result<NormalBounds, Error> {
+        let site = self.shape().check(site)?;
+        let floor = self.layers() - 1;
+        if site.k < floor {
+            return Err(Error::NotOnFloor { site, floor });
+        }
+        touches(self)?;
+        let mut solver = Solver {
+            pile: self,
+            site,
+            network: None,
+        };
+        Ok(NormalBounds {
+            least: solver.bound(End::Least)?,
+            greatest: solver.bound(End::Greatest)?,
+        })
+    }
+}
+
+struct Solver<'p> {
+    pile: &'p Pile,
+    site: Site,
+    /// Made when a program is needed.
+    network: Option<Network<'p>>,
+}
+
+impl Solver<'_> {
+    fn bound(&mut self, end: End) -> Result<NormalBound, Error> {
+        if let Some(straight) = Straight::of(self.pile, self.site)
+            && let Some(normal) = straight.bound(end)
+        {
+            let certificate = || {
+                self.certificate(
+                    end,
+                    normal.clone(),
+                    straight.forces(end),
+                    straight.field(end),
+                )
+            };
+            let is_small = self.pile.sphere_count() <= MOST_SPHERES.into();
+            let certificate = is_small.then(certificate);
+            return Ok(NormalBound {
+                normal,
+                attained: true,
+                certificate,
+            });
+        }
+        let network = match self.network.take() {
+            Some(network) => network,
+            None => Network::above(self.pile, self.pile.layers() - 1)?,
+        };
+        let network = self.network.insert(network);
+        let sign = BigRational::from_integer(match end {
+            End::Least => 1.into(),
+            End::Greatest => (-1).into(),
+        });
+        let mut cost = vec![BigRational::zero(); network.columns.len()];
+        for unknown in network.onto(self.site)? {
+            cost[unknown] = sign.clone();
+        }
+        let program = Program {
+            curvature: vec![0.0; cost.len()],
+            columns: network.columns.clone(),
+            sums: network.weights.clone(),
+            cost,
+        };
+        let (program, scale) = program.scaled();
+        let Some(guess) = program.guess() else {
+            // Bounded, so that only the forces can be missing.
+            let certificate = self.pile.equilibrium()?;
+            return Err(match certificate.claim {
+                Claim::CannotStand => Error::CannotStand,
+                _ => super::program::unsolved(program.sums.len()),
+            });
+        };
+        let horizontal = program.exact_unknowns(&guess).map(|unknowns| {
+            let horizontal = network.horizontal(&unknowns);
+            horizontal
+                .map(|(contact, force)| (contact, force * &scale))
+                .collect()
+        });
+        let field = program.exact_multipliers(&guess).map(|multipliers| {
+            let multipliers: Vec<_> = multipliers.into_iter().map(|y| y * &sign).collect();
+            network.field(&multipliers).collect()
+        });
+        // Not a default: what it proves is a bound too, and said to be no more.
+        let field = field.unwrap_or_else(|| trivial_field(network, end));
+        let normal = self.normal_of(&field)?;
+        let attained = horizontal.is_some();
+        // Not a default: without forces the bound is not called attained.
+        let horizontal = horizontal.unwrap_or_default();
+        let certificate = self.certificate(end, normal, horizontal, field);
+        Self::accepted(certificate, attained)
+    }
+
+    /// The normal force that a field proves.
+    fn normal_of(&self, field: &BTreeMap<Site, [BigRational; 3]>) -> Result<BigRational, Error> {
+        let directions = self.pile.dimension().number();
+        let mut work = BigRational::zero();
+        for (site, [a, b, c]) in field {
+            work += self.weight(*site)? * (a + b + c);
+        }
+        Ok(self.weight(self.site)? + work / BigRational::from_integer(directions.into()))
+    }
+
+    fn weight(&self, site: Site) -> Result<BigRational, Error> {
+        Ok(self.pile.sphere_weight(site)? + self.pile.load(site)?)
+    }
+
+    fn certificate(
+        &self,
+        end: End,
+        normal: BigRational,
+        horizontal: BTreeMap<HorizontalContact, BigRational>,
+        field: BTreeMap<Site, [BigRational; 3]>,
+    ) -> Certificate {
+        let extreme = Extreme {
+            site: self.site,
+            normal,
+            attained: true,
+        };
+        let claim = match end {
+            End::Least => Claim::Least(extreme),
+            End::Greatest => Claim::Greatest(extreme),
+        };
+        Certificate {
+            pile: self.pile.clone(),
+            claim,
+            horizontal,
+            field,
+        }
+    }
+
+    /// The bound of a certificate, as far as the checker accepts it.
+    fn accepted(mut certificate: Certificate, attained: bool) -> Result<NormalBound, Error> {
+        let attained = attained && certificate.check().is_ok();
+        if !attained {
+            certificate.horizontal.clear();
+        }
+        let (Claim::Least(extreme) | Claim::Greatest(extreme)) = &mut certificate.claim else {
+            return Err(crate::error::bug("a bound is an extreme"));
+        };
+        extreme.attained = attained;
+        let normal = extreme.normal.clone();
+        if !attained && certificate.check().is_err() {
+            return Err(crate::error::bug(
+                "a bound that holds of all forces is accepted",
+            ));
+        }
+        Ok(NormalBound {
+            normal,
+            attained,
+            certificate: Some(certificate),
+        })
+    }
+}
+
+/// A field that is right for every pile: no sphere bears less than its own weight, none more than that and all others.
+fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational; 3]> {
+    let directions = network.pile.dimension().directions().len();
+    let one = |l: usize| {
+        if l < directions {
+            BigRational::one()
+        } else {
+            BigRational::zero()
+        }
+    };
+    match end {
+        End::Least => BTreeMap::new(),
+        End::Greatest => network
+            .spheres
+            .iter()
+            .map(|site| (*site, [one(0), one(1), one(2)]))
+            .collect(),
+    }
+}
+
+/// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), and K = L−1.
+#[derive(Clone, Copy)]
+struct Straight {
+    /// Of the bottom sphere.
+    n: [i128; 3],
+    k: i128,
+}
+
+impl Straight {
+    fn of(pile: &Pile, Site { i, j, k }: Site) -> Option<Self> {
+        let is_it = pile.is_paper_pile() && pile.dimension() == Dimension::Three;
+        is_it.then_some(Self {
+            n: [k - i - j, i, j],
+            k,
+        })
+    }
+
+    /// The direction whose line ends in this corner.
+    fn corner(self) -> Option<usize> {
+        self.n.iter().position(|n| *n == self.k)
+    }
+
+    /// The bound that is proved and attained for any K.
+    fn bound(self, end: End) -> Option<BigRational> {
+        let Self { k, .. } = self;
+        let thirds = |n: BigInt| BigRational::new(n, 3.into());
+        match (self.corner(), end) {
+            (Some(_), End::Least) => Some(thirds(BigInt::from(k) + 3)),
+            (Some(_), End::Greatest) if k > 0 => Some(thirds(BigInt::from(k) * 3 + 1)),
+            (Some(_), End::Greatest) | (None, End::Least) => Some(BigRational::one()),
+            (None, End::Greatest) => None,
+        }
+    }
+
+    /// X that attains the bound.
+    fn forces(self, end: End) -> BTreeMap<HorizontalContact, BigRational> {
+        match (self.corner(), end) {
+            (Some(l), End::Greatest) => self.press(l),
+            (Some(_), End::Least) => BTreeMap::new(),
+            (None, _) => self.arch(),
+        }
+    }
+
+    /// The spheres of the edge that leads to a corner are pressed by their neighbours, with X = 1.
+    fn press(self, l: usize) -> BTreeMap<HorizontalContact, BigRational> {
+        let pairs = (1..self.k).flat_map(|t| {
+            [(l + 1) % 3, (l + 2) % 3].map(|other| {
+                let on_edge = unit(l).map(|e| e * t);
+                let mut beside = on_edge;
+                beside[l] -= 1;
+                beside[other] += 1;
+                contact(on_edge, beside)
+            })
+        });
+        pairs
+            .flatten()
+            .map(|contact| (contact, BigRational::one()))
+            .collect()
+    }
+
+    /// The arch that takes everything off an inner sphere or one on an edge: of n_A ≥ n_B ≥ n_C, the spheres (t, n_B, n_C) push at (t+1, n_B−1,
+    /// n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on n push at each other.
+    fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
+        let mut order = [0, 1, 2];
+        order.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
+        let [a, b, c] = order;
+        let [n_a, n_b, n_c] = order.map(|l| self.n[l]);
+        let r = n_a.min(n_b + n_c);
+        let flank = (0..n_a - r).filter_map(|t| {
+            let mut one = self.n;
+            one[a] = t;
+            let mut other = one;
+            other[a] += 1;
+            other[b] -= 1;
+            Some((contact(one, other)?, BigRational::one()))
+        });
+        let above = [
+            (a, b, r + n_b - n_c),
+            (a, c, r + n_c - n_b),
+            (b, c, n_b + n_c - r),
+        ];
+        let above = above.into_iter().filter(|(.., twice)| *twice != 0);
+        let above = above.filter_map(|(one, other, twice)| {
+            let rests = |l: usize| {
+                let mut site = self.n;
+                site[l] -= 1;
+                site
+            };
+            let force = BigRational::new(twice.into(), 2.into());
+            Some((contact(rests(one), rests(other))?, force))
+        });
+        let mut forces = BTreeMap::new();
+        for (contact, force) in flank.chain(above) {
+            *forces.entry(contact).or_insert_with(BigRational::zero) += force;
+        }
+        forces
+    }
+
+    /// φ that proves it.
+    fn field(self, end: End) -> BTreeMap<Site, [BigRational; 3]> {
+        let Some(l) = self.corner() else {
+            return BTreeMap::new();
+        };
+        let ones = |of: [bool; 3]| of.map(|of| BigRational::from_integer(i32::from(of).into()));
+        let own = core::array::from_fn(|direction| direction == l);
+        let of_sphere = |t: i128| match end {
+            End::Greatest if t > 0 => [true; 3],
+            _ => own,
+        };
+        let edge = (0..self.k).map(|t| (site(unit(l).map(|e| e * t)), ones(of_sphere(t))));
+        edge.collect()
+    }
+}
+
+fn unit(l: usize) -> [i128; 3] {
+    core::array::from_fn(|direction| i128::from(direction == l))
+}
+
+fn site([a, i, j]: [i128; 3]) -> Site {
+    Site { i, j, k: a + i + j }
+}
+
+/// The horizontal contact of two neighbours.
+fn contact(one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
+    let [one, other] = [one, other].map(site);
+    let both = [(one, other), (other, one)]
+        .into_iter()
+        .flat_map(|(from, to)| Axis::ALL.map(|axis| (HorizontalContact { site: from, axis }, to)));
+    let mut found = both.filter(|(contact, to)| contact.neighbour() == Some(*to));
+    found.next().map(|(contact, _)| contact)
+}

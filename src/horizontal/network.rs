@@ -1,0 +1,227 @@
+//! A pile at a = R as a system of equations.
+
+use std::collections::HashMap;
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::error::bug;
+use crate::formula::tripled_half_turn;
+use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
+use crate::{Error, Pile};
+
+/// The most equations, three for each sphere off the floor, of which a program is solved: 31 layers under one sphere.
+pub(super) const MOST_EQUATIONS: u64 = 15_000;
+
+/// The coefficients of an unknown force, by equation.
+pub(super) type Column = Vec<(usize, BigRational)>;
+
+/// The equations of balance: one for each sphere off the floor and each direction, numbered so; the unknowns are
+/// the sloping forces in the same order, and then the horizontal ones.
+pub(super) struct Network<'p> {
+    pub(super) pile: &'p Pile,
+    /// The spheres above `floor`.
+    pub(super) spheres: Vec<Site>,
+    pub(super) contacts: Vec<HorizontalContact>,
+    pub(super) columns: Vec<Column>,
+    /// What each sphere adds to its lines, by equation.
+    pub(super) weights: Vec<BigRational>,
+    numbers: HashMap<Site, usize>,
+    /// The layer that holds what rests on it.
+    floor: i128,
+}
+
+impl<'p> Network<'p> {
+    /// The spheres above layer `floor`, which is taken to be held: the floor of the pile, or a layer above it.
+    ///
+    /// # Errors
+    /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`].
+    pub(super) fn above(pile: &'p Pile, floor: i128) -> Result<Self, Error> {
+        touches(pile)?;
+        let directions = pile.dimension().directions();
+        let layers = (0..floor).map(|k| Ok(pile.shape().layer(k)?.site_count()));
+        let mut equations = num_bigint::BigUint::zero();
+        for sites in layers {
+            let sites: num_bigint::BigUint = sites?;
+            equations += sites * pile.dimension().number();
+            if equations > MOST_EQUATIONS.into() {
+                return Err(Error::TooLarge {
+                    quantity: "a program over all contacts",
+                    needed: equations,
+                    limit: MOST_EQUATIONS,
+                    remedy: "ask for a smaller pile",
+                });
+            }
+        }
+        let spheres: Vec<Site> = pile
+            .shape()
+            .sites()
+            .take_while(|site| site.k < floor)
+            .collect();
+        let numbers: HashMap<Site, usize> = spheres.iter().copied().zip(0..).collect();
+        let contacts = spheres
+            .iter()
+            .flat_map(|site| Axis::ALL.map(|axis| HorizontalContact { site: *site, axis }));
+        let contacts: Vec<_> = contacts
+            .filter(|contact| {
+                contact
+                    .neighbour()
+                    .is_some_and(|p| numbers.contains_key(&p))
+            })
+            .collect();
+        let mut weights = Vec::with_capacity(spheres.len() * directions.len());
+        for site in &spheres {
+            let weight = pile.sphere_weight(*site)? + pile.load(*site)?;
+            weights.extend(directions.iter().map(|_| weight.clone()));
+        }
+        let mut network = Self {
+            pile,
+            spheres,
+            contacts,
+            columns: Vec::new(),
+            weights,
+            numbers,
+            floor,
+        };
+        network.columns = network.all_columns()?;
+        Ok(network)
+    }
+
+    fn all_columns(&self) -> Result<Vec<Column>, Error> {
+        let directions = self.pile.dimension().directions();
+        let mut columns = Vec::with_capacity(self.weights.len() + self.contacts.len());
+        for site in &self.spheres {
+            for direction in directions {
+                let mut column = vec![(self.equation(*site, *direction)?, BigRational::one())];
+                if let Some(support) = self.support(*site, *direction) {
+                    // f enters the balance of the support as what T makes of it.
+                    let passed = self.transferred(support.k, *direction);
+                    for (to, share) in directions.iter().zip(passed) {
+                        if !share.is_zero() {
+                            column.push((self.equation(support, *to)?, -share));
+                        }
+                    }
+                }
+                columns.push(column);
+            }
+        }
+        for contact in &self.contacts {
+            let neighbour = contact.neighbour();
+            let neighbour =
+                neighbour.ok_or_else(|| bug("a contact of the network has two spheres"))?;
+            let [a, b] = contact.axis.ends();
+            let sigma = sigma(self.pile, contact.site.k);
+            columns.push(vec![
+                (self.equation(contact.site, a)?, -sigma.clone()),
+                (self.equation(contact.site, b)?, sigma.clone()),
+                (self.equation(neighbour, a)?, sigma.clone()),
+                (self.equation(neighbour, b)?, -sigma),
+            ]);
+        }
+        Ok(columns)
+    }
+
+    /// The support of a sphere, if it is not held.
+    fn support(&self, site: Site, direction: Direction) -> Option<Site> {
+        let support = self.pile.shape().below(site, direction);
+        support.filter(|support| support.k < self.floor)
+    }
+
+    fn equation(&self, site: Site, direction: Direction) -> Result<usize, Error> {
+        let sphere = self.numbers.get(&site);
+        let sphere = sphere.ok_or_else(|| bug("a sphere of the network has a number"))?;
+        Ok(sphere * self.pile.dimension().directions().len() + direction.index())
+    }
+
+    /// T of layer k, of a unit force in a direction.
+    fn transferred(&self, k: i128, direction: Direction) -> [BigRational; 3] {
+        let mut unit: [BigRational; 3] = core::array::from_fn(|_| BigRational::zero());
+        unit[direction.index()] = BigRational::one();
+        let shape = self.pile.shape();
+        if shape.sign_below(k - 1) == shape.sign_below(k) {
+            unit
+        } else {
+            tripled_half_turn(&unit).map(|tripled| tripled / BigRational::from_integer(3.into()))
+        }
+    }
+
+    /// The unknowns of the forces on a bottom sphere.
+    pub(super) fn onto(&self, site: Site) -> Result<Vec<usize>, Error> {
+        let directions = self.pile.dimension().directions();
+        let above = directions.iter().filter_map(|direction| {
+            let above = self.pile.shape().above(site, *direction)?;
+            Some(self.equation(above, *direction))
+        });
+        above.collect()
+    }
+
+    /// The sloping forces for these sums of the equations, without horizontal ones: from the top, since an equation has one
+    /// that is in none before it.
+    pub(super) fn sloping(&self, mut sums: Vec<BigRational>) -> Vec<BigRational> {
+        for unknown in 0..sums.len() {
+            let force = sums[unknown].clone();
+            for (equation, coefficient) in self.columns[unknown].iter().skip(1) {
+                sums[*equation] -= coefficient * &force;
+            }
+        }
+        sums
+    }
+
+    /// The field with these drops, from below.
+    pub(super) fn field_of(&self, mut drops: Vec<BigRational>) -> Vec<BigRational> {
+        for unknown in (0..drops.len()).rev() {
+            for (equation, coefficient) in self.columns[unknown].iter().skip(1) {
+                let further = coefficient * &drops[*equation];
+                drops[unknown] -= further;
+            }
+        }
+        drops
+    }
+
+    /// The horizontal forces that are not zero.
+    pub(super) fn horizontal(
+        &self,
+        unknowns: &[BigRational],
+    ) -> impl Iterator<Item = (HorizontalContact, BigRational)> {
+        let forces = unknowns.iter().skip(self.weights.len());
+        let bearing = self
+            .contacts
+            .iter()
+            .zip(forces)
+            .filter(|(_, force)| !force.is_zero());
+        bearing.map(|(contact, force)| (*contact, force.clone()))
+    }
+
+    /// The field by sphere, where it is not zero.
+    pub(super) fn field(
+        &self,
+        multipliers: &[BigRational],
+    ) -> impl Iterator<Item = (Site, [BigRational; 3])> {
+        let directions = self.pile.dimension().directions().len();
+        let spheres = self.spheres.iter().zip(multipliers.chunks(directions));
+        let spheres = spheres.filter(|(_, field)| field.iter().any(|number| !number.is_zero()));
+        spheres.map(|(site, field)| {
+            // Not a default: discs have no third direction.
+            let number = |l: usize| field.get(l).cloned().unwrap_or_else(BigRational::zero);
+            (*site, [number(0), number(1), number(2)])
+        })
+    }
+}
+
+/// Whether neighbours of a layer touch at a = R, and in no other way.
+pub(super) fn touches(pile: &Pile) -> Result<(), Error> {
+    if pile.is_regular() {
+        Ok(())
+    } else {
+        Err(Error::NoHorizontalContacts {
+            sin_phi: pile.sin_phi().clone(),
+        })
+    }
+}
+
+fn sigma(pile: &Pile, k: i128) -> BigRational {
+    match pile.shape().sign_below(k) {
+        Some(Sign::Minus) => -BigRational::one(),
+        _ => BigRational::one(),
+    }
+}

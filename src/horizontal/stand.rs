@@ -1,0 +1,123 @@
+//! Whether there are forces that only push.
+
+use alloc::collections::BTreeMap;
+use alloc::vec;
+use core::iter::repeat_n;
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::network::{Network, touches};
+use super::program::{Program, unsolved};
+use crate::certificate::{Certificate, Claim};
+use crate::{Error, Pile};
+
+/// The most layers of the first beginning that is looked at.
+const FIRST: i128 = 6;
+
+/// What all pulls may come to in floats, of weights of order 1, if there are none.
+const NO_PULL: f64 = 1e-5;
+
+impl Pile {
+    /// Returns a certificate that the pile stands at a = R, with horizontal contacts, or that it cannot.
+    ///
+    /// Where the sloping contacts alone bear it nothing is computed but [`standing`](Self::standing). Below the last
+    /// change of sign nothing has to be looked at, since there every force only grows; and of what is above it first the
+    /// beginnings, since a pile stands only if each of them does.
+    ///
+    /// # Errors
+    /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`] if more than 15,000 equations would have to be solved; [`Error::NotSolved`]
+    /// if they are, in floats, and what comes of it is no proof; as for [`standing`](Self::standing).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::certificate::Claim;
+    /// use cannonpile::lattice::Region;
+    ///
+    /// // Six layers of HCP do not stand without horizontal contacts.
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// assert_eq!(pile.first_failure()?, Some(4));
+    /// let certificate = pile.equilibrium()?;
+    /// assert_eq!(certificate.claim, Claim::Stands);
+    /// assert_eq!(certificate.check(), Ok(()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn equilibrium(&self) -> Result<Certificate, Error> {
+        touches(self)?;
+        let Some(failure) = self.first_failure()? else {
+            return Ok(self.certified(Claim::Stands));
+        };
+        // Held is what lies under the last change of sign.
+        let last = self.shape().stacking().changes();
+        let last = self.shape().stretch(last).map_or(failure, |run| run.from) + 1;
+        let mut floor = (failure + 1).max(FIRST).min(last);
+        loop {
+            let certificate = self.equilibrium_above(floor)?;
+            if floor == last || certificate.claim == Claim::CannotStand {
+                return Ok(certificate);
+            }
+            floor = (floor + floor / 2).min(last);
+        }
+    }
+
+    fn certified(&self, claim: Claim) -> Certificate {
+        Certificate {
+            pile: self.clone(),
+            claim,
+            horizontal: BTreeMap::new(),
+            field: BTreeMap::new(),
+        }
+    }
+
+    /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not.
+    fn equilibrium_above(&self, floor: i128) -> Result<Certificate, Error> {
+        let network = Network::above(self, floor)?;
+        let (equations, unknowns) = (network.weights.len(), network.columns.len());
+        let pulls = network.columns[..equations].iter();
+        let pulls = pulls.map(|column| {
+            column
+                .iter()
+                .map(|(equation, c)| (*equation, -c.clone()))
+                .collect()
+        });
+        let cost =
+            repeat_n(BigRational::zero(), unknowns).chain(repeat_n(BigRational::one(), equations));
+        let program = Program {
+            columns: network.columns.iter().cloned().chain(pulls).collect(),
+            sums: network.weights.clone(),
+            cost: cost.collect(),
+            curvature: vec![0.0; unknowns + equations],
+        };
+        let (program, scale) = program.scaled();
+        let mut guess = program.guess().ok_or_else(|| unsolved(equations))?;
+        // What is said is checked, whatever floats say.
+        let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
+        let certificate = if stands {
+            let program = Program {
+                columns: network.columns.clone(),
+                ..program
+            };
+            guess.unknowns.truncate(unknowns);
+            guess.positive.truncate(unknowns);
+            program.exact_unknowns(&guess).map(|forces| {
+                let forces = network.horizontal(&forces);
+                Certificate {
+                    horizontal: forces
+                        .map(|(contact, force)| (contact, force * &scale))
+                        .collect(),
+                    ..self.certified(Claim::Stands)
+                }
+            })
+        } else {
+            program
+                .exact_multipliers(&guess)
+                .map(|multipliers| Certificate {
+                    field: network.field(&multipliers).collect(),
+                    ..self.certified(Claim::CannotStand)
+                })
+        };
+        let certificate = certificate.filter(|certificate| certificate.check().is_ok());
+        certificate.ok_or_else(|| unsolved(equations))
+    }
+}
