@@ -277,6 +277,13 @@ pub enum Error {
         /// sin φ of the pile.
         sin_phi: BigRational,
     },
+    /// A spacing at which the neighbours of a layer do not touch, and that was given.
+    NotTouching {
+        /// The spacing.
+        spacing: BigRational,
+    },
+    /// Bounds of a pile whose spheres weigh nothing.
+    Weightless,
     /// A pile that no forces balance which only push, horizontal contacts included.
     CannotStand,
     /// A program over contact forces whose solution in floats leads to no exact one.

@@ -18,6 +18,7 @@
 //! as a [`Certificate`](crate::certificate::Certificate), and nothing else is answered: where it is refused, the answer is an outer bound that is
 //! certified, or an error.
 
+mod base;
 mod bounds;
 mod elastic;
 mod exact;
@@ -25,5 +26,6 @@ mod network;
 mod program;
 mod stand;
 
+pub use base::BaseBounds;
 pub use bounds::{NormalBound, NormalBounds};
 pub use elastic::ElasticState;

@@ -232,6 +232,32 @@ impl Scene {
         Spacing::new(self.spacing.clone().unwrap_or_else(default))
     }
 
+    /// Checks that the neighbours of a layer touch, a = R, unless no spacing is given.
+    ///
+    /// # Errors
+    /// [`Error::NotTouching`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::{Scene, parse};
+    ///
+    /// assert!(Scene::default().check_touching().is_ok());
+    /// let scene = Scene { spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+    /// assert_eq!(
+    ///     scene.check_touching().unwrap_err().to_string(),
+    ///     "neighbours of a layer do not touch at a/R = 6/5: leave it out, or use 1",
+    /// );
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn check_touching(&self) -> Result<(), Error> {
+        match &self.spacing {
+            Some(spacing) if !spacing.is_one() => Err(Error::NotTouching {
+                spacing: spacing.clone(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Returns the pile with the sizes and weights of the scene.
     ///
     /// # Errors

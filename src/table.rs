@@ -34,6 +34,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "horizontal")]
+mod bounds;
 mod cell;
 mod error;
 mod explain;
@@ -49,6 +51,9 @@ mod unfinished;
 mod units;
 mod write;
 
+#[cfg(feature = "horizontal")]
+#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+pub use bounds::bounds;
 pub use cell::Cell;
 pub use cell::NumberFormat;
 pub use error::WriteError;

@@ -133,7 +133,10 @@ impl Error {
             | Self::NoSpacing { .. }
             | Self::NoHorizontalContacts { .. } => Culprit::SinPhi,
             Self::NegativeLoad { .. } => Culprit::Load,
-            Self::Overlap { .. } | Self::TooFlat { .. } => Culprit::Spacing,
+            Self::Weightless => Culprit::Weightless,
+            Self::Overlap { .. } | Self::TooFlat { .. } | Self::NotTouching { .. } => {
+                Culprit::Spacing
+            }
             Self::Excluded { given, .. } => *given,
             Self::NotPositive { quantity, .. } => *quantity,
             Self::SiteOutside { .. } | Self::OnFloor { .. } | Self::NotOnFloor { .. } => {

@@ -116,6 +116,13 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
             ),
+            Error::NotTouching { spacing } => write!(
+                f,
+                "neighbours of a layer do not touch at a/R = {spacing}: leave it out, or use 1"
+            ),
+            Error::Weightless => f.write_str(
+                "bounds are those of a pile that weighs something: give the spheres their weight",
+            ),
             Error::CannotStand => f.write_str(
                 "this pile cannot stand: no forces that only push balance it, horizontal contacts included",
             ),

@@ -76,12 +76,12 @@ impl Pile {
     /// Returns the least and the greatest normal force of a bottom sphere at a = R, horizontal contacts included.
     ///
     /// Straight piles of equal spheres under one sphere have formulas, for any number of layers: at a corner both bounds, elsewhere
-    /// the least. All else is a linear program over the forces of all contacts, whose solution is made exact and
+    /// the least, and, of more than 31 layers, an upper bound that may not be attained. All else is a linear program over the forces of all contacts, whose solution is made exact and
     /// certified.
     ///
     /// # Errors
     /// [`Error::NotOnFloor`] or [`Error::SiteOutside`] of a site that is no bottom sphere; [`Error::NoHorizontalContacts`]; [`Error::TooLarge`];
-    /// [`Error::CannotStand`] if there are no such forces.
+    /// [`Error::CannotStand`] if there are no such forces; [`Error::Weightless`].
     ///
     /// # Examples
     /// ```
@@ -101,6 +101,9 @@ impl Pile {
             return Err(Error::NotOnFloor { site, floor });
         }
         touches(self)?;
+        if self.is_weightless() {
+            return Err(Error::Weightless);
+        }
         let mut solver = Solver {
             pile: self,
             site,
@@ -142,8 +145,12 @@ impl Solver<'_> {
             });
         }
         let network = match self.network.take() {
-            Some(network) => network,
-            None => Network::above(self.pile, self.pile.layers() - 1)?,
+            Some(network) => Ok(network),
+            None => Network::above(self.pile, self.pile.layers() - 1),
+        };
+        let network = match (network, Straight::of(self.pile, self.site)) {
+            (Err(Error::TooLarge { .. }), Some(straight)) => return Ok(straight.outer_bound()),
+            (network, _) => network?,
         };
         let network = self.network.insert(network);
         let sign = BigRational::from_integer(match end {
@@ -303,6 +310,34 @@ impl Straight {
             (Some(_), End::Greatest) | (None, End::Least) => Some(BigRational::one()),
             (None, End::Greatest) => None,
         }
+    }
+
+    /// What no forces pass on an edge or inside, for any K; it may not be attained.
+    fn outer_bound(self) -> NormalBound {
+        let [a, b, c] = self.sorted().map(BigInt::from);
+        let above: BigInt = if c.is_zero() && a == b {
+            &b * &b * 2
+        } else if c.is_zero() {
+            (&b + 1) * (&a - 1) * 2 + 1
+        } else {
+            // Σ C(n+2, 3).
+            [a, b, c]
+                .into_iter()
+                .map(|n| (&n + 2) * (&n + 1) * n / 6)
+                .sum()
+        };
+        NormalBound {
+            normal: BigRational::new(above + 3, 3.into()),
+            attained: false,
+            certificate: None,
+        }
+    }
+
+    /// n_A ≥ n_B ≥ n_C.
+    fn sorted(self) -> [i128; 3] {
+        let mut sorted = self.n;
+        sorted.sort_unstable_by(|one, other| other.cmp(one));
+        sorted
     }
 
     /// X that attains the bound.

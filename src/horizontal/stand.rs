@@ -10,10 +10,15 @@ use num_traits::{One, Zero};
 use super::network::{Network, touches};
 use super::program::{Program, unsolved};
 use crate::certificate::{Certificate, Claim};
+use crate::shape::Anchor;
+use crate::stacking::Stacking;
 use crate::{Error, Pile};
 
 /// The most layers of the first beginning that is looked at.
 const FIRST: i128 = 6;
+
+/// The most spheres of a pile that is certified as a whole.
+const MOST_SPHERES: u32 = 100_000;
 
 /// What all pulls may come to in floats, of weights of order 1, if there are none.
 const NO_PULL: f64 = 1e-5;
@@ -23,7 +28,8 @@ impl Pile {
     ///
     /// Where the sloping contacts alone bear it nothing is computed but [`standing`](Self::standing). Below the last
     /// change of sign nothing has to be looked at, since there every force only grows; and of what is above it first the
-    /// beginnings, since a pile stands only if each of them does.
+    /// beginnings, since a pile stands only if each of them does. Of a pile of more than 10⁵ spheres the certificate is
+    /// that of its first layers, by the same reasons.
     ///
     /// # Errors
     /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`] if more than 15,000 equations would have to be solved; [`Error::NotSolved`]
@@ -46,7 +52,7 @@ impl Pile {
     pub fn equilibrium(&self) -> Result<Certificate, Error> {
         touches(self)?;
         let Some(failure) = self.first_failure()? else {
-            return Ok(self.certified(Claim::Stands));
+            return Ok(self.clone().certified(Claim::Stands));
         };
         // Held is what lies under the last change of sign.
         let last = self.shape().stacking().changes();
@@ -61,9 +67,32 @@ impl Pile {
         }
     }
 
-    fn certified(&self, claim: Claim) -> Certificate {
+    /// The layers down to one, as a pile of their own.
+    fn beginning(&self, floor: i128) -> Result<Self, Error> {
+        let shape = self.shape();
+        let signs = (0..floor).filter_map(|k| shape.sign_below(k));
+        let stacking = Stacking::from_signs(signs)?;
+        let pile = match shape.anchor() {
+            Anchor::Top(top) => Self::under(top, stacking)?,
+            Anchor::Base(_) => Self::on(shape.layer(floor)?, stacking)?,
+        };
+        let mut pile = if self.is_weightless() {
+            pile.weightless()
+        } else {
+            pile
+        };
+        for (site, weight) in self.weights().filter(|(site, _)| site.k <= floor) {
+            pile = pile.with_weight(site, weight.clone())?;
+        }
+        for (site, load) in self.loads().filter(|(site, _)| site.k <= floor) {
+            pile = pile.with_load(site, load.clone())?;
+        }
+        Ok(pile)
+    }
+
+    fn certified(self, claim: Claim) -> Certificate {
         Certificate {
-            pile: self.clone(),
+            pile: self,
             claim,
             horizontal: BTreeMap::new(),
             field: BTreeMap::new(),
@@ -73,6 +102,12 @@ impl Pile {
     /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not.
     fn equilibrium_above(&self, floor: i128) -> Result<Certificate, Error> {
         let network = Network::above(self, floor)?;
+        let is_small = self.sphere_count() <= MOST_SPHERES.into();
+        let pile = if is_small {
+            self.clone()
+        } else {
+            self.beginning(floor)?
+        };
         let (equations, unknowns) = (network.weights.len(), network.columns.len());
         let pulls = network.columns[..equations].iter();
         let pulls = pulls.map(|column| {
@@ -106,7 +141,7 @@ impl Pile {
                     horizontal: forces
                         .map(|(contact, force)| (contact, force * &scale))
                         .collect(),
-                    ..self.certified(Claim::Stands)
+                    ..pile.certified(Claim::Stands)
                 }
             })
         } else {
@@ -114,7 +149,7 @@ impl Pile {
                 .exact_multipliers(&guess)
                 .map(|multipliers| Certificate {
                     field: network.field(&multipliers).collect(),
-                    ..self.certified(Claim::CannotStand)
+                    ..pile.certified(Claim::CannotStand)
                 })
         };
         let certificate = certificate.filter(|certificate| certificate.check().is_ok());

@@ -1,5 +1,6 @@
 //! The commands, one a file, and what they have in common.
 
+pub(crate) mod bounds;
 pub(crate) mod census;
 pub(crate) mod completions;
 pub(crate) mod explain;

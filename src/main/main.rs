@@ -14,7 +14,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use args::SceneOptions;
 use command::forces::{Base, Contacts};
-use command::{census, completions, explain, export, plot, prove, scene, spheres, summary, verify};
+use command::{
+    bounds, census, completions, explain, export, plot, prove, scene, spheres, summary, verify,
+};
 use output::{Failure, complain};
 
 const START: &str = "\
@@ -45,6 +47,8 @@ enum Command {
     /// The force of each contact between two spheres
     #[command(after_help = Contacts::HELP)]
     Contacts(Contacts),
+    /// What each bottom sphere can bear at least and at most at a = R, horizontal contacts included
+    Bounds(bounds::Bounds),
     /// The place, size and mass of each sphere, in SI units
     Spheres(spheres::Spheres),
     /// Which stackings stand, under one sphere or on a base
@@ -73,6 +77,7 @@ impl Command {
             Self::Summary(command) => command.run(),
             Self::Base(command) => command.run(),
             Self::Contacts(command) => command.run(),
+            Self::Bounds(command) => command.run(),
             Self::Spheres(command) => command.run(),
             Self::Census(command) => command.run(),
             Self::Explain(command) => command.run(),
@@ -91,6 +96,7 @@ impl Command {
             Self::Summary(command) => &command.scene,
             Self::Base(command) => &command.scene,
             Self::Contacts(command) => &command.scene,
+            Self::Bounds(command) => &command.scene,
             Self::Spheres(command) => &command.scene,
             Self::Explain(command) => &command.scene,
             Self::Export(command) => &command.scene,

@@ -6,6 +6,8 @@ use num_rational::BigRational;
 use super::cell::Cell;
 use super::rows::{Column, Table};
 use super::units::Units;
+#[cfg(feature = "horizontal")]
+use crate::certificate::Claim;
 use crate::geometry::Apart;
 use crate::lattice::Dimension;
 use crate::scalar::Surd;
@@ -34,6 +36,9 @@ pub struct Summary<'p> {
     units: Units<'p>,
     touching: Option<Vec<Apart>>,
     standing: Standing,
+    /// Whether horizontal contacts hold what pulls without them, where they are all that touches besides; or why that is
+    /// not known.
+    held: Option<Result<bool, Error>>,
     /// Or why there are none.
     base: Result<BaseExtremes, Error>,
     /// How the base is answered, or why it cannot be as a whole.
@@ -65,11 +70,24 @@ impl<'p> Summary<'p> {
     pub fn new(units: &Units<'p>, touching: Option<Vec<Apart>>) -> Result<Self, Error> {
         let pile = units.pile();
         let plan = pile.plan(Selection::Base);
+        let standing = pile.standing()?;
+        #[cfg(feature = "horizontal")]
+        let held = {
+            let in_layers_only = touching.as_deref() == Some(&[Apart { layers: 0 }]);
+            let pulls = standing.first_failure.is_some() && !pile.is_weightless();
+            (in_layers_only && pulls).then(|| {
+                let certificate = pile.equilibrium();
+                certificate.map(|certificate| certificate.claim == Claim::Stands)
+            })
+        };
+        #[cfg(not(feature = "horizontal"))]
+        let held = None;
         Ok(Self {
+            held,
             units: units.clone(),
             touching,
             base: unless_too_large(pile.base_extremes())?,
-            standing: pile.standing()?,
+            standing,
             method: unless_too_large(plan.map(|plan| plan.method))?,
         })
     }
@@ -95,6 +113,10 @@ impl<'p> Summary<'p> {
         let stands = stands.then(|| {
             "of a pile without weight it is not asked: give the spheres their weight".to_owned()
         });
+        let open = self.held.as_ref().and_then(|held| held.as_ref().err());
+        let open = open.map(|error| {
+            format!("whether horizontal contacts hold the pile was not found out: {error}")
+        });
         let Standing {
             least,
             first_failure,
@@ -110,7 +132,7 @@ impl<'p> Summary<'p> {
         let base = self.base.as_ref().err().map(ToString::to_string);
         let method = self.method.as_ref().err().map(ToString::to_string);
         let reasons = [
-            ("stands", stands),
+            ("stands", stands.or(open)),
             ("min_contact", least),
             ("normal_min, normal_max, max_shear_ratio", base),
             ("plan", method),
@@ -136,7 +158,11 @@ impl<'p> Summary<'p> {
     pub fn verdict(&self) -> Option<Verdict> {
         let asked = !self.units.pile().is_weightless();
         let touching = self.touching.as_deref().unwrap_or_default();
-        asked.then(|| self.standing.verdict(touching))
+        asked.then(|| match self.held {
+            Some(Ok(true)) => Verdict::Yes,
+            Some(Ok(false)) => Verdict::No,
+            _ => self.standing.verdict(touching),
+        })
     }
 
     /// One row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres, normal_min,

@@ -544,7 +544,7 @@ pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> T
 }
 
 /// The columns that say where a sphere is: those named first, then i, and j in space.
-fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
+pub(super) fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
     let places: &[_] = if pile.dimension() == Dimension::Two {
         &["i"]
     } else {
@@ -559,7 +559,7 @@ fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
 }
 
 /// i, and j in space.
-fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
+pub(super) fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
     let j = (pile.dimension() == Dimension::Three).then_some(site.j);
     core::iter::once(site.i).chain(j).map(Cell::from)
 }

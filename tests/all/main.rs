@@ -115,6 +115,18 @@ mod census {
     pub(crate) mod brute;
 }
 
+#[cfg(feature = "horizontal")]
+mod horizontal {
+    mod bounds;
+    mod states;
+
+    /// All stackings of so many steps that begin with +.
+    fn stackings(steps: usize) -> impl Iterator<Item = String> {
+        let all = crate::support::cases::all_signs(steps);
+        all.into_iter().filter(|signs| signs.starts_with('+'))
+    }
+}
+
 #[cfg(feature = "std")]
 mod theorem;
 

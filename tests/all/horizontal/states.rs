@@ -1,0 +1,149 @@
+//! Which stackings stand with horizontal contacts, and what springs bear.
+
+use std::collections::BTreeSet;
+
+use cannonpile::certificate::Claim;
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Pile};
+use num_rational::BigRational;
+use num_traits::Signed;
+
+use super::stackings;
+use crate::support::cases::repeated;
+use crate::support::oracles::balance::ratio;
+
+fn under_one_sphere(stacking: &str) -> Pile {
+    Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap()
+}
+
+#[test]
+fn every_stacking_stands_or_cannot_and_so_do_its_beginnings() {
+    let mut standing = BTreeSet::from([String::new()]);
+    let mut counts = Vec::new();
+    for steps in 1..=7 {
+        let mut count = 0;
+        for stacking in stackings(steps) {
+            let pile = under_one_sphere(&stacking);
+            let certificate = pile.equilibrium().unwrap();
+            assert_eq!(certificate.check(), Ok(()), "{stacking}");
+            assert_eq!(certificate.pile, pile);
+            let stands = certificate.claim == Claim::Stands;
+            if pile.first_failure().unwrap().is_none() {
+                assert!(stands, "{stacking}");
+            }
+            if stands {
+                assert!(standing.contains(&stacking[..steps - 1]), "{stacking}");
+                standing.insert(stacking.clone());
+                count += 1;
+            }
+            // Springs say the same.
+            let elastic = pile.elastic(&ratio(1, 1));
+            assert_eq!(elastic.is_ok(), stands, "{stacking}");
+            if !stands {
+                assert_eq!(elastic.unwrap_err(), Error::CannotStand);
+            }
+        }
+        counts.push(count);
+    }
+    // More than without horizontal contacts: 1, 2, 4, 8, 11, 11, 11.
+    assert_eq!(counts, [1, 2, 4, 8, 0, 0, 0]);
+}
+
+#[test]
+fn what_is_large_is_decided_by_its_beginning() {
+    let hcp = under_one_sphere(&repeated("+-", 999));
+    let certificate = hcp.equilibrium().unwrap();
+    assert_eq!(certificate.claim, Claim::CannotStand);
+    assert_eq!(certificate.check(), Ok(()));
+    assert!(certificate.pile.layers() < 20);
+    // Below the last change of sign forces only grow.
+    let straight_below = under_one_sphere(&format!("+-+-+{}", "+".repeat(300)));
+    let certificate = straight_below.equilibrium().unwrap();
+    assert_eq!(certificate.claim, Claim::Stands);
+    assert_eq!(certificate.check(), Ok(()));
+    let loaded = straight_below
+        .with_load(Site { i: 0, j: 0, k: 250 }, ratio(5, 3))
+        .unwrap();
+    assert_eq!(loaded.equilibrium().unwrap().claim, Claim::Stands);
+    let on_a_base = Pile::on(
+        Region::hexagon(30, 30).unwrap(),
+        repeated("-+", 20).parse().unwrap(),
+    );
+    let certificate = on_a_base.unwrap().equilibrium().unwrap();
+    assert_eq!(certificate.check(), Ok(()));
+}
+
+#[test]
+fn springs_of_straight_piles_are_the_paper_s() {
+    for pile in [
+        Pile::triangular(9).unwrap(),
+        Pile::discs(9).unwrap(),
+        Pile::under(Region::hexagon(3, 2).unwrap(), "----".parse().unwrap()).unwrap(),
+        Pile::on(Region::hexagon(5, 6).unwrap(), "+++".parse().unwrap()).unwrap(),
+    ] {
+        for stiffness in [ratio(1, 1000), ratio(1, 1), ratio(77, 2)] {
+            let elastic = pile.elastic(&stiffness).unwrap();
+            assert_eq!(elastic.horizontal().count(), 0);
+            assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
+            let forces = pile.forces::<BigRational>();
+            for contact in forces.contacts(Selection::All).unwrap().map(Result::unwrap) {
+                assert_eq!(
+                    elastic.contact(contact.site, contact.direction),
+                    Ok(contact.force)
+                );
+            }
+        }
+    }
+    let high = Pile::triangular(10_i128.pow(20)).unwrap();
+    let elastic = high.elastic(&ratio(1, 1)).unwrap();
+    assert!(elastic.certificate().is_none() && elastic.horizontal().next().is_none());
+    let site = Site { i: 5, j: 6, k: 100 };
+    assert_eq!(elastic.contact(site, Direction::Beta), Ok(ratio(6, 1)));
+}
+
+#[test]
+fn springs_balance_each_sphere_and_the_weight() {
+    let mut pushing = 0;
+    for stacking in ["+-+-+", "+-+-++", "++-+-+", "+-+-+++"] {
+        let pile = under_one_sphere(stacking);
+        let pile = pile
+            .with_load(Site { i: 0, j: 0, k: 0 }, ratio(1, 3))
+            .unwrap();
+        let Ok(elastic) = pile.elastic(&ratio(3, 2)) else {
+            assert_eq!(pile.equilibrium().unwrap().claim, Claim::CannotStand);
+            continue;
+        };
+        pushing += elastic.horizontal().count();
+        assert!(elastic.horizontal().all(|(_, force)| force.is_positive()));
+        let base = pile.rows(Selection::Base).unwrap().flatten();
+        let base: Vec<_> = base.map(|site| elastic.on_floor(site).unwrap()).collect();
+        let total: BigRational = base.iter().map(|force| force.normal.clone()).sum();
+        assert_eq!(total, pile.weight());
+        let shear: BigRational = base.iter().map(|force| force.shear_x.clone()).sum();
+        assert_eq!(shear, ratio(0, 1));
+        let shear: BigRational = base.iter().map(|force| force.shear_y.clone()).sum();
+        assert_eq!(shear, ratio(0, 1));
+    }
+    assert!(pushing > 0);
+}
+
+#[test]
+fn what_has_no_springs_is_refused() {
+    let pile = Pile::triangular(4).unwrap();
+    let given = ratio(0, 1);
+    let quantity = cannonpile::Culprit::StiffnessRatio;
+    assert_eq!(
+        pile.elastic(&given).unwrap_err(),
+        Error::NotPositive { quantity, given }
+    );
+    let leaning = Pile::isosceles(4, ratio(1, 3)).unwrap();
+    assert!(matches!(
+        leaning.elastic(&ratio(1, 1)),
+        Err(Error::NoHorizontalContacts { .. })
+    ));
+    assert!(matches!(
+        leaning.equilibrium(),
+        Err(Error::NoHorizontalContacts { .. })
+    ));
+}
