@@ -1,6 +1,7 @@
 //! The commands, one a file, and what they have in common.
 
 pub(crate) mod census;
+pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod explain;
 pub(crate) mod export;
