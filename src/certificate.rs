@@ -36,6 +36,7 @@ mod check;
 pub use check::Refusal;
 
 use alloc::collections::BTreeMap;
+use core::fmt;
 
 use num_rational::BigRational;
 
@@ -83,8 +84,14 @@ pub struct Certificate {
 /// use cannonpile::certificate::Claim;
 ///
 /// assert_eq!(Claim::CannotStand.name(), "cannot-stand");
+/// assert_eq!(Claim::CannotStand.to_string(), "no forces that only push balance the pile: it cannot stand");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(::serde::Serialize, ::serde::Deserialize),
+    serde(rename_all = "kebab-case", deny_unknown_fields)
+)]
 #[non_exhaustive]
 pub enum Claim {
     /// There are such forces.
@@ -98,6 +105,7 @@ pub enum Claim {
     /// The forces are those of springs that only push: of all such forces, those of least energy.
     Elastic {
         /// κ′/κ: the stiffness of horizontal contacts over that of sloping ones.
+        #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
         stiffness_ratio: BigRational,
     },
 }
@@ -156,6 +164,40 @@ impl Claim {
             Self::Least(_) => "least",
             Self::Greatest(_) => "greatest",
             Self::Elastic { .. } => "elastic",
+        }
+    }
+}
+
+impl fmt::Display for Claim {
+    /// Prints it in words.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let extreme = |f: &mut fmt::Formatter<'_>, extreme: &Extreme, bound| {
+            let Extreme {
+                site,
+                normal,
+                attained,
+            } = extreme;
+            let attained = if *attained {
+                "and forces attain it"
+            } else {
+                "whether attained or not"
+            };
+            write!(
+                f,
+                "the floor under the sphere {site} bears {bound} {normal} mg, {attained}"
+            )
+        };
+        match self {
+            Self::Stands => f.write_str("forces that only push balance the pile: it stands"),
+            Self::CannotStand => {
+                f.write_str("no forces that only push balance the pile: it cannot stand")
+            }
+            Self::Least(least) => extreme(f, least, "at least"),
+            Self::Greatest(greatest) => extreme(f, greatest, "at most"),
+            Self::Elastic { stiffness_ratio } => write!(
+                f,
+                "these are the forces of springs that only push, horizontal ones {stiffness_ratio} times as stiff as others"
+            ),
         }
     }
 }

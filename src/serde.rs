@@ -24,12 +24,13 @@
 //! | a number | dimensions (2 or 3), counts below 2⁶⁴, `f32` and `f64` in answers |
 //! | a record of its fields | sites, rows, runs, vectors, enclosures; forces and verdicts; plans, questions and counters; scenes |
 //! | a record of two strings | [`Interval`](crate::scalar::Interval) (`lower`, `upper`) and [`DoubleDouble`](crate::scalar::DoubleDouble) (`high`, `low`), since many readers of JSON change the last digit of a float |
-//! | a name and what belongs to it | [`Selection`](crate::shape::Selection), [`Anchor`](crate::shape::Anchor): `"base"`, `{"layer":"3"}` |
+//! | a name and what belongs to it | [`Selection`](crate::shape::Selection), [`Anchor`](crate::shape::Anchor), [`Claim`](crate::certificate::Claim): `"base"`, `{"layer":"3"}` |
 //! | what it is made of | [`Pile`](crate::Pile): `dimension`, `sin_phi`, `stacking` (from the top), `anchor`, `weightless`, `weights`, `loads` |
+//! | a record with its maps as lists | [`Certificate`](crate::certificate::Certificate): `pile`, `claim`, `horizontal` (each `site`, `axis`, `force`), `field` (each `site`, `alpha`, `beta`, `gamma`) |
 //!
 //! # What is read
 //! Texts are read by the parsers of the types and everything else by checked constructors: a region without a site, a pile
-//! that overhangs its base and 1/0 are refused. So are keys that are not known. Of a [`Scene`](crate::scene::Scene) any key
+//! that overhangs its base and 1/0 are refused. So are keys that are not known, and two entries of a certificate for one contact or sphere. Of a [`Scene`](crate::scene::Scene) any key
 //! may be left out. Formats that do not describe themselves (postcard, bincode) serve as well as JSON.
 //!
 //! What is written is read back, with two exceptions: exact numbers of more than
@@ -39,10 +40,19 @@
 //! Not data, and not here: what borrows a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps),
 //! theorems and their polynomials, errors.
 //!
+//! With the feature `export`, `read_certificate` and `write_certificate` read and write certificates as JSON files.
+//!
 //! [`number`] serves fields of your own: `#[serde(with = "cannonpile::serde::number")]`.
 
+mod certificate;
+#[cfg(feature = "export")]
+mod file;
 mod parts;
 mod records;
 mod words;
+
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub use file::{MOST_BYTES, read_certificate, write_certificate};
 
 pub use crate::scalar::serde::{Number, number};

@@ -2,6 +2,7 @@
 
 pub(crate) mod bounds;
 pub(crate) mod census;
+pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod explain;
 pub(crate) mod export;

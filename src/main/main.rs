@@ -15,7 +15,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
-    bounds, census, completions, explain, export, plot, prove, scene, spheres, summary, verify,
+    bounds, census, check, completions, explain, export, plot, prove, scene, spheres, summary,
+    verify,
 };
 use output::{Failure, complain};
 
@@ -63,6 +64,8 @@ enum Command {
     Prove(prove::Prove),
     /// Measured contact forces against the exact ones; exit status 1 if they differ
     Verify(verify::Verify),
+    /// A certificate of what a pile with horizontal contacts bears; exit status 1 if it is refused
+    Check(check::Check),
     /// A figure, as SVG
     #[command(subcommand, arg_required_else_help = true)]
     Plot(plot::Plot),
@@ -85,6 +88,7 @@ impl Command {
             Self::Scene(command) => command.run(),
             Self::Prove(command) => command.run(),
             Self::Verify(command) => command.run(),
+            Self::Check(command) => command.run(),
             Self::Plot(command) => command.run(),
             Self::Completions(command) => command.print(Arguments::command()),
         }
@@ -103,7 +107,9 @@ impl Command {
             Self::Scene(command) => &command.scene,
             Self::Verify(command) => &command.scene,
             Self::Plot(command) => command.scene(),
-            Self::Census(_) | Self::Prove(_) | Self::Completions(_) => return None,
+            Self::Census(_) | Self::Prove(_) | Self::Check(_) | Self::Completions(_) => {
+                return None;
+            }
         })
     }
 }

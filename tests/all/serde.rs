@@ -1,6 +1,8 @@
 //! Data through serde: written and read back the same, as JSON and in a format that is not self-describing; what is
 //! wrong is refused on the way in.
 
+#[cfg(feature = "export")]
+mod certificates;
 mod piles;
 
 use core::fmt::Debug;

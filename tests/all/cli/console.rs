@@ -37,11 +37,12 @@ macro_rules! console {
 console! {
     base: 84;
     census: 13;
+    check: 12;
     completions: 2;
     contacts: 37;
     explain: 12;
     export: 32;
-    help: 17;
+    help: 18;
     plot: 35;
     prove: 5;
     scene: 10;
