@@ -788,7 +788,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         let mut defined = true;
         let carried = sweep.carried_by_rows();
         for row in self.region.rows(self.k) {
-            let row = carried(&row);
+            let row = carried(&row)?;
             let out = split_front(&mut rest, row[0].len())?;
             defined &= below.write(row, out);
         }
