@@ -301,7 +301,7 @@ pub(super) fn split_front<'a, V>(
 }
 
 /// Errors unless each slice has as many elements as are needed.
-pub(super) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
+pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
     match slices.iter().find(|slice| slice.len() != needed) {
         Some(slice) => Err(Error::Length {
             needed,

@@ -400,7 +400,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above one that was written, or not of the part;
-    /// [`Error::Length`], [`Error::Overflow`].
+    /// [`Error::Length`], [`Error::Overflow`]; [`Error::TooLarge`] for a row that no memory holds.
     ///
     /// # Examples
     /// ```
@@ -504,14 +504,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
 
     fn write(&mut self, asked: Asked, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
         let (shape, Row { k, j, i }) = (self.layers.shape(), row.clone());
-        let length = if i.is_empty() {
-            0
-        } else {
-            i.end.saturating_sub(i.start)
-        };
-        let spheres = length.to_usize();
-        // Not a default: no slice is as long.
-        check_lengths(spheres.unwrap_or(usize::MAX), &slices)?;
+        check_lengths(row.length()?, &slices)?;
         if i.is_empty() {
             return Ok(());
         }

@@ -159,6 +159,26 @@ fn what_no_row_can_be_is_refused() {
     assert_eq!(asked(2, 0, 3..3, 0), Ok(()));
     let reversed = Range { start: 3, end: 1 };
     assert_eq!(asked(2, 0, reversed, 0), Ok(()));
+    let endless = Row {
+        k: 2,
+        j: 0,
+        i: i128::MIN..i128::MAX,
+    };
+    assert!(matches!(
+        asked(2, 0, endless.i.clone(), 1),
+        Err(Error::TooLarge { .. })
+    ));
+    let mut place = [[0.0]; 3];
+    let slices = place.each_mut().map(<[f64; 1]>::as_mut_slice);
+    let refused = packing.places().fill_row(&endless, slices);
+    assert_eq!(
+        refused.map_err(|error| error.to_string()),
+        Err(format!(
+            "a row would take {} numbers, more than {}: ask for pieces of it",
+            u128::MAX,
+            usize::MAX
+        ))
+    );
     let mut base = [[0.0]; 3];
     let slices = base.each_mut().map(<[f64; 1]>::as_mut_slice);
     let above = layers.fill_row_of_base(
