@@ -583,24 +583,15 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         match &self.layers.way {
             Way::Table(table) => table.fill(self.k..self.k + 1, slices),
             Way::Plain(sweep) => self.fill_from(sweep, slices),
-            Way::Single { .. } | Way::Exact(..) => self.fill_with(slices, Ok),
+            Way::Single { .. } | Way::Exact(..) => {
+                let [alpha, beta, gamma] = slices;
+                let out = alpha.iter_mut().zip(beta).zip(gamma);
+                for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
+                    [*a, *b, *c] = self.passed_on(site)?;
+                }
+                Ok(())
+            }
         }
-    }
-
-    /// Writes what becomes of the forces below each sphere.
-    pub(super) fn fill_with<V>(
-        &self,
-        slices: [&mut [V]; 3],
-        value: impl Fn([T; 3]) -> Result<[V; 3], Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        let [alpha, beta, gamma] = slices;
-        let out = alpha.iter_mut().zip(beta).zip(gamma);
-        for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
-            [*a, *b, *c] = value(self.passed_on(site)?)?;
-        }
-        Ok(())
     }
 
     /// Writes the values of a sphere into slices that go over the layer.
@@ -651,22 +642,12 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_base(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
-        self.fill_base_with(slices, |force| {
-            Ok([force.normal, force.shear_x, force.shear_y])
-        })
-    }
-
-    /// Writes what becomes of (normal, shear_x, shear_y) of each bottom sphere.
-    pub(super) fn fill_base_with<V>(
-        &self,
-        slices: [&mut [V]; 3],
-        value: impl Fn(FloorForce<T>) -> Result<[V; 3], Error>,
-    ) -> Result<(), Error> {
         check_lengths(self.spheres, &slices)?;
         let [normal, shear_x, shear_y] = slices;
         let out = normal.iter_mut().zip(shear_x).zip(shear_y);
         for (site, ((normal, shear_x), shear_y)) in self.region.rows(self.k).flatten().zip(out) {
-            [*normal, *shear_x, *shear_y] = value(self.on_floor(site)?)?;
+            let force = self.on_floor(site)?;
+            (*normal, *shear_x, *shear_y) = (force.normal, force.shear_x, force.shear_y);
         }
         Ok(())
     }

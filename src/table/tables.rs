@@ -5,21 +5,19 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::cell::{Cell, NumberFormat};
+use super::pieces::{columns, in_pieces, slices};
 use super::rows::{Column, Row, RowIter, Table};
 use super::summary::steps;
 use super::units::Units;
 use crate::census::Entry;
-use crate::lattice::{self, Dimension, Direction, Site};
+use crate::lattice::{Dimension, Direction, Site};
 use crate::scalar::NearestFloat;
-use crate::shape::{Rows, Selection};
+use crate::shape::Selection;
 use crate::theorem::{Proof, Theorem};
 use crate::{ContactForce, Contacts, Error, FloorForce, Packing, Pile};
 
 /// The most rows that are written.
 pub const MAX_ROWS: u64 = 100_000_000_000;
-
-/// The most spheres whose rows are made at once.
-const PIECE: i128 = 1024;
 
 /// The force of each bottom sphere on the floor: `i, j, normal, shear_x, shear_y`; for discs
 /// `i, normal, shear_x`.
@@ -109,30 +107,6 @@ fn rounding(numbers: NumberFormat, selection: Selection) -> Option<Rounding> {
     }
 }
 
-/// Returns rows of a table, as many as `make` makes of consecutive spheres of a row.
-fn in_pieces<'p>(
-    rows: Rows<'p>,
-    mut make: impl FnMut(&lattice::Row) -> Result<Vec<Vec<Cell>>, Error> + 'p,
-) -> RowIter<'p> {
-    let pieces = rows.flat_map(|row| row.pieces(PIECE));
-    Box::new(pieces.flat_map(move |piece| match make(&piece) {
-        Ok(rows) => rows.into_iter().map(Ok).collect(),
-        Err(error) => vec![Err(error)],
-    }))
-}
-
-/// Three slices as long as a piece of a row.
-fn columns_of<F: Float>(row: &lattice::Row) -> [Vec<F>; 3] {
-    // No longer than a piece.
-    let spheres = usize::try_from(row.i.end - row.i.start).unwrap_or(0);
-    [(); 3].map(|()| vec![F::default(); spheres])
-}
-
-/// The slices of three columns.
-fn slices<F>(columns: &mut [Vec<F>; 3]) -> [&mut [F]; 3] {
-    columns.each_mut().map(Vec::as_mut_slice)
-}
-
 /// A float that a cell holds.
 trait Float: NearestFloat + Default + Into<Cell> + 'static {}
 
@@ -145,8 +119,8 @@ fn rounded_base<'p, F: Float>(
 ) -> Result<RowIter<'p>, Error> {
     let pile = units.pile();
     let mut layers = units.layers::<F>(selection)?;
-    Ok(in_pieces(pile.rows(selection)?, move |row| {
-        let mut forces = columns_of::<F>(row);
+    let rows = in_pieces(pile.rows(selection)?, move |row| {
+        let mut forces = columns::<F>(row)?;
         layers.fill_row_of_base(row, slices(&mut forces))?;
         let [normal, x, y] = forces;
         let forces = normal.into_iter().zip(x).zip(y);
@@ -163,7 +137,8 @@ fn rounded_base<'p, F: Float>(
                 floor_cells(pile, force)
             });
         Ok(rows.collect())
-    }))
+    });
+    Ok(Box::new(rows))
 }
 
 /// The contacts between spheres: `k, i, j, direction, force`, and in SI the force on the upper sphere
@@ -254,27 +229,27 @@ fn rounded_contacts<'p, F: Float>(
     let directions = pile.dimension().directions();
     let (mut layers, places) = (units.layers::<F>(selection)?, units.places::<F>());
     let rows = pile.rows(selection)?.off_the_floor();
-    Ok(in_pieces(rows, move |row| {
-        let mut forces = columns_of::<F>(row);
+    let rows = in_pieces(rows, move |row| {
+        let mut forces = columns::<F>(row)?;
         layers.fill_row(row, slices(&mut forces))?;
-        let mut columns = vec![forces];
+        let mut numbers = vec![forces];
         if let Some(places) = &places {
-            let mut vectors = [(); 3].map(|()| columns_of::<F>(row));
+            let mut vectors = [columns::<F>(row)?, columns(row)?, columns(row)?];
             layers.fill_row_of_vectors(row, vectors.each_mut().map(slices))?;
-            columns.extend(vectors);
-            let mut points = [(); 3].map(|()| columns_of::<F>(row));
+            numbers.extend(vectors);
+            let mut points = [columns::<F>(row)?, columns(row)?, columns(row)?];
             let [x, y, z] = points.each_mut().map(slices);
             let by_direction = x.into_iter().zip(y).zip(z).zip(directions);
             for (((x, y), z), direction) in by_direction {
                 places.fill_row_of_contacts(row, *direction, [x, y, z])?;
             }
-            columns.extend(points);
+            numbers.extend(points);
         }
         let mut rows = Vec::new();
         for (place, site) in row.clone().into_iter().enumerate() {
             for direction in directions {
                 let mut cells = contact_cells(pile, site, *direction);
-                let numbers = columns
+                let numbers = numbers
                     .iter()
                     .map(|column| column[direction.index()][place]);
                 cells.extend(numbers.map(Into::into));
@@ -282,7 +257,8 @@ fn rounded_contacts<'p, F: Float>(
             }
         }
         Ok(rows)
-    }))
+    });
+    Ok(Box::new(rows))
 }
 
 /// The question that has fewer answers, unless it is the narrowest.
@@ -393,8 +369,8 @@ fn rounded_spheres<'p, F: Float>(
     mut ids: impl Iterator<Item = BigInt> + 'p,
 ) -> Result<RowIter<'p>, Error> {
     let centres = packing.places::<F>();
-    Ok(in_pieces(packing.pile().rows(selection)?, move |row| {
-        let mut places = columns_of::<F>(row);
+    let rows = in_pieces(packing.pile().rows(selection)?, move |row| {
+        let mut places = columns::<F>(row)?;
         centres.fill_row(row, slices(&mut places))?;
         let [x, y, z] = places;
         // Sites first: no number is drawn for one past the end.
@@ -404,7 +380,8 @@ fn rounded_spheres<'p, F: Float>(
             sphere_cells(&packing, (id, site), [x, y, z].map(Into::into))
         });
         rows.collect()
-    }))
+    });
+    Ok(Box::new(rows))
 }
 
 /// The cells of a sphere.
