@@ -238,11 +238,10 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
                 };
             }
         };
-        if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep()) {
-            let out = [&mut *a, &mut *b, &mut *c];
-            if !sweep.nearest_row(row, (readout, units), out)? {
-                return Err(asked.overflow::<F>());
-            }
+        // Where a sphere has no float as an ordinary one, it may have one as what it is.
+        if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep())
+            && sweep.nearest_row(row, (readout, units), [&mut *a, &mut *b, &mut *c])?
+        {
             // Spheres that weigh more or less than the others, or carry loads.
             for site in self.terms.lines.extras_in_row(row) {
                 let place = (site.i - row.i.start).to_usize();
