@@ -78,8 +78,11 @@ pub fn base<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>, Er
         });
         Ok(vec![sum.normal, sum.shear_x, sum.shear_y])
     };
-    let table = Table::made_for(columns, "bottom spheres", rows);
-    Ok(table.bounded(count, bounds).summed(sums))
+    let table = Table::made_for(columns, "bottom spheres", rows).bounded(count, bounds);
+    Ok(match selection {
+        Selection::One(_) => table.summed_by_rows(),
+        _ => table.summed(sums),
+    })
 }
 
 /// The cells of a bottom sphere.
@@ -188,8 +191,11 @@ pub fn contacts<'p>(units: &Units<'p>, selection: Selection) -> Result<Table<'p>
         let sum = summed.forces().sum_of_contacts(selection)?;
         Ok(vec![summed.contact(sum)])
     };
-    let table = Table::made_for(columns, "contacts", rows);
-    Ok(table.bounded(count, bounds).summed(sums))
+    let table = Table::made_for(columns, "contacts", rows).bounded(count, bounds);
+    Ok(match selection {
+        Selection::One(_) => table.summed_by_rows(),
+        _ => table.summed(sums),
+    })
 }
 
 /// Where a contact is, and the first cells of its row.
