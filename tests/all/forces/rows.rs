@@ -268,7 +268,13 @@ fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
 
 #[test]
 fn sums_are_those_of_all_rows() {
-    for pile in piles() {
+    let on_floor = Site { i: 0, j: 0, k: 5 };
+    let special = Pile::triangular(6).expect("a pile");
+    let special = special.with_load(on_floor, ratio(7, 3)).expect("a load");
+    let special = special
+        .with_weight(on_floor, ratio(5, 2))
+        .expect("a weight");
+    for pile in piles().into_iter().chain([special]) {
         let forces = pile.forces::<BigRational>();
         let one = pile.shape().sites().last().expect("a sphere");
         let layers = (0..pile.layers()).map(Selection::Layer);
