@@ -17,6 +17,7 @@ mod walk;
 
 pub use base::{Base, FloorForce};
 pub use contacts::{ContactForce, Contacts};
+pub(crate) use layers::check_lengths;
 pub use layers::{Layer, Layers};
 pub(crate) use nearest::Units;
 pub use nearest::{NearestLayer, NearestLayers};

@@ -498,7 +498,7 @@ impl<'p, M: Meter> Packing<'p, M> {
         Ok(self.magnitude(&self.forces.contact(site, direction)?))
     }
 
-    /// The same force as a vector (x, y, z up), on the upper sphere.
+    /// Returns the contact force between `site` and the sphere below it as a vector, x, y and z (up), on the upper sphere.
     ///
     /// # Errors
     /// As for [`Forces::contact`].

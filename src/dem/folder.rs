@@ -28,7 +28,7 @@ pub(super) fn write_all<'f>(
     // Not one of them is there yet; a folder of the same name, or the like, is found out here.
     let mut bytes = Vec::new();
     for (path, aside) in written {
-        let kept = new.expect(aside.target()).and_then(|()| aside.keep());
+        let kept = new.announce(aside.target()).and_then(|()| aside.keep());
         bytes.push(kept.map_err(|error| of(path, error))?);
     }
     new.0.clear();
@@ -57,13 +57,13 @@ impl New {
             .take_while(|path| *path != Path::new("") && !path.exists());
         let missing: Vec<&Path> = missing.collect();
         for path in missing.into_iter().rev() {
-            self.expect(path)?;
+            self.announce(path)?;
         }
         fs::create_dir_all(folder)
     }
 
-    /// A path that is made next.
-    fn expect(&mut self, path: &Path) -> io::Result<()> {
+    /// Takes note of a path that is made next.
+    fn announce(&mut self, path: &Path) -> io::Result<()> {
         if fs::symlink_metadata(path).is_err() {
             self.0.push(Pending::new(path)?);
         }

@@ -4,8 +4,8 @@ use num_traits::Zero;
 
 use crate::lattice::{Direction, Row, Site};
 use crate::scalar::Surd;
-use crate::shape::{Numbering, Selection};
-use crate::table::refuse_beyond;
+use crate::shape::{Numbering, Rows, Selection};
+use crate::table::{columns, in_pieces, refuse_beyond, slices};
 use crate::{Error, FloorForce, NearestLayers, Packing, Pile};
 
 /// A packing, and the numbers of its spheres.
@@ -136,10 +136,10 @@ impl<'p> NumberedPile<'p> {
         &self,
     ) -> Result<impl Iterator<Item = Result<(Site, [f64; 3]), Error>> + use<'p>, Error> {
         let places = self.packing.places::<f64>();
-        Ok(each(self.pieces()?, move |piece| {
-            let mut columns = columns(piece);
-            places.fill_row(piece, columns.each_mut().map(Vec::as_mut_slice))?;
-            let [x, y, z] = columns;
+        Ok(in_pieces(self.pile().rows(Selection::All)?, move |piece| {
+            let mut centres = columns(piece)?;
+            places.fill_row(piece, slices(&mut centres))?;
+            let [x, y, z] = centres;
             let centres = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
             Ok(piece.clone().into_iter().zip(centres).collect())
         }))
@@ -147,7 +147,7 @@ impl<'p> NumberedPile<'p> {
 
     /// All contacts in the order of the upper spheres, without their forces.
     pub(super) fn touches(&self) -> Result<impl Iterator<Item = Result<Touch, Error>> + '_, Error> {
-        Ok(each(self.pieces_above_the_floor()?, |piece| {
+        Ok(in_pieces(self.rows_above_the_floor()?, |piece| {
             Ok(self.touches_of(piece)?.collect())
         }))
     }
@@ -158,11 +158,11 @@ impl<'p> NumberedPile<'p> {
     ) -> Result<impl Iterator<Item = Result<[[f64; 3]; 2], Error>> + '_, Error> {
         let places = self.packing.places::<f64>();
         let shape = self.pile().shape();
-        Ok(each(self.pieces_above_the_floor()?, move |piece| {
+        Ok(in_pieces(self.rows_above_the_floor()?, move |piece| {
             let centres = |row: &Row| {
-                let mut columns = columns(row);
-                places.fill_row(row, columns.each_mut().map(Vec::as_mut_slice))?;
-                Ok(columns)
+                let mut centres = columns(row)?;
+                places.fill_row(row, slices(&mut centres))?;
+                Ok(centres)
             };
             let upper = centres(piece)?;
             let first = Site {
@@ -197,14 +197,11 @@ impl<'p> NumberedPile<'p> {
         &self,
         mut layers: NearestLayers<'p, f64>,
     ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
-        Ok(each(self.pieces_above_the_floor()?, move |piece| {
-            let mut forces = columns(piece);
-            layers.fill_row(piece, forces.each_mut().map(Vec::as_mut_slice))?;
-            let mut vectors = [(); 3].map(|()| columns(piece));
-            let slices = vectors
-                .each_mut()
-                .map(|of| of.each_mut().map(Vec::as_mut_slice));
-            layers.fill_row_of_vectors(piece, slices)?;
+        Ok(in_pieces(self.rows_above_the_floor()?, move |piece| {
+            let mut forces = columns(piece)?;
+            layers.fill_row(piece, slices(&mut forces))?;
+            let mut vectors = [columns(piece)?, columns(piece)?, columns(piece)?];
+            layers.fill_row_of_vectors(piece, vectors.each_mut().map(slices))?;
             let directions = self.pile().dimension().directions().len();
             let contacts = self.touches_of(piece)?.enumerate().map(|(n, touch)| {
                 let (place, line) = (n / directions, touch.direction.index());
@@ -227,11 +224,10 @@ impl<'p> NumberedPile<'p> {
         let mut ids = self.numbering.first_on_floor()..;
         let mut layers = self.packing.layers::<f64>(Selection::Base)?;
         let rows = self.pile().rows(Selection::Base)?;
-        let pieces = rows.flat_map(|row| row.pieces(PIECE));
-        Ok(each(pieces, move |piece| {
-            let mut columns = columns(piece);
-            layers.fill_row_of_base(piece, columns.each_mut().map(Vec::as_mut_slice))?;
-            let [normal, x, y] = columns;
+        Ok(in_pieces(rows, move |piece| {
+            let mut forces = columns(piece)?;
+            layers.fill_row_of_base(piece, slices(&mut forces))?;
+            let [normal, x, y] = forces;
             let forces = normal.into_iter().zip(x).zip(y);
             // Sites first: no number is drawn for one past the end.
             let spheres = piece.clone().into_iter().zip(ids.by_ref()).zip(forces);
@@ -248,15 +244,8 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// Pieces of the rows of all spheres.
-    fn pieces(&self) -> Result<impl Iterator<Item = Row> + use<'p>, Error> {
-        let rows = self.pile().rows(Selection::All)?;
-        Ok(rows.flat_map(|row| row.pieces(PIECE)))
-    }
-
-    fn pieces_above_the_floor(&self) -> Result<impl Iterator<Item = Row> + use<'p>, Error> {
-        let floor = self.pile().layers() - 1;
-        Ok(self.pieces()?.take_while(move |piece| piece.k < floor))
+    fn rows_above_the_floor(&self) -> Result<Rows<'p>, Error> {
+        Ok(self.pile().rows(Selection::All)?.off_the_floor())
     }
 
     /// The contacts of a row of spheres with those below: along it their numbers follow each other.
@@ -328,26 +317,6 @@ impl<'p> NumberedPile<'p> {
             Err(Error::Overflow { quantity, scalar })
         }))
     }
-}
-
-/// The most spheres whose numbers are made at once.
-const PIECE: i128 = 1024;
-
-/// All that `make` makes of pieces of rows.
-fn each<T>(
-    pieces: impl Iterator<Item = Row>,
-    mut make: impl FnMut(&Row) -> Result<Vec<T>, Error>,
-) -> impl Iterator<Item = Result<T, Error>> {
-    pieces.flat_map(move |piece| match make(&piece) {
-        Ok(made) => made.into_iter().map(Ok).collect(),
-        Err(error) => vec![Err(error)],
-    })
-}
-
-/// Three columns with a place for each sphere of a piece.
-fn columns(piece: &Row) -> [Vec<f64>; 3] {
-    let spheres = piece.i.clone().count();
-    [(); 3].map(|()| vec![0.0; spheres])
 }
 
 /// The nearest float; `quantity` is named if there is none.

@@ -126,17 +126,21 @@ pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
 
 /// Makes passes that follow each other in all planes: adds the increments of each, and turns what it ends at if the sign
 /// changes there. Then does with the cells of each row, given among those of all planes, what is to be done at the end.
+///
+/// # Errors
+/// [`Error::Bug`] if a line has no cell.
 pub(super) fn make<V>(
     planes: &mut [Plane<V>],
     grid: &Grid<'_>,
     passes: &Passes<V>,
     turn: impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
     finish: impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
-) where
+) -> Result<(), Error>
+where
     V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
 {
     let number = threads_worth(passes, planes.len());
-    make_in_bands(number, planes, grid, passes, (turn, finish));
+    make_in_bands(number, planes, grid, passes, (turn, finish))
 }
 
 fn make_in_bands<V>(
@@ -148,17 +152,18 @@ fn make_in_bands<V>(
         impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
         impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
     ),
-) where
+) -> Result<(), Error>
+where
     V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
 {
     let Some((first, _)) = passes.first() else {
-        return;
+        return Ok(());
     };
     let make = |band: Band<'_, V>| band.make(grid, passes, &turn, &finish);
     let (apart, seams) = bands(passes, number);
     // Where γ is cut beside α and β: between the rows that the first pass takes together.
-    parallel::for_each(cut(planes, grid, first.shift, apart), make);
-    parallel::for_each(cut(planes, grid, first.shift, seams), make);
+    parallel::try_for_each(cut(planes, grid, first.shift, apart), make)?;
+    parallel::try_for_each(cut(planes, grid, first.shift, seams), make)
 }
 
 /// How many bands are worth the work of these passes.
@@ -308,13 +313,16 @@ struct Band<'c, V> {
 
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     /// Makes all passes over their rows, each as far behind the one before as it must be.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if a line has no cell.
     fn make(
         mut self,
         grid: &Grid<'_>,
         passes: &Passes<V>,
         turn: &impl Fn(&[V; 3]) -> [V; 3],
         finish: &impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]),
-    ) {
+    ) -> Result<(), Error> {
         let mut delay = 0;
         let mut delays = Vec::with_capacity(passes.len());
         for (place, (pass, _)) in passes.iter().enumerate() {
@@ -337,23 +345,27 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         let start = filled().map(|(rows, delay)| rows.start + delay).min();
         let end = filled().map(|(rows, delay)| rows.end + delay).max();
         let (Some(start), Some(end)) = (start, end) else {
-            return;
+            return Ok(());
         };
         for time in start..end {
             for (place, (pass, ramps)) in passes.iter().enumerate() {
                 // As many delays and ranges as passes.
                 let j = time - delays[place];
                 if self.taken[place].contains(&j) {
-                    let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn);
+                    let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn)?;
                     if place + 1 == passes.len() {
                         finish(&mut self.planes, &cells);
                     }
                 }
             }
         }
+        Ok(())
     }
 
     /// Makes a pass over row j; where its cells are.
+    ///
+    /// # Errors
+    /// As for [`make`](Self::make).
     fn pass(
         &mut self,
         grid: &Grid<'_>,
@@ -361,9 +373,9 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         ramps: &[Ramps<V>],
         (j, counts): (i128, &Counts),
         turn: &impl Fn(&[V; 3]) -> [V; 3],
-    ) -> [Range<usize>; 3] {
+    ) -> Result<[Range<usize>; 3], Error> {
         let i = pass.part.row(j);
-        let mut cells = grid.row(j, &i, pass.shift);
+        let mut cells = grid.row(j, &i, pass.shift)?;
         for (cells, start) in cells.iter_mut().zip(self.starts) {
             *cells = cells.start - start..cells.end - start;
         }
@@ -379,7 +391,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
                 }
             }
         }
-        cells
+        Ok(cells)
     }
 }
 
@@ -554,8 +566,7 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         let passes = waiting.iter().map(|(pass, w)| (*pass, ramps(pass, w)));
         let passes: Vec<_> = passes.collect();
         let plane = core::slice::from_mut(&mut self.plane);
-        make(plane, grid, &passes, formula::half_turn::<T>, |_, _| ());
-        Ok(())
+        make(plane, grid, &passes, formula::half_turn::<T>, |_, _| ())
     }
 
     fn add_at(&mut self, cells: [usize; 3], values: &[T::Numerator; 3]) -> Result<(), Error> {
@@ -616,7 +627,7 @@ mod tests {
             }
         };
         for passes in passes.chunks(at_a_time) {
-            make_in_bands(number, &mut plane, &grid, passes, (turn, finish));
+            make_in_bands(number, &mut plane, &grid, passes, (turn, finish)).unwrap();
         }
         let [plane] = plane;
         plane

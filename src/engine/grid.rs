@@ -74,23 +74,26 @@ impl<'p> Grid<'p> {
     /// [`Error::TooLarge`], with the size; [`Error::LayerOutside`].
     pub(crate) fn new(shape: &'p Shape, last: i128, planes: usize) -> Result<Self, Error> {
         Self::numbers(shape, last, planes)?;
-        Ok(Self::over(shape, [last, last], None, &shape.layer(last)?))
+        Self::over(shape, [last, last], None, &shape.layer(last)?)
     }
 
     /// The cells of a sweep to layer `end`, named by the places of layer `last` in a region.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a row that no memory holds.
     pub(super) fn over(
         shape: &'p Shape,
         [last, end]: [i128; 2],
         corner: Option<[i128; 2]>,
         region: &Region,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         let mut rows = Vec::new();
         let mut cells = 0;
         for row in region.rows(last) {
             rows.push((row.i.start, cells));
-            cells += length(&row.i);
+            cells += length(&row.i)?;
         }
-        Self {
+        Ok(Self {
             shape,
             last,
             end,
@@ -98,7 +101,7 @@ impl<'p> Grid<'p> {
             first_row: *region.y().start(),
             rows,
             cells,
-        }
+        })
     }
 
     /// How many numbers they are.
@@ -145,11 +148,10 @@ impl<'p> Grid<'p> {
             let shift = pass.shift;
             [[i, j], [i + shift, j], [i, j + shift]]
         });
-        if places.into_iter().all(|[i, j]| self.cell(i, j).is_some()) {
-            Ok(Some(pass))
-        } else {
-            Err(bug("every line of a layer goes on to the last one"))
+        for [i, j] in places {
+            self.cells(i, j, 1)?;
         }
+        Ok(Some(pass))
     }
 
     /// Returns the spheres of a layer that a sweep keeps.
@@ -169,13 +171,23 @@ impl<'p> Grid<'p> {
         self.shape.shift(self.last) - self.shape.shift(k)
     }
 
-    /// Returns the cell of the line that leads to the place (i, j) of the last layer, if that place is in it.
-    fn cell(&self, i: i128, j: i128) -> Option<usize> {
+    /// Returns the cells of consecutive lines, from that to the place (i, j) of the last layer on.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if not all of their places are in it.
+    fn cells(&self, i: i128, j: i128, length: usize) -> Result<Range<usize>, Error> {
+        let cells = self.cells_in_row(i, j, length);
+        cells.ok_or_else(|| bug("every line of a layer goes on to the last one"))
+    }
+
+    fn cells_in_row(&self, i: i128, j: i128, length: usize) -> Option<Range<usize>> {
         let row = usize::try_from(j.checked_sub(self.first_row)?).ok()?;
         let (first, cell) = self.rows.get(row)?;
         let along = usize::try_from(i.checked_sub(*first)?).ok()?;
+        let start = cell.checked_add(along)?;
+        let cells = start..start.checked_add(length)?;
         let end = self.rows.get(row + 1).map_or(self.cells, |(_, next)| *next);
-        cell.checked_add(along).filter(|cell| *cell < end)
+        (cells.end <= end).then_some(cells)
     }
 
     /// Returns the first cell of row j of the last layer, and of a row behind all the end of the cells.
@@ -185,29 +197,31 @@ impl<'p> Grid<'p> {
         row.map_or(self.cells, |(_, cell)| *cell)
     }
 
-    /// Returns the cells of consecutive lines, from the place (i, j) in the last layer on.
-    fn range(&self, i: i128, j: i128, length: usize) -> Range<usize> {
-        let start = self.cell(i, j);
-        debug_assert!(start.is_some(), "a line of a checked pass has a cell");
-        // Not a default: without a cell there is no number to take or change.
-        let start = start.unwrap_or(self.cells);
-        start..start + length
+    /// Returns the cells of a row of sites of a layer, by direction.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if one of their lines has no cell.
+    pub(super) fn row(
+        &self,
+        j: i128,
+        i: &Range<i128>,
+        shift: i128,
+    ) -> Result<[Range<usize>; 3], Error> {
+        let n = length(i)?;
+        Ok([
+            self.cells(i.start, j, n)?,
+            self.cells(i.start + shift, j, n)?,
+            self.cells(i.start, j + shift, n)?,
+        ])
     }
 
-    /// The cells of a row of sites of a layer, by direction.
-    pub(super) fn row(&self, j: i128, i: &Range<i128>, shift: i128) -> [Range<usize>; 3] {
-        let n = length(i);
-        [
-            self.range(i.start, j, n),
-            self.range(i.start + shift, j, n),
-            self.range(i.start, j + shift, n),
-        ]
-    }
-
-    /// The cells of a sphere of layer `k`, by direction.
-    pub(crate) fn site(&self, i: i128, j: i128, k: i128) -> [usize; 3] {
-        let shift = self.shift(k);
-        self.row(j, &(i..i + 1), shift).map(|cells| cells.start)
+    /// Returns the cells of a sphere of layer `k`, by direction.
+    ///
+    /// # Errors
+    /// As for [`row`](Self::row).
+    pub(crate) fn site(&self, i: i128, j: i128, k: i128) -> Result<[usize; 3], Error> {
+        let cells = self.row(j, &(i..i + 1), self.shift(k))?;
+        Ok(cells.map(|cells| cells.start))
     }
 }
 
@@ -265,10 +279,11 @@ pub(super) fn cut(region: &Region, corner: [i128; 2], lower: i128) -> Result<Reg
     part.ok_or_else(|| bug("a third of a layer has a sphere"))
 }
 
-/// The number of sites in a range that fits in memory.
-fn length(i: &Range<i128>) -> usize {
+/// Returns the number of sites in a range.
+///
+/// # Errors
+/// [`Error::Bug`] if no memory holds as many.
+fn length(i: &Range<i128>) -> Result<usize, Error> {
     let sites = usize::try_from(i.end - i.start);
-    debug_assert!(sites.is_ok(), "a row of a sweep fits in memory");
-    // Not a default: a row that is not in memory has no cells.
-    sites.unwrap_or(0)
+    sites.map_err(|_| bug("a row of a sweep fits in memory"))
 }

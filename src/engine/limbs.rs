@@ -154,8 +154,7 @@ impl Planes {
             passes.push((pass, ramps.ok_or_else(|| bug(WIDE_ENOUGH))?));
         }
         if self.passes < TURNS {
-            make(&mut self.limbs, grid, &passes, tripled_apart, |_, _| ());
-            return Ok(());
+            return make(&mut self.limbs, grid, &passes, tripled_apart, |_, _| ());
         }
         let fits = AtomicBool::new(true);
         make(
@@ -168,7 +167,7 @@ impl Planes {
                     fits.store(false, Ordering::Relaxed);
                 }
             },
-        );
+        )?;
         self.passes = 0;
         check(fits.into_inner())
     }
@@ -222,7 +221,7 @@ impl Planes {
         self.carry()?;
         let mut least: Option<(Vec<i64>, (i128, i128, Direction))> = None;
         for row in pass.part.rows(pass.k) {
-            let cells = grid.row(row.j, &row.i, pass.shift);
+            let cells = grid.row(row.j, &row.i, pass.shift)?;
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
                 for direction in Direction::ALL {
@@ -405,7 +404,7 @@ mod tests {
     fn loads_that_follow_each_other_do_not_fill_a_limb() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
         let grid = Grid::new(&shape, 1, 2).unwrap();
-        let (mut planes, cells) = (two_planes(&grid), grid.site(0, 0, 0));
+        let (mut planes, cells) = (two_planes(&grid), grid.site(0, 0, 0).unwrap());
         let load = BigInt::from((1_u64 << (LIMB - 1)) - 1);
         let loads = 1_u32 << 16;
         for _ in 0..loads {

@@ -93,7 +93,7 @@ impl Unit {
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
-        reason = "rounded to 53 bits, and then what is left; below 2^127 no integer wraps"
+        reason = "high is the nearest float, low the exact rest, its rounding within the slack; below 2^127 nothing wraps"
     )]
     fn decide<F: NearestFloat>(&self, n: i128, exponent: i64, owed: f64) -> Option<F> {
         // 3u² + 7u² + 2^−104 of both sums and the product, u = 2^−53, is below 2^−101.
@@ -122,7 +122,7 @@ impl Factor {
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_possible_wrap,
-        reason = "rounded to 53 bits, and then what is left; of 108 bits no integer wraps"
+        reason = "high is the nearest float, low the exact rest, rounded by 2^−107 of it all at most; of 108 bits nothing wraps"
     )]
     fn new(surd: &Surd, denominator: &BigInt) -> Option<Self> {
         // The root of 2^(2s)·(c²r/d²), of 106 to 108 bits, rounded down: to within 2^−105 of it.

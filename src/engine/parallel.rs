@@ -22,13 +22,15 @@ pub(crate) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     }
 }
 
-/// Does something with each item, in any order, at once where there are threads.
-pub(crate) fn for_each<I: Send>(items: alloc::vec::Vec<I>, work: impl Fn(I) + Send + Sync) {
+/// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
+pub(crate) fn try_for_each<I: Send, E: Send>(
+    items: alloc::vec::Vec<I>,
+    work: impl Fn(I) -> Result<(), E> + Send + Sync,
+) -> Result<(), E> {
     #[cfg(feature = "rayon")]
     if items.len() > 1 && threads() > 1 {
         use rayon::iter::{IntoParallelIterator, ParallelIterator};
-        items.into_par_iter().for_each(work);
-        return;
+        return items.into_par_iter().try_for_each(work);
     }
-    items.into_iter().for_each(work);
+    items.into_iter().try_for_each(work)
 }

@@ -106,7 +106,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             self.layer.catch_up(&self.grid)?;
         }
         for site in sites {
-            let cells = self.grid.site(site.i, site.j, site.k);
+            let cells = self.grid.site(site.i, site.j, site.k)?;
             self.layer.add_at(cells, &self.lines.extra(site))?;
         }
         Ok(())
@@ -121,7 +121,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             return Err(bug("a sweep is asked of the layer that it is at"));
         }
         let ([i, j], turns) = self.grid.kept([site.i, site.j], site.k)?;
-        let mut forces = self.layer.at(self.grid.site(i, j, site.k));
+        let mut forces = self.layer.at(self.grid.site(i, j, site.k)?);
         // Each from the line that the turns lead it to.
         forces.rotate_left(turned(0, turns));
         Ok(Received {
@@ -160,12 +160,12 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
 }
 
 impl<'p, T: Algebra> Descent<'p, T, Cells<T::Numerator>> {
-    /// What the lines of any row of this layer carry.
+    /// Returns what the lines of any row of this layer carry: [`Error::Bug`] for a row of another one.
     pub(crate) fn carried_by_rows<'s>(
         &'s self,
-    ) -> impl Fn(&Row) -> [&'s [T::Numerator]; 3] + use<'s, 'p, T> {
+    ) -> impl Fn(&Row) -> Result<[&'s [T::Numerator]; 3], Error> + use<'s, 'p, T> {
         let shift = self.grid.shift(self.k);
-        move |row| self.layer.slices(self.grid.row(row.j, &row.i, shift))
+        move |row| Ok(self.layer.slices(self.grid.row(row.j, &row.i, shift)?))
     }
 }
 
@@ -185,15 +185,19 @@ impl Descent<'_, BigRational, Planes> {
         if row.k != self.k || row.i.start < kept.start || row.i.end > kept.end {
             return Err(bug("a sweep is asked of rows that it keeps"));
         }
-        let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k));
+        let cells = self.grid.row(row.j, &row.i, self.grid.shift(self.k))?;
         readout.write(units, &self.layer.slices(&cells), out)
     }
 
-    /// Whether two spheres that are kept of this layer receive and weigh the same; it may not be seen of all that do.
-    pub(crate) fn are_alike(&self, sites: [Site; 2]) -> bool {
-        let extra = |site| self.lines.extra_weights.contains_key(site);
-        let cells = sites.map(|Site { i, j, k }| self.grid.site(i, j, k));
-        !sites.iter().any(extra) && self.layer.are_alike(cells)
+    /// Returns whether two spheres that are kept of this layer receive and weigh the same; it may not be seen of all that do.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a sphere that is not kept.
+    pub(crate) fn are_alike(&self, [one, other]: [Site; 2]) -> Result<bool, Error> {
+        let extra = |site| self.lines.extra_weights.contains_key(&site);
+        let cells = |Site { i, j, k }| self.grid.site(i, j, k);
+        let alike = self.layer.are_alike([cells(one)?, cells(other)?]);
+        Ok(alike && !extra(one) && !extra(other))
     }
 
     /// Returns the least number on the lines of this layer, and where it is.

@@ -73,7 +73,7 @@ impl<'p> Grid<'p> {
         // The more of + and − steps: the mean of their sum and difference.
         let reach = (last - first).midpoint(net.abs());
         let cells = cut(&region, corner, reach)?;
-        Ok(Self::over(shape, [last, end], Some(corner), &cells))
+        Self::over(shape, [last, end], Some(corner), &cells)
     }
 
     /// Returns the images of a sphere, each by one turn more: only itself where whole layers are kept.
@@ -139,7 +139,7 @@ impl<'p> Grid<'p> {
             };
             let cells = |grid: &Self| grid.row(row.j, &same, grid.shift(k));
             if !same.is_empty() {
-                let lines = cells(self).into_iter().zip(cells(next)).enumerate();
+                let lines = cells(self)?.into_iter().zip(cells(next)?).enumerate();
                 moves.rows.extend(lines.map(|(line, (from, to))| Piece {
                     from: (line, from.start),
                     to: (line, to.start),
@@ -148,7 +148,7 @@ impl<'p> Grid<'p> {
             }
             for i in (row.i.start..same.start).chain(same.end..row.i.end) {
                 let ([x, y], turns) = self.kept([i, row.j], k)?;
-                let (from, to) = (self.site(x, y, k), next.site(i, row.j, k));
+                let (from, to) = (self.site(x, y, k)?, next.site(i, row.j, k)?);
                 moves.images.extend((0..3).map(|line| {
                     let image = turned(line, turns);
                     Piece {

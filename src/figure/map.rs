@@ -77,7 +77,7 @@ impl Map<'_> {
         })
     }
 
-    /// Returns the numbers in the cells; those that vanish are left to their colour, and small cells have none.
+    /// Returns the numbers in the cells; those that vanish are left to their colour, and cells without room have none.
     fn numbers(&self, panel: &Panel, values: &[f64], scale: &Scale) -> Vec<Mark> {
         const LEAST: f64 = 26.0;
         let across = panel.length(self.layer.apart());
@@ -85,7 +85,9 @@ impl Map<'_> {
             return Vec::new();
         }
         let size = (across * 0.27).min(14.0);
-        let texts = texts(&self.forces, values, across * 0.86 / size);
+        let Some(texts) = texts(&self.forces, values, across * 0.86 / size) else {
+            return Vec::new();
+        };
         let cells = self.layer.spheres.iter().zip(values).zip(texts);
         let shown = cells.filter(|(_, text)| !text.is_empty());
         let label = |(((_, at), value), words): ((&(Site, [f64; 2]), &f64), String)| {
@@ -97,8 +99,8 @@ impl Map<'_> {
 }
 
 /// Returns the numbers as texts with room for `room` letters of their size: all exact, or all with as many decimals as there
-/// is room for, four digits at most. Of a number that is not 0 at least one digit is shown.
-fn texts(exact: &[Surd], values: &[f64], room: f64) -> Vec<String> {
+/// is room for, four digits at most. Of a number that is not 0 at least one digit is shown. `None` if there is no room.
+fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<String>> {
     let fits = |text: &String| width(text, 1.0) < room;
     let shown = |show: &dyn Fn(&Surd, f64) -> String| -> Vec<String> {
         let numbers = exact.iter().zip(values);
@@ -110,7 +112,7 @@ fn texts(exact: &[Surd], values: &[f64], room: f64) -> Vec<String> {
     };
     let whole = shown(&|exact, _| exact.to_string());
     if whole.iter().all(fits) {
-        return whole;
+        return Some(whole);
     }
     let greatest = values
         .iter()
@@ -139,5 +141,5 @@ fn texts(exact: &[Surd], values: &[f64], room: f64) -> Vec<String> {
         let mut texts = texts.iter().zip(values);
         texts.all(|(text, value)| fits(text) || !long(value))
     };
-    decimals.into_iter().find(all_fit).unwrap_or_default()
+    decimals.into_iter().find(all_fit)
 }

@@ -46,6 +46,7 @@ impl Panel {
             let (u, v) = (end(0), end(1));
             ([u.0, v.0], [u.1, v.1])
         });
+        // Not a default: of a box around nothing only the size counts, wherever it is.
         let (least, most) = ends.unwrap_or_default();
         let lengths = [0, 1].map(|n| (most[n] - least[n] + 2.0 * radius).max(at_least[n]));
         let least = [0, 1].map(|n| (least[n] + most[n] - lengths[n]) / 2.0);

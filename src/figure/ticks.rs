@@ -46,6 +46,7 @@ pub(super) fn short(value: f64) -> String {
 
 /// Returns a number in a few digits; those before the point are never cut.
 pub(super) fn digits(value: f64, count: i32) -> String {
+    const MOST: u8 = 8;
     if value == 0.0 {
         return "0".into();
     }
@@ -60,11 +61,11 @@ pub(super) fn digits(value: f64, count: i32) -> String {
         return format!("{}·10{}", trimmed(digits), raised(power)).replace('-', "−");
     }
     // As many decimals as make up the count.
-    let places = (0..=8)
-        .find(|places| value.abs() * 10_f64.powi(*places) >= 10_f64.powi(count - 1))
-        .unwrap_or(8);
-    let places = usize::try_from(places).unwrap_or(0);
-    trimmed(&format!("{value:.places$}")).replace('-', "−")
+    let enough =
+        |places: &u8| value.abs() * 10_f64.powi((*places).into()) >= 10_f64.powi(count - 1);
+    // Not a default: more decimals are not shown.
+    let places = (0..MOST).find(enough).unwrap_or(MOST);
+    trimmed(&format!("{value:.*}", usize::from(places))).replace('-', "−")
 }
 
 /// Returns a number without zeros at the end of its decimals.

@@ -76,7 +76,11 @@ impl Forces<'_, BigRational> {
                     };
                     for site in sites {
                         // Of an even base most are extreme.
-                        if last.is_none_or(|last| !sweep.are_alike([last, site])) {
+                        let alike = match last {
+                            Some(last) => sweep.are_alike([last, site])?,
+                            None => false,
+                        };
+                        if !alike {
                             meet(site, &sweep.received(site)?);
                             last = Some(site);
                         }

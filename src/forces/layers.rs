@@ -1,5 +1,10 @@
 //! The forces of whole layers, written into slices: the fast way to many of them.
 
+mod below;
+mod layer;
+
+pub use layer::Layer;
+
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
@@ -7,18 +12,18 @@ use core::ops::Range;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 
+use super::Forces;
 use super::terms::Terms;
-use super::{FloorForce, Forces};
 use crate::Error;
 use crate::engine::{
     Cells, Descent, Meter, Method, Plan, Planes, Quantity, Received, Table, exact_sweep,
     plain_sweep, received_in,
 };
 use crate::error::bug;
-use crate::formula::{half_turn, passed_on, triples};
-use crate::lattice::{Region, Row, Site};
+use crate::formula::triples;
+use crate::lattice::Row;
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness, Ring};
 use crate::shape::{Selection, Shape};
@@ -68,14 +73,6 @@ enum Way<'p, T: Algebra> {
         Box<Terms<'p, BigRational>>,
         Box<Descent<'p, BigRational, Planes>>,
     ),
-}
-
-/// One layer of a pile, with its forces at hand.
-pub struct Layer<'l, 'p, T: Algebra, M = ()> {
-    pub(super) layers: &'l Layers<'p, T, M>,
-    k: i128,
-    pub(super) region: Region,
-    pub(super) spheres: usize,
 }
 
 impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
@@ -301,7 +298,7 @@ pub(super) fn split_front<'a, V>(
 }
 
 /// Errors unless each slice has as many elements as are needed.
-pub(super) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
+pub(crate) fn check_lengths<T>(needed: usize, slices: &[&mut [T]; 3]) -> Result<(), Error> {
     match slices.iter().find(|slice| slice.len() != needed) {
         Some(slice) => Err(Error::Length {
             needed,
@@ -409,483 +406,10 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     }
 }
 
-impl<M: Meter> Layer<'_, '_, BigRational, M> {
-    /// Returns the denominator of the forces below the layer.
-    pub(super) fn denominator(&self) -> BigInt {
-        self.layers
-            .denominator(self.shape().changes_above(self.k + 1))
-    }
-
-    /// Writes what becomes of the numerators of the forces below each sphere.
-    pub(super) fn fill_numerators<V>(
-        &self,
-        slices: [&mut [V]; 3],
-        value: impl Fn([BigInt; 3]) -> Result<[V; 3], Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        let mut rest = slices;
-        for row in self.region.rows(self.k) {
-            let below = self.layers.passed_on_in(&row)?;
-            let [a, b, c] = split_front(&mut rest, below.len())?;
-            for (forces, ((a, b), c)) in below.into_iter().zip(a.iter_mut().zip(b).zip(c)) {
-                [*a, *b, *c] = value(forces.forces)?;
-            }
-        }
-        Ok(())
-    }
-}
-
-impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
-    /// Returns the number of the layer, counted from 0 at the top.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.k()), Some(3));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn k(&self) -> i128 {
-        self.k
-    }
-
-    /// Returns the number of spheres of the layer: the length of each slice to fill.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.spheres()), Some(10));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn spheres(&self) -> usize {
-        self.spheres
-    }
-
-    /// Whether the layer is the one on the floor, which has no contacts below it.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.is_floor()), Some(false));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn is_floor(&self) -> bool {
-        self.k == self.shape().layers() - 1
-    }
-
-    /// Returns the forces of a sphere of this layer to the spheres below, by direction, in f₀; zero along γ for discs.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::OtherLayer`] for a sphere of another layer; [`Error::OnFloor`];
-    /// [`Error::Overflow`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::{Region, Site};
-    /// use cannonpile::shape::Selection;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
-    /// let mut layers = pile.forces::<BigRational>().layers(Selection::Layer(2))?;
-    /// let layer = layers.next_layer()?.expect("layer 2 is asked for");
-    /// let forces = layer.to_below(Site { i: 0, j: 0, k: 2 })?;
-    /// assert_eq!(forces.map(|force| force.to_string()), ["5/3"; 3]);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn to_below(&self, site: Site) -> Result<[T; 3], Error> {
-        self.check(site)?;
-        if self.is_floor() {
-            return Err(Error::OnFloor { site });
-        }
-        self.passed_on(site)
-    }
-
-    /// Returns the force of a sphere of this layer, the one on the floor, on the floor.
-    ///
-    /// # Errors
-    /// [`Error::SiteOutside`]; [`Error::NotOnFloor`]; [`Error::Overflow`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Site;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// let floor = layers.next_layer()?.expect("every pile has a floor");
-    /// assert_eq!(floor.on_floor(Site { i: 0, j: 0, k: 9 })?.normal, 4.0);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn on_floor(&self, site: Site) -> Result<FloorForce<T>, Error> {
-        self.check(site)?;
-        if !self.is_floor() {
-            let floor = self.shape().layers() - 1;
-            return Err(Error::NotOnFloor { site, floor });
-        }
-        let Layers {
-            terms, meter, way, ..
-        } = self.layers;
-        match way {
-            Way::Plain(sweep) => terms.floor(site, &sweep.received(site)?),
-            Way::Exact(terms, sweep) => {
-                let force = terms.floor(site, &sweep.received(site)?)?;
-                Ok(force.map(|component| T::from_rational(&component)))
-            }
-            Way::Table(_) => terms.floor(site, &terms.received(site, None, *meter)?),
-            Way::Single { method, .. } => {
-                terms.floor(site, &terms.received(site, *method, *meter)?)
-            }
-        }
-    }
-
-    /// Writes the forces below the layer into slices, one for each direction, row after row, in f₀; zero along γ for
-    /// discs.
-    ///
-    /// # Errors
-    /// [`Error::Length`] for a slice that is not as long as the layer has [`spheres`](Self::spheres); [`Error::OnFloor`];
-    /// [`Error::Overflow`] if the scalar cannot hold a force, after the slices were written to.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Region;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::under(Region::SITE, "+-+".parse()?)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Layer(1))?;
-    /// let layer = layers.next_layer()?.expect("layer 1 is asked for");
-    /// let [mut alpha, mut beta, mut gamma] = [[0.0; 3]; 3];
-    /// layer.fill([&mut alpha, &mut beta, &mut gamma])?;
-    /// // Each of the three passes the weight of the apex on: 2/3, 2/3 and −1/3, and its own.
-    /// assert!((alpha[0] - 2.0 / 3.0).abs() < 1e-15);
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn fill(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        match &self.layers.way {
-            Way::Table(table) => table.fill(self.k..self.k + 1, slices),
-            Way::Plain(sweep) => self.fill_from(sweep, slices),
-            Way::Single { .. } | Way::Exact(..) => self.fill_with(slices, Ok),
-        }
-    }
-
-    /// Writes what becomes of the forces below each sphere.
-    pub(super) fn fill_with<V>(
-        &self,
-        slices: [&mut [V]; 3],
-        value: impl Fn([T; 3]) -> Result<[V; 3], Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        let [alpha, beta, gamma] = slices;
-        let out = alpha.iter_mut().zip(beta).zip(gamma);
-        for (site, ((a, b), c)) in self.region.rows(self.k).flatten().zip(out) {
-            [*a, *b, *c] = value(self.passed_on(site)?)?;
-        }
-        Ok(())
-    }
-
-    /// Writes the values of a sphere into slices that go over the layer.
-    pub(super) fn put_at<V>(
-        &self,
-        site: Site,
-        values: [V; 3],
-        slices: [&mut [V]; 3],
-    ) -> Result<(), Error> {
-        let place = self.region.sites_before(site.i, site.j).to_usize();
-        let place = place.filter(|place| *place < self.spheres);
-        let place = place.ok_or_else(|| bug("a loaded sphere has a place in its layer"))?;
-        for (slice, value) in slices.into_iter().zip(values) {
-            // As long as the layer.
-            slice[place] = value;
-        }
-        Ok(())
-    }
-
-    /// Writes what a table says of the layer into slices.
-    pub(super) fn fill_from_table<V: Clone + Send + Sync>(
-        &self,
-        table: &Table<V>,
-        slices: [&mut [V]; 3],
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        self.check_above_the_floor()?;
-        table.fill(self.k..self.k + 1, slices)
-    }
-
-    /// Writes the forces of the bottom layer on the floor into slices, row after row: normal in mg, shear_x in mg·tanθ and
-    /// shear_y in 2cosφ·mg·tanθ.
-    ///
-    /// # Errors
-    /// [`Error::Length`]; [`Error::NotOnFloor`] for a layer above it; [`Error::Overflow`].
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::shape::Selection;
-    ///
-    /// let pile = Pile::triangular(10)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// let floor = layers.next_layer()?.expect("every pile has a floor");
-    /// let [mut normal, mut shear_x, mut shear_y] = [[0.0; 55]; 3];
-    /// floor.fill_base([&mut normal, &mut shear_x, &mut shear_y])?;
-    /// assert_eq!((normal, shear_x[0], shear_y[0]), ([4.0; 55], -1.5, -1.5));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn fill_base(&self, slices: [&mut [T]; 3]) -> Result<(), Error> {
-        self.fill_base_with(slices, |force| {
-            Ok([force.normal, force.shear_x, force.shear_y])
-        })
-    }
-
-    /// Writes what becomes of (normal, shear_x, shear_y) of each bottom sphere.
-    pub(super) fn fill_base_with<V>(
-        &self,
-        slices: [&mut [V]; 3],
-        value: impl Fn(FloorForce<T>) -> Result<[V; 3], Error>,
-    ) -> Result<(), Error> {
-        check_lengths(self.spheres, &slices)?;
-        let [normal, shear_x, shear_y] = slices;
-        let out = normal.iter_mut().zip(shear_x).zip(shear_y);
-        for (site, ((normal, shear_x), shear_y)) in self.region.rows(self.k).flatten().zip(out) {
-            [*normal, *shear_x, *shear_y] = value(self.on_floor(site)?)?;
-        }
-        Ok(())
-    }
-
-    /// Returns a bound on how far a contact force below the layer can be from the exact one, in f₀: 0 in an exact scalar,
-    /// `None` where the scalar promises no precision or the bound would be useless.
-    ///
-    /// Every operation of a sweep is off by at most one unit in the last place, no sum on the way to 3G g is greater than
-    /// 2√3·‖g‖, and the transfer amplifies nothing: with n passes and sums on the way, 13·n units in the last place of the
-    /// bound on all forces.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Region;
-    /// use cannonpile::shape::Selection;
-    /// use num_traits::ToPrimitive;
-    ///
-    /// let pile = Pile::under(Region::SITE, "+-+-+-".parse()?)?;
-    /// let mut layers = pile.forces::<f64>().layers(Selection::Layer(5))?;
-    /// let layer = layers.next_layer()?.expect("layer 5 is asked for");
-    /// let bound = layer.error_bound().and_then(|bound| bound.to_f64());
-    /// assert!(bound < Some(1e-12));
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    #[must_use]
-    pub fn error_bound(&self) -> Option<BigRational> {
-        let bits = match T::EXACTNESS {
-            Exactness::Exact => return Some(BigRational::zero()),
-            Exactness::Rounded { bits } => bits,
-            _ => return None,
-        };
-        let system = &self.layers.terms.system;
-        let changes = self.shape().changes_above(self.k + 1) + 1;
-        let extras = self.layers.terms.lines.extras_in(0..self.k + 1).count();
-        // As many passes as runs, and as layers stopped at; one more for what a sphere adds itself.
-        let steps = BigInt::from(self.layers.stops + changes + extras + 1);
-        let unit = BigRational::new(steps * 13, BigInt::one() << bits);
-        // 2√3·B·D is at least 3·B·D.
-        let greatest = BigRational::new(system.bound_of_sweep(self.k), system.denominator() * 3);
-        let little = unit < BigRational::new(1.into(), 100.into());
-        little.then(|| unit * greatest)
-    }
-
-    fn shape(&self) -> &Shape {
-        self.layers.shape()
-    }
-
-    /// Errors if the layer is the one on the floor.
-    pub(super) fn check_above_the_floor(&self) -> Result<(), Error> {
-        if self.is_floor() {
-            return Err(Error::OnFloor { site: self.first() });
-        }
-        Ok(())
-    }
-
-    /// Errors if the layer is not the one on the floor.
-    pub(super) fn check_on_the_floor(&self) -> Result<(), Error> {
-        if self.is_floor() {
-            return Ok(());
-        }
-        let floor = self.shape().layers() - 1;
-        Err(Error::NotOnFloor {
-            site: self.first(),
-            floor,
-        })
-    }
-
-    fn first(&self) -> Site {
-        let [[i, j], ..] = self.region.corners();
-        Site { i, j, k: self.k }
-    }
-
-    fn check(&self, site: Site) -> Result<(), Error> {
-        self.shape().check(site)?;
-        if site.k == self.k {
-            Ok(())
-        } else {
-            Err(Error::OtherLayer {
-                layer: site.k,
-                at: self.k,
-            })
-        }
-    }
-
-    /// Returns what a sphere of this layer, above the floor, passes on.
-    fn passed_on(&self, site: Site) -> Result<[T; 3], Error> {
-        let Layers {
-            terms, meter, way, ..
-        } = self.layers;
-        let passed_on = match way {
-            Way::Plain(sweep) => sweep.passed_on(site, *meter)?,
-            Way::Exact(terms, sweep) => {
-                let forces = terms.contacts(sweep.passed_on(site, *meter)?)?;
-                return Ok(forces.map(|force| T::from_rational(&force)));
-            }
-            Way::Table(_) => terms.passed_on(site, None, *meter)?,
-            Way::Single { method, .. } => terms.passed_on(site, *method, *meter)?,
-        };
-        terms.contacts(passed_on)
-    }
-
-    /// Fills slices from the cells of a sweep, row by row.
-    fn fill_from(
-        &self,
-        sweep: &Descent<'_, T, Cells<T::Numerator>>,
-        slices: [&mut [T]; 3],
-    ) -> Result<(), Error> {
-        let lines = &self.layers.terms.lines;
-        let changes = self.shape().changes_above(self.k + 1);
-        let below = Below::<T> {
-            own: lines.increments_after(changes),
-            scale: lines.scale(changes),
-            turns: sweep.turned_already() < changes,
-            may_overflow: self.layers.may_overflow,
-        };
-        let [alpha, beta, gamma] = slices;
-        let mut rest = [&mut *alpha, &mut *beta, &mut *gamma];
-        let mut defined = true;
-        let carried = sweep.carried_by_rows();
-        for row in self.region.rows(self.k) {
-            let row = carried(&row);
-            let out = split_front(&mut rest, row[0].len())?;
-            defined &= below.write(row, out);
-        }
-        // Spheres that weigh more or less than the others, or carry loads.
-        for site in lines.extras_in(self.k..self.k + 1) {
-            let forces = self.layers.terms.contacts(sweep.passed_on(site, ())?)?;
-            self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
-        }
-        if defined {
-            Ok(())
-        } else {
-            Err(Error::Overflow {
-                quantity: "a contact force",
-                scalar: T::NAME,
-            })
-        }
-    }
-}
-
-/// What turns the numbers that lines carry into forces below a layer.
-struct Below<T: Algebra> {
-    /// What an ordinary sphere of the layer adds.
-    own: [T::Numerator; 3],
-    /// The denominator.
-    scale: T::Numerator,
-    /// Whether the sign changes at the layer, and what is carried is not turned yet.
-    turns: bool,
-    /// Whether a force may be too great for the scalar.
-    may_overflow: bool,
-}
-
-impl<T: Algebra> Below<T> {
-    /// Writes the forces below a row, and returns whether all are numbers.
-    fn write(&self, carried: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
-        // In loops of their own: looking at each number takes half as long again.
-        match (self.turns, self.may_overflow) {
-            (false, false) => self.write_checked(carried, out, |_| true),
-            (false, true) => self.write_checked(carried, out, T::is_defined),
-            (true, _) => self.write_turned(carried, out),
-        }
-    }
-
-    #[inline]
-    fn write_checked(
-        &self,
-        carried: [&[T::Numerator]; 3],
-        out: [&mut [T]; 3],
-        is_defined: impl Fn(&T) -> bool,
-    ) -> bool {
-        let mut defined = true;
-        for ((carried, out), own) in carried.into_iter().zip(out).zip(&self.own) {
-            for (force, out) in carried.iter().zip(out) {
-                defined &= self.put(passed_on(force.clone(), own), out, &is_defined);
-            }
-        }
-        defined
-    }
-
-    fn write_turned(&self, [a, b, c]: [&[T::Numerator]; 3], out: [&mut [T]; 3]) -> bool {
-        let mut defined = true;
-        let carried = a.iter().zip(b).zip(c);
-        let [to_a, to_b, to_c] = out;
-        for (((a, b), c), ((to_a, to_b), to_c)) in carried.zip(to_a.iter_mut().zip(to_b).zip(to_c))
-        {
-            let turned = half_turn::<T>(&[a.clone(), b.clone(), c.clone()]);
-            for ((force, out), own) in turned.into_iter().zip([to_a, to_b, to_c]).zip(&self.own) {
-                defined &= self.put(passed_on(force, own), out, &T::is_defined);
-            }
-        }
-        defined
-    }
-
-    #[inline]
-    fn put(&self, force: T::Numerator, out: &mut T, is_defined: &impl Fn(&T) -> bool) -> bool {
-        match T::from_ratio(force, &self.scale) {
-            Some(value) => {
-                let defined = is_defined(&value);
-                *out = value;
-                defined
-            }
-            None => false,
-        }
-    }
-}
-
 impl<T: Algebra, M> fmt::Debug for Layers<'_, T, M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Layers")
             .field("ahead", &self.ahead)
-            .finish_non_exhaustive()
-    }
-}
-
-impl<T: Algebra, M> fmt::Debug for Layer<'_, '_, T, M> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Layer")
-            .field("k", &self.k)
             .finish_non_exhaustive()
     }
 }

@@ -1,59 +1,23 @@
 //! The forces of whole layers as the nearest floats, in the units of a packing or of the pile.
 
-use alloc::boxed::Box;
+mod source;
+
+pub(crate) use source::Units;
+
 use alloc::vec::Vec;
 use core::fmt;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
+use source::{Asked, Source};
+
 use super::layers::{Layer, Layers, check_lengths, split_front};
 use crate::Error;
-use crate::engine::{Meter, Readout, Table, Unit};
+use crate::engine::{Meter, Table, Unit};
 use crate::error::bug;
-use crate::formula::tripled_half_turn;
-use crate::geometry::Vector;
 use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
-
-/// The units of forces in layers: what an exact multiple is multiplied by before it is rounded, once.
-#[derive(Clone, Debug)]
-pub(crate) struct Units {
-    pub(crate) contact: Surd,
-    /// Of a contact force as a vector on the upper sphere: along x, y and z.
-    pub(crate) vector: [Surd; 3],
-    /// Of shear along x, shear along y, and the normal force.
-    pub(crate) floor: [Surd; 3],
-}
-
-/// What is written of spheres, three numbers of each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Asked {
-    /// By direction.
-    Contacts,
-    /// By direction, the components along one axis.
-    Along(usize),
-    /// Normal, shear along x, shear along y.
-    Floor,
-}
-
-/// How it is found along the rows of a layer.
-enum Source<F> {
-    /// From the distinct forces of a straight pile.
-    Table(Table<F>),
-    /// From the numbers of increments on the lines that lead to the floor of a straight pile.
-    Counts {
-        table: Table<i64>,
-        readout: Readout,
-        units: Box<[Unit; 3]>,
-    },
-    /// From what the lines carry, of which limbs are read as they are.
-    Lines {
-        units: Box<[Unit; 3]>,
-        readout: Option<Readout>,
-    },
-}
 
 /// A way down through the layers of a part of a pile, in the floats `F` nearest to the exact forces.
 ///
@@ -141,171 +105,6 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
             table,
             prepared: Vec::new(),
         })
-    }
-
-    /// Returns how something is found in layer `k`, which was reached.
-    fn source<F: NearestFloat>(
-        &self,
-        units: &Units,
-        asked: Asked,
-        k: i128,
-    ) -> Result<Source<F>, Error> {
-        let terms = &self.terms;
-        let by_direction = match asked {
-            Asked::Contacts => [(); 3].map(|()| units.contact.clone()),
-            Asked::Along(axis) => {
-                let scale = &terms.direction_scale;
-                terms.directions_below(k).map(|direction| {
-                    let component = direction.into_array()[axis].clone();
-                    units.vector[axis].scaled(&BigRational::new(component, scale.clone()))
-                })
-            }
-            Asked::Floor => {
-                let units = Box::new(terms.floor_units(&units.floor));
-                if self.is_from_table()
-                    && let Some(readout) = terms.floor_readout_of_counts()
-                    && let Some(table) = Table::new(&terms.system, k + 1, |n, _| small(n))?
-                {
-                    return Ok(Source::Counts {
-                        table,
-                        readout,
-                        units,
-                    });
-                }
-                return Ok(Source::Lines {
-                    units,
-                    readout: terms.floor_readout(),
-                });
-            }
-        };
-        if self.is_from_table() {
-            let units = by_direction.map(|unit| Unit::new(unit, terms.lines.scale(0)));
-            let nearest = |n: i128, line: usize| {
-                let force = units[line].nearest(&terms.lines.ordinary(n.into(), line));
-                force.ok_or_else(|| asked.overflow::<F>())
-            };
-            let table = Table::new(&terms.system, self.most_increments(), nearest)?;
-            return table
-                .map(Source::Table)
-                .ok_or_else(|| bug("what was filled from a table is filled from a table"));
-        }
-        let changes = self.shape().changes_above(k + 1);
-        let denominator = terms.lines.scale(changes);
-        Ok(Source::Lines {
-            units: Box::new(by_direction.map(|unit| Unit::new(unit, denominator.clone()))),
-            readout: self.contacts_readout(changes),
-        })
-    }
-
-    /// Returns what the forces below an ordinary sphere are made of, below so many changes of sign.
-    fn contacts_readout(&self, changes: usize) -> Option<Readout> {
-        let (terms, sweep) = self.exact_sweep()?;
-        let lines = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-        Some(Readout {
-            // 3G is symmetric: its columns are its rows.
-            combination: if sweep.turned_already() < changes {
-                lines.each_ref().map(tripled_half_turn)
-            } else {
-                lines
-            },
-            own: terms.lines.increments_after(changes),
-        })
-    }
-
-    /// Writes what was asked for along consecutive spheres of a row of the layer that was reached.
-    fn write_row<F: NearestFloat>(
-        &self,
-        (asked, source): (Asked, &Source<F>),
-        row: &Row,
-        [a, b, c]: [&mut [F]; 3],
-    ) -> Result<(), Error> {
-        let (units, readout) = match source {
-            Source::Table(table) => return table.fill_row(row, [a, b, c]),
-            Source::Lines { units, readout } => (units, readout),
-            Source::Counts {
-                table,
-                readout,
-                units,
-            } => {
-                let mut counts = [(); 3].map(|()| alloc::vec![0; a.len()]);
-                table.fill_row(row, counts.each_mut().map(Vec::as_mut_slice))?;
-                let lines = counts.each_ref().map(Vec::as_slice);
-                let defined = readout.write(units, &[lines], [a, b, c])?;
-                return if defined {
-                    Ok(())
-                } else {
-                    Err(asked.overflow::<F>())
-                };
-            }
-        };
-        if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep()) {
-            let out = [&mut *a, &mut *b, &mut *c];
-            if !sweep.nearest_row(row, (readout, units), out)? {
-                return Err(asked.overflow::<F>());
-            }
-            // Spheres that weigh more or less than the others, or carry loads.
-            for site in self.terms.lines.extras_in_row(row) {
-                let place = (site.i - row.i.start).to_usize();
-                let place = place.filter(|place| *place < a.len());
-                let place = place.ok_or_else(|| bug("a slice is as long as its row"))?;
-                let one = site.i..site.i + 1;
-                let numbers = self.numbers(asked, &Row { i: one, ..*row })?.into_iter();
-                for numbers in numbers {
-                    [a[place], b[place], c[place]] = nearest((asked, units), &numbers)?;
-                }
-            }
-            return Ok(());
-        }
-        let numbers = self.numbers(asked, row)?;
-        for (numbers, ((a, b), c)) in numbers.iter().zip(a.iter_mut().zip(b).zip(c)) {
-            [*a, *b, *c] = nearest((asked, units), numbers)?;
-        }
-        Ok(())
-    }
-
-    /// Returns the integers that are rounded for consecutive spheres.
-    fn numbers(&self, asked: Asked, row: &Row) -> Result<Vec<[BigInt; 3]>, Error> {
-        if asked != Asked::Floor {
-            let below = self.passed_on_in(row)?.into_iter();
-            return Ok(below.map(|below| below.forces).collect());
-        }
-        let sites = row.clone().into_iter();
-        let on_floor = sites.zip(self.received_in(row)?).map(|(site, above)| {
-            let (Vector { x, y, z }, _) = self.terms.floor_numerators(site, &above);
-            [z, x, y]
-        });
-        Ok(on_floor.collect())
-    }
-}
-
-/// Returns the floats nearest to the numbers of a sphere.
-fn nearest<F: NearestFloat>(
-    (asked, units): (Asked, &[Unit; 3]),
-    [x, y, z]: &[BigInt; 3],
-) -> Result<[F; 3], Error> {
-    let [unit_x, unit_y, unit_z] = units;
-    let nearest = |unit: &Unit, n| unit.nearest(n).ok_or_else(|| asked.overflow::<F>());
-    Ok([
-        nearest(unit_x, x)?,
-        nearest(unit_y, y)?,
-        nearest(unit_z, z)?,
-    ])
-}
-
-/// A number of increments in a table, which has not more than a million of them.
-fn small(n: i128) -> Result<i64, Error> {
-    i64::try_from(n).map_err(|_| bug("a table has few increments"))
-}
-
-impl Asked {
-    fn overflow<F>(self) -> Error {
-        Error::Overflow {
-            quantity: match self {
-                Self::Contacts | Self::Along(_) => "a contact force",
-                Self::Floor => "a force on the floor",
-            },
-            scalar: core::any::type_name::<F>(),
-        }
     }
 }
 
@@ -400,7 +199,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     ///
     /// # Errors
     /// [`Error::SiteOutside`], [`Error::OnFloor`]; [`Error::OtherLayer`] for a row above one that was written, or not of the part;
-    /// [`Error::Length`], [`Error::Overflow`].
+    /// [`Error::Length`], [`Error::Overflow`]; [`Error::TooLarge`] for a row that no memory holds.
     ///
     /// # Examples
     /// ```
@@ -504,14 +303,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
 
     fn write(&mut self, asked: Asked, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
         let (shape, Row { k, j, i }) = (self.layers.shape(), row.clone());
-        let length = if i.is_empty() {
-            0
-        } else {
-            i.end.saturating_sub(i.start)
-        };
-        let spheres = length.to_usize();
-        // Not a default: no slice is as long.
-        check_lengths(spheres.unwrap_or(usize::MAX), &slices)?;
+        check_lengths(row.length()?, &slices)?;
         if i.is_empty() {
             return Ok(());
         }

@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use super::Site;
+use crate::Error;
 
 /// Consecutive sites of one row: fixed k and j, a range of i.
 ///
@@ -51,6 +52,25 @@ impl Row {
             k,
             j,
             i: i..end.min(i.saturating_add(sites)),
+        })
+    }
+
+    /// Returns how many sites they are: none where the range ends before it starts.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than any memory holds.
+    pub(crate) fn length(&self) -> Result<usize, Error> {
+        let Range { start, end } = self.i;
+        let sites = if self.i.is_empty() {
+            0
+        } else {
+            end.abs_diff(start)
+        };
+        usize::try_from(sites).map_err(|_| Error::TooLarge {
+            quantity: "a row",
+            needed: sites.into(),
+            limit: usize::MAX as u64,
+            remedy: "ask for pieces of it",
         })
     }
 }

@@ -10,6 +10,7 @@ use num_traits::{One, ToPrimitive, Zero};
 use super::upwards;
 use crate::engine::{Meter, Unit};
 use crate::error::bug;
+use crate::forces::check_lengths;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Row, Site};
 use crate::scalar::{NearestFloat, Surd};
@@ -80,7 +81,8 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
     /// Writes the centres of consecutive spheres of a row into slices of x, y and z.
     ///
     /// # Errors
-    /// [`Error::SiteOutside`], [`Error::Length`]; [`Error::Overflow`] for a coordinate beyond the floats.
+    /// [`Error::SiteOutside`], [`Error::Length`]; [`Error::Overflow`] for a coordinate beyond the floats; [`Error::TooLarge`]
+    /// for a row that no memory holds.
     ///
     /// # Examples
     /// ```
@@ -135,18 +137,7 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
         slices: [&mut [F]; 3],
         at: impl Fn(Site) -> Result<Vector<BigRational>, Error>,
     ) -> Result<(), Error> {
-        let length = if row.i.is_empty() {
-            0
-        } else {
-            row.i.end.saturating_sub(row.i.start)
-        };
-        let spheres = length.to_usize();
-        // Not a default: no slice is as long.
-        let needed = spheres.unwrap_or(usize::MAX);
-        if let Some(slice) = slices.iter().find(|slice| slice.len() != needed) {
-            let given = slice.len();
-            return Err(Error::Length { needed, given });
-        }
+        check_lengths(row.length()?, &slices)?;
         let mut sites = row.clone().into_iter();
         let Some(first) = sites.next() else {
             return Ok(());

@@ -52,7 +52,10 @@ fn leading(n: &BigUint) -> Option<Scaled> {
 }
 
 /// Returns at most 53 bits as a float: exact.
-#[expect(clippy::cast_precision_loss, reason = "there are no more bits")]
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "an f64 holds every integer of 53 bits, and what is given is cut to as many"
+)]
 fn float(bits: u128) -> f64 {
     bits as f64
 }

@@ -197,3 +197,38 @@ fn shortest<F: NearestFloat + core::fmt::Debug>(
         .map(|x| format!("{x:?}"))
         .ok_or(Error::Overflow { quantity, scalar })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_below_zero_is_negative() {
+        let exact = |n: i32| Cell::from(BigRational::from_integer(n.into()));
+        for negative in [
+            exact(-1),
+            Cell::Integer((-1).into()),
+            Cell::Index(-1),
+            Cell::F64(-f64::from_bits(1)),
+            Cell::F32(-f32::from_bits(1)),
+        ] {
+            assert!(negative.is_negative(), "{negative:?}");
+        }
+        for other in [
+            exact(0),
+            exact(1),
+            Cell::Integer(0.into()),
+            Cell::Index(0),
+            // Of a force that vanishes the float may have a sign.
+            Cell::F64(-0.0),
+            Cell::F32(-0.0),
+            Cell::F64(1.0),
+            Cell::F32(1.0),
+            Cell::from("-1"),
+            Cell::Flag(true),
+            Cell::Missing,
+        ] {
+            assert!(!other.is_negative(), "{other:?}");
+        }
+    }
+}

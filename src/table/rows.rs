@@ -84,8 +84,13 @@ pub(super) fn show(
 /// Rows, one after the other.
 pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 
-/// What makes the sums of the columns that are summed up, in their order.
-pub(super) type Sums<'a> = Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>;
+/// Where the sums of the columns that are summed up come from, in their order.
+pub(super) enum Sums<'a> {
+    /// Without the rows, of which there may be many.
+    Apart(Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>),
+    /// From the exact cells of the rows, which are few, and as long to make as their sums.
+    OfRows,
+}
 
 /// How a text table is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -188,7 +193,15 @@ impl<'a> Table<'a> {
     /// Returns the table with what makes the sums of its columns.
     pub(super) fn summed(self, sums: impl FnOnce() -> Result<Vec<Surd>, Error> + 'a) -> Self {
         Self {
-            sums: Some(Box::new(sums)),
+            sums: Some(Sums::Apart(Box::new(sums))),
+            ..self
+        }
+    }
+
+    /// Returns the table, whose columns are summed up from its rows.
+    pub(super) fn summed_by_rows(self) -> Self {
+        Self {
+            sums: Some(Sums::OfRows),
             ..self
         }
     }

@@ -10,10 +10,9 @@ use super::units::Units;
 use crate::certificate::Claim;
 use crate::geometry::Apart;
 use crate::lattice::Dimension;
-use crate::scalar::Surd;
 use crate::shape::Selection;
 use crate::stacking::Stacking;
-use crate::{BaseExtremes, ContactForce, Error, Method, Pile, Standing, Verdict};
+use crate::{BaseExtremes, Error, Method, Pile, Standing, Verdict};
 
 /// What there is to say of a pile in one row, and whether it stands.
 ///
@@ -26,7 +25,7 @@ use crate::{BaseExtremes, ContactForce, Error, Method, Pile, Standing, Verdict};
 /// let summary = Summary::new(&Units::of_pile(&pile), None)?;
 /// assert_eq!(summary.verdict(), Some(Verdict::Yes));
 /// let mut text = Vec::new();
-/// summary.table()?.write(FileFormat::Text, NumberFormat::Exact, &mut text)?;
+/// summary.table().write(FileFormat::Text, NumberFormat::Exact, &mut text)?;
 /// let text = String::from_utf8(text)?;
 /// assert!(text.starts_with("layers           10\nstacking         fcc\nspheres          220\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -170,9 +169,6 @@ impl<'p> Summary<'p> {
     ///
     /// The weight is that of all spheres with their loads. Why a column is empty is told by [`left_out`](Self::left_out).
     ///
-    /// # Errors
-    /// Those of the forces are handed on.
-    ///
     /// # Examples
     /// ```
     /// use cannonpile::Pile;
@@ -181,13 +177,14 @@ impl<'p> Summary<'p> {
     ///
     /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
     /// let mut csv = Vec::new();
-    /// let table = Summary::new(&Units::of_pile(&pile), None)?.table()?;
+    /// let table = Summary::new(&Units::of_pile(&pile), None)?.table();
     /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
     /// // It does not stand: a contact would have to pull.
     /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn table(&self) -> Result<Table<'static>, Error> {
+    #[must_use]
+    pub fn table(&self) -> Table<'static> {
         let (units, pile) = (&self.units, self.units.pile());
         let (mass, tan) = match units {
             Units::Pile(_) => (None, None),
@@ -211,7 +208,7 @@ impl<'p> Summary<'p> {
         });
         let ratio_unit = if tan.is_none() { "tanθ" } else { "" };
         let least = self.standing.least.as_ref();
-        let least = least.map(|contact| self.least(contact)).transpose()?;
+        let least = least.map(|contact| units.contact(contact.force.clone()));
         let method = self.method.as_ref().map(Method::to_string);
         let plan = method.map_or(Cell::Missing, |method| Cell::Word(method.into()));
         let plain = |name, cell: Cell| (Column::plain(name), cell);
@@ -251,14 +248,7 @@ impl<'p> Summary<'p> {
             plain("touching", touching.unwrap_or(Cell::Missing)),
             plain("plan", plan),
         ];
-        Ok(Table::record(entries.into()))
-    }
-
-    fn least(&self, contact: &ContactForce<BigRational>) -> Result<Surd, Error> {
-        match &self.units {
-            Units::Pile(_) => Ok(contact.force.clone().into()),
-            Units::Si(packing) => packing.contact(contact.site, contact.direction),
-        }
+        Table::record(entries.into())
     }
 }
 

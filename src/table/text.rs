@@ -10,6 +10,7 @@ use super::error::WriteError;
 use super::line::Line;
 use super::rows::{Column, RowIter, Sums, show};
 use crate::Error;
+use crate::error::bug;
 use crate::scalar::Surd;
 
 /// How many rows are aligned together: a page is all that is held in memory.
@@ -68,19 +69,25 @@ pub(super) fn write_rows(
         *first = "total".len();
     }
     let mut count = BigUint::zero();
+    let summed = columns.iter().filter(|column| column.summed);
+    let mut of_rows: Vec<Surd> = summed.map(|_| Surd::zero()).collect();
     loop {
         let mut taken = 0;
         for row in rows.by_ref().take(page_length) {
             let row = row?;
             let mut line = Line::default();
             show(columns, &row, numbers, &mut line)?;
+            if let Some(Sums::OfRows) = sums {
+                add_row(&mut of_rows, columns, &row)?;
+            }
             page.push(line);
             taken += 1;
         }
         count += taken;
         let last = taken < page_length;
         let totals = match sums.take_if(|_| last) {
-            Some(sums) => Some(totals(columns, sums()?, numbers)),
+            Some(Sums::Apart(sums)) => Some(totals(columns, sums()?, numbers)),
+            Some(Sums::OfRows) => Some(totals(columns, core::mem::take(&mut of_rows), numbers)),
             None => None,
         };
         for line in page.iter().chain(&totals) {
@@ -106,6 +113,19 @@ pub(super) fn write_rows(
         };
         return Ok(writeln!(out, "{count} {noun}")?);
     }
+}
+
+/// Adds the exact cells of a row to the sums of their columns.
+fn add_row(sums: &mut [Surd], columns: &[Column], row: &[Cell]) -> Result<(), Error> {
+    let summed = columns.iter().zip(row).filter(|(column, _)| column.summed);
+    for (sum, (_, cell)) in sums.iter_mut().zip(summed) {
+        let added = match cell {
+            Cell::Number(x) => sum.checked_add(x),
+            _ => None,
+        };
+        *sum = added.ok_or_else(|| bug("the forces of a sphere in a column have one root"))?;
+    }
+    Ok(())
 }
 
 /// The headers, and their units.

@@ -201,3 +201,64 @@ fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
         .map(|(_, weight)| weight);
     Ok(BigRational::from(BigInt::from(spheres)) + special.sum::<BigRational>())
 }
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Signed;
+
+    use super::*;
+    use crate::lattice::Region;
+
+    fn ratio(n: i64, d: i64) -> BigRational {
+        BigRational::new(n.into(), d.into())
+    }
+
+    /// Straight ones, changes of sign, discs, and spheres that are heavy or carry much.
+    fn piles() -> [Pile; 6] {
+        let swept = || Pile::under(Region::SITE, "+-+-".parse().unwrap()).unwrap();
+        let site = Site { i: 0, j: 0, k: 2 };
+        [
+            Pile::triangular(4).unwrap(),
+            Pile::isosceles(4, ratio(2, 5)).unwrap(),
+            Pile::discs(5).unwrap(),
+            swept(),
+            swept().with_load(site, ratio(1000, 1)).unwrap(),
+            swept().with_weight(site, ratio(1000, 1)).unwrap(),
+        ]
+    }
+
+    #[test]
+    fn no_force_of_a_part_exceeds_its_bound() {
+        for pile in piles() {
+            let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
+            let [in_pile, in_si] = [Units::of_pile(&pile), Units::of_packing(packing.clone())];
+            let layers = (0..pile.layers()).map(Selection::Layer);
+            for part in layers.chain([Selection::All, Selection::Base]) {
+                let [of_pile, of_si] = [&in_pile, &in_si].map(|u| u.greatest_force(part).unwrap());
+                for contact in pile.forces::<BigRational>().contacts(part).unwrap() {
+                    let contact = contact.unwrap();
+                    assert!(
+                        of_pile >= Surd::from(contact.force.abs()),
+                        "{pile:?} {part:?}"
+                    );
+                    let packed = packing.packed(contact).unwrap();
+                    let [x, y, z] = packed.vector;
+                    for force in [packed.force, x, y, z] {
+                        assert!(of_si >= force && of_si >= -force, "{pile:?} {part:?}");
+                    }
+                }
+                let Ok(base) = pile.forces::<BigRational>().base(part) else {
+                    continue;
+                };
+                for force in base {
+                    for (units, bound) in [(&in_pile, &of_pile), (&in_si, &of_si)] {
+                        let force = units.on_floor(force.clone().unwrap());
+                        for force in [force.normal, force.shear_x, force.shear_y] {
+                            assert!(*bound >= force && *bound >= -force, "{pile:?} {part:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -38,7 +38,7 @@ impl Summary {
         let touching = pile.clearance().check(&scene.spacing()?);
         let progress = Progress::begin("finding the extreme forces");
         let summary = table::Summary::new(&units, touching.clone().ok())?;
-        let table = summary.table()?;
+        let table = summary.table();
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);

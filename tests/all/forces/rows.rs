@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use cannonpile::lattice::{Row, Site};
+use cannonpile::lattice::{Direction, Region, Row, Site};
 use cannonpile::scalar::{NearestFloat, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, FloorForce, Method, Packing, Pile};
@@ -159,6 +159,26 @@ fn what_no_row_can_be_is_refused() {
     assert_eq!(asked(2, 0, 3..3, 0), Ok(()));
     let reversed = Range { start: 3, end: 1 };
     assert_eq!(asked(2, 0, reversed, 0), Ok(()));
+    let endless = Row {
+        k: 2,
+        j: 0,
+        i: i128::MIN..i128::MAX,
+    };
+    assert!(matches!(
+        asked(2, 0, endless.i.clone(), 1),
+        Err(Error::TooLarge { .. })
+    ));
+    let mut place = [[0.0]; 3];
+    let slices = place.each_mut().map(<[f64; 1]>::as_mut_slice);
+    let refused = packing.places().fill_row(&endless, slices);
+    assert_eq!(
+        refused.map_err(|error| error.to_string()),
+        Err(format!(
+            "a row would take {} numbers, more than {}: ask for pieces of it",
+            u128::MAX,
+            usize::MAX
+        ))
+    );
     let mut base = [[0.0]; 3];
     let slices = base.each_mut().map(<[f64; 1]>::as_mut_slice);
     let above = layers.fill_row_of_base(
@@ -172,9 +192,89 @@ fn what_no_row_can_be_is_refused() {
     assert!(matches!(above, Err(Error::NotOnFloor { .. })));
 }
 
+/// With weight of their own these spheres would carry 5/3 of a unit of which a float holds 8/5.
+#[test]
+fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
+    let stacking = || "+-".parse().expect("signs");
+    let light = |sites: Vec<Site>| {
+        let pile = Pile::under(Region::SITE, stacking()).expect("a pile");
+        sites.into_iter().fold(pile, |pile, site| {
+            pile.with_weight(site, BigRational::zero())
+                .expect("a weight")
+        })
+    };
+    let ordinary = light(Vec::new());
+    let heaviest: Vec<Site> = ordinary
+        .forces::<BigRational>()
+        .base(Selection::Base)
+        .expect("a base")
+        .map(|force| force.expect("a force"))
+        .filter(|force| force.normal == ratio(5, 3))
+        .map(|force| force.site)
+        .collect();
+    assert!((1..7).contains(&heaviest.len()), "{heaviest:?}");
+    let second: Vec<Site> = ordinary
+        .rows(Selection::Layer(1))
+        .expect("rows")
+        .flatten()
+        .collect();
+    let greatest = BigRational::from_float(f64::MAX).expect("a number") * ratio(5, 8);
+    for (part, sites) in [(Selection::Base, heaviest), (Selection::Layer(1), second)] {
+        let on_floor = part == Selection::Base;
+        for (pile, fits) in [(&light(sites), true), (&ordinary, false)] {
+            let packing = packing_of(pile);
+            let unit = if on_floor {
+                Surd::from(packing.sphere_weight())
+            } else {
+                packing.unit_force()
+            };
+            let unit = BigRational::from_float(nearest::<f64>(&unit)).expect("a number");
+            let mass = packing.mass() * &greatest / unit;
+            let packing = packing.with_mass(mass).expect("a mass");
+            let packing = packing.by(Method::Sweep).expect("a sweep");
+            let mut layers = packing.layers::<f64>(part).expect("layers");
+            let mut met = 0;
+            let mut refused = false;
+            for row in pile.rows(part).expect("rows") {
+                let mut floats = columns::<f64>(&row);
+                let slices = floats.each_mut().map(Vec::as_mut_slice);
+                let filled = if on_floor {
+                    layers.fill_row_of_base(&row, slices)
+                } else {
+                    layers.fill_row(&row, slices)
+                };
+                if let Err(Error::Overflow { .. }) = filled {
+                    refused = true;
+                    continue;
+                }
+                assert_eq!(filled, Ok(()));
+                for (n, site) in row.into_iter().enumerate() {
+                    let exact = if on_floor {
+                        let force = packing.on_floor(site).expect("a force");
+                        [force.normal, force.shear_x, force.shear_y]
+                    } else {
+                        Direction::ALL.map(|m| packing.contact(site, m).expect("a contact"))
+                    };
+                    let floats = floats.each_ref().map(|x| x[n].to_bits());
+                    let exact = exact.each_ref().map(nearest::<f64>);
+                    assert_eq!(floats, exact.map(f64::to_bits), "{site}");
+                    met += 1;
+                }
+            }
+            assert_eq!(refused, !fits, "{part:?} {met}");
+        }
+    }
+}
+
 #[test]
 fn sums_are_those_of_all_rows() {
-    for pile in piles() {
+    let on_floor = Site { i: 0, j: 0, k: 5 };
+    let special = Pile::triangular(6).expect("a pile");
+    let special = special.with_load(on_floor, ratio(7, 3)).expect("a load");
+    let special = special
+        .with_weight(on_floor, ratio(5, 2))
+        .expect("a weight");
+    for pile in piles().into_iter().chain([special]) {
         let forces = pile.forces::<BigRational>();
         let one = pile.shape().sites().last().expect("a sphere");
         let layers = (0..pile.layers()).map(Selection::Layer);
