@@ -36,6 +36,7 @@ macro_rules! console {
 // Each with the number of its commands.
 console! {
     base: 84;
+    bounds: 14;
     census: 13;
     check: 12;
     completions: 2;
@@ -47,7 +48,7 @@ console! {
     prove: 5;
     scene: 10;
     spheres: 14;
-    summary: 31;
+    summary: 36;
     verify: 13;
 }
 

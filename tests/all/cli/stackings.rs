@@ -40,7 +40,8 @@ fn the_exit_status_says_whether_it_stands() {
         // Spheres two layers apart touch.
         ("--stacking hcp --layers 6 --spacing 3/2", "undetermined", 1),
         ("--stacking hcp --layers 5 --spacing 3/2", "yes", 0),
-        ("--stacking hcp --layers 6 --spacing 1", "undetermined", 1),
+        ("--stacking hcp --layers 6 --spacing 1", "yes", 0),
+        ("--stacking hcp --layers 7 --spacing 1", "no", 1),
         ("--top hexagon:9 --layers 40", "yes", 0),
         // Nothing is asked of spheres that weigh nothing.
         (
