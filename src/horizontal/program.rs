@@ -38,6 +38,14 @@ impl Program {
     /// Returns what an interior point finds; `None` if it finds nothing.
     pub(super) fn guess(&self) -> Option<Guess> {
         let (equations, unknowns) = (self.sums.len(), self.columns.len());
+        // A layer that is on the floor has no forces to find.
+        if unknowns == 0 {
+            return Some(Guess {
+                unknowns: Vec::new(),
+                multipliers: Vec::new(),
+                positive: Vec::new(),
+            });
+        }
         let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for (unknown, column) in self.columns.iter().enumerate() {
             for (equation, coefficient) in column {

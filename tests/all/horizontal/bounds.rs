@@ -6,6 +6,7 @@ use cannonpile::certificate::{Certificate, Claim, Extreme};
 use cannonpile::horizontal::NormalBound;
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -218,7 +219,17 @@ fn loads_tops_and_bases() {
             assert!(bound.attained);
         }
     }
-    // One sphere is on the floor, and bears itself.
+    // What is on the floor bears itself.
+    for pile in [
+        Pile::discs(1).unwrap(),
+        Pile::under(hexagon, Stacking::single_layer()).unwrap(),
+    ] {
+        for bound in all(&pile).into_values().flatten() {
+            is_proved(&bound);
+            assert_eq!((bound.normal, bound.attained), (ratio(1, 1), true));
+        }
+        assert_eq!(pile.elastic(&ratio(1, 1)).unwrap().horizontal().count(), 0);
+    }
     let one = Pile::triangular(1).unwrap().bounds(Site::APEX).unwrap();
     assert_eq!(
         [one.least.normal, one.greatest.normal],
