@@ -116,6 +116,9 @@ mod census {
 }
 
 #[cfg(feature = "std")]
+mod certificate;
+
+#[cfg(feature = "std")]
 mod theorem;
 
 #[cfg(feature = "toml")]
