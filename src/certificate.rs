@@ -3,7 +3,8 @@
 //! At a = R the spheres of a layer touch, and the forces are no longer unique ([`paper`](crate::paper#horizontal-contacts)). What is
 //! found there is found by programs that round. So nothing is answered but with a certificate: forces X of horizontal
 //! contacts, a field φ on the spheres, or both. [`Certificate::check`] needs nothing but these and
-//! the balance of a sphere, and shares no line with what found them.
+//! the balance of a sphere, and shares no line with what found them. `proofs/check_certificate.py` is a second checker, in
+//! Python, written from this page; the command `check` reads the same files.
 //!
 //! # What is checked
 //! The forces are f₀ = mg/(3cosθ) times: X ≥ 0 of the horizontal contacts, and f_l of the sloping ones, which follow

@@ -5,6 +5,8 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::fmt;
 
+use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -188,8 +190,8 @@ impl fmt::Display for Refusal {
 
 impl core::error::Error for Refusal {}
 
-/// The most spheres of a pile that is checked.
-const MOST_SPHERES: u64 = 10_000_000;
+/// The most words of 64 bits that the numbers of a direction may take.
+const MOST_WORDS: u64 = 4_000_000;
 
 /// Three numbers of a sphere, by direction.
 type Triple = [BigRational; 3];
@@ -200,7 +202,7 @@ impl Certificate {
     /// Takes a few operations on rationals for each contact of the pile.
     ///
     /// # Errors
-    /// The first equation that does not hold.
+    /// The first equation that does not hold; [`Refusal::Pile`] with [`Error::TooLarge`] of what would not fit into memory.
     ///
     /// # Examples
     /// ```
@@ -219,15 +221,7 @@ impl Certificate {
             let sin_phi = pile.sin_phi().clone();
             return Err(Box::new(Refusal::NoSuchPile { sin_phi }));
         }
-        let spheres = pile.sphere_count();
-        if spheres > MOST_SPHERES.into() {
-            return Err(Box::new(Refusal::Pile(Error::TooLarge {
-                quantity: "a check of every sphere",
-                needed: spheres,
-                limit: MOST_SPHERES,
-                remedy: "certify a smaller pile",
-            })));
-        }
+        self.fits()?;
         let floor = pile.layers() - 1;
         for (contact, force) in &self.horizontal {
             let mut from = contacts(pile, contact.site).into_iter();
@@ -262,6 +256,36 @@ impl Certificate {
         }
     }
 
+    /// Whether all numbers fit into memory: one a sphere, over a common denominator of all that is given.
+    fn fits(&self) -> Result<(), Error> {
+        let (spheres, one) = (self.pile.sphere_count(), BigRational::one());
+        let loading = self.pile.loading();
+        let weights = loading.weights().chain(loading.loads());
+        let weights = weights.map(|(_, weight)| weight);
+        let balanced = core::iter::once(&one)
+            .chain(weights)
+            .chain(self.horizontal.values());
+        // Each half-turn brings a factor of 3, which is less than two bits, and sums of so many numbers less than a word.
+        let turns: u64 = self.pile.shape().stacking().runs().map(|_| 2).sum();
+        let (mut common, mut longest) = (BigInt::one(), 0);
+        for number in balanced.chain(self.field.values().flatten()) {
+            longest = longest.max(number.numer().bits());
+            if !common.is_multiple_of(number.denom()) {
+                common = common.lcm(number.denom());
+            }
+            let needed = &spheres * ((common.bits() + longest + turns) / 64 + 1);
+            if needed > MOST_WORDS.into() {
+                return Err(Error::TooLarge {
+                    quantity: "a check of every sphere",
+                    needed,
+                    limit: MOST_WORDS,
+                    remedy: "certify a smaller pile, with shorter numbers",
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// The forces of all sloping contacts from the balance of each sphere, from the top: none may pull.
     fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
         let (pile, mut forces) = (&self.pile, BTreeMap::<Site, Triple>::new());
@@ -270,14 +294,11 @@ impl Certificate {
             .sites()
             .take_while(|site| site.k < pile.layers() - 1)
         {
-            let mut balance = turned(pile, site.k, &received(pile, &forces, site));
-            let horizontal = self.pushed(site);
+            let passed_on = self.passed_on(&forces, site)?;
             for direction in pile.dimension().directions() {
-                let l = direction.index();
-                balance[l] += weight(pile, site)?;
-                balance[l] -= sigma(pile, site.k) * &horizontal[l];
-                if balance[l].is_negative() {
-                    let (direction, force) = (*direction, balance[l].clone());
+                let force = &passed_on[direction.index()];
+                if force.is_negative() {
+                    let (direction, force) = (*direction, force.clone());
                     return Err(Box::new(Refusal::Pulls {
                         site,
                         direction,
@@ -285,9 +306,22 @@ impl Certificate {
                     }));
                 }
             }
-            forces.insert(site, balance);
+            forces.insert(site, passed_on);
         }
         Ok(forces)
+    }
+
+    /// The forces of the sloping contacts below a sphere, from those above it.
+    fn passed_on(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
+        let pile = &self.pile;
+        let mut balance = turned(pile, site.k, &received(pile, forces, site));
+        let horizontal = self.pushed(site);
+        for direction in pile.dimension().directions() {
+            let l = direction.index();
+            balance[l] += weight(pile, site)?;
+            balance[l] -= sigma(pile, site.k) * &horizontal[l];
+        }
+        Ok(balance)
     }
 
     /// H: what the horizontal contacts of a sphere add to its balance.
@@ -437,12 +471,9 @@ impl Certificate {
             }
             for (contact, neighbour) in contacts(pile, site) {
                 let compression = stiffness_ratio * self.compression(contact, neighbour);
+                let pushed = self.horizontal.get(&contact).cloned();
                 // Not a default: a contact that is not listed bears nothing.
-                let needed = self
-                    .horizontal
-                    .get(&contact)
-                    .cloned()
-                    .unwrap_or_else(BigRational::zero);
+                let needed = pushed.unwrap_or_else(BigRational::zero);
                 let relation = where_it_bears(&needed);
                 if !is(&compression, relation, &needed) {
                     return Err(Box::new(Refusal::Compression {
@@ -539,4 +570,92 @@ fn contacts(pile: &Pile, site: Site) -> Vec<(HorizontalContact, Site)> {
     contacts
         .filter(|(_, neighbour)| shape.contains(*neighbour))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Region;
+    use crate::stacking::Stacking;
+
+    /// Numbers without order: −9/7 … 9/1, and none for long 0.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> BigRational {
+            // Knuth's multiplier; the upper bits are good.
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005) + 1;
+            let [numer, denom] = [self.0 >> 40, self.0 >> 50].map(i128::from);
+            let denom: i128 = [1, 2, 3, 7][usize::from(denom.to_le_bytes()[0] % 4)];
+            BigRational::new((numer % 19 - 9).into(), denom.into())
+        }
+    }
+
+    /// Both sides of Σ f D + Σ X c = Σ w φ, for X and φ of any sign on every contact and sphere above the floor.
+    fn both_sides(pile: Pile, numbers: &mut Numbers) -> [BigRational; 2] {
+        let mut certificate = Certificate {
+            claim: Claim::Stands,
+            horizontal: BTreeMap::new(),
+            field: BTreeMap::new(),
+            pile,
+        };
+        let floor = certificate.pile.layers() - 1;
+        let sites: Vec<Site> = certificate.pile.shape().sites().collect();
+        let above = || sites.iter().copied().filter(|site| site.k < floor);
+        for site in above() {
+            for (contact, _) in contacts(&certificate.pile, site) {
+                certificate.horizontal.insert(contact, numbers.next());
+            }
+            let field = [(); 3].map(|()| numbers.next());
+            certificate.field.insert(site, field);
+        }
+        let (mut forces, mut done) = (BTreeMap::new(), BigRational::zero());
+        for site in above() {
+            let passed_on = certificate.passed_on(&forces, site).unwrap();
+            let drops = certificate.drops(site);
+            for direction in certificate.pile.dimension().directions() {
+                done += &passed_on[direction.index()] * &drops[direction.index()];
+            }
+            forces.insert(site, passed_on);
+        }
+        for (contact, force) in &certificate.horizontal {
+            let neighbour = contact.neighbour().unwrap();
+            done += force * certificate.compression(*contact, neighbour);
+        }
+        [done, certificate.work().unwrap()]
+    }
+
+    #[test]
+    fn virtual_work() {
+        let mut numbers = Numbers(1998);
+        let heavy = BigRational::new(17.into(), 5.into());
+        for layers in 1..=6 {
+            let discs = Pile::discs(layers).unwrap();
+            let [done, work] = both_sides(discs, &mut numbers);
+            assert_eq!(done, work, "discs, {layers}");
+        }
+        for signs in 0..1_u32 << 5 {
+            let sign = |n: u32| match signs >> n & 1 {
+                0 => Sign::Plus,
+                _ => Sign::Minus,
+            };
+            let steps = 1 + signs % 5;
+            let stacking = Stacking::from_signs((0..steps).map(sign).collect::<Vec<_>>()).unwrap();
+            let top = Region::new(-1..=1, 0..=2, -1..=2).unwrap();
+            for pile in [
+                Pile::under(Region::SITE, stacking.clone()),
+                Pile::under(top, stacking.clone()),
+                Pile::on(Region::hexagon(6, 5).unwrap(), stacking),
+            ] {
+                let pile = pile.unwrap();
+                let site = pile.shape().sites().next().unwrap();
+                let pile = pile.with_load(site, heavy.clone()).unwrap();
+                let [done, work] = both_sides(pile.clone(), &mut numbers);
+                assert_eq!(done, work, "{:?}", pile.shape());
+                assert_ne!(work, BigRational::zero());
+                let [done, work] = both_sides(pile.weightless(), &mut numbers);
+                assert_eq!(done, work);
+            }
+        }
+    }
 }

@@ -128,6 +128,9 @@ mod horizontal {
 }
 
 #[cfg(feature = "std")]
+mod certificate;
+
+#[cfg(feature = "std")]
 mod theorem;
 
 #[cfg(feature = "toml")]
