@@ -548,7 +548,6 @@ impl Pile {
         Ok(self.loading.load(self.shape.check(site)?))
     }
 
-    #[cfg(feature = "serde")]
     pub(crate) fn loading(&self) -> &Loading {
         &self.loading
     }

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 /// The greatest denominators to which free numbers are rounded, one after the other.
-const DENOMINATORS: [i64; 5] = [1, 2, 12, 1000, 1_000_000];
+const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
 
 /// An equation: coefficients by unknown, and what they sum to.
 pub(super) type Equation = (BTreeMap<usize, BigRational>, BigRational);
@@ -106,7 +106,7 @@ impl Triangular {
 /// `most`; with `most` = 1 the nearest integer. `None` if it is not finite, or too great for this.
 fn simple_fraction(number: f64, most: i64) -> Option<BigRational> {
     const GREATEST: f64 = 1e15;
-    const CLOSE: f64 = 1e-9;
+    const CLOSE: f64 = 1e-12;
     if !number.is_finite() || number.abs() > GREATEST {
         return None;
     }

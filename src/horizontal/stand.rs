@@ -59,7 +59,7 @@ impl Pile {
         let last = self.shape().stretch(last).map_or(failure, |run| run.from) + 1;
         let mut floor = (failure + 1).max(FIRST).min(last);
         loop {
-            let certificate = self.equilibrium_above(floor)?;
+            let certificate = self.equilibrium_above(floor, floor == last)?;
             if floor == last || certificate.claim == Claim::CannotStand {
                 return Ok(certificate);
             }
@@ -99,15 +99,10 @@ impl Pile {
         }
     }
 
-    /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not.
-    fn equilibrium_above(&self, floor: i128) -> Result<Certificate, Error> {
+    /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not. Below them
+    /// forces only grow, if they are the whole.
+    fn equilibrium_above(&self, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
         let network = Network::above(self, floor)?;
-        let is_small = self.sphere_count() <= MOST_SPHERES.into();
-        let pile = if is_small {
-            self.clone()
-        } else {
-            self.beginning(floor)?
-        };
         let (equations, unknowns) = (network.weights.len(), network.columns.len());
         let pulls = network.columns[..equations].iter();
         let pulls = pulls.map(|column| {
@@ -128,6 +123,13 @@ impl Pile {
         let mut guess = program.guess().ok_or_else(|| unsolved(equations))?;
         // What is said is checked, whatever floats say.
         let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
+        // What cannot stand cannot with more below it; what stands does so as far as it was looked at.
+        let is_small = self.sphere_count() <= MOST_SPHERES.into();
+        let pile = if is_small && (is_whole || !stands) {
+            self.clone()
+        } else {
+            self.beginning(floor)?
+        };
         let certificate = if stands {
             let program = Program {
                 columns: network.columns.clone(),

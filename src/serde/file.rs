@@ -31,8 +31,8 @@ pub const MOST_BYTES: u64 = 512 << 20;
 /// let certificate = read_certificate(text.as_bytes())?;
 /// assert_eq!(certificate.check(), Ok(()));
 ///
-/// let error = read_certificate(&text.as_bytes()[..300]).unwrap_err();
-/// assert!(error.to_string().contains("line 5"));
+/// let error = read_certificate(&text.as_bytes()[..100]).unwrap_err();
+/// assert!(error.to_string().contains("line 2"));
 /// # Ok::<(), std::io::Error>(())
 /// ```
 pub fn read_certificate(input: impl Read) -> io::Result<Certificate> {

@@ -8,6 +8,7 @@ use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -47,13 +48,20 @@ fn formula(k: i128, site: Site) -> BigRational {
     let mut n = [k - site.i - site.j, site.i, site.j];
     n.sort_unstable();
     let [c, b, a] = n;
-    let above = match (b, c) {
-        (0, 0) => 3 * a - 2,
-        (_, 0) if a == b => 2 * a * a,
-        (_, 0) => 2 * (b + 1) * (a - 1) + 1,
-        _ => n.map(|n| n * (n + 1) * (n + 2) / 6).iter().sum(),
+    let [a, b, c] = [a, b, c].map(BigInt::from);
+    let above = if b.is_zero() {
+        a * 3 - 2
+    } else if c.is_zero() && a == b {
+        &a * &b * 2
+    } else if c.is_zero() {
+        (b + 1) * 2 * (a - 1) + 1
+    } else {
+        [a, b, c]
+            .into_iter()
+            .map(|n| (&n + 1) * (&n + 2) * n / 6)
+            .sum()
     };
-    BigRational::one() + BigRational::new(above.into(), 3.into())
+    BigRational::one() + BigRational::new(above, 3.into())
 }
 
 #[test]
@@ -198,7 +206,7 @@ fn loads_tops_and_bases() {
         Pile::discs(6).unwrap(),
         Pile::triangular(5)
             .unwrap()
-            .with_load(Site { i: 1, j: 0, k: 2 }, ratio(70_000, 3))
+            .with_load(Site { i: 1, j: 0, k: 2 }, ratio(70, 3))
             .unwrap(),
         Pile::triangular(4)
             .unwrap()
