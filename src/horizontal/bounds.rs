@@ -58,7 +58,7 @@ pub struct NormalBound {
     /// Whether some forces attain it; if not, no forces pass it, and how close they come is not known.
     pub attained: bool,
     /// The proof; none where it would have a number for each of more than 10⁵ spheres, and the bound is that of a formula
-    /// for all L ([`paper`](crate::paper#arching)).
+    /// for all L ([`paper`](crate::paper#arching)), and of [`base_bounds`](Pile::base_bounds) that are said of an image.
     pub certificate: Option<Certificate>,
 }
 

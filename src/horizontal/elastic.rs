@@ -374,7 +374,7 @@ impl Springs<'_> {
                 sums[*equation] -= coefficient * force;
             }
         }
-        let sloping = network.field(&network.sloping(sums)).collect();
+        let sloping = network.by_sphere(&network.sloping(sums)).collect();
         Ok((certificate, sloping))
     }
 }

@@ -197,12 +197,20 @@ impl<'p> Network<'p> {
         &self,
         multipliers: &[BigRational],
     ) -> impl Iterator<Item = (Site, [BigRational; 3])> {
+        let by_sphere = self.by_sphere(multipliers);
+        by_sphere.filter(|(_, field)| field.iter().any(|number| !number.is_zero()))
+    }
+
+    /// Numbers of sloping contacts or equations, by sphere.
+    pub(super) fn by_sphere(
+        &self,
+        numbers: &[BigRational],
+    ) -> impl Iterator<Item = (Site, [BigRational; 3])> {
         let directions = self.pile.dimension().directions().len();
-        let spheres = self.spheres.iter().zip(multipliers.chunks(directions));
-        let spheres = spheres.filter(|(_, field)| field.iter().any(|number| !number.is_zero()));
-        spheres.map(|(site, field)| {
+        let spheres = self.spheres.iter().zip(numbers.chunks(directions));
+        spheres.map(|(site, numbers)| {
             // Not a default: discs have no third direction.
-            let number = |l: usize| field.get(l).cloned().unwrap_or_else(BigRational::zero);
+            let number = |l: usize| numbers.get(l).cloned().unwrap_or_else(BigRational::zero);
             (*site, [number(0), number(1), number(2)])
         })
     }
