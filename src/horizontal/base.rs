@@ -17,7 +17,7 @@ use crate::{Error, Pile};
 /// let pile = Pile::triangular(4)?;
 /// let bounds: Result<Vec<_>, _> = pile.base_bounds(Selection::Base)?.collect();
 /// let greatest = bounds?.into_iter().map(|(_, bounds)| bounds.greatest.normal).max().unwrap();
-/// assert_eq!(greatest.to_string(), "11/3");
+/// assert_eq!(greatest.to_string(), "10/3");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
