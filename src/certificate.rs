@@ -33,8 +33,9 @@
 //! | [elastic state](Claim::Elastic), with springs κ, and κ′ for horizontal contacts | all f ≥ 0 | D ≤ f, D = f where f > 0; κ′/κ · c ≤ X, equal where X > 0 |
 
 mod check;
+mod refusal;
 
-pub use check::Refusal;
+pub use refusal::{Refusal, Relation};
 
 use alloc::collections::BTreeMap;
 use core::fmt;
@@ -84,7 +85,6 @@ pub struct Certificate {
 /// ```
 /// use cannonpile::certificate::Claim;
 ///
-/// assert_eq!(Claim::CannotStand.name(), "cannot-stand");
 /// assert_eq!(Claim::CannotStand.to_string(), "no forces that only push balance the pile: it cannot stand");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -146,27 +146,6 @@ pub struct Extreme {
     pub normal: BigRational,
     /// Whether the forces of the certificate attain it; if not, it is a bound only.
     pub attained: bool,
-}
-
-impl Claim {
-    /// Returns `stands`, `cannot-stand`, `least`, `greatest` or `elastic`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::certificate::Claim;
-    ///
-    /// assert_eq!(Claim::Stands.name(), "stands");
-    /// ```
-    #[must_use]
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Stands => "stands",
-            Self::CannotStand => "cannot-stand",
-            Self::Least(_) => "least",
-            Self::Greatest(_) => "greatest",
-            Self::Elastic { .. } => "elastic",
-        }
-    }
 }
 
 impl fmt::Display for Claim {

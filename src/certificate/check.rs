@@ -3,192 +3,17 @@
 use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
-use core::fmt;
 
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::{Certificate, Claim, Extreme};
+use super::{Certificate, Claim, Extreme, Refusal, Relation};
+use crate::error::bug;
 use crate::formula::tripled_half_turn;
 use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
 use crate::{Error, Pile};
-
-/// Why a certificate is refused: the first equation that does not hold.
-///
-/// # Examples
-/// ```
-/// use cannonpile::certificate::Refusal;
-/// use cannonpile::lattice::{Direction, Site};
-/// use num_rational::BigRational;
-///
-/// let force = BigRational::from_integer((-2).into());
-/// let refusal = Refusal::Pulls { site: Site::APEX, direction: Direction::Beta, force };
-/// assert_eq!(refusal.to_string(), "the contact (0,0,0) beta would have to pull: its force is -2");
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Refusal {
-    /// The pile has no horizontal contacts of this kind: sin φ is neither 1/2 nor that of discs.
-    NoSuchPile {
-        /// sin φ.
-        sin_phi: BigRational,
-    },
-    /// The stiffness ratio is not positive.
-    Stiffness {
-        /// What it is.
-        given: BigRational,
-    },
-    /// A horizontal contact that the pile lacks, or one between spheres on the floor, which are held.
-    NoContact {
-        /// The contact.
-        contact: HorizontalContact,
-    },
-    /// A field on a sphere that the pile lacks, or that is on the floor.
-    NoSphere {
-        /// The site.
-        site: Site,
-    },
-    /// The normal force is asked of a sphere that is not on the floor.
-    NotOnFloor {
-        /// The site.
-        site: Site,
-    },
-    /// A horizontal contact that pulls.
-    HorizontalPulls {
-        /// The contact.
-        contact: HorizontalContact,
-        /// Its force.
-        force: BigRational,
-    },
-    /// A sloping contact that pulls.
-    Pulls {
-        /// The upper sphere.
-        site: Site,
-        /// The direction of the contact.
-        direction: Direction,
-        /// Its force.
-        force: BigRational,
-    },
-    /// A drop D that is not as the claim needs it.
-    Drop {
-        /// The upper sphere.
-        site: Site,
-        /// The direction of the contact.
-        direction: Direction,
-        /// D.
-        drop: BigRational,
-        /// `at least`, `at most` or `equal to`.
-        relation: &'static str,
-        /// What it was to be.
-        needed: BigRational,
-    },
-    /// A compression c that is not as the claim needs it.
-    Compression {
-        /// The contact.
-        contact: HorizontalContact,
-        /// c, times the stiffness ratio.
-        compression: BigRational,
-        /// `at least`, `at most` or `equal to`.
-        relation: &'static str,
-        /// What it was to be.
-        needed: BigRational,
-    },
-    /// The work of the weights, Σ w φ, is not positive.
-    Work {
-        /// The sum.
-        work: BigRational,
-    },
-    /// The field proves another bound.
-    Bound {
-        /// What is claimed.
-        claimed: BigRational,
-        /// What the field proves.
-        proved: BigRational,
-    },
-    /// The forces attain another normal force.
-    Attained {
-        /// What is claimed.
-        claimed: BigRational,
-        /// What they attain.
-        attained: BigRational,
-    },
-    /// The pile does not answer.
-    Pile(Error),
-}
-
-impl From<Error> for Box<Refusal> {
-    fn from(error: Error) -> Self {
-        Self::new(Refusal::Pile(error))
-    }
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchPile { sin_phi } => write!(
-                f,
-                "neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
-            ),
-            Self::Stiffness { given } => {
-                write!(f, "the stiffness ratio must be positive, not {given}")
-            }
-            Self::NoContact { contact } => {
-                write!(
-                    f,
-                    "there is no horizontal contact {contact} above the floor"
-                )
-            }
-            Self::NoSphere { site } => write!(f, "there is no sphere {site} above the floor"),
-            Self::NotOnFloor { site } => write!(f, "there is no sphere {site} on the floor"),
-            Self::HorizontalPulls { contact, force } => write!(
-                f,
-                "the horizontal contact {contact} would have to pull: its force is {force}"
-            ),
-            Self::Pulls {
-                site,
-                direction,
-                force,
-            } => write!(
-                f,
-                "the contact {site} {direction} would have to pull: its force is {force}"
-            ),
-            Self::Drop {
-                site,
-                direction,
-                drop,
-                relation,
-                needed,
-            } => write!(
-                f,
-                "the drop along the contact {site} {direction} is {drop} and was to be {relation} {needed}"
-            ),
-            Self::Compression {
-                contact,
-                compression,
-                relation,
-                needed,
-            } => write!(
-                f,
-                "the compression of the horizontal contact {contact} is {compression} and was to be {relation} {needed}"
-            ),
-            Self::Work { work } => {
-                write!(f, "the work of the weights must be positive, and is {work}")
-            }
-            Self::Bound { claimed, proved } => {
-                write!(f, "the field proves the bound {proved}, not {claimed}")
-            }
-            Self::Attained { claimed, attained } => write!(
-                f,
-                "the forces attain the normal force {attained}, not {claimed}"
-            ),
-            Self::Pile(error) => error.fmt(f),
-        }
-    }
-}
-
-impl core::error::Error for Refusal {}
 
 /// The most words of 64 bits that the numbers of a direction may take.
 const MOST_WORDS: u64 = 4_000_000;
@@ -241,17 +66,16 @@ impl Certificate {
         match &self.claim {
             Claim::Stands => self.forces().map(drop),
             Claim::CannotStand => {
-                let zero = BigRational::zero();
-                self.signs("at most", |_| zero.clone())?;
-                let work = self.work()?;
+                self.one_sided(Relation::AtMost, None)?;
+                let work = self.work();
                 if work.is_positive() {
                     Ok(())
                 } else {
                     Err(Box::new(Refusal::Work { work }))
                 }
             }
-            Claim::Least(extreme) => self.extreme(extreme, "at most"),
-            Claim::Greatest(extreme) => self.extreme(extreme, "at least"),
+            Claim::Least(extreme) => self.extreme(extreme, Relation::AtMost),
+            Claim::Greatest(extreme) => self.extreme(extreme, Relation::AtLeast),
             Claim::Elastic { stiffness_ratio } => self.elastic(stiffness_ratio),
         }
     }
@@ -289,11 +113,7 @@ impl Certificate {
     /// The forces of all sloping contacts from the balance of each sphere, from the top: none may pull.
     fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
         let (pile, mut forces) = (&self.pile, BTreeMap::<Site, Triple>::new());
-        for site in pile
-            .shape()
-            .sites()
-            .take_while(|site| site.k < pile.layers() - 1)
-        {
+        for site in above_the_floor(pile) {
             let passed_on = self.passed_on(&forces, site)?;
             for direction in pile.dimension().directions() {
                 let force = &passed_on[direction.index()];
@@ -318,8 +138,8 @@ impl Certificate {
         let horizontal = self.pushed(site);
         for direction in pile.dimension().directions() {
             let l = direction.index();
-            balance[l] += weight(pile, site)?;
-            balance[l] -= sigma(pile, site.k) * &horizontal[l];
+            balance[l] += weight(pile, site);
+            balance[l] -= sigma(pile, site.k)? * &horizontal[l];
         }
         Ok(balance)
     }
@@ -357,46 +177,44 @@ impl Certificate {
     }
 
     /// c of a horizontal contact.
-    fn compression(&self, contact: HorizontalContact, neighbour: Site) -> BigRational {
+    fn compression(
+        &self,
+        contact: HorizontalContact,
+        neighbour: Site,
+    ) -> Result<BigRational, Error> {
         let [a, b] = contact.axis.ends().map(Direction::index);
         let [here, there] = [contact.site, neighbour].map(|site| self.field(site));
         let difference = |field: &Triple| &field[b] - &field[a];
-        sigma(&self.pile, contact.site.k) * (difference(&here) - difference(&there))
+        Ok(sigma(&self.pile, contact.site.k)? * (difference(&here) - difference(&there)))
     }
 
     /// Σ w φ.
-    fn work(&self) -> Result<BigRational, Box<Refusal>> {
+    fn work(&self) -> BigRational {
         let directions = self.pile.dimension().directions();
         let mut work = BigRational::zero();
         for (site, field) in &self.field {
-            let weight = weight(&self.pile, *site)?;
+            let weight = weight(&self.pile, *site);
             work += directions
                 .iter()
                 .map(|l| &weight * &field[l.index()])
                 .sum::<BigRational>();
         }
-        Ok(work)
+        work
     }
 
-    /// Every D is at most, or at least, what is needed of a contact with this support; every c is so of zero.
-    fn signs(
+    /// Every D, and every c times the stiffness ratio, lies so to what is needed of its contact.
+    fn conditions(
         &self,
-        relation: &'static str,
-        needed: impl Fn(Site) -> BigRational,
+        stiffness_ratio: &BigRational,
+        of_drop: impl Fn(Site, Direction) -> (Relation, BigRational),
+        of_compression: impl Fn(HorizontalContact) -> (Relation, BigRational),
     ) -> Result<(), Box<Refusal>> {
-        let (pile, zero) = (&self.pile, BigRational::zero());
-        for site in pile
-            .shape()
-            .sites()
-            .take_while(|site| site.k < pile.layers() - 1)
-        {
-            let drops = self.drops(site);
-            for direction in pile.dimension().directions() {
-                let drop = &drops[direction.index()];
-                let support = pile.shape().below(site, *direction);
-                let needed = support.map_or_else(BigRational::zero, &needed);
-                if !is(drop, relation, &needed) {
-                    let (direction, drop) = (*direction, drop.clone());
+        let pile = &self.pile;
+        for site in above_the_floor(pile) {
+            for (direction, drop) in Direction::ALL.into_iter().zip(self.drops(site)) {
+                let (relation, needed) = of_drop(site, direction);
+                let is_there = pile.dimension().directions().contains(&direction);
+                if is_there && !relation.holds(&drop, &needed) {
                     return Err(Box::new(Refusal::Drop {
                         site,
                         direction,
@@ -407,9 +225,9 @@ impl Certificate {
                 }
             }
             for (contact, neighbour) in contacts(pile, site) {
-                let compression = self.compression(contact, neighbour);
-                if !is(&compression, relation, &zero) {
-                    let needed = zero;
+                let compression = stiffness_ratio * self.compression(contact, neighbour)?;
+                let (relation, needed) = of_compression(contact);
+                if !relation.holds(&compression, &needed) {
                     return Err(Box::new(Refusal::Compression {
                         contact,
                         compression,
@@ -422,24 +240,33 @@ impl Certificate {
         Ok(())
     }
 
-    fn extreme(&self, extreme: &Extreme, relation: &'static str) -> Result<(), Box<Refusal>> {
+    /// Every D lies so to 1 at the contacts with a bottom sphere, if there is one, and to 0 at others; every c to 0.
+    fn one_sided(&self, relation: Relation, bottom: Option<Site>) -> Result<(), Box<Refusal>> {
+        let shape = self.pile.shape();
+        let of_drop = |site, direction| {
+            let bears = bottom.is_some() && shape.below(site, direction) == bottom;
+            (relation, BigRational::from_integer(i32::from(bears).into()))
+        };
+        self.conditions(&BigRational::one(), of_drop, |_| {
+            (relation, BigRational::zero())
+        })
+    }
+
+    fn extreme(&self, extreme: &Extreme, relation: Relation) -> Result<(), Box<Refusal>> {
         let (pile, site) = (&self.pile, extreme.site);
         if site.k != pile.layers() - 1 || !pile.shape().contains(site) {
             return Err(Box::new(Refusal::NotOnFloor { site }));
         }
-        self.signs(relation, |support| {
-            BigRational::from_integer(i32::from(support == site).into())
-        })?;
+        self.one_sided(relation, Some(site))?;
         let directions = BigRational::from_integer(pile.dimension().number().into());
-        let normal =
-            |sum: BigRational| Ok::<_, Box<Refusal>>(weight(pile, site)? + sum / &directions);
-        let (claimed, proved) = (extreme.normal.clone(), normal(self.work()?)?);
+        let normal = |sum: BigRational| weight(pile, site) + sum / &directions;
+        let (claimed, proved) = (extreme.normal.clone(), normal(self.work()));
         if proved != claimed {
             return Err(Box::new(Refusal::Bound { claimed, proved }));
         }
         if extreme.attained {
             let received = received(pile, &self.forces()?, site);
-            let attained = normal(received.into_iter().sum())?;
+            let attained = normal(received.into_iter().sum());
             if attained != claimed {
                 return Err(Box::new(Refusal::Attained { claimed, attained }));
             }
@@ -452,61 +279,30 @@ impl Certificate {
             let given = stiffness_ratio.clone();
             return Err(Box::new(Refusal::Stiffness { given }));
         }
-        let (pile, forces) = (&self.pile, self.forces()?);
-        for (site, forces) in forces {
-            let drops = self.drops(site);
-            for direction in pile.dimension().directions() {
-                let [drop, force] = [&drops, &forces].map(|of| of[direction.index()].clone());
-                let relation = where_it_bears(&force);
-                if !is(&drop, relation, &force) {
-                    let (direction, needed) = (*direction, force);
-                    return Err(Box::new(Refusal::Drop {
-                        site,
-                        direction,
-                        drop,
-                        relation,
-                        needed,
-                    }));
-                }
-            }
-            for (contact, neighbour) in contacts(pile, site) {
-                let compression = stiffness_ratio * self.compression(contact, neighbour);
-                let pushed = self.horizontal.get(&contact).cloned();
-                // Not a default: a contact that is not listed bears nothing.
-                let needed = pushed.unwrap_or_else(BigRational::zero);
-                let relation = where_it_bears(&needed);
-                if !is(&compression, relation, &needed) {
-                    return Err(Box::new(Refusal::Compression {
-                        contact,
-                        compression,
-                        relation,
-                        needed,
-                    }));
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-fn where_it_bears(force: &BigRational) -> &'static str {
-    if force.is_positive() {
-        "equal to"
-    } else {
-        "at most"
-    }
-}
-
-fn is(number: &BigRational, relation: &str, needed: &BigRational) -> bool {
-    match relation {
-        "at most" => number <= needed,
-        "at least" => number >= needed,
-        _ => number == needed,
+        let forces = self.forces()?;
+        // Equal where a contact bears, at most where it is open.
+        let of_spring = |force: Option<&BigRational>| match force {
+            Some(force) if force.is_positive() => (Relation::Equal, force.clone()),
+            _ => (Relation::AtMost, BigRational::zero()),
+        };
+        let of_drop = |site: Site, direction: Direction| {
+            let forces = forces.get(&site);
+            of_spring(forces.map(|forces| &forces[direction.index()]))
+        };
+        self.conditions(stiffness_ratio, of_drop, |contact| {
+            of_spring(self.horizontal.get(&contact))
+        })
     }
 }
 
 fn zeros() -> Triple {
     core::array::from_fn(|_| BigRational::zero())
+}
+
+/// The spheres that do not rest on the floor, from the top.
+fn above_the_floor(pile: &Pile) -> impl Iterator<Item = Site> + '_ {
+    let floor = pile.layers() - 1;
+    pile.shape().sites().take_while(move |site| site.k < floor)
 }
 
 /// What a sphere receives from above, by direction.
@@ -533,17 +329,16 @@ fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
     }
 }
 
-/// σ: +1 or −1.
-fn sigma(pile: &Pile, k: i128) -> BigRational {
-    match pile.shape().sign_below(k) {
-        Some(Sign::Minus) => -BigRational::one(),
-        _ => BigRational::one(),
-    }
+/// σ of the step below a layer.
+fn sigma(pile: &Pile, k: i128) -> Result<BigRational, Error> {
+    let sign = pile.shape().sign_below(k);
+    let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
+    Ok(BigRational::from_integer(sign.factor().into()))
 }
 
 /// Weight and load of a sphere, in mg: what it adds to each line, in f₀.
-fn weight(pile: &Pile, site: Site) -> Result<BigRational, Error> {
-    Ok(pile.sphere_weight(site)? + pile.load(site)?)
+fn weight(pile: &Pile, site: Site) -> BigRational {
+    pile.loading().total(site)
 }
 
 /// The six places of horizontal contacts around a sphere, and whether each leads away from it.
@@ -620,9 +415,9 @@ mod tests {
         }
         for (contact, force) in &certificate.horizontal {
             let neighbour = contact.neighbour().unwrap();
-            done += force * certificate.compression(*contact, neighbour);
+            done += force * certificate.compression(*contact, neighbour).unwrap();
         }
-        [done, certificate.work().unwrap()]
+        [done, certificate.work()]
     }
 
     #[test]

@@ -41,6 +41,22 @@ impl Sign {
         }
     }
 
+    /// Returns σ, +1 or −1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Sign;
+    ///
+    /// assert_eq!([Sign::Plus, Sign::Minus].map(Sign::factor), [1, -1]);
+    /// ```
+    #[must_use]
+    pub const fn factor(self) -> i32 {
+        match self {
+            Self::Plus => 1,
+            Self::Minus => -1,
+        }
+    }
+
     /// Returns `+` or `-`.
     ///
     /// # Examples
