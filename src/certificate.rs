@@ -1,10 +1,11 @@
 //! What a pile with horizontal contacts can bear, as something that anybody can check.
 //!
-//! At a = R the spheres of a layer touch, and the forces are no longer unique ([`paper`](crate::paper#horizontal-contacts)). What is
-//! found there is found by programs that round. So nothing is answered but with a certificate: forces X of horizontal
-//! contacts, a field φ on the spheres, or both. [`Certificate::check`] needs nothing but these and
-//! the balance of a sphere, and shares no line with what found them. `proofs/check_certificate.py` is a second checker, in
-//! Python, written from this page; the command `check` reads the same files.
+//! At a = R the spheres of a layer touch, and the forces are no longer unique
+//! ([`paper`](crate::paper#horizontal-contacts)). What is found there is found by programs that round. So nothing is
+//! answered but with a certificate: forces X of horizontal contacts, a field φ on the spheres, or both.
+//! [`Certificate::check`] needs nothing but these and the balance of a sphere, and shares no line with what found them.
+//! `proofs/check_certificate.py` is a second checker, in Python, written from this page; the command `check` reads the
+//! same files.
 //!
 //! # What is checked
 //! The forces are f₀ = mg/(3cosθ) times: X ≥ 0 of the horizontal contacts, and f_l of the sloping ones, which follow
@@ -13,9 +14,9 @@
 //! f_l = (T g)_l + w − σ H_l,
 //!
 //! g what the sphere receives from above, T the identity or, where the sign changes, the
-//! [half-turn](crate::formula::half_turn), w its weight, σ = ±1 the step below, and H_l the sum of −X over its horizontal
-//! contacts that lead from l, of +X over those that lead to l (of the other sphere of each with the signs swapped). The field has three numbers φ_l for
-//! each sphere off the floor, and there φ = 0. With q_l the support of p,
+//! [half-turn](crate::formula::half_turn), w its weight, σ = ±1 the step below, and H_l the sum of −X over its
+//! horizontal contacts that lead from l, of +X over those that lead to l (of the other sphere of each with the signs
+//! swapped). The field has three numbers φ_l for each sphere off the floor, and there φ = 0. With q_l the support of p,
 //!
 //! * drop: D_l(p) = φ_l(p) − (T φ(q_l))_l,
 //! * compression: c(p; a→b) = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)), p′ = p + d_b − d_a,

@@ -32,8 +32,8 @@ pub struct BaseBounds<'p> {
 impl Pile {
     /// Returns the [bounds](Self::bounds) of bottom spheres: of the base, or of one.
     ///
-    /// Of a pile under one sphere, all spheres alike, six spheres of the base are images of each other; what is found for the first
-    /// is said of the others, without its certificate.
+    /// Of a pile under one sphere, all spheres alike, six spheres of the base are images of each other; what is found
+    /// for the first is said of the others, without its certificate.
     ///
     /// # Errors
     /// [`Error::NotOnFloor`], [`Error::SiteOutside`], [`Error::LayerOutside`] of a part that is not of the base; in an

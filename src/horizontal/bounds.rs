@@ -7,8 +7,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::network::{Network, touches};
-use super::program::Program;
+use super::network::{MOST_CERTIFIED, Network, touches};
+use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::lattice::{Axis, Dimension, HorizontalContact, Site};
 use crate::{Error, Pile};
@@ -69,19 +69,17 @@ enum End {
     Greatest,
 }
 
-/// The most spheres of a certificate that is made from a formula.
-const MOST_SPHERES: u32 = 100_000;
-
 impl Pile {
     /// Returns the least and the greatest normal force of a bottom sphere at a = R, horizontal contacts included.
     ///
-    /// Straight piles of equal spheres under one sphere have formulas, for any number of layers: at a corner both bounds, elsewhere
-    /// the least, and, of more than 31 layers, an upper bound that may not be attained. All else is a linear program over the forces of all contacts, whose solution is made exact and
-    /// certified.
+    /// Straight piles of equal spheres under one sphere have formulas, for any number of layers: at a corner both
+    /// bounds, elsewhere the least, and, of more than 31 layers, an upper bound that may not be attained. All else is a
+    /// linear program over the forces of all contacts, whose solution is made exact and certified.
     ///
     /// # Errors
-    /// [`Error::NotOnFloor`] or [`Error::SiteOutside`] of a site that is no bottom sphere; [`Error::NoHorizontalContacts`]; [`Error::TooLarge`];
-    /// [`Error::CannotStand`] if there are no such forces; [`Error::Weightless`].
+    /// [`Error::NotOnFloor`] or [`Error::SiteOutside`] of a site that is no bottom sphere;
+    /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`]; [`Error::CannotStand`] if there are no such forces;
+    /// [`Error::Weightless`].
     ///
     /// # Examples
     /// ```
@@ -132,11 +130,11 @@ impl Solver<'_> {
                 self.certificate(
                     end,
                     normal.clone(),
-                    straight.forces(end),
+                    Some(straight.forces(end)),
                     straight.field(end),
                 )
             };
-            let is_small = self.pile.sphere_count() <= MOST_SPHERES.into();
+            let is_small = self.pile.sphere_count() <= MOST_CERTIFIED.into();
             let certificate = is_small.then(certificate);
             return Ok(NormalBound {
                 normal,
@@ -163,7 +161,7 @@ impl Solver<'_> {
         }
         let program = Program {
             curvature: vec![0.0; cost.len()],
-            columns: network.columns.clone(),
+            columns: &network.columns,
             sums: network.weights.clone(),
             cost,
         };
@@ -173,7 +171,9 @@ impl Solver<'_> {
             let certificate = self.pile.equilibrium()?;
             return Err(match certificate.claim {
                 Claim::CannotStand => Error::CannotStand,
-                _ => super::program::unsolved(program.sums.len()),
+                _ => Error::NotSolved {
+                    equations: program.sums.len(),
+                },
             });
         };
         let horizontal = program.exact_unknowns(&guess).map(|unknowns| {
@@ -188,39 +188,49 @@ impl Solver<'_> {
         });
         // Not a default: what it proves is a bound too, and said to be no more.
         let field = field.unwrap_or_else(|| trivial_field(network, end));
-        let normal = self.normal_of(&field)?;
-        let attained = horizontal.is_some();
-        // Not a default: without forces the bound is not called attained.
-        let horizontal = horizontal.unwrap_or_default();
-        let certificate = self.certificate(end, normal, horizontal, field);
-        Self::accepted(certificate, attained)
+        let equations = program.sums.len();
+        let normal = self.normal_of(&field);
+        if let Some(horizontal) = horizontal {
+            let both = self.certificate(end, normal.clone(), Some(horizontal), field.clone());
+            if let Ok(certificate) = accepted(Some(both), equations) {
+                return Ok(NormalBound {
+                    normal,
+                    attained: true,
+                    certificate: Some(certificate),
+                });
+            }
+        }
+        let certificate = self.certificate(end, normal.clone(), None, field);
+        Ok(NormalBound {
+            normal,
+            attained: false,
+            certificate: Some(accepted(Some(certificate), equations)?),
+        })
     }
 
     /// The normal force that a field proves.
-    fn normal_of(&self, field: &BTreeMap<Site, [BigRational; 3]>) -> Result<BigRational, Error> {
+    fn normal_of(&self, field: &BTreeMap<Site, [BigRational; 3]>) -> BigRational {
+        let loading = self.pile.loading();
         let directions = self.pile.dimension().number();
-        let mut work = BigRational::zero();
-        for (site, [a, b, c]) in field {
-            work += self.weight(*site)? * (a + b + c);
-        }
-        Ok(self.weight(self.site)? + work / BigRational::from_integer(directions.into()))
+        let work = field
+            .iter()
+            .map(|(site, [a, b, c])| loading.total(*site) * (a + b + c));
+        let work: BigRational = work.sum();
+        loading.total(self.site) + work / BigRational::from_integer(directions.into())
     }
 
-    fn weight(&self, site: Site) -> Result<BigRational, Error> {
-        Ok(self.pile.sphere_weight(site)? + self.pile.load(site)?)
-    }
-
+    /// That a bound holds, by this field; and that it is attained, by these forces if there are any.
     fn certificate(
         &self,
         end: End,
         normal: BigRational,
-        horizontal: BTreeMap<HorizontalContact, BigRational>,
+        horizontal: Option<BTreeMap<HorizontalContact, BigRational>>,
         field: BTreeMap<Site, [BigRational; 3]>,
     ) -> Certificate {
         let extreme = Extreme {
             site: self.site,
             normal,
-            attained: true,
+            attained: horizontal.is_some(),
         };
         let claim = match end {
             End::Least => Claim::Least(extreme),
@@ -229,45 +239,17 @@ impl Solver<'_> {
         Certificate {
             pile: self.pile.clone(),
             claim,
-            horizontal,
+            // Not a default: without forces the bound is not called attained.
+            horizontal: horizontal.unwrap_or_default(),
             field,
         }
-    }
-
-    /// The bound of a certificate, as far as the checker accepts it.
-    fn accepted(mut certificate: Certificate, attained: bool) -> Result<NormalBound, Error> {
-        let attained = attained && certificate.check().is_ok();
-        if !attained {
-            certificate.horizontal.clear();
-        }
-        let (Claim::Least(extreme) | Claim::Greatest(extreme)) = &mut certificate.claim else {
-            return Err(crate::error::bug("a bound is an extreme"));
-        };
-        extreme.attained = attained;
-        let normal = extreme.normal.clone();
-        if !attained && certificate.check().is_err() {
-            return Err(crate::error::bug(
-                "a bound that holds of all forces is accepted",
-            ));
-        }
-        Ok(NormalBound {
-            normal,
-            attained,
-            certificate: Some(certificate),
-        })
     }
 }
 
 /// A field that is right for every pile: no sphere bears less than its own weight, none more than that and all others.
 fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational; 3]> {
     let directions = network.pile.dimension().directions().len();
-    let one = |l: usize| {
-        if l < directions {
-            BigRational::one()
-        } else {
-            BigRational::zero()
-        }
-    };
+    let one = |l: usize| BigRational::from_integer(i32::from(l < directions).into());
     match end {
         End::Least => BTreeMap::new(),
         End::Greatest => network
@@ -366,8 +348,9 @@ impl Straight {
             .collect()
     }
 
-    /// The arch that takes everything off an inner sphere or one on an edge: of n_A ≥ n_B ≥ n_C, the spheres (t, n_B, n_C) push at (t+1, n_B−1,
-    /// n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on n push at each other.
+    /// The arch that takes everything off an inner sphere or one on an edge: of n_A ≥ n_B ≥ n_C, the spheres (t, n_B,
+    /// n_C) push at (t+1, n_B−1, n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on
+    /// n push at each other.
     fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
         let mut order = [0, 1, 2];
         order.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));

@@ -9,14 +9,14 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Equation, near};
 use super::network::{Column, Network, touches};
-use super::program::{Program, unsolved};
+use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim};
 use crate::geometry::Vector;
 use crate::lattice::{Direction, HorizontalContact, Sign, Site};
 use crate::{Culprit, Error, FloorForce, Pile, formula};
 
-/// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of least energy,
-/// Σ f²/2κ + Σ X²/2κ′, and there is only one such state.
+/// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of
+/// least energy, Σ f²/2κ + Σ X²/2κ′, and there is only one such state.
 ///
 /// # Examples
 /// ```
@@ -40,20 +40,20 @@ pub struct ElasticState<'p> {
     pile: &'p Pile,
     /// None where the sloping forces are those without horizontal contacts.
     sloping: Option<BTreeMap<Site, [BigRational; 3]>>,
-    horizontal: BTreeMap<HorizontalContact, BigRational>,
     certificate: Option<Certificate>,
 }
 
 impl Pile {
     /// Returns the elastic state at a = R, κ′/κ being the stiffness of horizontal contacts over that of sloping ones.
     ///
-    /// Straight piles of equal weights bear what they bear without horizontal contacts ([`paper`](crate::paper#elastic-state)), of any
-    /// number of layers. For others it is tested whether they do, in time proportional to the number of spheres; if not, a
-    /// quadratic program says which contacts push, and the forces that follow are exact.
+    /// Straight piles of equal weights bear what they bear without horizontal contacts
+    /// ([`paper`](crate::paper#elastic-state)), of any number of layers. For others it is tested whether they do, in
+    /// time proportional to the number of spheres; if not, a quadratic program says which contacts push, and the forces
+    /// that follow are exact.
     ///
     /// # Errors
-    /// [`Error::NotPositive`] of a stiffness ratio; [`Error::NoHorizontalContacts`]; [`Error::CannotStand`]; [`Error::TooLarge`];
-    /// [`Error::NotSolved`] if the contacts that push were not found.
+    /// [`Error::NotPositive`] of a stiffness ratio; [`Error::NoHorizontalContacts`]; [`Error::CannotStand`];
+    /// [`Error::TooLarge`]; [`Error::NotSolved`] if the contacts that push were not found.
     ///
     /// # Examples
     /// ```
@@ -77,7 +77,6 @@ impl Pile {
         let mut state = ElasticState {
             pile: self,
             sloping: None,
-            horizontal: BTreeMap::new(),
             certificate: None,
         };
         let network = match Network::above(self, self.layers() - 1) {
@@ -100,7 +99,6 @@ impl Pile {
         }
         let (certificate, sloping) = springs.with_horizontal()?;
         state.sloping = Some(sloping);
-        state.horizontal.clone_from(&certificate.horizontal);
         state.certificate = Some(certificate);
         Ok(state)
     }
@@ -142,13 +140,14 @@ impl ElasticState<'_> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn horizontal(&self) -> impl Iterator<Item = (HorizontalContact, &BigRational)> {
-        self.horizontal
-            .iter()
+        let certificate = self.certificate.iter();
+        certificate
+            .flat_map(|certificate| &certificate.horizontal)
             .map(|(contact, force)| (*contact, force))
     }
 
-    /// Returns what the pile presses with on the floor below a bottom sphere, as [`Forces::on_floor`](crate::Forces::on_floor)
-    /// does.
+    /// Returns what the pile presses with on the floor below a bottom sphere, as
+    /// [`Forces::on_floor`](crate::Forces::on_floor) does.
     ///
     /// # Errors
     /// As there.
@@ -239,8 +238,8 @@ impl Springs<'_> {
         self.stiffness_ratio * along(&self.network.columns[unknown], field)
     }
 
-    /// The forces X of these contacts and the gaps μ = f − D of these, one after the other, for which κ′ c = X and f = 0: as exact
-    /// as they are unique.
+    /// The forces X of these contacts and the gaps μ = f − D of these, one after the other, for which κ′ c = X and f =
+    /// 0: as exact as they are unique.
     fn solved(&self, pushing: &Pushing, guess: &[f64]) -> Option<Vec<BigRational>> {
         let equations = self.network.weights.len();
         let zeros = || vec![BigRational::zero(); equations];
@@ -286,23 +285,23 @@ impl Springs<'_> {
         })
     }
 
+    /// The sloping forces with these X.
+    fn sloping(&self, pushing: &Pushing, horizontal: &[BigRational]) -> Vec<BigRational> {
+        let unknowns = pushing.horizontal.iter().copied();
+        let sums = self.network.sums_with(unknowns.zip(horizontal));
+        self.network.sloping(sums)
+    }
+
     /// The certificate of these X and μ.
     fn certificate(&self, pushing: &Pushing, solution: &[BigRational]) -> Certificate {
         let Network {
-            columns,
             weights,
             contacts,
             pile,
             ..
         } = &self.network;
         let (horizontal, gaps) = solution.split_at(pushing.horizontal.len());
-        let mut sums = weights.clone();
-        for (unknown, force) in pushing.horizontal.iter().zip(horizontal) {
-            for (equation, coefficient) in &columns[*unknown] {
-                sums[*equation] -= coefficient * force;
-            }
-        }
-        let mut drops = self.network.sloping(sums);
+        let mut drops = self.sloping(pushing, horizontal);
         for (unknown, gap) in pushing.open.iter().zip(gaps) {
             drops[*unknown] -= gap;
         }
@@ -328,16 +327,17 @@ impl Springs<'_> {
     fn with_horizontal(&self) -> Result<(Certificate, BTreeMap<Site, [BigRational; 3]>), Error> {
         let network = &self.network;
         let equations = network.weights.len();
+        let unsolved = || Error::NotSolved { equations };
         let ratio = self
             .stiffness_ratio
             .to_f64()
             .filter(|ratio| ratio.is_normal());
-        let softness = ratio.ok_or_else(|| unsolved(equations))?.recip();
+        let softness = ratio.ok_or_else(unsolved)?.recip();
         let curvature =
             (0..network.columns.len()).map(|u| if u < equations { 1.0 } else { softness });
         let program = Program {
             curvature: curvature.collect(),
-            columns: network.columns.clone(),
+            columns: &network.columns,
             sums: network.weights.clone(),
             cost: vec![BigRational::zero(); network.columns.len()],
         };
@@ -345,7 +345,7 @@ impl Springs<'_> {
         let Some(guess) = program.guess() else {
             return Err(match network.pile.equilibrium()?.claim {
                 Claim::CannotStand => Error::CannotStand,
-                _ => unsolved(equations),
+                _ => unsolved(),
             });
         };
         let positive = |unknown: &usize| guess.positive[*unknown];
@@ -357,25 +357,16 @@ impl Springs<'_> {
                 .filter(|unknown| !positive(unknown))
                 .collect(),
         };
-        let float_scale = scale.to_f64().ok_or_else(|| unsolved(equations))?;
+        let float_scale = scale.to_f64().ok_or_else(unsolved)?;
         let forces = pushing
             .horizontal
             .iter()
             .map(|unknown| guess.unknowns[*unknown] * float_scale);
         let numbers: Vec<f64> = forces.chain(pushing.open.iter().map(|_| 0.0)).collect();
-        let solution = self
-            .solved(&pushing, &numbers)
-            .ok_or_else(|| unsolved(equations))?;
-        let certificate = self.certificate(&pushing, &solution);
-        certificate.check().map_err(|_| unsolved(equations))?;
-        let mut sums = network.weights.clone();
-        for (unknown, force) in pushing.horizontal.iter().zip(&solution) {
-            for (equation, coefficient) in &network.columns[*unknown] {
-                sums[*equation] -= coefficient * force;
-            }
-        }
-        let sloping = network.by_sphere(&network.sloping(sums)).collect();
-        Ok((certificate, sloping))
+        let solution = self.solved(&pushing, &numbers).ok_or_else(unsolved)?;
+        let certificate = accepted(Some(self.certificate(&pushing, &solution)), equations)?;
+        let sloping = self.sloping(&pushing, &solution);
+        Ok((certificate, network.by_sphere(&sloping).collect()))
     }
 }
 

@@ -102,8 +102,8 @@ impl Triangular {
     }
 }
 
-/// Returns the first convergent of the continued fraction of a number that is as good as floats, or else the last with a denominator up to
-/// `most`; with `most` = 1 the nearest integer. `None` if it is not finite, or too great for this.
+/// Returns the first convergent of the continued fraction of a number that is as good as floats, or else the last with
+/// a denominator up to `most`; with `most` = 1 the nearest integer. `None` if it is not finite, or too great for this.
 fn simple_fraction(number: f64, most: i64) -> Option<BigRational> {
     const GREATEST: f64 = 1e15;
     const CLOSE: f64 = 1e-12;

@@ -2,16 +2,20 @@
 
 use std::collections::HashMap;
 
+use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::error::bug;
 use crate::formula::tripled_half_turn;
-use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
+use crate::lattice::{Axis, Direction, HorizontalContact, Site};
 use crate::{Error, Pile};
 
 /// The most equations, three for each sphere off the floor, of which a program is solved: 31 layers under one sphere.
 pub(super) const MOST_EQUATIONS: u64 = 15_000;
+
+/// The most spheres of a pile whose certificate has numbers for all of them, where fewer would do.
+pub(super) const MOST_CERTIFIED: u32 = 100_000;
 
 /// The coefficients of an unknown force, by equation.
 pub(super) type Column = Vec<(usize, BigRational)>;
@@ -39,11 +43,9 @@ impl<'p> Network<'p> {
     pub(super) fn above(pile: &'p Pile, floor: i128) -> Result<Self, Error> {
         touches(pile)?;
         let directions = pile.dimension().directions();
-        let layers = (0..floor).map(|k| Ok(pile.shape().layer(k)?.site_count()));
-        let mut equations = num_bigint::BigUint::zero();
-        for sites in layers {
-            let sites: num_bigint::BigUint = sites?;
-            equations += sites * pile.dimension().number();
+        let mut equations = BigUint::zero();
+        for k in 0..floor {
+            equations += pile.shape().layer(k)?.site_count() * pile.dimension().number();
             if equations > MOST_EQUATIONS.into() {
                 return Err(Error::TooLarge {
                     quantity: "a program over all contacts",
@@ -71,7 +73,7 @@ impl<'p> Network<'p> {
             .collect();
         let mut weights = Vec::with_capacity(spheres.len() * directions.len());
         for site in &spheres {
-            let weight = pile.sphere_weight(*site)? + pile.load(*site)?;
+            let weight = pile.loading().total(*site);
             weights.extend(directions.iter().map(|_| weight.clone()));
         }
         let mut network = Self {
@@ -110,7 +112,9 @@ impl<'p> Network<'p> {
             let neighbour =
                 neighbour.ok_or_else(|| bug("a contact of the network has two spheres"))?;
             let [a, b] = contact.axis.ends();
-            let sigma = sigma(self.pile, contact.site.k);
+            let sign = self.pile.shape().sign_below(contact.site.k);
+            let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
+            let sigma = BigRational::from_integer(sign.factor().into());
             columns.push(vec![
                 (self.equation(contact.site, a)?, -sigma.clone()),
                 (self.equation(contact.site, b)?, sigma.clone()),
@@ -153,6 +157,20 @@ impl<'p> Network<'p> {
             Some(self.equation(above, *direction))
         });
         above.collect()
+    }
+
+    /// What is left of the sums of the equations when horizontal forces have been given, by unknown.
+    pub(super) fn sums_with<'f>(
+        &self,
+        horizontal: impl Iterator<Item = (usize, &'f BigRational)>,
+    ) -> Vec<BigRational> {
+        let mut sums = self.weights.clone();
+        for (unknown, force) in horizontal {
+            for (equation, coefficient) in &self.columns[unknown] {
+                sums[*equation] -= coefficient * force;
+            }
+        }
+        sums
     }
 
     /// The sloping forces for these sums of the equations, without horizontal ones: from the top, since an equation has one
@@ -224,12 +242,5 @@ pub(super) fn touches(pile: &Pile) -> Result<(), Error> {
         Err(Error::NoHorizontalContacts {
             sin_phi: pile.sin_phi().clone(),
         })
-    }
-}
-
-fn sigma(pile: &Pile, k: i128) -> BigRational {
-    match pile.shape().sign_below(k) {
-        Some(Sign::Minus) => -BigRational::one(),
-        _ => BigRational::one(),
     }
 }

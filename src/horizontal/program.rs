@@ -10,12 +10,12 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use super::exact::{Equation, near};
 use super::network::Column;
 use crate::Error;
+use crate::certificate::{Certificate, Refusal};
 
 /// Minimise Σ cost x + ½ Σ curvature x² over x ≥ 0 with Σ column x = sums.
-#[derive(Clone)]
-pub(super) struct Program {
+pub(super) struct Program<'n> {
     /// By unknown.
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: &'n [Column],
     /// By equation.
     pub(super) sums: Vec<BigRational>,
     /// By unknown.
@@ -34,7 +34,7 @@ pub(super) struct Guess {
     pub(super) positive: Vec<bool>,
 }
 
-impl Program {
+impl Program<'_> {
     /// Returns what an interior point finds; `None` if it finds nothing.
     pub(super) fn guess(&self) -> Option<Guess> {
         let (equations, unknowns) = (self.sums.len(), self.columns.len());
@@ -154,7 +154,20 @@ impl Program {
     }
 }
 
-/// The program was not solved.
-pub(super) fn unsolved(equations: usize) -> Error {
-    Error::NotSolved { equations }
+/// Returns a certificate if the checker accepts it.
+///
+/// # Errors
+/// [`Error::TooLarge`] if it would not fit into memory; [`Error::NotSolved`] if it is refused, or there is none.
+pub(super) fn accepted(
+    certificate: Option<Certificate>,
+    equations: usize,
+) -> Result<Certificate, Error> {
+    let certificate = certificate.ok_or(Error::NotSolved { equations })?;
+    match certificate.check() {
+        Ok(()) => Ok(certificate),
+        Err(refusal) => Err(match *refusal {
+            Refusal::Pile(error) => error,
+            _ => Error::NotSolved { equations },
+        }),
+    }
 }

@@ -2,23 +2,23 @@
 
 use alloc::collections::BTreeMap;
 use alloc::vec;
+use alloc::vec::Vec;
 use core::iter::repeat_n;
 
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::network::{Network, touches};
-use super::program::{Program, unsolved};
+use super::network::{Column, MOST_CERTIFIED, Network, touches};
+use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim};
+use crate::error::bug;
+use crate::lattice::Sign;
 use crate::shape::Anchor;
 use crate::stacking::Stacking;
 use crate::{Error, Pile};
 
-/// The most layers of the first beginning that is looked at.
+/// The layers above the one that is held in the first beginning that is looked at, if the pile fails no further down.
 const FIRST: i128 = 6;
-
-/// The most spheres of a pile that is certified as a whole.
-const MOST_SPHERES: u32 = 100_000;
 
 /// What all pulls may come to in floats, of weights of order 1, if there are none.
 const NO_PULL: f64 = 1e-5;
@@ -32,8 +32,9 @@ impl Pile {
     /// that of its first layers, by the same reasons.
     ///
     /// # Errors
-    /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`] if more than 15,000 equations would have to be solved; [`Error::NotSolved`]
-    /// if they are, in floats, and what comes of it is no proof; as for [`standing`](Self::standing).
+    /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`] if more than 15,000 equations would have to be solved;
+    /// [`Error::NotSolved`] if they are, in floats, and what comes of it is no proof; as for
+    /// [`standing`](Self::standing).
     ///
     /// # Examples
     /// ```
@@ -55,8 +56,10 @@ impl Pile {
             return Ok(self.clone().certified(Claim::Stands));
         };
         // Held is what lies under the last change of sign.
-        let last = self.shape().stacking().changes();
-        let last = self.shape().stretch(last).map_or(failure, |run| run.from) + 1;
+        let shape = self.shape();
+        let last_run = shape.stretch(shape.stacking().changes());
+        let last_run = last_run.ok_or_else(|| bug("a pile that fails has a step"))?;
+        let last = last_run.from + 1;
         let mut floor = (failure + 1).max(FIRST).min(last);
         loop {
             let certificate = self.equilibrium_above(floor, floor == last)?;
@@ -70,7 +73,9 @@ impl Pile {
     /// The layers down to one, as a pile of their own.
     fn beginning(&self, floor: i128) -> Result<Self, Error> {
         let shape = self.shape();
-        let signs = (0..floor).filter_map(|k| shape.sign_below(k));
+        let signs = (0..floor).map(|k| shape.sign_below(k));
+        let signs: Option<Vec<Sign>> = signs.collect();
+        let signs = signs.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
         let stacking = Stacking::from_signs(signs)?;
         let pile = match shape.anchor() {
             Anchor::Top(top) => Self::under(top, stacking)?,
@@ -113,18 +118,19 @@ impl Pile {
         });
         let cost =
             repeat_n(BigRational::zero(), unknowns).chain(repeat_n(BigRational::one(), equations));
+        let with_pulls: Vec<Column> = network.columns.iter().cloned().chain(pulls).collect();
         let program = Program {
-            columns: network.columns.iter().cloned().chain(pulls).collect(),
+            columns: &with_pulls,
             sums: network.weights.clone(),
             cost: cost.collect(),
             curvature: vec![0.0; unknowns + equations],
         };
         let (program, scale) = program.scaled();
-        let mut guess = program.guess().ok_or_else(|| unsolved(equations))?;
+        let mut guess = program.guess().ok_or(Error::NotSolved { equations })?;
         // What is said is checked, whatever floats say.
         let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
         // What cannot stand cannot with more below it; what stands does so as far as it was looked at.
-        let is_small = self.sphere_count() <= MOST_SPHERES.into();
+        let is_small = self.sphere_count() <= MOST_CERTIFIED.into();
         let pile = if is_small && (is_whole || !stands) {
             self.clone()
         } else {
@@ -132,7 +138,7 @@ impl Pile {
         };
         let certificate = if stands {
             let program = Program {
-                columns: network.columns.clone(),
+                columns: &network.columns,
                 ..program
             };
             guess.unknowns.truncate(unknowns);
@@ -154,7 +160,6 @@ impl Pile {
                     ..pile.certified(Claim::CannotStand)
                 })
         };
-        let certificate = certificate.filter(|certificate| certificate.check().is_ok());
-        certificate.ok_or_else(|| unsolved(equations))
+        accepted(certificate, equations)
     }
 }

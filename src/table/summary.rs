@@ -6,8 +6,7 @@ use num_rational::BigRational;
 use super::cell::Cell;
 use super::rows::{Column, Table};
 use super::units::Units;
-#[cfg(feature = "horizontal")]
-use crate::certificate::Claim;
+use crate::certificate::{Certificate, Claim};
 use crate::geometry::Apart;
 use crate::lattice::Dimension;
 use crate::shape::Selection;
@@ -37,7 +36,7 @@ pub struct Summary<'p> {
     standing: Standing,
     /// Whether horizontal contacts hold what pulls without them, where they are all that touches besides; or why that is
     /// not known.
-    held: Option<Result<bool, Error>>,
+    held: Option<Result<Certificate, Error>>,
     /// Or why there are none.
     base: Result<BaseExtremes, Error>,
     /// How the base is answered, or why it cannot be as a whole.
@@ -74,10 +73,7 @@ impl<'p> Summary<'p> {
         let held = {
             let in_layers_only = touching.as_deref() == Some(&[Apart { layers: 0 }]);
             let pulls = standing.first_failure.is_some() && !pile.is_weightless();
-            (in_layers_only && pulls).then(|| {
-                let certificate = pile.equilibrium();
-                certificate.map(|certificate| certificate.claim == Claim::Stands)
-            })
+            (in_layers_only && pulls).then(|| pile.equilibrium())
         };
         #[cfg(not(feature = "horizontal"))]
         let held = None;
@@ -157,11 +153,28 @@ impl<'p> Summary<'p> {
     pub fn verdict(&self) -> Option<Verdict> {
         let asked = !self.units.pile().is_weightless();
         let touching = self.touching.as_deref().unwrap_or_default();
-        asked.then(|| match self.held {
-            Some(Ok(true)) => Verdict::Yes,
-            Some(Ok(false)) => Verdict::No,
-            _ => self.standing.verdict(touching),
+        asked.then(|| match self.certificate() {
+            Some(certificate) if certificate.claim == Claim::Stands => Verdict::Yes,
+            Some(_) => Verdict::No,
+            None => self.standing.verdict(touching),
         })
+    }
+
+    /// Returns the certificate of the verdict, where horizontal contacts decide it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::table::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// // The paper's forces do.
+    /// assert!(Summary::new(&Units::of_pile(&pile), None)?.certificate().is_none());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn certificate(&self) -> Option<&Certificate> {
+        self.held.as_ref()?.as_ref().ok()
     }
 
     /// One row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres, normal_min,

@@ -8,9 +8,9 @@ use crate::output::Failure;
 use crate::progress::Progress;
 
 const HELP: &str = "\
-At a = R neighbours of a layer touch, and the forces are no longer unique. Columns: i, j; normal_min and normal_max, the least and
-the greatest normal force in mg that forces can give which balance the pile and only push; proved, 'yes' if both are
-attained, else no forces pass them. Every answer was checked exactly.
+At a = R neighbours of a layer touch, and the forces are no longer unique. Columns: i, j; normal_min and normal_max, the
+least and the greatest normal force in mg that forces can give which balance the pile and only push; proved, 'yes' if both
+are attained, else no forces pass them. Answers are formulas proved for all L, of straight piles, or were checked exactly.
 
 Examples:
   cannonpile bounds --layers 10

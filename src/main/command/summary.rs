@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use cannonpile::Verdict;
+use cannonpile::geometry::Apart;
 use cannonpile::serde::write_certificate;
 use cannonpile::table;
 use clap::Args;
@@ -12,11 +13,11 @@ use crate::output::{Failure, complain, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-stands is 'no' if a contact would have to pull. Where spheres touch besides, at --spacing, 'touching' says where they are: if
-they are neighbours of a layer, a = R, stands says whether the pile is held with them, and min_contact is without; if they
-are others, which may hold the pile, it is 'undetermined'. Exit status 1 unless it stands. A force
-that would take too long to find is shown as -, and a note says why. With --units si forces are in N, for R = 1 m, m = 1 kg and g = 1 m/s² unless
-these are given.
+stands is 'no' if a contact would have to pull. Where spheres touch besides, at --spacing, 'touching' says where they are:
+if they are neighbours of a layer, a = R, stands says whether the pile is held with them, and min_contact is without; if
+they are others, which may hold the pile, it is 'undetermined'. Exit status 1 unless it stands. A force that would take too
+long to find is shown as -, and a note says why. With --units si forces are in N, for R = 1 m, m = 1 kg and g = 1 m/s²
+unless these are given.
 
 Examples:
   cannonpile summary --stacking hcp --layers 7
@@ -41,20 +42,24 @@ impl Summary {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read()?;
         self.output.format()?;
-        if self.certificate.is_some() {
-            scene.check_touching()?;
-        }
         let units = self.numbers.units.of(&scene, &pile)?;
         // At the default spacing, where none is given: if that fits.
         let touching = pile.clearance().check(&scene.spacing()?);
+        if self.certificate.is_some() && touching.as_deref() != Ok(&[Apart { layers: 0 }]) {
+            return Err(Failure::Message(
+                "--certificate: a proof is about horizontal contacts, and the row would not be: give --spacing 1, a = R"
+                    .to_owned(),
+            ));
+        }
+        let progress = Progress::begin("finding the extreme forces");
+        let summary = table::Summary::new(&units, touching.clone().ok())?;
         if let Some(file) = &self.certificate {
-            let certificate = pile.equilibrium()?;
+            let known = summary.certificate().cloned();
+            let certificate = known.map_or_else(|| pile.equilibrium(), Ok)?;
             write_to("certificate", Some(file), |mut out| {
                 Ok(write_certificate(&certificate, &mut out)?)
             })?;
         }
-        let progress = Progress::begin("finding the extreme forces");
-        let summary = table::Summary::new(&units, touching.clone().ok())?;
         let table = summary.table();
         self.output
             .write_table(table, self.numbers.number, &progress)?;

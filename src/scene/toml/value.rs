@@ -137,6 +137,7 @@ pub(super) fn line_of(file: &str, start: usize) -> usize {
 
 /// A text that is no TOML, in the words of its parser, and what it stumbled on.
 pub(super) fn not_toml(file: &str, error: &::toml::de::Error) -> Error {
+    // What has no place is shown without one, as if it were the first line's.
     let span = error.span().unwrap_or_default();
     let line = line_of(file, span.start);
     let printable = |c: char| {
