@@ -119,6 +119,9 @@ class Pile:
     """Layers as sets of sites, signs of the steps between them, and weights with loads."""
 
     def __init__(self, given):
+        # A pile may name forces of its own in horizontal contacts; that of a certificate has none.
+        if isinstance(given, dict) and given.get("horizontal") == []:
+            given = {key: value for key, value in given.items() if key != "horizontal"}
         dimension, sine, stacking, anchor, weightless, weights, loads = record(
             given, "dimension sin_phi stacking anchor weightless weights loads"
         )
@@ -353,7 +356,11 @@ def main(arguments):
         else:
             with open(name, encoding="utf-8") as file:
                 given = json.load(file, object_pairs_hook=once)
-        Certificate(given).check()
+        # One, or an array of them.
+        if given == []:
+            raise Unreadable("an empty array certifies nothing")
+        for certificate in given if isinstance(given, list) else [given]:
+            Certificate(certificate).check()
     except Refused as refusal:
         print(f"refused: {refusal}")
         return 1

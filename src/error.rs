@@ -280,7 +280,7 @@ pub enum Error {
     /// A spacing at which the neighbours of a layer do not touch, and that was given.
     NotTouching {
         /// The spacing.
-        spacing: BigRational,
+        spacing: Spacing,
     },
     /// Bounds of a pile whose spheres weigh nothing.
     Weightless,

@@ -11,6 +11,7 @@
 //! | [`shear()`] | the shear on the floor as arrows (paper, fig. 4) |
 //! | [`base()`] | the normal force on the floor as a map |
 //! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
+//! | `bounds`, with the feature `horizontal` | what bottom spheres can bear at a = R, at least and at most |
 //! | [`response()`] | what a layer feels of a load on the top |
 //!
 //! Axes are those of the exported files: x and y the paper's, z **up**. What is seen from above therefore has x to the right
@@ -33,6 +34,8 @@
 //! ```
 
 mod base;
+#[cfg(feature = "horizontal")]
+mod bounds;
 mod caption;
 mod colour;
 mod indexing;
@@ -51,6 +54,9 @@ mod ticks;
 mod view;
 
 pub use base::base;
+#[cfg(feature = "horizontal")]
+#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+pub use bounds::bounds;
 pub use indexing::indexing;
 pub use network::{layer, section};
 pub use page::{Figure, Layout};

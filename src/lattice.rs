@@ -21,7 +21,7 @@ mod region;
 mod row;
 mod sign;
 
-pub use axis::{Axis, HorizontalContact};
+pub use axis::{Axis, HorizontalContact, Link};
 pub use region::Region;
 pub(crate) use region::{Along, Counts, Slopes, Trapezoid};
 pub use row::{Row, Sites};

@@ -69,7 +69,8 @@ impl<'p> Packing<'p> {
     /// The packing with R = m = g = 1.
     ///
     /// # Errors
-    /// [`Error::Overlap`], [`Error::TooFlat`] or [`Error::NoSpacing`] if the spheres have no room.
+    /// [`Error::Overlap`], [`Error::TooFlat`] or [`Error::NoSpacing`] if the spheres have no room;
+    /// [`Error::NotTouching`] if neighbours of a layer push each other and do not touch.
     ///
     /// # Examples
     /// ```
@@ -85,6 +86,11 @@ impl<'p> Packing<'p> {
     /// ```
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
+        if pile.horizontal_forces().len() > 0 && !touching.contains(&Apart { layers: 0 }) {
+            return Err(Error::NotTouching {
+                spacing: spacing.clone(),
+            });
+        }
         let inclination = Inclination::new(spacing, pile.dimension())?;
         let forces = pile.forces::<BigRational>();
         let increment_sum = forces.increment_sum()?;

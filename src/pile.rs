@@ -13,7 +13,7 @@ use num_traits::{One, Zero};
 use crate::Error;
 use crate::formula;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
-use crate::lattice::{Dimension, Region, Site, count};
+use crate::lattice::{Dimension, HorizontalContact, Region, Site, count};
 use crate::scalar::{Algebra, Ring};
 use crate::shape::{Numbering, Rows, Selection, Shape};
 use crate::stacking::Stacking;
@@ -546,6 +546,105 @@ impl Pile {
     /// ```
     pub fn load(&self, site: Site) -> Result<BigRational, Error> {
         Ok(self.loading.load(self.shape.check(site)?))
+    }
+
+    /// Returns the pile with a force in a horizontal contact, in f₀, added to what was there; sloping contacts then bear what
+    /// balances it.
+    ///
+    /// Where neighbours of a layer touch, at a = R, a pile has many states of balance, one for each choice of these forces:
+    /// [`paper`](crate::paper#horizontal-contacts). A contact of the bottom layer has no effect and is refused.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`] of either sphere; [`Error::OnFloor`]; [`Error::NegativeLoad`] of a pull;
+    /// [`Error::NoHorizontalContacts`] unless sin φ = 1/2.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Axis, Direction, HorizontalContact, Site};
+    /// use num_rational::BigRational;
+    ///
+    /// let site = Site { i: 0, j: 0, k: 1 };
+    /// let contact = HorizontalContact { site, axis: Axis::AlphaBeta };
+    /// let pile = Pile::triangular(3)?.with_horizontal_force(contact, BigRational::from_integer(1.into()))?;
+    /// let forces = pile.forces::<BigRational>();
+    /// // More where the neighbour pushes to, less on its side.
+    /// assert_eq!(forces.contact(site, Direction::Alpha)?.to_string(), "3");
+    /// assert_eq!(forces.contact(site, Direction::Beta)?.to_string(), "0");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_horizontal_force(
+        mut self,
+        contact: HorizontalContact,
+        force: BigRational,
+    ) -> Result<Self, Error> {
+        self.check_horizontal()?;
+        let site = self.shape.check(contact.site)?;
+        let neighbour = self.shape.neighbour(contact)?;
+        let sign = self.shape.sign_below(site.k);
+        let sign = sign.ok_or(Error::OnFloor { site })?;
+        self.loading.push(contact, neighbour, sign, force)?;
+        Ok(self)
+    }
+
+    /// Returns the horizontal contacts that were given a force, with it, in f₀; in the order of tables.
+    ///
+    /// # Examples
+    /// See [`with_horizontal_force`](Self::with_horizontal_force).
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// assert_eq!(Pile::triangular(3)?.horizontal_forces().len(), 0);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn horizontal_forces(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (HorizontalContact, &BigRational)> + '_ {
+        self.loading.horizontal()
+    }
+
+    /// Returns the force that a horizontal contact was given, in f₀: 0 in most.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::{Axis, HorizontalContact, Site};
+    ///
+    /// let contact = HorizontalContact { site: Site { i: 0, j: 0, k: 1 }, axis: Axis::AlphaBeta };
+    /// assert_eq!(Pile::triangular(3)?.horizontal_force(contact).to_string(), "0");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn horizontal_force(&self, contact: HorizontalContact) -> BigRational {
+        self.loading.horizontal_force(contact)
+    }
+
+    /// Returns the pile without the forces that horizontal contacts were given.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// assert_eq!(pile.clone().without_horizontal_forces(), pile);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn without_horizontal_forces(mut self) -> Self {
+        self.loading.release();
+        self
+    }
+
+    /// Whether neighbours of a layer touch at a = R, and in no other way.
+    pub(crate) fn check_horizontal(&self) -> Result<(), Error> {
+        if self.is_regular() {
+            Ok(())
+        } else {
+            Err(Error::NoHorizontalContacts {
+                sin_phi: self.sin_phi.clone(),
+            })
+        }
     }
 
     pub(crate) fn loading(&self) -> &Loading {

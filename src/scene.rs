@@ -6,11 +6,15 @@ pub mod parse;
 mod toml;
 
 use alloc::vec::Vec;
+use core::fmt;
+use core::str::FromStr;
 
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
 use crate::geometry::Spacing;
+#[cfg(feature = "horizontal")]
+use crate::horizontal::ElasticState;
 use crate::lattice::{Dimension, Region};
 use crate::shape::Shape;
 use crate::stacking::Pattern;
@@ -22,6 +26,74 @@ pub use crate::shape::Anchor;
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
 pub use toml::SceneFile;
+
+/// Which forces of a pile are meant, where horizontal contacts leave a choice.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scene::State;
+///
+/// assert_eq!("elastic".parse::<State>()?, State::Elastic);
+/// assert_eq!(State::default().to_string(), "isostatic");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum State {
+    /// Those without horizontal contacts: the paper's.
+    #[default]
+    Isostatic,
+    /// Those of springs that only push, at a = R.
+    Elastic,
+}
+
+impl State {
+    /// Returns `isostatic` or `elastic`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::State;
+    ///
+    /// assert_eq!(State::Elastic.name(), "elastic");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Isostatic => "isostatic",
+            Self::Elastic => "elastic",
+        }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for State {
+    type Err = Error;
+
+    /// Reads a state by its [`name`](Self::name).
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::State;
+    ///
+    /// assert!("plastic".parse::<State>().is_err());
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = [Self::Isostatic, Self::Elastic]
+            .into_iter()
+            .find(|state| state.name() == text);
+        found.ok_or_else(|| Error::syntax(text, "a state: isostatic or elastic"))
+    }
+}
+
+#[cfg(feature = "serde")]
+crate::scalar::serde::as_text!(State);
 
 /// A pile and its spheres, as a user describes them; unchecked until a [`Pile`] or a [`Packing`] is asked for.
 ///
@@ -65,7 +137,7 @@ pub struct Scene {
     pub loads: Vec<(At, BigRational)>,
     /// Whether the spheres weigh nothing, so that only the loads act.
     pub weightless: bool,
-    /// a/R. One that is given is always checked, the default 6/5 only where geometry is used.
+    /// a/R. One that is given is always checked, the default only where geometry is used: 6/5, and 1 for the elastic state.
     #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub spacing: Option<BigRational>,
     /// The radius R (1).
@@ -77,6 +149,11 @@ pub struct Scene {
     /// The gravity g (1).
     #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
     pub gravity: BigRational,
+    /// Which forces are meant (isostatic).
+    pub state: State,
+    /// κ′/κ, the stiffness of horizontal contacts over that of sloping ones, of the elastic state (1).
+    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    pub stiffness_ratio: BigRational,
 }
 
 /// Returns which input says where a pile is grown from: the top or the base.
@@ -101,6 +178,8 @@ impl Default for Scene {
             radius: BigRational::one(),
             mass: BigRational::one(),
             gravity: BigRational::one(),
+            state: State::Isostatic,
+            stiffness_ratio: BigRational::one(),
         }
     }
 }
@@ -204,6 +283,7 @@ impl Scene {
             (Culprit::Radius, &self.radius),
             (Culprit::Mass, &self.mass),
             (Culprit::Gravity, &self.gravity),
+            (Culprit::StiffnessRatio, &self.stiffness_ratio),
         ] {
             if !value.is_positive() {
                 return Err(Error::NotPositive {
@@ -228,7 +308,10 @@ impl Scene {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn spacing(&self) -> Result<Spacing, Error> {
-        let default = || BigRational::new(6.into(), 5.into());
+        let default = || match self.state {
+            State::Isostatic => BigRational::new(6.into(), 5.into()),
+            State::Elastic => BigRational::one(),
+        };
         Spacing::new(self.spacing.clone().unwrap_or_else(default))
     }
 
@@ -252,10 +335,55 @@ impl Scene {
     pub fn check_touching(&self) -> Result<(), Error> {
         match &self.spacing {
             Some(spacing) if !spacing.is_one() => Err(Error::NotTouching {
-                spacing: spacing.clone(),
+                spacing: Spacing::new(spacing.clone())?,
             }),
             _ => Ok(()),
         }
+    }
+
+    /// Returns a pile of this scene with the horizontal forces of the state that is meant: none, or those of the
+    /// [elastic state](Pile::elastic).
+    ///
+    /// # Errors
+    /// Those of [`check_touching`](Self::check_touching) and [`Pile::elastic`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::{Scene, State, parse};
+    ///
+    /// let stacking = Some("+-+-+".parse()?);
+    /// let scene = Scene { stacking, state: State::Elastic, ..Scene::default() };
+    /// let pile = scene.in_state(scene.pile()?)?;
+    /// assert_eq!(pile.horizontal_forces().len(), 3);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[cfg(feature = "horizontal")]
+    #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+    pub fn in_state(&self, pile: Pile) -> Result<Pile, Error> {
+        match self.state {
+            State::Isostatic => Ok(pile),
+            State::Elastic => Ok(self.elastic(&pile)?.pile().clone()),
+        }
+    }
+
+    /// Returns the [elastic state](Pile::elastic) of a pile of this scene.
+    ///
+    /// # Errors
+    /// As for [`in_state`](Self::in_state).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scene::Scene;
+    ///
+    /// let scene = Scene::default();
+    /// assert!(scene.elastic(&scene.pile()?)?.certificate().is_some());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[cfg(feature = "horizontal")]
+    #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+    pub fn elastic(&self, pile: &Pile) -> Result<ElasticState, Error> {
+        self.check_touching()?;
+        pile.elastic(&self.stiffness_ratio)
     }
 
     /// Returns the pile with the sizes and weights of the scene.

@@ -53,6 +53,8 @@ mod words;
 
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub use file::{MOST_BYTES, read_certificate, write_certificate};
+pub use file::{
+    MOST_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
+};
 
 pub use crate::scalar::serde::{Number, number};

@@ -14,8 +14,12 @@ pub(crate) use runs::Stretch;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use num_bigint::BigUint;
+
 use crate::Error;
-use crate::lattice::{Dimension, Direction, MAX_LAYERS, Region, Sign, Site, Trapezoid};
+use crate::lattice::{
+    Axis, Dimension, Direction, HorizontalContact, MAX_LAYERS, Region, Sign, Site, Trapezoid,
+};
 use crate::stacking::{Pattern, Run, Stacking};
 
 /// Which sites a pile has: a [`Region`] for each layer, and the [`Stacking`] that leads from one to the next.
@@ -425,6 +429,66 @@ impl Shape {
         region.is_some_and(|region| region.contains(site.i, site.j))
     }
 
+    /// Returns the other sphere of a horizontal contact.
+    ///
+    /// # Errors
+    /// As for [`check`](Self::check), of either sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Axis, Dimension, HorizontalContact, Site};
+    /// use cannonpile::shape::Shape;
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// let contact = HorizontalContact { site: Site { i: 0, j: 1, k: 1 }, axis: Axis::GammaBeta };
+    /// assert_eq!(pyramid.neighbour(contact)?, Site { i: 1, j: 0, k: 1 });
+    /// let outside = HorizontalContact { axis: Axis::AlphaBeta, ..contact };
+    /// assert!(pyramid.neighbour(outside).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn neighbour(&self, contact: HorizontalContact) -> Result<Site, Error> {
+        let site = self.check(contact.site)?;
+        // Past i128 there is no sphere either.
+        let past = Site {
+            i: i128::MAX,
+            ..site
+        };
+        self.check(contact.neighbour().unwrap_or(past))
+    }
+
+    /// Returns the horizontal contacts that are named by a sphere, in the order of tables: with neighbours after it along each
+    /// axis.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Axis, Dimension, Site};
+    /// use cannonpile::shape::Shape;
+    ///
+    /// let pyramid = Shape::pyramid(10, Dimension::Three)?;
+    /// let contacts = pyramid.horizontal_contacts(Site { i: 0, j: 0, k: 1 });
+    /// assert!(contacts.map(|contact| contact.axis).eq([Axis::AlphaBeta, Axis::AlphaGamma]));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn horizontal_contacts(&self, site: Site) -> impl Iterator<Item = HorizontalContact> + '_ {
+        let contacts = Axis::ALL.map(|axis| HorizontalContact { site, axis });
+        contacts
+            .into_iter()
+            .filter(|contact| self.neighbour(*contact).is_ok())
+    }
+
+    /// Returns how many horizontal contacts a layer has: each of its lines has one less than spheres.
+    pub(crate) fn horizontal_contacts_in(&self, k: i128) -> BigUint {
+        let Some(region) = self.region(k) else {
+            return BigUint::ZERO;
+        };
+        let [x, y, s] = region.widths().map(|width| width.unsigned_abs() + 1);
+        let (axes, lines) = match self.dimension {
+            Dimension::Two => (1_u32, y),
+            Dimension::Three => (3, x + y + s),
+        };
+        region.site_count() * axes - BigUint::from(lines)
+    }
+
     /// Checks that the pile has this site, and returns it.
     ///
     /// # Errors
@@ -475,7 +539,7 @@ impl Shape {
     /// ```
     #[must_use]
     pub fn below(&self, site: Site, direction: Direction) -> Option<Site> {
-        self.neighbour(site, direction, self.sign_below(site.k)?, 1)
+        self.next_to(site, direction, self.sign_below(site.k)?, 1)
     }
 
     /// Returns the sphere that `site` supports in a direction; none at a surface.
@@ -494,10 +558,10 @@ impl Shape {
     #[must_use]
     pub fn above(&self, site: Site, direction: Direction) -> Option<Site> {
         let sign = self.sign_below(site.k.checked_sub(1)?)?;
-        self.neighbour(site, direction, sign, -1)
+        self.next_to(site, direction, sign, -1)
     }
 
-    fn neighbour(&self, site: Site, direction: Direction, sign: Sign, down: i128) -> Option<Site> {
+    fn next_to(&self, site: Site, direction: Direction, sign: Sign, down: i128) -> Option<Site> {
         let from = self.contains(site).then_some(site)?;
         let to = from.step(sign, direction, down)?;
         self.contains(to).then_some(to)

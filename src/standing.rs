@@ -217,6 +217,9 @@ impl Pile {
         for contact in self.at_surfaces() {
             standing.meet(contact);
         }
+        for contact in self.at_pushes()? {
+            standing.meet(contact);
+        }
         let changes = self.changes();
         let mut looked_at = 0;
         while looked_at < changes.len() && !(failure && standing.first_failure.is_some()) {
@@ -249,7 +252,9 @@ impl Pile {
             direction,
             force: formula::force(loading.total(site), &increments[direction.index()]),
         };
-        let special: BTreeSet<Site> = loading.extras().map(|(site, _)| site).collect();
+        let pushed = loading.pushes();
+        let extras = loading.extras().map(|(site, _)| site);
+        let special: BTreeSet<Site> = extras.chain(pushed.keys().copied()).collect();
         let directions = self.dimension().directions();
         // All lines of the top begin there, and some in the first row of every layer inside a run.
         let runs = (0..=shape.stacking().changes()).filter_map(|run| shape.stretch(run));
@@ -271,11 +276,22 @@ impl Pile {
                 least.push(contact(site, *direction));
             }
         }
-        let special = special.into_iter().filter(|site| site.k < floor);
+        let special = special
+            .into_iter()
+            .filter(|site| site.k < floor && !pushed.contains_key(site));
         let special = special.flat_map(|site| directions.iter().map(move |d| (site, *d)));
         let special = special.filter(|(site, direction)| begins(shape, *site, *direction));
         least.extend(special.map(|(site, direction)| contact(site, direction)));
         least
+    }
+
+    /// The contacts below spheres that horizontal contacts push: only there a line may have less than before within a run.
+    fn at_pushes(&self) -> Result<Vec<ContactForce<BigRational>>, Error> {
+        let forces = self.forces::<BigRational>();
+        let sites = self.loading().pushes().keys();
+        let contacts = sites.map(|site| forces.contacts(Selection::One(*site)));
+        let contacts: Vec<_> = contacts.collect::<Result<_, _>>()?;
+        contacts.into_iter().flatten().collect()
     }
 
     /// The least force below each of these layers, at which the sign changes.

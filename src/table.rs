@@ -54,7 +54,7 @@ mod write;
 
 #[cfg(feature = "horizontal")]
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
-pub use bounds::bounds;
+pub use bounds::{bounds, bounds_of};
 pub use cell::Cell;
 pub use cell::NumberFormat;
 pub use error::WriteError;
@@ -66,7 +66,7 @@ pub(crate) use progress::Progress;
 pub use rows::{Column, Table};
 pub use summary::Summary;
 pub(crate) use tables::refuse_beyond;
-pub use tables::{MAX_ROWS, base, census, contacts, spheres, theorems};
+pub use tables::{MAX_ROWS, base, census, contacts, spheres, theorems, touching_contacts};
 pub use unfinished::remove_unfinished;
 pub(crate) use unfinished::{Pending, remove_leftovers};
 pub use units::Units;

@@ -140,19 +140,31 @@ const SPHERES: &[Described] = &[
 ];
 
 const CONTACTS: &[Described] = &[
-    ("id1", "", "number of the upper sphere"),
-    ("id2", "", "number of the lower sphere"),
+    (
+        "id1",
+        "",
+        "number of the upper sphere; of two neighbours the lesser",
+    ),
+    (
+        "id2",
+        "",
+        "number of the lower sphere; of two neighbours the greater",
+    ),
     ("force", "N", "contact force; positive is push"),
-    ("fx", "N", "force on the upper sphere along x"),
-    ("fy", "N", "force on the upper sphere along y"),
-    ("fz", "N", "force on the upper sphere upwards"),
-    ("k", "", "layer of the upper sphere, from 0 at the top"),
-    ("i", "", "place of the upper sphere in its layer"),
-    ("j", "", "row of the upper sphere in its layer"),
+    ("fx", "N", "force on sphere id1 along x"),
+    ("fy", "N", "force on sphere id1 along y"),
+    ("fz", "N", "force on sphere id1 upwards"),
+    (
+        "k",
+        "",
+        "layer of the upper sphere, from 0 at the top; of two neighbours, of the one that names their contact",
+    ),
+    ("i", "", "place of that sphere in its layer"),
+    ("j", "", "row of that sphere in its layer"),
     (
         "direction",
         "",
-        "where the lower sphere lies: alpha, beta or gamma",
+        "where the other sphere lies: alpha, beta or gamma below; alpha-beta, alpha-gamma or gamma-beta in the same layer",
     ),
 ];
 

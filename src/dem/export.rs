@@ -156,7 +156,7 @@ impl<'p> PileExport<'p> {
             | PileFile::LammpsData
             | PileFile::SpheresVtp
             | PileFile::YadeSpheres => Some(self.numbering().sphere_count()),
-            PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.pile().contact_count()),
+            PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.contact_count()),
             PileFile::BaseCsv => few(self.pile.pile().base_spheres()),
             PileFile::ColumnsCsv
             | PileFile::LammpsInput

@@ -1,8 +1,9 @@
 //! The contacts of a pile with the numbers of their spheres.
 
+use num_bigint::BigUint;
 use num_traits::Zero;
 
-use crate::lattice::{Direction, Row, Site};
+use crate::lattice::{Direction, Link, Row, Site};
 use crate::scalar::Surd;
 use crate::shape::{Numbering, Rows, Selection};
 use crate::table::{columns, in_pieces, refuse_beyond, slices};
@@ -35,19 +36,19 @@ pub struct NumberedPile<'p> {
 /// A contact of a pile, its force rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NumberedContact {
-    /// The numbers of the upper sphere and of the lower one, which is the greater.
+    /// The numbers of the upper sphere and of the lower one, which is the greater; of two neighbours in order.
     pub ids: [u64; 2],
-    /// The upper sphere.
+    /// The upper sphere; of two neighbours the one that names their contact.
     pub site: Site,
-    /// The direction in which the lower one lies.
-    pub direction: Direction,
+    /// Where the other one lies.
+    pub direction: Link,
     /// The float nearest to the force in N; positive is push. It is 0 if and only if the force is.
     pub force: f64,
-    /// The floats nearest to x, y and z (up) of the force on the upper sphere, in N.
+    /// The floats nearest to x, y and z (up) of the force on the sphere that comes first in `ids`, in N.
     pub vector: [f64; 3],
 }
 
-/// Where a contact is.
+/// Where a sloping contact is.
 #[derive(Clone, Copy)]
 pub(super) struct Touch {
     pub(super) ids: [u64; 2],
@@ -145,20 +146,36 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// All contacts in the order of the upper spheres, without their forces.
-    pub(super) fn touches(&self) -> Result<impl Iterator<Item = Result<Touch, Error>> + '_, Error> {
-        Ok(in_pieces(self.rows_above_the_floor()?, |piece| {
-            Ok(self.touches_of(piece)?.collect())
-        }))
+    /// How many contacts there are: sloping ones, and horizontal ones with a force.
+    pub(super) fn contact_count(&self) -> BigUint {
+        self.pile().contact_count() + self.pile().horizontal_forces().len()
     }
 
-    /// The centres of the upper and the lower sphere of all contacts, in the order of the upper ones.
+    /// How contacts lie, and their spheres: in the order of [`contacts`](Self::contacts).
+    pub(super) fn touches(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(Link, [u64; 2]), Error>> + '_, Error> {
+        let sloping = in_pieces(self.rows_above_the_floor()?, |piece| {
+            let touches = self.touches_of(piece)?;
+            let touches = touches.map(|touch| (touch.direction.into(), touch.ids));
+            Ok(touches.collect())
+        });
+        let horizontal = self.horizontal();
+        Ok(sloping.chain(horizontal.map(|contact| contact.map(|c| (c.direction, c.ids)))))
+    }
+
+    /// The centres of both spheres of all contacts, in the order of [`contacts`](Self::contacts).
     pub(super) fn links(
         &self,
     ) -> Result<impl Iterator<Item = Result<[[f64; 3]; 2], Error>> + '_, Error> {
         let places = self.packing.places::<f64>();
         let shape = self.pile().shape();
-        Ok(in_pieces(self.rows_above_the_floor()?, move |piece| {
+        let horizontal = self.pile().horizontal_forces();
+        let horizontal = horizontal.map(move |(contact, _)| {
+            let neighbour = shape.neighbour(contact)?;
+            Ok([self.centre(contact.site)?, self.centre(neighbour)?])
+        });
+        let sloping = in_pieces(self.rows_above_the_floor()?, move |piece| {
             let centres = |row: &Row| {
                 let mut centres = columns(row)?;
                 places.fill_row(row, slices(&mut centres))?;
@@ -183,14 +200,20 @@ impl<'p> NumberedPile<'p> {
             Ok(links
                 .map(|(n, lower)| [at(&upper, n), at(lower, n)])
                 .collect())
-        }))
+        });
+        Ok(sloping.chain(horizontal))
     }
 
-    /// All contacts in the order of the upper spheres, with the nearest floats to their forces.
+    fn centre(&self, site: Site) -> Result<[f64; 3], Error> {
+        rounded(&self.packing.position(site)?, "a position")
+    }
+
+    /// All contacts in the order of [`contacts`](Self::contacts), with the nearest floats to their forces.
     pub(super) fn forces(
         &self,
     ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
-        self.forces_of(self.packing.layers(Selection::All)?)
+        let sloping = self.forces_of(self.packing.layers(Selection::All)?)?;
+        Ok(sloping.chain(self.horizontal()))
     }
 
     fn forces_of(
@@ -208,7 +231,7 @@ impl<'p> NumberedPile<'p> {
                 NumberedContact {
                     ids: touch.ids,
                     site: touch.site,
-                    direction: touch.direction,
+                    direction: touch.direction.into(),
                     force: forces[line][place],
                     vector: vectors.each_ref().map(|component| component[line][place]),
                 }
@@ -242,6 +265,32 @@ impl<'p> NumberedPile<'p> {
             });
             Ok(forces.collect())
         }))
+    }
+
+    /// The horizontal contacts with a force, in the order of tables.
+    fn horizontal(&self) -> impl Iterator<Item = Result<NumberedContact, Error>> + use<'_, 'p> {
+        let pile = self.pile();
+        pile.horizontal_forces().map(move |(contact, force)| {
+            let neighbour = pile.shape().neighbour(contact)?;
+            let ids = [
+                self.numbering.id(contact.site)?,
+                self.numbering.id(neighbour)?,
+            ];
+            let packed = self.packing.packed_horizontal(contact, force)?;
+            let vector = if ids[0] < ids[1] {
+                packed.vector
+            } else {
+                packed.vector.map(|component| -component)
+            };
+            let contact = NumberedContact {
+                ids: [ids[0].min(ids[1]), ids[0].max(ids[1])],
+                site: contact.site,
+                direction: contact.axis.into(),
+                force: nearest(&packed.force, FORCE)?,
+                vector: rounded(&vector, FORCE)?,
+            };
+            contact.checked()
+        })
     }
 
     fn rows_above_the_floor(&self) -> Result<Rows<'p>, Error> {
@@ -281,7 +330,7 @@ impl<'p> NumberedPile<'p> {
         }))
     }
 
-    /// All contacts in the order of the upper spheres, made one by one.
+    /// All contacts in the order of the upper spheres, and then the horizontal ones with a force, made one by one.
     ///
     /// # Errors
     /// [`Error::TooLarge`] if a layer does not fit in memory where forces have to be swept. Of a contact
@@ -304,19 +353,42 @@ impl<'p> NumberedPile<'p> {
     pub fn contacts(&self) -> Result<impl Iterator<Item = Result<NumberedContact, Error>>, Error> {
         let layers = self.packing.layers::<f64>(Selection::All)?;
         let keeps_digits = layers.keeps_digits();
-        Ok(self.forces_of(layers)?.map(move |contact| {
+        let sloping = self.forces_of(layers)?.map(move |contact| {
             let contact = contact?;
-            if keeps_digits || contact.force.is_normal() {
+            let Some(direction) = contact.direction.direction().filter(|_| !keeps_digits) else {
+                return Ok(contact);
+            };
+            let exact = || self.packing.contact(contact.site, direction);
+            if contact.force.is_normal() || exact()?.coefficient().is_zero() {
                 return Ok(contact);
             }
-            let exact = self.packing.contact(contact.site, contact.direction)?;
-            if exact.coefficient().is_zero() {
-                return Ok(contact);
-            }
-            let (quantity, scalar) = ("a contact force", "f64");
-            Err(Error::Overflow { quantity, scalar })
-        }))
+            contact.checked()
+        });
+        Ok(sloping.chain(self.horizontal()))
     }
+}
+
+impl NumberedContact {
+    /// Returns it, if its force is a normal float.
+    fn checked(self) -> Result<Self, Error> {
+        if self.force.is_normal() {
+            return Ok(self);
+        }
+        let (quantity, scalar) = (FORCE, "f64");
+        Err(Error::Overflow { quantity, scalar })
+    }
+}
+
+const FORCE: &str = "a contact force";
+
+/// The nearest floats.
+fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64; 3], Error> {
+    let [x, y, z] = vector;
+    Ok([
+        nearest(x, quantity)?,
+        nearest(y, quantity)?,
+        nearest(z, quantity)?,
+    ])
 }
 
 /// The nearest float; `quantity` is named if there is none.

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::numbered::NumberedPile;
 use super::polydata::{Array, Kind, PolyData, Section};
 use super::weights::{PerSphere, nearest_rational};
-use crate::lattice::Direction;
+use crate::lattice::{Axis, Direction, Link};
 use crate::table::WriteError;
 
 /// A point and a vertex for each sphere.
@@ -91,7 +91,7 @@ pub(super) fn write_contacts(
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
     // Not more than the most rows.
-    let n = u64::try_from(pile.pile().contact_count()).map_err(std::io::Error::other)?;
+    let n = u64::try_from(pile.contact_count()).map_err(std::io::Error::other)?;
     let sections = [
         Section {
             tag: "PointData",
@@ -129,19 +129,23 @@ pub(super) fn write_contacts(
     each_force(pile, |[_, x, y, z]| data.vector([x, y, z]))?;
     data.array()?;
     for touch in pile.touches()? {
-        data.byte(match touch?.direction {
-            Direction::Alpha => 0,
-            Direction::Beta => 1,
-            Direction::Gamma => 2,
+        let (link, _) = touch?;
+        data.byte(match link {
+            Link::Sloping(Direction::Alpha) => 0,
+            Link::Sloping(Direction::Beta) => 1,
+            Link::Sloping(Direction::Gamma) => 2,
+            Link::Horizontal(Axis::AlphaBeta) => 3,
+            Link::Horizontal(Axis::AlphaGamma) => 4,
+            Link::Horizontal(Axis::GammaBeta) => 5,
         })?;
     }
     data.array()?;
     for touch in pile.touches()? {
-        data.integer(touch?.ids[0])?;
+        data.integer(touch?.1[0])?;
     }
     data.array()?;
     for touch in pile.touches()? {
-        data.integer(touch?.ids[1])?;
+        data.integer(touch?.1[1])?;
     }
     data.array()?;
     for link in pile.links()? {

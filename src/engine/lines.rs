@@ -39,9 +39,9 @@ pub(crate) struct Lines<'p, T: Algebra> {
     pub(super) shape: &'p Shape,
     /// Of an ordinary sphere.
     pub(super) ordinary: [T::Numerator; 3],
-    /// What some spheres add beside, by line, and by layer on it.
+    /// What some spheres add beside, with horizontal contacts, by line, and by layer on it.
     pub(super) extras: BTreeMap<(Line, i128), T::Numerator>,
-    /// What acts on some spheres beside an ordinary weight, in mg/W.
+    /// The weight of what acts on some spheres beside an ordinary weight, in mg/W; 0 where only horizontal contacts do.
     pub(super) extra_weights: BTreeMap<Site, T::Numerator>,
     scale: T::Numerator,
     /// Whether a change of sign triples the denominator: the ring of numerators has no thirds.
@@ -64,13 +64,14 @@ fn numerator<T: Algebra>(value: BigRational, least: &BigRational) -> T::Numerato
 
 impl<'p, T: Algebra> Lines<'p, T> {
     pub(crate) fn new(system: &System<'p>) -> Self {
-        let (increments, loading) = (&system.increments, system.loading);
+        let increments = &system.increments;
+        let own = system.loading.ordinary();
         // One denominator for all: of increments, and of weights and loads times increments.
         let least = BigRational::new(BigInt::one(), system.denominator());
         let (_, scale) = T::numerators(core::array::from_ref(&least));
         let ordinary = increments
             .each_ref()
-            .map(|w| numerator::<T>(force(loading.ordinary(), w), &least));
+            .map(|w| numerator::<T>(force(own.clone(), w), &least));
         let mut lines = Self {
             shape: system.shape,
             ordinary,
@@ -79,21 +80,20 @@ impl<'p, T: Algebra> Lines<'p, T> {
             scale,
             triples: formula::triples::<T>(),
         };
-        for (site, extra) in loading.extras() {
+        for extra in system.extras() {
+            let site = extra.site;
             let run_below = lines
                 .shape
                 .stretch_to(site.k + 1)
                 .filter(|run| site.k < run.to);
-            for direction in Direction::ALL {
-                if let Some(run) = run_below {
-                    let own = force(extra.clone(), &increments[direction.index()]);
-                    let w = numerator::<T>(own, &least);
-                    lines
-                        .extras
-                        .insert((Line::through(site, direction, run), site.k), w);
+            if let Some(run) = run_below {
+                for (direction, own) in Direction::ALL.into_iter().zip(extra.lines) {
+                    let line = Line::through(site, direction, run);
+                    let own = numerator::<T>(own, &least);
+                    lines.extras.insert((line, site.k), own);
                 }
             }
-            let weight = force(extra, &formula::weight(increments));
+            let weight = force(extra.weight, &formula::weight(increments));
             let weight = numerator::<T>(weight, &least);
             lines.extra_weights.insert(site, weight);
         }

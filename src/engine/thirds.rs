@@ -33,7 +33,7 @@ pub(crate) fn are_thirds_alike(system: &System<'_>) -> bool {
     let [a, b, c] = &system.increments;
     let even = a == b && b == c && system.fills_its_layers();
     // What is above a base that is mapped onto itself, or below such a top, is so too.
-    even && system.loading.extras().next().is_none() && system.shape.base().sum_of_turn().is_some()
+    even && system.loading.is_ordinary() && system.shape.base().sum_of_turn().is_some()
 }
 
 impl<'p> Grid<'p> {

@@ -50,6 +50,8 @@ pub enum Culprit {
     Method,
     /// The type of number that the answer is to be.
     Number,
+    /// Which of several forces are meant.
+    State,
     /// κ′/κ of horizontal contacts.
     StiffnessRatio,
     /// The text of a file.
@@ -84,6 +86,7 @@ impl Culprit {
             Self::Layer => "layer",
             Self::Method => "method",
             Self::Number => "number",
+            Self::State => "state",
             Self::StiffnessRatio => "stiffness-ratio",
             Self::File => "file",
         }

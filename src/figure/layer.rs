@@ -110,4 +110,25 @@ impl Layer {
         };
         HEXAGON.map(corner).to_vec()
     }
+
+    /// The corners of the upper and of the lower half of the cell of a sphere.
+    pub(super) fn halves(&self, panel: &Panel, at: Point) -> [Vec<Point>; 2] {
+        let corners = self.cell(panel, at);
+        let of = |corners_of_half: &[usize]| {
+            let corners = corners_of_half.iter().filter_map(|n| corners.get(*n));
+            corners.copied().collect::<Vec<_>>()
+        };
+        if self.discs {
+            let [left, right] = [0, 1].map(|n| {
+                let [[x, low], [_, high]] = [corners[n], corners[3 - n]];
+                [x, low.midpoint(high)]
+            });
+            let [mut upper, mut lower] = [of(&[2, 3]), of(&[0, 1])];
+            upper.extend([left, right]);
+            lower.extend([right, left]);
+            return [upper, lower];
+        }
+        // A line along x leads from one corner to the opposite one.
+        [of(&[4, 5, 0, 1]), of(&[1, 2, 3, 4])]
+    }
 }

@@ -100,7 +100,7 @@ impl Map<'_> {
 
 /// Returns the numbers as texts with room for `room` letters of their size: all exact, or all with as many decimals as there
 /// is room for, four digits at most. Of a number that is not 0 at least one digit is shown. `None` if there is no room.
-fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<String>> {
+pub(super) fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<String>> {
     let fits = |text: &String| width(text, 1.0) < room;
     let shown = |show: &dyn Fn(&Surd, f64) -> String| -> Vec<String> {
         let numbers = exact.iter().zip(values);

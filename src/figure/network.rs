@@ -13,19 +13,20 @@ use super::page::{Axes, Bar, Figure};
 use super::panel::{BAR, Panel};
 use super::response::middle;
 use super::subject::{Subject, below};
-use crate::lattice::Site;
+use crate::Error;
+use crate::lattice::{self, Site};
 use crate::shape::Selection;
-use crate::{ContactForce, Error};
 
 /// The most spheres of a pile whose forces are found all, for a section.
 const LIMIT_OF_ALL: u32 = 200_000;
 
 /// A contact as it is seen.
 struct Link {
-    contact: ContactForce<BigRational>,
+    site: Site,
+    direction: lattice::Link,
     /// Rounded once; negative is pull.
     force: f64,
-    /// The centres of the upper and the lower sphere, to the right and upwards, in R.
+    /// The centres of both spheres, to the right and upwards, in R.
     ends: [Point; 2],
 }
 
@@ -170,8 +171,20 @@ fn links(
         if let (Some(upper), Some(lower)) = (place(contact.site)?, place(lower)?) {
             links.push(Link {
                 force: subject.force(&contact.force)?,
-                contact,
+                site: contact.site,
+                direction: contact.direction.into(),
                 ends: [upper, lower],
+            });
+        }
+    }
+    for (contact, force) in subject.horizontal(part)? {
+        let neighbour = subject.pile().shape().neighbour(contact)?;
+        if let (Some(one), Some(other)) = (place(contact.site)?, place(neighbour)?) {
+            links.push(Link {
+                force: subject.force(&force)?,
+                site: contact.site,
+                direction: contact.axis.into(),
+                ends: [one, other],
             });
         }
     }
@@ -218,7 +231,7 @@ impl Network {
             unit: subject.force_unit(),
             remarks: self.remarks(),
         };
-        let caption = format!("{}{sight}", caption(subject)?);
+        let caption = format!("{}{sight}{}", caption(subject)?, subject.sight());
         let note = if floor {
             subject.note()
         } else {
@@ -257,8 +270,8 @@ impl Link {
             let mark = line(upper, lower, scale.colour(self.force), width.max(least));
             mark.set("stroke-linecap", "round")
         };
-        let mark = mark.class("contact").of(self.contact.site);
-        let mark = mark.set("data-direction", self.contact.direction.name());
+        let mark = mark.class("contact").of(self.site);
+        let mark = mark.set("data-direction", self.direction.name());
         mark.valued("data-force", self.force)
     }
 }

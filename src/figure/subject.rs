@@ -1,13 +1,13 @@
 //! What a figure is of: a pile with a spacing, and the units of its forces and lengths.
 
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Zero};
 
 use super::mark::Point;
 use super::view::Vector;
 use crate::error::bug;
 use crate::geometry::{self, Spacing};
-use crate::lattice::{Dimension, Direction, Site};
+use crate::lattice::{Dimension, Direction, HorizontalContact, Site};
 use crate::scalar::Surd;
 use crate::shape::Selection;
 use crate::{Error, FloorForce, Forces, Packing, Pile};
@@ -34,6 +34,8 @@ use crate::{Error, FloorForce, Forces, Packing, Pile};
 pub struct Subject<'p> {
     packing: Packing<'p>,
     si: bool,
+    /// Whether horizontal contacts are drawn, also open ones.
+    horizontal: bool,
 }
 
 impl<'p> Subject<'p> {
@@ -57,7 +59,11 @@ impl<'p> Subject<'p> {
     /// ```
     pub fn of_pile(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let packing = Packing::new(pile, spacing)?;
-        Ok(Self { packing, si: false })
+        Ok(Self {
+            packing,
+            si: false,
+            horizontal: false,
+        })
     }
 
     /// Returns the pile measured in metres and newtons.
@@ -77,7 +83,57 @@ impl<'p> Subject<'p> {
     /// ```
     #[must_use]
     pub fn of_packing(packing: Packing<'p>) -> Self {
-        Self { packing, si: true }
+        Self {
+            packing,
+            si: true,
+            horizontal: false,
+        }
+    }
+
+    /// Returns the subject with the horizontal contacts of its pile, of which those that bear no force are open.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::figure::{self, Subject};
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let spacing = Spacing::new(BigRational::from_integer(1.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?.with_horizontal_contacts();
+    /// let mut svg = Vec::new();
+    /// figure::layer(&subject, 2)?.write(&mut svg)?;
+    /// assert_eq!(String::from_utf8(svg)?.matches("gamma-beta").count(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_horizontal_contacts(self) -> Self {
+        Self {
+            horizontal: true,
+            ..self
+        }
+    }
+
+    /// Says of which horizontal contacts a figure is.
+    pub(super) fn sight(&self) -> &'static str {
+        if self.horizontal {
+            "; elastic state, open contacts dashed"
+        } else {
+            ""
+        }
+    }
+
+    /// Returns the horizontal contacts of a part that are drawn, with their forces.
+    pub(super) fn horizontal(
+        &self,
+        part: Selection,
+    ) -> Result<impl Iterator<Item = (HorizontalContact, BigRational)> + use<'p>, Error> {
+        let (pile, all) = (self.pile(), self.horizontal);
+        let spheres = pile.rows(part)?.off_the_floor().flatten();
+        let contacts = spheres.flat_map(move |site| pile.shape().horizontal_contacts(site));
+        let forces = contacts.map(move |contact| (contact, pile.horizontal_force(contact)));
+        Ok(forces.filter(move |(_, force)| all || !force.is_zero()))
     }
 
     pub(super) fn pile(&self) -> &'p Pile {
@@ -207,13 +263,14 @@ impl<'p> Subject<'p> {
 
     /// Returns a weight, in the unit of forces.
     pub(super) fn weight(&self, multiple: BigRational) -> Result<f64, Error> {
-        nearest(
-            &Surd::from(multiple * self.packing.sphere_weight()),
-            "a weight",
-        )
+        nearest(&self.normal(multiple), "a weight")
     }
 
     /// Returns the force of a bottom sphere on the floor, all of it in the unit of forces.
+    pub(super) fn normal(&self, multiple: BigRational) -> Surd {
+        (multiple * self.packing.sphere_weight()).into()
+    }
+
     pub(super) fn on_floor(&self, site: Site) -> Result<Vector, Error> {
         let force = self.packing.on_floor(site)?;
         rounded(&[force.shear_x, force.shear_y, force.normal])

@@ -50,7 +50,7 @@ impl Pile {
         let shape = self.shape();
         let is_symmetric = self.dimension() == Dimension::Three
             && shape.anchor() == Anchor::Top(Region::SITE)
-            && self.system().is_even();
+            && self.clone().without_horizontal_forces().system().is_even();
         let symmetric = is_symmetric.then(|| (shape.shift_from_origin(floor), HashMap::new()));
         Ok(BaseBounds {
             pile: self,

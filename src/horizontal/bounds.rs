@@ -7,7 +7,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::network::{MOST_CERTIFIED, Network, touches};
+use super::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::lattice::{Axis, Dimension, HorizontalContact, Site};
@@ -98,12 +98,13 @@ impl Pile {
         if site.k < floor {
             return Err(Error::NotOnFloor { site, floor });
         }
-        touches(self)?;
+        self.check_horizontal()?;
         if self.is_weightless() {
             return Err(Error::Weightless);
         }
+        let pile = self.clone().without_horizontal_forces();
         let mut solver = Solver {
-            pile: self,
+            pile: &pile,
             site,
             network: None,
         };
@@ -144,7 +145,7 @@ impl Solver<'_> {
         }
         let network = match self.network.take() {
             Some(network) => Ok(network),
-            None => Network::above(self.pile, self.pile.layers() - 1),
+            None => Network::above(self.pile, self.pile.layers() - 1, MOST_EQUATIONS),
         };
         let network = match (network, Straight::of(self.pile, self.site)) {
             (Err(Error::TooLarge { .. }), Some(straight)) => return Ok(straight.outer_bound()),

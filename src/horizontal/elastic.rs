@@ -1,6 +1,5 @@
 //! The state of springs that only push.
 
-use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -8,15 +7,13 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Equation, near};
-use super::network::{Column, Network, touches};
+use super::network::{Column, MOST_CERTIFIED, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim};
-use crate::geometry::Vector;
-use crate::lattice::{Direction, HorizontalContact, Sign, Site};
-use crate::{Culprit, Error, FloorForce, Pile, formula};
+use crate::{Culprit, Error, Pile};
 
-/// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of
-/// least energy, Σ f²/2κ + Σ X²/2κ′, and there is only one such state.
+/// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of least
+/// energy, Σ f²/2κ + Σ X²/2κ′, and there is only one such state.
 ///
 /// # Examples
 /// ```
@@ -26,20 +23,18 @@ use crate::{Culprit, Error, FloorForce, Pile, formula};
 ///
 /// let equal = BigRational::from_integer(1.into());
 /// // The paper's forces: horizontal contacts open.
-/// assert!(Pile::triangular(100)?.elastic(&equal)?.horizontal().next().is_none());
+/// assert_eq!(Pile::triangular(100)?.elastic(&equal)?.pile().horizontal_forces().len(), 0);
 ///
 /// // Six layers of HCP stand only with them.
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// let elastic = pile.elastic(&equal)?;
-/// assert!(elastic.horizontal().count() > 0);
+/// assert!(pile.first_failure()?.is_some() && elastic.pile().first_failure()?.is_none());
 /// assert_eq!(elastic.certificate().map(|c| c.check()), Some(Ok(())));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ElasticState<'p> {
-    pile: &'p Pile,
-    /// None where the sloping forces are those without horizontal contacts.
-    sloping: Option<BTreeMap<Site, [BigRational; 3]>>,
+pub struct ElasticState {
+    pile: Pile,
     certificate: Option<Certificate>,
 }
 
@@ -47,9 +42,9 @@ impl Pile {
     /// Returns the elastic state at a = R, κ′/κ being the stiffness of horizontal contacts over that of sloping ones.
     ///
     /// Straight piles of equal weights bear what they bear without horizontal contacts
-    /// ([`paper`](crate::paper#elastic-state)), of any number of layers. For others it is tested whether they do, in
-    /// time proportional to the number of spheres; if not, a quadratic program says which contacts push, and the forces
-    /// that follow are exact.
+    /// ([`paper`](crate::paper#elastic-state)), of any number of layers. For others it is tested whether they do, in time
+    /// proportional to the number of spheres; if not, a quadratic program says which contacts push, and the forces that
+    /// follow are exact. The horizontal forces that a pile was given are left out of it.
     ///
     /// # Errors
     /// [`Error::NotPositive`] of a stiffness ratio; [`Error::NoHorizontalContacts`]; [`Error::CannotStand`];
@@ -63,70 +58,37 @@ impl Pile {
     ///
     /// let pile = Pile::triangular(10)?;
     /// let elastic = pile.elastic(&BigRational::new(2.into(), 7.into()))?;
-    /// assert_eq!(elastic.contact(Site { i: 1, j: 2, k: 5 }, Direction::Alpha)?.to_string(), "3");
+    /// let forces = elastic.pile().forces::<BigRational>();
+    /// assert_eq!(forces.contact(Site { i: 1, j: 2, k: 5 }, Direction::Alpha)?.to_string(), "3");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn elastic(&self, stiffness_ratio: &BigRational) -> Result<ElasticState<'_>, Error> {
-        touches(self)?;
+    pub fn elastic(&self, stiffness_ratio: &BigRational) -> Result<ElasticState, Error> {
+        let mut pile = self.clone().without_horizontal_forces();
+        pile.check_horizontal()?;
         if !stiffness_ratio.is_positive() {
             return Err(Error::NotPositive {
                 quantity: Culprit::StiffnessRatio,
                 given: stiffness_ratio.clone(),
             });
         }
-        let mut state = ElasticState {
-            pile: self,
-            sloping: None,
-            certificate: None,
+        let certificate = match elastic(&pile, stiffness_ratio) {
+            Err(Error::TooLarge { .. })
+                if pile.shape().stacking().is_straight() && pile.system().is_even() =>
+            {
+                None
+            }
+            certificate => Some(certificate?),
         };
-        let network = match Network::above(self, self.layers() - 1) {
-            Ok(network) => network,
-            Err(Error::TooLarge { .. }) if self.is_paper_pile() => return Ok(state),
-            Err(error) => return Err(error),
-        };
-        let springs = Springs {
-            network,
-            stiffness_ratio,
-        };
-        let none = Pushing {
-            horizontal: Vec::new(),
-            open: Vec::new(),
-        };
-        let alone = springs.certificate(&none, &[]);
-        if alone.check().is_ok() {
-            state.certificate = Some(alone);
-            return Ok(state);
+        for (contact, force) in certificate.iter().flat_map(|c| &c.horizontal) {
+            pile = pile.with_horizontal_force(*contact, force.clone())?;
         }
-        let (certificate, sloping) = springs.with_horizontal()?;
-        state.sloping = Some(sloping);
-        state.certificate = Some(certificate);
-        Ok(state)
+        Ok(ElasticState { pile, certificate })
     }
 }
 
-impl ElasticState<'_> {
-    /// Returns the force of a sloping contact, in f₀.
-    ///
-    /// # Errors
-    /// As for [`Forces::contact`](crate::Forces::contact).
-    ///
-    /// # Examples
-    /// See [`Pile::elastic`].
-    pub fn contact(&self, site: Site, direction: Direction) -> Result<BigRational, Error> {
-        let forces = self.pile.forces::<BigRational>();
-        match &self.sloping {
-            None => forces.contact(site, direction),
-            Some(sloping) => match sloping.get(&self.pile.shape().check(site)?) {
-                Some(forces) if self.pile.shape().below(site, direction).is_some() => {
-                    Ok(forces[direction.index()].clone())
-                }
-                // What is refused is refused in the same words.
-                _ => forces.contact(site, direction),
-            },
-        }
-    }
-
-    /// Returns the horizontal contacts that bear a force, with it, in f₀; in the order of tables.
+impl ElasticState {
+    /// Returns the pile with the horizontal forces of this state: its forces, of any scalar and in any units, are those of the
+    /// state.
     ///
     /// # Examples
     /// ```
@@ -136,73 +98,42 @@ impl ElasticState<'_> {
     ///
     /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
     /// let elastic = pile.elastic(&BigRational::from_integer(1.into()))?;
-    /// assert!(elastic.horizontal().all(|(contact, _)| contact.site.k < 5));
+    /// assert!(elastic.pile().horizontal_forces().all(|(contact, _)| contact.site.k < 5));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn horizontal(&self) -> impl Iterator<Item = (HorizontalContact, &BigRational)> {
-        let certificate = self.certificate.iter();
-        certificate
-            .flat_map(|certificate| &certificate.horizontal)
-            .map(|(contact, force)| (*contact, force))
-    }
-
-    /// Returns what the pile presses with on the floor below a bottom sphere, as
-    /// [`Forces::on_floor`](crate::Forces::on_floor) does.
-    ///
-    /// # Errors
-    /// As there.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::Pile;
-    /// use cannonpile::lattice::Site;
-    /// use num_rational::BigRational;
-    ///
-    /// let pile = Pile::triangular(4)?;
-    /// let elastic = pile.elastic(&BigRational::from_integer(1.into()))?;
-    /// assert_eq!(elastic.on_floor(Site { i: 1, j: 1, k: 3 })?.normal.to_string(), "2");
-    /// # Ok::<(), cannonpile::Error>(())
-    /// ```
-    pub fn on_floor(&self, site: Site) -> Result<FloorForce<BigRational>, Error> {
-        let forces = self.pile.forces::<BigRational>();
-        let Some(sloping) = &self.sloping else {
-            return forces.on_floor(site);
-        };
-        // What it is without horizontal contacts; refused if there is no such sphere.
-        let alone = forces.on_floor(site)?;
-        let from_above = Direction::ALL.map(|direction| {
-            let above = self.pile.shape().above(site, direction);
-            let above = above.and_then(|above| sloping.get(&above));
-            above.map_or_else(BigRational::zero, |forces| {
-                forces[direction.index()].clone()
-            })
-        });
-        let directions = self.pile.directions::<BigRational>();
-        let directions = match self.pile.shape().sign_below(site.k - 1) {
-            Some(Sign::Minus) => directions.map(Vector::turned_about_z),
-            _ => directions,
-        };
-        let weight = self.pile.sphere_weight(site)? + self.pile.load(site)?;
-        let number = BigRational::from_integer(self.pile.dimension().number().into());
-        let force = formula::handed_on(&from_above, &directions, &(weight * &number));
-        let [shear_x, shear_y, normal] = force.into_array().map(|component| component / &number);
-        Ok(FloorForce {
-            normal,
-            shear_x,
-            shear_y,
-            ..alone
-        })
+    #[must_use]
+    pub const fn pile(&self) -> &Pile {
+        &self.pile
     }
 
     /// Returns the certificate: the forces, and the displacements that they follow from. None where the pile is straight and
-    /// has more than 10⁵ spheres: there it is a theorem.
+    /// has more than 10⁵ spheres off the floor: there it is a theorem.
     ///
     /// # Examples
     /// See [`ElasticState`].
     #[must_use]
-    pub fn certificate(&self) -> Option<&Certificate> {
+    pub const fn certificate(&self) -> Option<&Certificate> {
         self.certificate.as_ref()
     }
+}
+
+/// Returns the certificate of the elastic state.
+fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Error> {
+    let most = u64::from(MOST_CERTIFIED * pile.dimension().number());
+    let springs = Springs {
+        network: Network::above(pile, pile.layers() - 1, most)?,
+        stiffness_ratio,
+    };
+    let none = Pushing {
+        horizontal: Vec::new(),
+        open: Vec::new(),
+    };
+    let alone = springs.certificate(&none, &[]);
+    if alone.check().is_ok() {
+        return Ok(alone);
+    }
+    springs.network.check_size()?;
+    springs.with_horizontal()
 }
 
 /// A pile of springs: κ = 1, κ′ the stiffness ratio.
@@ -285,13 +216,6 @@ impl Springs<'_> {
         })
     }
 
-    /// The sloping forces with these X.
-    fn sloping(&self, pushing: &Pushing, horizontal: &[BigRational]) -> Vec<BigRational> {
-        let unknowns = pushing.horizontal.iter().copied();
-        let sums = self.network.sums_with(unknowns.zip(horizontal));
-        self.network.sloping(sums)
-    }
-
     /// The certificate of these X and μ.
     fn certificate(&self, pushing: &Pushing, solution: &[BigRational]) -> Certificate {
         let Network {
@@ -301,7 +225,9 @@ impl Springs<'_> {
             ..
         } = &self.network;
         let (horizontal, gaps) = solution.split_at(pushing.horizontal.len());
-        let mut drops = self.sloping(pushing, horizontal);
+        let unknowns = pushing.horizontal.iter().copied();
+        let sums = self.network.sums_with(unknowns.zip(horizontal));
+        let mut drops = self.network.sloping(sums);
         for (unknown, gap) in pushing.open.iter().zip(gaps) {
             drops[*unknown] -= gap;
         }
@@ -324,7 +250,7 @@ impl Springs<'_> {
     }
 
     /// The state in which horizontal contacts push, by a quadratic program.
-    fn with_horizontal(&self) -> Result<(Certificate, BTreeMap<Site, [BigRational; 3]>), Error> {
+    fn with_horizontal(&self) -> Result<Certificate, Error> {
         let network = &self.network;
         let equations = network.weights.len();
         let unsolved = || Error::NotSolved { equations };
@@ -364,9 +290,7 @@ impl Springs<'_> {
             .map(|unknown| guess.unknowns[*unknown] * float_scale);
         let numbers: Vec<f64> = forces.chain(pushing.open.iter().map(|_| 0.0)).collect();
         let solution = self.solved(&pushing, &numbers).ok_or_else(unsolved)?;
-        let certificate = accepted(Some(self.certificate(&pushing, &solution)), equations)?;
-        let sloping = self.sloping(&pushing, &solution);
-        Ok((certificate, network.by_sphere(&sloping).collect()))
+        accepted(Some(self.certificate(&pushing, &solution)), equations)
     }
 }
 

@@ -8,7 +8,7 @@ use num_traits::{One, Zero};
 
 use crate::error::bug;
 use crate::formula::tripled_half_turn;
-use crate::lattice::{Axis, Direction, HorizontalContact, Site};
+use crate::lattice::{Direction, HorizontalContact, Site};
 use crate::{Error, Pile};
 
 /// The most equations, three for each sphere off the floor, of which a program is solved: 31 layers under one sphere.
@@ -36,24 +36,18 @@ pub(super) struct Network<'p> {
 }
 
 impl<'p> Network<'p> {
-    /// The spheres above layer `floor`, which is taken to be held: the floor of the pile, or a layer above it.
+    /// The spheres above layer `floor`, which is taken to be held: the floor of the pile, or a layer above it; of so many
+    /// equations at most.
     ///
     /// # Errors
     /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`].
-    pub(super) fn above(pile: &'p Pile, floor: i128) -> Result<Self, Error> {
-        touches(pile)?;
+    pub(super) fn above(pile: &'p Pile, floor: i128, most: u64) -> Result<Self, Error> {
+        pile.check_horizontal()?;
         let directions = pile.dimension().directions();
         let mut equations = BigUint::zero();
         for k in 0..floor {
             equations += pile.shape().layer(k)?.site_count() * pile.dimension().number();
-            if equations > MOST_EQUATIONS.into() {
-                return Err(Error::TooLarge {
-                    quantity: "a program over all contacts",
-                    needed: equations,
-                    limit: MOST_EQUATIONS,
-                    remedy: "ask for a smaller pile",
-                });
-            }
+            fits(&equations, most)?;
         }
         let spheres: Vec<Site> = pile
             .shape()
@@ -61,16 +55,9 @@ impl<'p> Network<'p> {
             .take_while(|site| site.k < floor)
             .collect();
         let numbers: HashMap<Site, usize> = spheres.iter().copied().zip(0..).collect();
-        let contacts = spheres
-            .iter()
-            .flat_map(|site| Axis::ALL.map(|axis| HorizontalContact { site: *site, axis }));
-        let contacts: Vec<_> = contacts
-            .filter(|contact| {
-                contact
-                    .neighbour()
-                    .is_some_and(|p| numbers.contains_key(&p))
-            })
-            .collect();
+        let contacts = spheres.iter();
+        let contacts = contacts.flat_map(|site| pile.shape().horizontal_contacts(*site));
+        let contacts: Vec<_> = contacts.collect();
         let mut weights = Vec::with_capacity(spheres.len() * directions.len());
         for site in &spheres {
             let weight = pile.loading().total(*site);
@@ -87,6 +74,11 @@ impl<'p> Network<'p> {
         };
         network.columns = network.all_columns()?;
         Ok(network)
+    }
+
+    /// Whether a program over it is solved.
+    pub(super) fn check_size(&self) -> Result<(), Error> {
+        fits(&self.weights.len().into(), MOST_EQUATIONS)
     }
 
     fn all_columns(&self) -> Result<Vec<Column>, Error> {
@@ -108,9 +100,7 @@ impl<'p> Network<'p> {
             }
         }
         for contact in &self.contacts {
-            let neighbour = contact.neighbour();
-            let neighbour =
-                neighbour.ok_or_else(|| bug("a contact of the network has two spheres"))?;
+            let neighbour = self.pile.shape().neighbour(*contact)?;
             let [a, b] = contact.axis.ends();
             let sign = self.pile.shape().sign_below(contact.site.k);
             let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
@@ -234,13 +224,14 @@ impl<'p> Network<'p> {
     }
 }
 
-/// Whether neighbours of a layer touch at a = R, and in no other way.
-pub(super) fn touches(pile: &Pile) -> Result<(), Error> {
-    if pile.is_regular() {
-        Ok(())
-    } else {
-        Err(Error::NoHorizontalContacts {
-            sin_phi: pile.sin_phi().clone(),
-        })
+fn fits(equations: &BigUint, limit: u64) -> Result<(), Error> {
+    if *equations <= limit.into() {
+        return Ok(());
     }
+    Err(Error::TooLarge {
+        quantity: "a program over all contacts",
+        needed: equations.clone(),
+        limit,
+        remedy: "ask for a smaller pile",
+    })
 }

@@ -8,7 +8,7 @@ use core::iter::repeat_n;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::network::{Column, MOST_CERTIFIED, Network, touches};
+use super::network::{Column, MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim};
 use crate::error::bug;
@@ -51,10 +51,16 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn equilibrium(&self) -> Result<Certificate, Error> {
-        touches(self)?;
-        let Some(failure) = self.first_failure()? else {
-            return Ok(self.clone().certified(Claim::Stands));
-        };
+        self.check_horizontal()?;
+        let pile = self.clone().without_horizontal_forces();
+        match pile.first_failure()? {
+            None => Ok(pile.certified(Claim::Stands)),
+            Some(failure) => pile.equilibrium_after(failure),
+        }
+    }
+
+    /// Whether it is in equilibrium, if it is not without horizontal forces from below this layer on.
+    fn equilibrium_after(&self, failure: i128) -> Result<Certificate, Error> {
         // Held is what lies under the last change of sign.
         let shape = self.shape();
         let last_run = shape.stretch(shape.stacking().changes());
@@ -107,7 +113,7 @@ impl Pile {
     /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not. Below them
     /// forces only grow, if they are the whole.
     fn equilibrium_above(&self, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
-        let network = Network::above(self, floor)?;
+        let network = Network::above(self, floor, MOST_EQUATIONS)?;
         let (equations, unknowns) = (network.weights.len(), network.columns.len());
         let pulls = network.columns[..equations].iter();
         let pulls = pulls.map(|column| {

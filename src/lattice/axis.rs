@@ -92,8 +92,114 @@ impl FromStr for Axis {
     }
 }
 
+/// How a contact of two spheres lies: from the upper one down, or within their layer.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::{Axis, Direction, Link};
+///
+/// assert_eq!(Link::from(Direction::Beta).name(), "beta");
+/// assert_eq!("alpha-beta".parse::<Link>()?, Link::Horizontal(Axis::AlphaBeta));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Link {
+    /// With a sphere of the layer below.
+    Sloping(Direction),
+    /// With a neighbour, at a = R.
+    Horizontal(Axis),
+}
+
+impl Link {
+    /// Every one, in the order of tables.
+    pub const ALL: [Self; 6] = [
+        Self::Sloping(Direction::Alpha),
+        Self::Sloping(Direction::Beta),
+        Self::Sloping(Direction::Gamma),
+        Self::Horizontal(Axis::AlphaBeta),
+        Self::Horizontal(Axis::AlphaGamma),
+        Self::Horizontal(Axis::GammaBeta),
+    ];
+
+    /// Returns the name of the direction or axis.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Axis, Link};
+    ///
+    /// assert_eq!(Link::from(Axis::GammaBeta).name(), "gamma-beta");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sloping(direction) => direction.name(),
+            Self::Horizontal(axis) => axis.name(),
+        }
+    }
+
+    /// Returns the direction of a sloping contact.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Axis, Direction, Link};
+    ///
+    /// assert_eq!(Link::Sloping(Direction::Alpha).direction(), Some(Direction::Alpha));
+    /// assert_eq!(Link::Horizontal(Axis::AlphaBeta).direction(), None);
+    /// ```
+    #[must_use]
+    pub const fn direction(self) -> Option<Direction> {
+        match self {
+            Self::Sloping(direction) => Some(direction),
+            Self::Horizontal(_) => None,
+        }
+    }
+}
+
+impl From<Direction> for Link {
+    fn from(direction: Direction) -> Self {
+        Self::Sloping(direction)
+    }
+}
+
+impl From<Axis> for Link {
+    fn from(axis: Axis) -> Self {
+        Self::Horizontal(axis)
+    }
+}
+
+impl fmt::Display for Link {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Link {
+    type Err = Error;
+
+    /// Reads a link by its [`name`](Self::name).
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Link;
+    ///
+    /// assert!("delta".parse::<Link>().is_err());
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|found| found.name() == text);
+        found.ok_or_else(|| {
+            Error::syntax(
+                text,
+                "a direction, such as alpha, or an axis, such as alpha-beta",
+            )
+        })
+    }
+}
+
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Axis);
+crate::scalar::serde::as_text!(Axis, Link);
 
 /// A contact between two spheres of a layer, at a = R: `site`, and its [neighbour](Self::neighbour) along an axis.
 ///

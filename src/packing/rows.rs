@@ -1,8 +1,9 @@
 //! Many answers in SI, one after the other.
 
+use super::on_basis;
 use crate::engine::Meter;
 use crate::forces::{NearestLayers, Units};
-use crate::lattice::{Direction, Site};
+use crate::lattice::{Direction, HorizontalContact, Link, Site};
 use crate::scalar::{NearestFloat, Surd};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing};
@@ -29,13 +30,13 @@ use num_rational::BigRational;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedContact {
-    /// The upper sphere.
+    /// The upper sphere; of two neighbours, the one that the contact is named by.
     pub site: Site,
-    /// The direction in which the lower one lies.
-    pub direction: Direction,
+    /// Where the other one lies.
+    pub direction: Link,
     /// The magnitude of the force; positive is push.
     pub force: Surd,
-    /// The force on the upper sphere, z up.
+    /// The force on the sphere `site`, z up.
     pub vector: [Surd; 3],
     /// Where they touch.
     pub point: [Surd; 3],
@@ -139,10 +140,52 @@ impl<'p, M: Meter> Packing<'p, M> {
         } = contact;
         Ok(PackedContact {
             site,
-            direction,
+            direction: direction.into(),
             force: self.magnitude(&force),
             vector: self.vector(site, direction, &force)?,
             point: self.contact_point(site, direction)?,
+        })
+    }
+
+    /// Returns a horizontal contact in SI, from its force in f₀.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`] of either sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::lattice::{Axis, HorizontalContact, Site};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let one = BigRational::from_integer(1.into());
+    /// let contact = HorizontalContact { site: Site { i: 0, j: 0, k: 1 }, axis: Axis::AlphaBeta };
+    /// let pile = Pile::triangular(3)?.with_horizontal_force(contact, one.clone())?;
+    /// let packing = Packing::new(&pile, &Spacing::new(one.clone())?)?;
+    /// let packed = packing.packed_horizontal(contact, &one)?;
+    /// // Its neighbour lies along +y, and pushes back.
+    /// assert_eq!(packed.vector[1], -packed.force);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn packed_horizontal(
+        &self,
+        contact: HorizontalContact,
+        force: &BigRational,
+    ) -> Result<PackedContact, Error> {
+        let HorizontalContact { site, axis } = contact;
+        let neighbour = self.pile().shape().neighbour(contact)?;
+        let [a, b] = axis.ends().map(Direction::index);
+        let directions = self.pile().directions::<BigRational>();
+        let along = directions[b].clone() - &directions[a];
+        let halfway = self.centre(site)? + &self.centre(neighbour)?;
+        let half_a_diameter = self.radius();
+        Ok(PackedContact {
+            site,
+            direction: axis.into(),
+            force: self.magnitude(force),
+            vector: on_basis(self.roots.forces(), along, &(force * &self.weight_per_sum)),
+            point: on_basis(self.roots.lengths(), halfway, half_a_diameter),
         })
     }
 

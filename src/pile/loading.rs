@@ -7,9 +7,10 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::Error;
-use crate::lattice::Site;
+use crate::lattice::{Direction, HorizontalContact, Sign, Site};
 
-/// The weights of the spheres and the vertical loads on them, in mg. None is negative.
+/// The weights of the spheres and the vertical loads on them, in mg, and forces of horizontal contacts, in f₀. None is
+/// negative.
 ///
 /// For the forces a load is one with the weight of its sphere; only the floor and the mass tell them apart.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -18,6 +19,9 @@ pub(crate) struct Loading {
     /// Of the spheres that do not weigh mg.
     weights: BTreeMap<Site, BigRational>,
     loads: BTreeMap<Site, BigRational>,
+    horizontal: BTreeMap<HorizontalContact, BigRational>,
+    /// What the horizontal contacts of a sphere add to its lines, −σ H: by direction, 0 in all.
+    pushes: BTreeMap<Site, [BigRational; 3]>,
 }
 
 impl Loading {
@@ -38,6 +42,59 @@ impl Loading {
         let weight = not_negative("weight", site, weight)?;
         self.weights.insert(site, weight);
         Ok(())
+    }
+
+    /// Adds to the force of a contact in a layer below which the step is `sign`; both its spheres are off the floor.
+    pub(crate) fn push(
+        &mut self,
+        contact: HorizontalContact,
+        neighbour: Site,
+        sign: Sign,
+        force: BigRational,
+    ) -> Result<(), Error> {
+        let force = not_negative("horizontal force", contact.site, force)?;
+        if force.is_zero() {
+            return Ok(());
+        }
+        let [a, b] = contact.axis.ends().map(Direction::index);
+        let push = &force * BigRational::from_integer(sign.factor().into());
+        for (site, more, less) in [(contact.site, a, b), (neighbour, b, a)] {
+            let pushes = self.pushes.entry(site).or_default();
+            pushes[more] += &push;
+            pushes[less] -= &push;
+        }
+        *self.horizontal.entry(contact).or_default() += force;
+        Ok(())
+    }
+
+    /// Takes all forces off horizontal contacts.
+    pub(crate) fn release(&mut self) {
+        self.horizontal.clear();
+        self.pushes.clear();
+    }
+
+    /// The horizontal contacts with a force, in their order.
+    pub(crate) fn horizontal(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (HorizontalContact, &BigRational)> + '_ {
+        self.horizontal
+            .iter()
+            .map(|(contact, force)| (*contact, force))
+    }
+
+    pub(crate) fn horizontal_force(&self, contact: HorizontalContact) -> BigRational {
+        // Not a default: a contact that is not in the list was given none.
+        self.horizontal.get(&contact).cloned().unwrap_or_default()
+    }
+
+    /// What horizontal contacts add to the lines of spheres, by direction.
+    pub(crate) fn pushes(&self) -> &BTreeMap<Site, [BigRational; 3]> {
+        &self.pushes
+    }
+
+    /// Whether nothing acts on any sphere but an ordinary weight.
+    pub(crate) fn is_ordinary(&self) -> bool {
+        self.pushes.is_empty() && self.extras().next().is_none()
     }
 
     /// What an ordinary sphere weighs.

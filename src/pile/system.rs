@@ -1,13 +1,16 @@
 //! What the forces of a pile depend on.
 
+use alloc::collections::BTreeMap;
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::Loading;
+use crate::formula;
 use crate::geometry::Vector;
-use crate::lattice::Dimension;
+use crate::lattice::{Dimension, Site};
 use crate::shape::Shape;
 
 /// The system of equations of a pile, paper, (4) and (5): its sites and steps, what an ordinary sphere adds to its three
@@ -22,20 +25,59 @@ pub(crate) struct System<'p> {
     pub(crate) loading: &'p Loading,
 }
 
+/// What acts on a sphere beside an ordinary weight.
+pub(crate) struct Extra {
+    pub(crate) site: Site,
+    /// In mg.
+    pub(crate) weight: BigRational,
+    /// On its lines, by direction.
+    pub(crate) lines: [BigRational; 3],
+}
+
 impl System<'_> {
-    /// Returns the common denominator D of all increments, and of all extra weights and loads times increments.
+    /// Returns what acts on spheres beside an ordinary weight, in no order.
+    pub(crate) fn extras(&self) -> impl Iterator<Item = Extra> {
+        let pushes = self.loading.pushes();
+        let mut weights: BTreeMap<Site, BigRational> = self.loading.extras().collect();
+        for site in pushes.keys() {
+            weights.entry(*site).or_default();
+        }
+        weights.into_iter().map(move |(site, weight)| {
+            let own = |w: &BigRational| formula::force(weight.clone(), w);
+            let mut lines = self.increments.each_ref().map(own);
+            for (line, push) in lines
+                .iter_mut()
+                .zip(pushes.get(&site).into_iter().flatten())
+            {
+                *line += push;
+            }
+            Extra {
+                site,
+                weight,
+                lines,
+            }
+        })
+    }
+
+    /// Returns the common denominator D of all increments, and of all extra weights and loads times increments and forces of
+    /// horizontal contacts.
     pub(crate) fn denominator(&self) -> BigInt {
         let per_line = self.increments.iter();
         let own = per_line.fold(BigInt::one(), |d, w| d.lcm(w.denom()));
-        let extras = self.loading.extras();
-        own * extras.fold(BigInt::one(), |d, (_, w)| d.lcm(w.denom()))
+        let weights = self.loading.extras().map(|(_, weight)| weight);
+        let forces = self.loading.horizontal().map(|(_, force)| force.clone());
+        own * weights
+            .chain(forces)
+            .fold(BigInt::one(), |d, w| d.lcm(w.denom()))
     }
 
-    /// Returns the greatest increment of an ordinary sphere, and the sum of all extra weights and loads without their
-    /// signs, both times the common denominator.
+    /// Returns the greatest increment of an ordinary sphere, and the sum of all extra weights and loads, and of what
+    /// horizontal contacts add to lines, without their signs, both times the common denominator.
     pub(crate) fn magnitudes(&self) -> [BigInt; 2] {
         let scale = BigRational::from_integer(self.denominator());
-        let extras = self.loading.extras().map(|(_, extra)| extra.abs());
+        let weights = self.loading.extras().map(|(_, extra)| extra);
+        let pushes = self.loading.pushes().values().flatten().cloned();
+        let extras = weights.chain(pushes).map(|extra| extra.abs());
         let extras = extras.fold(BigRational::zero(), |sum, extra| sum + extra);
         let per_line = self.increments.iter();
         let greatest = per_line.fold(BigRational::zero(), |most, w| most.max(w.clone()));
@@ -54,8 +96,8 @@ impl System<'_> {
         self.shape.stacking().is_straight()
     }
 
-    /// Whether every sphere weighs mg and carries no load of its own, so that a straight pile has few distinct forces.
+    /// Whether every sphere weighs mg and nothing else acts on it, so that a straight pile has few distinct forces.
     pub(crate) fn is_even(&self) -> bool {
-        !self.loading.is_weightless() && self.loading.extras().next().is_none()
+        !self.loading.is_weightless() && self.loading.is_ordinary()
     }
 }

@@ -21,7 +21,7 @@ use nearest::nearest;
 use value::{Value, line_of};
 
 /// The keys of a scene file, in the order in which they are written.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 14] = [
     "layers",
     "stacking",
     "top",
@@ -34,6 +34,8 @@ const KEYS: [&str; 12] = [
     "radius",
     "mass",
     "gravity",
+    "state",
+    "stiffness-ratio",
 ];
 
 /// The keys of one load.
@@ -226,6 +228,8 @@ fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
             "radius" => scene.radius = value.read(parse::rational)?,
             "mass" => scene.mass = value.read(parse::rational)?,
             "gravity" => scene.gravity = value.read(parse::rational)?,
+            "state" => scene.state = value.read(str::parse)?,
+            "stiffness-ratio" => scene.stiffness_ratio = value.read(parse::rational)?,
             // The dimension is read.
             _ => {}
         }

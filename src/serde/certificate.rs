@@ -33,7 +33,13 @@ impl Serialize for Certificate {
 
 impl<'de> Deserialize<'de> for Certificate {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        CertificateRecord::deserialize(deserializer)
+        let certificate: Self = CertificateRecord::deserialize(deserializer)?;
+        if certificate.pile.horizontal_forces().len() > 0 {
+            return Err(D::Error::custom(
+                "the pile of a certificate has horizontal forces of its own: put them beside it",
+            ));
+        }
+        Ok(certificate)
     }
 }
 
@@ -116,17 +122,17 @@ impl Key for Site {
 }
 
 /// A map as the list of its entries.
-mod listed {
+pub(super) mod listed {
     use super::{BTreeMap, Deserializer, Key, Listed, PhantomData, Serializer};
 
-    pub(super) fn serialize<K: Key, S: Serializer>(
+    pub(in crate::serde) fn serialize<K: Key, S: Serializer>(
         map: &BTreeMap<K, K::Held>,
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(map.iter().map(|(key, held)| key.entry(held)))
     }
 
-    pub(super) fn deserialize<'de, K: Key, D: Deserializer<'de>>(
+    pub(in crate::serde) fn deserialize<'de, K: Key, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<BTreeMap<K, K::Held>, D::Error> {
         deserializer.deserialize_seq(Listed(PhantomData))

@@ -2,13 +2,38 @@
 
 use std::io::{self, BufReader, Read, Write};
 
-use ::serde::Serialize;
+use core::fmt;
+
+use ::serde::de::value::MapAccessDeserializer;
+use ::serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use ::serde::{Deserialize, Deserializer, Serialize};
 
 use super::certificate::Key;
 use crate::certificate::Certificate;
 
 /// The most bytes of a certificate that is read: 512 MiB.
 pub const MOST_BYTES: u64 = 512 << 20;
+
+/// Reads the certificates of a file, one or an array of them, as [`read_certificate`] reads one.
+///
+/// # Errors
+/// As there.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::serde::{read_certificates, write_certificates};
+///
+/// let certificates = [Pile::triangular(3)?.equilibrium()?, Pile::discs(3)?.equilibrium()?];
+/// let mut text = Vec::new();
+/// write_certificates(&certificates, &mut text)?;
+/// assert_eq!(read_certificates(&*text)?, certificates);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
+    let OneOrMore(certificates) = read(input)?;
+    Ok(certificates)
+}
 
 /// Reads a certificate from JSON, piece by piece; what it takes in memory is a few times the file, of which
 /// there are at most [`MOST_BYTES`].
@@ -36,11 +61,47 @@ pub const MOST_BYTES: u64 = 512 << 20;
 /// # Ok::<(), std::io::Error>(())
 /// ```
 pub fn read_certificate(input: impl Read) -> io::Result<Certificate> {
+    read(input)
+}
+
+fn read<T: for<'de> Deserialize<'de>>(input: impl Read) -> io::Result<T> {
     let input = Limited {
         input,
         left: MOST_BYTES,
     };
     Ok(serde_json::from_reader(BufReader::new(input))?)
+}
+
+/// A certificate, or a list of them.
+struct OneOrMore(Vec<Certificate>);
+
+impl<'de> Deserialize<'de> for OneOrMore {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OneOrMore(Vec::new()))
+    }
+}
+
+impl<'de> Visitor<'de> for OneOrMore {
+    type Value = Self;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a certificate, or an array of certificates")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self, A::Error> {
+        let certificate = Certificate::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Self(vec![certificate]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(mut self, mut list: A) -> Result<Self, A::Error> {
+        while let Some(certificate) = list.next_element()? {
+            self.0.push(certificate);
+        }
+        if self.0.is_empty() {
+            return Err(A::Error::custom("an empty array certifies nothing"));
+        }
+        Ok(self)
+    }
 }
 
 /// Writes a certificate as JSON, with a line for each horizontal contact and for the field on each sphere.
@@ -88,6 +149,27 @@ pub fn write_certificate(certificate: &Certificate, out: &mut impl Write) -> io:
     out.write_all(b",\n  \"field\": ")?;
     lines(field.iter().map(|(key, held)| key.entry(held)), out)?;
     out.write_all(b"\n}\n")
+}
+
+/// Writes certificates as a JSON array, each as [`write_certificate`] writes one.
+///
+/// # Errors
+/// Those of the output.
+///
+/// # Examples
+/// See [`read_certificates`].
+pub fn write_certificates(certificates: &[Certificate], out: &mut impl Write) -> io::Result<()> {
+    let mut gap = "[\n";
+    for certificate in certificates {
+        out.write_all(gap.as_bytes())?;
+        write_certificate(certificate, out)?;
+        gap = ",\n";
+    }
+    out.write_all(if certificates.is_empty() {
+        b"[]\n"
+    } else {
+        b"]\n"
+    })
 }
 
 /// A list with a line for each entry.

@@ -1,5 +1,6 @@
 //! A pile as what it is made of, and made of it again by the checked constructors.
 
+use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::vec::Vec;
 
@@ -7,7 +8,8 @@ use ::serde::de::Error as _;
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
 use num_rational::BigRational;
 
-use crate::lattice::{Dimension, Region, Site};
+use super::certificate::listed;
+use crate::lattice::{Dimension, HorizontalContact, Region, Site};
 use crate::scalar::serde::number;
 use crate::shape::Anchor;
 use crate::stacking::Stacking;
@@ -25,6 +27,8 @@ struct Parts {
     weightless: bool,
     weights: Vec<OnSite>,
     loads: Vec<OnSite>,
+    #[serde(default, with = "listed")]
+    horizontal: BTreeMap<HorizontalContact, BigRational>,
 }
 
 /// What a sphere weighs, or what is put on it.
@@ -51,6 +55,7 @@ impl Parts {
             weightless: loading.is_weightless(),
             weights: loading.weights().map(on_sites).collect(),
             loads: loading.loads().map(on_sites).collect(),
+            horizontal: loading.horizontal().map(|(c, f)| (c, f.clone())).collect(),
         }
     }
 
@@ -61,6 +66,9 @@ impl Parts {
         }
         for OnSite { site, weight } in self.loads {
             pile = pile.with_load(site, weight)?;
+        }
+        for (contact, force) in self.horizontal {
+            pile = pile.with_horizontal_force(contact, force)?;
         }
         Ok(if self.weightless {
             pile.weightless()

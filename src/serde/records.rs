@@ -5,7 +5,7 @@ use num_bigint::BigUint;
 use num_rational::BigRational;
 
 use crate::census::Entry;
-use crate::lattice::{Direction, Site};
+use crate::lattice::{Direction, Link, Site};
 use crate::scalar::Surd;
 use crate::scalar::serde::{Number, number};
 use crate::shape::Selection;
@@ -82,7 +82,7 @@ struct FloorForceRecord<T> {
 )]
 struct PackedContactRecord {
     site: Site,
-    direction: Direction,
+    direction: Link,
     force: Surd,
     vector: [Surd; 3],
     point: [Surd; 3],

@@ -3,6 +3,8 @@
 use super::cell::Cell;
 use super::rows::{Column, Table};
 use super::tables::{indices, places, refuse_beyond};
+use crate::horizontal::NormalBounds;
+use crate::lattice::Site;
 use crate::shape::Selection;
 use crate::{Error, Pile};
 
@@ -29,7 +31,27 @@ use crate::{Error, Pile};
 pub fn bounds(pile: &Pile, selection: Selection) -> Result<Table<'_>, Error> {
     let rows = pile.rows(selection)?;
     refuse_beyond(&rows.site_count(), "ask for one sphere")?;
-    let bounds = pile.base_bounds(selection)?;
+    Ok(bounds_of(pile, pile.base_bounds(selection)?))
+}
+
+/// The table of [`bounds`] that are found already.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Site;
+/// use cannonpile::table;
+///
+/// let (pile, site) = (Pile::triangular(3)?, Site { i: 0, j: 0, k: 2 });
+/// let found = pile.bounds(site)?;
+/// let table = table::bounds_of(&pile, [Ok((site, found))].into_iter());
+/// assert_eq!(table.columns()[4].name, "proved");
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn bounds_of<'p>(
+    pile: &'p Pile,
+    bounds: impl Iterator<Item = Result<(Site, NormalBounds), Error>> + 'p,
+) -> Table<'p> {
     let mut columns = indices(pile, &[]);
     columns.extend(["normal_min", "normal_max"].map(|name| Column::measured(name, "mg")));
     columns.push(Column::plain("proved"));
@@ -42,5 +64,5 @@ pub fn bounds(pile: &Pile, selection: Selection) -> Result<Table<'_>, Error> {
         cells.push(if proved { "yes" } else { "no" }.into());
         Ok(cells)
     });
-    Ok(Table::of_rows(columns, "bottom spheres", rows))
+    Table::of_rows(columns, "bottom spheres", rows)
 }

@@ -8,7 +8,7 @@ mod theorems;
 
 pub use base::base;
 pub use census::census;
-pub use contacts::contacts;
+pub use contacts::{contacts, touching_contacts};
 pub use spheres::spheres;
 pub use theorems::theorems;
 

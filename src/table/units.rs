@@ -106,9 +106,12 @@ impl<'p> Units<'p> {
     }
 
     /// A number that no force of a part exceeds. In mg or f₀: over a layer the squares of the forces add up to no more
-    /// than that of √3 times the sum of all weights down to it.
+    /// than that of √3 times the sum of all weights down to it, and 2√2 times that of all horizontal forces.
     pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
-        let bound = weight_down_to(self.pile(), part)? * BigRational::from_i128(3);
+        let horizontal = self.pile().horizontal_forces();
+        let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();
+        let sources = weight_down_to(self.pile(), part)? + horizontal * BigRational::from_i128(2);
+        let bound = sources * BigRational::from_i128(3);
         Ok(match self {
             Self::Pile(_) => bound.into(),
             // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::measured::{Measured, distance};
 use crate::dem::NumberedContact;
-use crate::lattice::{Dimension, Direction, Site};
+use crate::lattice::{Dimension, Link, Site};
 
 /// A contact of the pile, what its force is, and what was measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Difference {
     /// The upper sphere.
     pub site: Site,
     /// The direction in which the lower one lies.
-    pub direction: Direction,
+    pub direction: Link,
     /// The nearest float to the exact force; positive is push.
     pub exact: f64,
     /// The nearest floats to the force on the upper sphere, where vectors were measured.

@@ -7,7 +7,7 @@ mod refusals;
 use std::collections::BTreeMap;
 
 use cannonpile::dem::{PileExport, PileFile};
-use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::scene::{Anchor, Scene, State, parse};
 use cannonpile::{Packing, Pile};
 
 /// Scenes of every kind: straight, isosceles, discs; stackings under and on regions; loads, no weight; SI scales.
@@ -75,13 +75,28 @@ fn scenes() -> Vec<Scene> {
             layers: None,
             ..plain()
         },
+        Scene {
+            stacking: stacking("+-+-++"),
+            layers: None,
+            state: State::Elastic,
+            gravity: rational("9.81"),
+            ..plain()
+        },
+        Scene {
+            stacking: stacking("hcp"),
+            loads: vec![load("0,0,0=1/7", three)],
+            state: State::Elastic,
+            stiffness_ratio: rational("2/3"),
+            ..plain()
+        },
     ]
 }
 
 /// The scenes, packed.
 fn for_each_pile(mut judge: impl FnMut(&Scene, &PileExport<'_>)) {
     for scene in scenes() {
-        let pile = scene.pile().expect("a pile");
+        let pile = scene.pile().and_then(|pile| scene.in_state(pile));
+        let pile = pile.expect("a pile");
         let packing = scene.packing(&pile).expect("room");
         judge(&scene, &PileExport::new(&packing).expect("files"));
     }

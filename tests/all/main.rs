@@ -94,6 +94,8 @@ mod forces {
     #[cfg(feature = "std")]
     mod planted_faults;
     #[cfg(feature = "std")]
+    mod pushes;
+    #[cfg(feature = "std")]
     mod response;
     mod rows;
     #[cfg(feature = "std")]

@@ -8,9 +8,11 @@ mod piles;
 use core::fmt::Debug;
 
 use cannonpile::census;
+use cannonpile::certificate::Certificate;
 use cannonpile::geometry::{Apart, Spacing, Vector};
-use cannonpile::lattice::Sign;
-use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Site};
+use cannonpile::lattice::{
+    Axis, Dimension, Direction, HorizontalContact, MAX_LAYERS, Region, Row, Sign, Site,
+};
 use cannonpile::scalar::{DoubleDouble, Enclosure, FixedRational, Interval, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::{Pattern, Run, Stacking};
@@ -274,6 +276,30 @@ fn answers() {
             .collect::<Result<Vec<FloorForce<BigRational>>, _>>()
             .unwrap(),
     );
+    let contact = HorizontalContact {
+        site: Site { i: 0, j: 1, k: 2 },
+        axis: Axis::GammaBeta,
+    };
+    let pushed = pile
+        .clone()
+        .with_horizontal_force(contact, ratio(2, 7))
+        .unwrap();
+    let text = back(&pushed);
+    assert!(text.contains(
+        r#""horizontal":[{"site":{"i":"0","j":"1","k":"2"},"axis":"gamma-beta","force":"2/7"}]"#
+    ));
+    let touching = Packing::new(&pushed, &Spacing::new(ratio(1, 1)).unwrap()).unwrap();
+    let packed = touching.packed_horizontal(contact, &ratio(2, 7)).unwrap();
+    assert!(back(&packed).contains(r#""direction":"gamma-beta""#));
+    // A certificate is of the bare pile.
+    let certificate = pushed.equilibrium().unwrap();
+    assert_eq!(certificate.pile, pile);
+    let text = serde_json::to_string(&Certificate {
+        pile: pushed,
+        ..certificate
+    })
+    .unwrap();
+    assert!(refusal::<Certificate>(&text).contains("horizontal forces of its own"));
     let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5)).unwrap()).unwrap();
     back(
         &packing

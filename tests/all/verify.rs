@@ -31,7 +31,10 @@ fn perfect(packing: &Packing<'_>) -> Vec<Measured> {
     let contacts = packing.contacts(Selection::All).unwrap();
     let measured = contacts.map(|contact| {
         let contact = contact.unwrap();
-        let below = pile.shape().below(contact.site, contact.direction).unwrap();
+        let below = pile
+            .shape()
+            .below(contact.site, contact.direction.direction().unwrap())
+            .unwrap();
         let ids = [id(pile, contact.site), id(pile, below)];
         let vector = contact.vector.map(|x| x.nearest::<f64>().unwrap());
         Measured::new(ids, contact.force.nearest::<f64>().unwrap()).with_vector(vector)

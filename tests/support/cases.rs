@@ -1,7 +1,7 @@
 //! The piles of the tests, each made twice: for the library and for the oracle.
 
 use cannonpile::Pile;
-use cannonpile::lattice::{Region, Sign};
+use cannonpile::lattice::{Axis, HorizontalContact, Region, Sign};
 use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -95,6 +95,33 @@ impl Case {
             pile: pile.expect("a sphere"),
             balance,
         }
+    }
+
+    /// With random forces in `n` random horizontal contacts off the floor, where there are any.
+    pub(crate) fn pushed(mut self, n: usize, random: &mut Random) -> Self {
+        let steps = [
+            (Axis::AlphaBeta, [1, 0]),
+            (Axis::AlphaGamma, [0, 1]),
+            (Axis::GammaBeta, [1, -1]),
+        ];
+        let floor = self.pile.layers() - 1;
+        let both = |(k, j, i): Place, [di, dj]: [i128; 2]| {
+            k < floor && self.balance.has((k, j + dj, i + di))
+        };
+        let contacts = self.balance.places();
+        let contacts = contacts.flat_map(|place| steps.map(|(axis, step)| (place, axis, step)));
+        let contacts: Vec<_> = contacts
+            .filter(|(place, _, step)| both(*place, *step))
+            .collect();
+        for _ in 0..n.min(contacts.len()) {
+            let (place, axis, step) = contacts[random.below(contacts.len())];
+            let (site, force) = (site(place), random.rational());
+            let contact = HorizontalContact { site, axis };
+            let pile = self.pile.with_horizontal_force(contact, force.clone());
+            self.pile = pile.expect("two spheres off the floor");
+            self.balance.push(place, step, &force);
+        }
+        self
     }
 
     /// With random weights and loads on `n` random spheres.

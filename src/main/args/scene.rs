@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{self, Read};
 
 use cannonpile::lattice::{Dimension, Region};
-use cannonpile::scene::{Anchor, Scene, SceneFile, parse};
+use cannonpile::scene::{Anchor, Scene, SceneFile, State, parse};
 use cannonpile::stacking::Pattern;
 use cannonpile::{Culprit, Error, Pile};
 use clap::Args;
 use num_rational::BigRational;
 
 use crate::output::{Failure, Refused, option_of, reason};
+use crate::progress::Progress;
 
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
@@ -55,24 +56,57 @@ pub(crate) struct SceneOptions {
     /// Gravity g, in m/s² [default: 1]
     #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse::rational)]
     gravity: Option<BigRational>,
+    /// Which forces are meant, isostatic or elastic: without horizontal contacts, or those of springs that only push, at a = R;
+    /// for base, contacts, export, verify, plot network and plot base [default: isostatic]
+    #[arg(long, value_name = "STATE", value_parser = str::parse::<State>)]
+    state: Option<State>,
+    /// Stiffness of horizontal contacts over that of sloping ones, of the elastic state [default: 1]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::rational)]
+    stiffness_ratio: Option<BigRational>,
 }
 
 impl SceneOptions {
     /// Returns the scene described, and its pile.
     ///
     /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
-    pub(crate) fn read(&self) -> Result<(Scene, Pile), Refused> {
+    /// Nothing but [`read_state`](Self::read_state) knows of another state than the isostatic one.
+    pub(crate) fn read(&self) -> Result<(Scene, Pile), Failure> {
+        Ok(checked(self.isostatic()?)?)
+    }
+
+    /// Returns the scene described, and its pile with the horizontal forces of its state.
+    pub(crate) fn read_state(&self) -> Result<(Scene, Pile), Failure> {
+        let (scene, pile) = self.read_whole()?;
+        let progress = Progress::begin("finding the elastic state");
+        let pile = scene.in_state(pile)?;
+        drop(progress);
+        Ok((scene, pile))
+    }
+
+    /// Returns the scene described, with its state, and its pile, of whose horizontal contacts nothing is known.
+    pub(crate) fn read_whole(&self) -> Result<(Scene, Pile), Refused> {
         self.scene().and_then(checked)
     }
 
+    fn isostatic(&self) -> Result<Scene, Failure> {
+        let scene = self.scene()?;
+        if scene.state == State::Isostatic {
+            return Ok(scene);
+        }
+        let place = self.place(Culprit::State);
+        Err(Failure::Message(format!(
+            "{place}: the elastic state is that of base, contacts, export, verify, plot network and plot base: leave it out"
+        )))
+    }
+
     /// Returns the scene described and its pile, of this many layers where nothing says how many.
-    pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Refused> {
-        let mut scene = self.scene()?;
+    pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Failure> {
+        let mut scene = self.isostatic()?;
         let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
         if spelled.is_none() && !matches!(scene.anchor, Some(Anchor::Base(_))) {
             scene.layers = scene.layers.or(Some(layers));
         }
-        checked(scene)
+        Ok(checked(scene)?)
     }
 
     /// That of the file, with the options on the line in place of its own.
@@ -100,6 +134,8 @@ impl SceneOptions {
             radius: self.radius.clone().unwrap_or(file.radius),
             mass: self.mass.clone().unwrap_or(file.mass),
             gravity: self.gravity.clone().unwrap_or(file.gravity),
+            state: self.state.unwrap_or(file.state),
+            stiffness_ratio: self.stiffness_ratio.clone().unwrap_or(file.stiffness_ratio),
         })
     }
 
@@ -176,6 +212,8 @@ impl SceneOptions {
             "radius" => self.radius.is_some(),
             "mass" => self.mass.is_some(),
             "gravity" => self.gravity.is_some(),
+            "state" => self.state.is_some(),
+            "stiffness-ratio" => self.stiffness_ratio.is_some(),
             _ => false,
         }
     }

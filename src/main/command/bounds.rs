@@ -1,10 +1,16 @@
 //! `bounds`: what bottom spheres can bear with horizontal contacts.
 
+use std::iter::once;
+use std::path::{Path, PathBuf};
+
+use cannonpile::horizontal::NormalBounds;
+use cannonpile::serde::write_certificates;
+use cannonpile::shape::Selection;
 use cannonpile::table;
 use clap::Args;
 
 use crate::args::{BaseAt, Number, Output, SceneOptions, narrower};
-use crate::output::Failure;
+use crate::output::{Failure, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -14,7 +20,7 @@ are attained, else no forces pass them. Answers are formulas proved for all L, o
 
 Examples:
   cannonpile bounds --layers 10
-  cannonpile bounds --stacking=++-+ --at=0,1
+  cannonpile bounds --stacking=++-+ --at=0,1 --certificate both.json
   cannonpile bounds --layers 1000000 --at 0,0";
 
 #[derive(Args)]
@@ -29,6 +35,9 @@ pub(crate) struct Bounds {
     number: Number,
     #[command(flatten)]
     output: Output,
+    /// Write the proofs of both bounds to this file, for the command check; with --at
+    #[arg(long, value_name = "FILE", help_heading = "Output", requires = "at")]
+    certificate: Option<PathBuf>,
 }
 
 impl Bounds {
@@ -38,8 +47,30 @@ impl Bounds {
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
         let progress = Progress::begin("bounds of bottom spheres");
-        let table = table::bounds(&pile, selection).map_err(|error| narrower(error, selection))?;
+        let table = match (&self.certificate, selection) {
+            (Some(file), Selection::One(site)) => {
+                let bounds = pile.bounds(site)?;
+                write_proofs(&bounds, file)?;
+                table::bounds_of(&pile, once(Ok((site, bounds))))
+            }
+            _ => table::bounds(&pile, selection).map_err(|error| narrower(error, selection))?,
+        };
         self.output.write_table(table, self.number, &progress)?;
         Ok(true)
     }
+}
+
+fn write_proofs(bounds: &NormalBounds, file: &Path) -> Result<(), Failure> {
+    let both = [&bounds.least, &bounds.greatest].map(|bound| bound.certificate.clone());
+    let both: Option<Vec<_>> = both.into_iter().collect();
+    let both = both.ok_or_else(|| {
+        Failure::Message(
+            "--certificate: these bounds are formulas proved for all L, and a file for this pile would be too long: leave it \
+             out, or use fewer layers"
+                .to_owned(),
+        )
+    })?;
+    write_to("certificate", Some(file), |mut out| {
+        Ok(write_certificates(&both, &mut out)?)
+    })
 }

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use cannonpile::certificate::{Certificate, Refusal};
-use cannonpile::serde::read_certificate;
+use cannonpile::serde::read_certificates;
 use clap::Args;
 
 use crate::output::{Failure, reason, write_to};
@@ -37,17 +37,26 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Check {
-    /// A certificate, as JSON; - for stdin
+    /// A certificate, or an array of them, as JSON; - for stdin
     #[arg(value_name = "FILE")]
     certificate: PathBuf,
 }
 
 impl Check {
-    /// Checks, and returns whether the certificate is accepted.
+    /// Checks, and returns whether all certificates are accepted.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let progress = Progress::begin("reading FILE");
-        let certificate = self.read().map_err(|error| self.unread(&error))?;
+        let certificates = self.read().map_err(|error| self.unread(&error))?;
         drop(progress);
+        let mut all = true;
+        for certificate in certificates {
+            all &= self.judge(&certificate)?;
+        }
+        Ok(all)
+    }
+
+    /// Says what is claimed, and whether it is accepted.
+    fn judge(&self, certificate: &Certificate) -> Result<bool, Failure> {
         let progress = Progress::begin("checking");
         let checked = certificate.check();
         drop(progress);
@@ -58,7 +67,7 @@ impl Check {
                 equation => format!("refused: {equation}"),
             },
         };
-        let Certificate { pile, claim, .. } = &certificate;
+        let Certificate { pile, claim, .. } = certificate;
         let (spheres, layers) = (pile.sphere_count(), pile.layers());
         let name = pile.shape().stacking().name();
         let stacking = name.map_or_else(|| pile.shape().stacking().to_string(), str::to_owned);
@@ -72,11 +81,11 @@ impl Check {
         Ok(checked.is_ok())
     }
 
-    fn read(&self) -> io::Result<Certificate> {
+    fn read(&self) -> io::Result<Vec<Certificate>> {
         if self.certificate == Path::new("-") {
-            read_certificate(io::stdin().lock())
+            read_certificates(io::stdin().lock())
         } else {
-            read_certificate(File::open(&self.certificate)?)
+            read_certificates(File::open(&self.certificate)?)
         }
     }
 

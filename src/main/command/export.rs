@@ -5,8 +5,10 @@ use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
 use cannonpile::dem::{self, PileExport, PileFile, PileFormat, Written};
+use cannonpile::scene::{Scene, State};
 use cannonpile::table::{NumberFormat, WriteError};
 use clap::{Args, ValueEnum};
+use num_traits::One;
 
 use super::note_if_it_falls;
 use crate::args::{Format, SceneOptions, agreed};
@@ -89,10 +91,11 @@ const MUCH: u64 = 1_000_000_000;
 impl Export {
     /// Writes the files, and then what they are.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
+        let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
         let files = PileExport::new(&packing)?.with_scene(scene.to_toml());
         let formats = self.formats();
+        check_springs(&scene, &formats)?;
         self.keep_apart(&formats)?;
         let format = agreed(
             "list-format",
@@ -166,6 +169,20 @@ impl Export {
         ));
         Ok(())
     }
+}
+
+/// Scripts have one stiffness for all springs.
+fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
+    let scripts = [PileFormat::Lammps, PileFormat::Yade];
+    let is_alike = scene.state == State::Isostatic || scene.stiffness_ratio == One::one();
+    if is_alike || !formats.iter().any(|format| scripts.contains(format)) {
+        return Ok(());
+    }
+    Err(Failure::Message(format!(
+        "--stiffness-ratio: the springs of LAMMPS and YADE are alike here, not {} times as stiff in horizontal contacts: use \
+         1, or --to csv,vtp",
+        scene.stiffness_ratio
+    )))
 }
 
 /// Returns about how many bytes a file will have, rather too few than too many.

@@ -1,6 +1,9 @@
 //! `base` and `contacts`: the forces on the floor, and those between spheres.
 
-use cannonpile::scene::Scene;
+use std::path::PathBuf;
+
+use cannonpile::scene::{Scene, State};
+use cannonpile::serde::write_certificate;
 use cannonpile::shape::Selection;
 use cannonpile::table::{self, Table, Units};
 use cannonpile::{Culprit, Error, Pile};
@@ -8,7 +11,7 @@ use clap::Args;
 
 use super::Pulls;
 use crate::args::{BaseAt, ByMethod, Numbers, Output, Part, SceneOptions, narrower, spheres};
-use crate::output::{Failure, Refused};
+use crate::output::{Failure, Refused, write_to};
 use crate::progress::Progress;
 
 /// A scene, which of its spheres are asked about, and how the forces are found and shown.
@@ -24,13 +27,26 @@ pub(crate) struct Forces<P: Args> {
     method: ByMethod,
     #[command(flatten)]
     output: Output,
+    /// Write the proof of the elastic state to this file, for the command check
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    certificate: Option<PathBuf>,
 }
 
 /// `base`: the force of each bottom sphere on the floor.
 pub(crate) type Base = Forces<BaseAt>;
 
 /// `contacts`: the force of each contact between two spheres.
-pub(crate) type Contacts = Forces<Part>;
+pub(crate) type Contacts = Forces<OfContacts>;
+
+/// A part of the pile, and which of its contacts.
+#[derive(Args)]
+pub(crate) struct OfContacts {
+    #[command(flatten)]
+    part: Part,
+    /// All horizontal contacts of the elastic state, also those that are open
+    #[arg(long, help_heading = "Output")]
+    touching: bool,
+}
 
 /// A table of forces.
 struct Asked {
@@ -43,6 +59,33 @@ struct Asked {
 }
 
 impl<P: Args> Forces<P> {
+    /// Returns the scene, and its pile with the horizontal forces of its state; their proof is written, if it is wanted.
+    fn read(&self) -> Result<(Scene, Pile), Failure> {
+        let Some(file) = &self.certificate else {
+            return self.scene.read_state();
+        };
+        let (scene, pile) = self.scene.read_whole()?;
+        if scene.state == State::Isostatic {
+            return Err(Failure::Message(
+                "--certificate: isostatic forces follow from balance alone and need none: give --state elastic, or leave it out"
+                    .to_owned(),
+            ));
+        }
+        let progress = Progress::begin("finding the elastic state");
+        let elastic = scene.elastic(&pile)?;
+        drop(progress);
+        let certificate = elastic.certificate().ok_or_else(|| {
+            Failure::Message(
+                "--certificate: that straight piles open is proved for all of them, and a file for this one would be too long:                  leave it out, or use fewer layers"
+                    .to_owned(),
+            )
+        })?;
+        write_to("certificate", Some(file), |mut out| {
+            Ok(write_certificate(certificate, &mut out)?)
+        })?;
+        Ok((scene, elastic.pile().clone()))
+    }
+
     fn write(
         &self,
         scene: &Scene,
@@ -75,7 +118,7 @@ Examples:
   cannonpile base --layers 1000000000000000000000000000000 --at 5,7";
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
+        let (scene, pile) = self.read()?;
         let selection = self.part.selection(&pile)?;
         let asked = Asked {
             doing: "forces on the floor",
@@ -91,16 +134,24 @@ impl Contacts {
     pub(crate) const HELP: &str = "\
 Each row is a sphere (k, i, j), counted from k = 0 at the top, and its contact with the sphere below it in one direction.
 The force is positive for a push, in mg/(3cosθ); with --units si in N and m, for R = 1 m, m = 1 kg and g = 1 m/s² unless
-these are given, with the force on the upper sphere fx, fy, fz and the point of contact x, y, z.
+these are given, with the force on the upper sphere fx, fy, fz and the point of contact x, y, z. With --state elastic rows
+of horizontal contacts that bear a force follow those of their sphere (k, i, j), whose neighbour is (i+1, j) for the
+direction alpha-beta, (i, j+1) for alpha-gamma, (i+1, j-1) for gamma-beta.
 
 Examples:
   cannonpile contacts --layers 4
   cannonpile contacts --stacking hcp --layers 7 --layer 4
+  cannonpile contacts --stacking=+-+-+ --spacing 1 --state elastic
   cannonpile contacts --layers 20 --units si --number f64 --output contacts.csv";
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
-        let selection = self.part.selection(&pile)?;
+        let (scene, pile) = self.read()?;
+        let selection = self.part.part.selection(&pile)?;
+        if self.part.touching && scene.state == State::Isostatic {
+            return Err(Failure::Message(
+                "--touching: horizontal contacts are those of the elastic state: give --state elastic, or leave it out".to_owned(),
+            ));
+        }
         if let Selection::One(site) = selection
             && site.k == pile.layers() - 1
         {
@@ -114,7 +165,11 @@ Examples:
             doing: "contact forces",
             column: "force",
             rows: pile.dimension().directions().len(),
-            table: table::contacts,
+            table: if self.part.touching {
+                table::touching_contacts
+            } else {
+                table::contacts
+            },
         };
         self.write(&scene, &pile, selection, &asked)
     }

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use cannonpile::figure::{self, Figure, Layout, Subject};
 use cannonpile::lattice::{Dimension, Region};
-use cannonpile::scene::{Anchor, Scene, parse};
+use cannonpile::scene::{Anchor, Scene, State, parse};
 use cannonpile::table::WriteError;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
+use num_traits::One;
 
 use crate::args::{SceneOptions, UnitSystem, one};
 use crate::output::{Failure, Refused, complain, write_to};
@@ -19,6 +20,7 @@ z points up in figures, as in exported files.
 Examples:
   cannonpile plot shear --output shear.svg
   cannonpile plot network --stacking hcp --layers 12 --output network.svg
+  cannonpile plot network --stacking=+-+-+ --state elastic --layer 3 --output elastic.svg
   cannonpile plot response --stacking hcp --top hexagon:5 --layers 6 --output response.svg";
 
 /// A kind of figure.
@@ -52,6 +54,8 @@ pub(crate) enum Plot {
     Shear(Measured),
     /// The normal force on the floor, as a map
     Base(Measured),
+    /// What each bottom sphere can bear at a = R, at least and at most, as a map
+    Bounds(Measured),
     /// The contact forces as lines, in a vertical section through the middle
     Network {
         #[command(flatten)]
@@ -161,6 +165,7 @@ impl Plot {
             Self::Pile(of) | Self::Indexing { of, .. } => of,
             Self::Shear(measured)
             | Self::Base(measured)
+            | Self::Bounds(measured)
             | Self::Sphere { of: measured, .. }
             | Self::Network { of: measured, .. }
             | Self::Response { of: measured, .. } => &measured.of,
@@ -187,12 +192,18 @@ impl Plot {
                 };
                 Ok(figure::sphere(subject, site)?)
             }),
-            Self::Network { of, layer } => of.draw(|subject, _| match layer {
+            Self::Network { of, layer } => of.draw_state(|subject, _| match layer {
                 Some(k) => figure::layer(subject, *k).map_err(of_layer),
                 None => Ok(figure::section(subject)?),
             }),
             Self::Shear(of) => of.draw(|subject, _| Ok(figure::shear(subject)?)),
-            Self::Base(of) => of.draw(|subject, _| Ok(figure::base(subject)?)),
+            Self::Bounds(of) => {
+                let (mut scene, pile) = of.of.scene.read()?;
+                scene.check_touching()?;
+                scene.spacing = Some(One::one());
+                of.draw_pile(&scene, &pile, |subject, _| Ok(figure::bounds(subject)?))
+            }
+            Self::Base(of) => of.draw_state(|subject, _| Ok(figure::base(subject)?)),
             Self::Response { of, layer } => {
                 let (mut scene, mut pile) = of.of.scene.read()?;
                 if needs_a_top(&scene) {
@@ -232,6 +243,18 @@ impl Measured {
     ) -> Result<Figure, Failure> {
         let (scene, pile) = self.of.scene.read()?;
         self.draw_pile(&scene, &pile, draw)
+    }
+
+    /// Of the state that is meant.
+    fn draw_state(
+        &self,
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+    ) -> Result<Figure, Failure> {
+        let (scene, pile) = self.of.scene.read_state()?;
+        self.draw_pile(&scene, &pile, |subject, pile| match scene.state {
+            State::Isostatic => draw(subject, pile),
+            State::Elastic => draw(&subject.clone().with_horizontal_contacts(), pile),
+        })
     }
 
     fn draw_pile(

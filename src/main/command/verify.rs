@@ -46,7 +46,7 @@ impl Verify {
             let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
             return Err(Failure::Message(reason.into()));
         }
-        let (scene, pile) = self.scene.read()?;
+        let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
         let format = self.output.format()?;
         let refused = |refusal| self.refused(refusal, &scene);

@@ -6,11 +6,11 @@ use core::fmt;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::{One, ToPrimitive};
 
 use crate::lattice::Dimension;
 use crate::scene::parse::At;
-use crate::scene::{Anchor, Scene};
+use crate::scene::{Anchor, Scene, State};
 
 impl Scene {
     /// Returns the scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads it back as it
@@ -74,6 +74,14 @@ impl Scene {
         file.key("Radius R of a sphere, in m.", "radius", &radius);
         file.key("Mass m of a sphere, in kg.", "mass", &number(&self.mass));
         file.key("Gravity g, in m/s².", "gravity", &number(&self.gravity));
+        if self.state != State::default() {
+            let comment = "The forces of springs that only push, horizontal contacts included.";
+            file.key(comment, "state", &quoted(self.state));
+        }
+        if self.state == State::Elastic || !self.stiffness_ratio.is_one() {
+            let comment = "Stiffness of horizontal contacts over that of sloping ones.";
+            file.key(comment, "stiffness-ratio", &number(&self.stiffness_ratio));
+        }
         file.0
     }
 

@@ -35,21 +35,21 @@ macro_rules! console {
 
 // Each with the number of its commands.
 console! {
-    base: 84;
-    bounds: 14;
+    base: 88;
+    bounds: 18;
     census: 13;
     check: 12;
     completions: 2;
-    contacts: 37;
+    contacts: 50;
     explain: 12;
-    export: 32;
+    export: 34;
     help: 18;
-    plot: 35;
+    plot: 38;
     prove: 5;
-    scene: 10;
-    spheres: 14;
+    scene: 11;
+    spheres: 15;
     summary: 36;
-    verify: 13;
+    verify: 14;
 }
 
 /// A command as it is shown, with the lines shown below it.

@@ -9,7 +9,7 @@ use super::{columns, for_each_pile, text};
 
 type Columns = BTreeMap<String, Vec<f64>>;
 
-/// Whether every sphere is in equilibrium, touches what it presses on, and lies above it.
+/// Whether every sphere is in equilibrium, touches what it presses on, and lies not below it.
 fn judge(
     scene: &Scene,
     spheres: &Columns,
@@ -41,7 +41,7 @@ fn judge(
         let apart = [0, 1, 2].map(|axis| to[axis] - from[axis]);
         let distance = apart.map(|x| x * x).iter().sum::<f64>().sqrt();
         let touching = spheres["radius"][upper] + spheres["radius"][lower];
-        if (distance / touching - 1.0).abs() > 1e-13 || apart[2] <= 0.0 {
+        if (distance / touching - 1.0).abs() > 1e-13 || apart[2] < 0.0 {
             return Err(format!("contact {contact} of spheres {distance} apart"));
         }
         for axis in 0..3 {

@@ -1,7 +1,7 @@
 //! Scene files: each key, each way to write a number, and what is refused by line and key.
 
 use cannonpile::lattice::{Dimension, Region};
-use cannonpile::scene::{Anchor, Scene, SceneFile, parse};
+use cannonpile::scene::{Anchor, Scene, SceneFile, State, parse};
 use cannonpile::stacking::Pattern;
 use cannonpile::{Error, Pile};
 
@@ -28,6 +28,8 @@ fn every_key() {
         radius = 5e-3
         mass = "1/7"
         gravity = 9.81
+        state = "elastic"
+        stiffness-ratio = "2/7"
     "#;
     let at = |text| parse::at(text, Dimension::Three).unwrap();
     let scene = Scene {
@@ -46,6 +48,8 @@ fn every_key() {
         radius: ratio(1, 200),
         mass: ratio(1, 7),
         gravity: ratio(981, 100),
+        state: State::Elastic,
+        stiffness_ratio: ratio(2, 7),
     };
     assert_eq!(Scene::from_toml(text).unwrap(), scene);
     assert_eq!(Scene::from_toml(&scene.to_toml()).unwrap(), scene);

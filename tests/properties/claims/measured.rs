@@ -203,7 +203,9 @@ fn perfect(packing: &Packing<'_>) -> Option<Vec<Measured>> {
     let contacts = packing.contacts(Selection::All).ok()?;
     let measured = contacts.map(|contact| {
         let contact = contact.ok()?;
-        let below = pile.shape().below(contact.site, contact.direction)?;
+        let below = pile
+            .shape()
+            .below(contact.site, contact.direction.direction()?)?;
         let [x, y, z] = contact.vector.each_ref().map(Surd::nearest::<f64>);
         let force = contact.force.nearest::<f64>()?;
         let ids = [id(contact.site)?, id(below)?];

@@ -3,7 +3,7 @@
 use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
 use cannonpile::scene::parse::At;
-use cannonpile::scene::{Anchor, Scene};
+use cannonpile::scene::{Anchor, Scene, State};
 use cannonpile::stacking::{Pattern, Stacking};
 use num_rational::BigRational;
 
@@ -38,6 +38,8 @@ pub(crate) fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
         radius: number::rational(u)?,
         mass: number::quantity(u)?,
         gravity: number::quantity(u)?,
+        state: *u.choose(&[State::Isostatic, State::Elastic])?,
+        stiffness_ratio: number::quantity(u)?,
     })
 }
 

@@ -37,6 +37,8 @@ pub(crate) struct Balance {
     pub(crate) ordinary: BigRational,
     /// Weight and load together of the others, in mg.
     pub(crate) weights: BTreeMap<Place, BigRational>,
+    /// What neighbours of its layer push a sphere with, along i and j, in f₀.
+    pub(crate) pushes: BTreeMap<Place, [BigRational; 2]>,
 }
 
 /// The forces of a pile.
@@ -109,6 +111,7 @@ impl Balance {
             layers,
             ordinary: BigRational::one(),
             weights: BTreeMap::new(),
+            pushes: BTreeMap::new(),
         }
     }
 
@@ -116,6 +119,16 @@ impl Balance {
     pub(crate) fn places(&self) -> impl Iterator<Item = Place> + '_ {
         let layers = (0..).zip(&self.layers);
         layers.flat_map(|(k, layer)| layer.iter().map(move |&(j, i)| (k, j, i)))
+    }
+
+    /// Lets two neighbours push each other: a sphere at `place`, and another (Δi, Δj) further.
+    pub(crate) fn push(&mut self, place: Place, [di, dj]: [i128; 2], force: &BigRational) {
+        let (k, j, i) = place;
+        for (place, side) in [(place, -1), ((k, j + dj, i + di), 1)] {
+            let pushes = self.pushes.entry(place).or_default();
+            pushes[0] += force * ratio(side, 1) * BigRational::from_integer(di.into());
+            pushes[1] += force * ratio(side, 1) * BigRational::from_integer(dj.into());
+        }
     }
 
     /// Whether there is a sphere.
@@ -182,6 +195,9 @@ impl Balance {
                 }
                 None => [0, 0].map(|_| BigRational::zero()),
             };
+            let pushed = self.pushes.get(&place).cloned().unwrap_or_default();
+            let [along_i, along_j] = across;
+            let across = [along_i + &pushed[0], along_j + &pushed[1]];
             if let Some(sign) = self.sign(place.0) {
                 let [beta, gamma] = across.map(|across| &down + signed(named(sign), across));
                 let alpha = &down * ratio(3, 1) - &beta - &gamma;
