@@ -74,11 +74,11 @@ pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
     }
     cells.extend(words);
     let mut remarks = vec![
-        "above the greatest,".to_owned(),
-        "below the least".to_owned(),
+        "top: greatest".to_owned(),
+        "bottom: least".to_owned(),
     ];
     if attained.contains(&false) {
-        remarks.push("dashed: not passed".into());
+        remarks.push("dashed: outer bound".into());
     }
     let bar = Bar {
         scale,

@@ -146,6 +146,10 @@ fn the_figures_of_readme_are_those_of_the_commands() {
             "plot response --stacking hcp --top hexagon:5 --layers 6",
             include_str!("../../../examples/figures/response.svg"),
         ),
+        (
+            "plot bounds --layers 7",
+            include_str!("../../../examples/figures/bounds.svg"),
+        ),
     ] {
         assert!(stdout(command) == figure, "draw it again: {command}");
         assert!(
