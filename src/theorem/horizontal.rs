@@ -110,8 +110,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
                     apex, 0 along the other lines, and c = 0. Σφ = 3K−2, so (in words) no more rests on the corner. \
                     X = 1 between the spheres of the edge and their neighbours attain it: a sphere (t, 0, 0) that receives \
                     3t−2 along the edge passes on 3(t+1)−2, the first from the apex, and nothing along other lines, and \
-                    its neighbour adds 0 along the edge, 2 towards it and 1; by induction",
-        hypotheses: "K = L−1 ≥ 1; other contacts have D = c = 0",
+                    its neighbour adds 0 along the edge, 2 along the line that leads to it and 1 along the third, so that \
+                    (in words) no force is negative; by induction",
+        hypotheses: "K = L−1 ≥ 1, for K = 1 the field of corner-least; other contacts have D = c = 0",
         method: ProofKind::Induction,
         symbols: "K, t, g_1, g_2, g_3",
         derive: corner_greatest,
@@ -120,10 +121,10 @@ pub(super) const THEOREMS: &[Theorem] = &[
         name: "arch",
         statement: "The arch that empties a sphere: of three spheres that would pass on ν_l to the one they rest on, and press \
                     each other with X_ab = (ν_a+ν_b−ν_c)/2, each passes on ν_l − 1 + 1 − ν_l = 0 to it, and adds 1 + X_ab \
-                    towards the others' sides. The flank takes off what exceeds ν: of spheres that push at a neighbour \
-                    with X = 1, one adds nothing along one line and 2 along the other, the neighbour the reverse. With \
-                    ν = (r, n_B, n_C) X_BC is 0 for r = n_B + n_C, and X are not negative (in words) as n_B ≤ r ≤ n_B + n_C, n_B ≥ \
-                    n_C; an identity",
+                    along the line of the other. The flank takes off what exceeds ν: of spheres that push at a neighbour \
+                    with X = 1, one adds nothing along one line and 2 along the other, the neighbour the reverse. For \
+                    ν = (r, n_B, n_C) X = (0, n_C, n_B) at r = n_B + n_C, and (in words) no X is negative, as n_C ≤ n_B ≤ r ≤ \
+                    n_B + n_C; that nothing rests on n, and no sphere pulls, is proved in the paper's page, in words; an identity",
         hypotheses: "n_A ≥ n_B ≥ n_C, n_B ≥ 1, r = min(n_A, n_B + n_C)",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, ν_1, ν_2, ν_3, n_B, n_C",
@@ -143,7 +144,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "edge-greatest",
         statement: "An upper bound on the bottom sphere (k, j, 0) of an edge: with c = min(j+1, k) the field that is 1 along α on \
-                    S₀, along β on S₁ and along γ on those of both that have a neighbour below the edge sums to 2k − 1 + (c−1)² + \
+                    S₀, along β on S₁ and along γ on those of S₀ with n_α ≥ 1 and of S₁ with n_β ≥ 1 sums to 2k − 1 + (c−1)² + \
                     2j(k−c) + j², which is 2(j+1)(k−1) + 1 for k > j, and 2k² for k = j. S₀ are the spheres of the edge \
                     layer with n_β = j, n_α < k or n_β > j, n_α + n_β < j + c, S₁ those with n_α ≥ c, n_β ≤ j. The signs \
                     of D and c are proved in the paper's page, in words; by summing over the spheres",
@@ -155,7 +156,7 @@ pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "run-horizontal",
         statement: "Runs end with horizontal contacts too: spheres on the edge where only line l goes on (theorem edge) are \
-                    pressed along l by their neighbours, x and y in all, under either sign: within a run such a sphere \
+                    pressed along l by their two neighbours off the edge, with x and y, under either sign: within a run such a sphere \
                     passes on g + 1 + x + y, at its end, where the sign changes, f = 1 − g/3 − x − y, or f + g + x + y = \
                     (2g+3)/3. For g = 4+p it is −(1+p)/3 − x − y. So (in words) no run of four steps from the top, or of \
                     five after a change, is followed by a change in a pile that stands; an identity",
