@@ -87,7 +87,7 @@ pub fn elastic_field<T: Algebra>(n: &T, d: &T) -> T {
 /// use cannonpile::formula::corner_field;
 /// use cannonpile::lattice::Direction;
 ///
-/// assert_eq!(corner_field(Direction::Beta, false), [0.0, 1.0, 0.0]);
+/// assert_eq!(corner_field::<f64>(Direction::Beta, false), [0.0, 1.0, 0.0]);
 /// ```
 #[must_use]
 pub fn corner_field<T: Ring>(edge: Direction, all: bool) -> [T; 3] {
