@@ -3,7 +3,8 @@
 //! At a = R the spheres of a layer touch, and the forces are no longer unique
 //! ([`paper`](crate::paper#horizontal-contacts)). What is found there is found by programs that round. So nothing is
 //! answered but with a certificate: forces X of horizontal contacts, a field φ on the spheres, or both.
-//! [`Certificate::check`] needs nothing but these and the balance of a sphere, and shares no line with what found them.
+//! [`Certificate::check`] needs nothing but these and the balance of a sphere, and shares with what found them only its
+//! [formulas](crate::formula), which theorems `horizontal-balance` and `virtual-work` are about.
 //! `proofs/check_certificate.py` is a second checker, in Python, written from this page; the command `check` reads the
 //! same files.
 //!

@@ -18,6 +18,9 @@
 //! | (10) | force on a contact | [`passed_on`], from what [`force`] says of the spheres above |
 //! | (11)–(14) | force on the floor | [`handed_on`] |
 //! | | forces across a change of sign, which the paper's pile has not | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
+//! | | horizontal contacts, which the paper leaves out | [`pushed`], [`beside`] |
+//! | | what fields prove of them | [`lowered`], [`compression`], [`elastic_field`], [`corner_field`] |
+//! | | what can rest on a bottom sphere with them | [`least_on_corner`], [`greatest_on_corner`], [`greatest_inside`], [`greatest_on_edge`], [`arch`] |
 //!
 //! | pile | increments | their sum W |
 //! |---|---|---|
@@ -28,8 +31,13 @@
 //! They are numbers in the unit f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base, so that every formula is
 //! a polynomial in s and the counts. Who wants mg divides by W once.
 
+mod horizontal;
 mod turn;
 
+pub use horizontal::{
+    arch, beside, compression, corner_field, elastic_field, greatest_inside, greatest_on_corner,
+    greatest_on_edge, least_on_corner, lowered, pushed,
+};
 pub(crate) use turn::{THREE, triples};
 pub use turn::{half_turn, tripled_apart, tripled_half_turn};
 

@@ -57,6 +57,7 @@ mod counts;
 mod dimensions;
 mod display;
 mod formulas;
+mod horizontal;
 mod setting;
 mod stackings;
 
@@ -276,6 +277,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         base::THEOREMS,
         dimensions::THEOREMS,
         stackings::THEOREMS,
+        horizontal::THEOREMS,
     ]
     .into_iter()
     .flatten()

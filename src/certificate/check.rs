@@ -11,7 +11,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::{Certificate, Claim, Extreme, Refusal, Relation};
 use crate::error::bug;
-use crate::formula::tripled_half_turn;
+use crate::formula::{self, tripled_half_turn};
 use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
 use crate::{Error, Pile};
 
@@ -135,11 +135,10 @@ impl Certificate {
     fn passed_on(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
         let pile = &self.pile;
         let mut balance = turned(pile, site.k, &received(pile, forces, site));
-        let horizontal = self.pushed(site);
+        let (own, horizontal, sign) = (weight(pile, site), self.pushed(site), sigma(pile, site.k)?);
         for direction in pile.dimension().directions() {
             let l = direction.index();
-            balance[l] += weight(pile, site);
-            balance[l] -= sigma(pile, site.k)? * &horizontal[l];
+            balance[l] = formula::beside(balance[l].clone(), &own, &horizontal[l], sign);
         }
         Ok(balance)
     }
@@ -149,10 +148,10 @@ impl Certificate {
         let mut sum = zeros();
         for (contact, leads_away) in around(site) {
             if let Some(force) = self.horizontal.get(&contact) {
-                let [a, b] = contact.axis.ends().map(Direction::index);
-                let [from, to] = if leads_away { [a, b] } else { [b, a] };
-                sum[from] -= force;
-                sum[to] += force;
+                let entries = formula::pushed(force, contact.axis.ends(), leads_away);
+                for (sum, entry) in sum.iter_mut().zip(entries) {
+                    *sum += entry;
+                }
             }
         }
         sum
@@ -169,8 +168,8 @@ impl Certificate {
         for direction in pile.dimension().directions() {
             if let Some(support) = pile.shape().below(site, *direction) {
                 let l = direction.index();
-                let [alpha, beta, gamma] = turned(pile, support.k, &self.field(support));
-                drops[l] -= [alpha, beta, gamma][l].clone();
+                let below = turned(pile, support.k, &self.field(support));
+                drops[l] = formula::lowered(drops[l].clone(), &below[l]);
             }
         }
         drops
@@ -182,10 +181,14 @@ impl Certificate {
         contact: HorizontalContact,
         neighbour: Site,
     ) -> Result<BigRational, Error> {
-        let [a, b] = contact.axis.ends().map(Direction::index);
         let [here, there] = [contact.site, neighbour].map(|site| self.field(site));
-        let difference = |field: &Triple| &field[b] - &field[a];
-        Ok(sigma(&self.pile, contact.site.k)? * (difference(&here) - difference(&there)))
+        let sign = sigma(&self.pile, contact.site.k)?;
+        Ok(formula::compression(
+            &here,
+            &there,
+            contact.axis.ends(),
+            sign,
+        ))
     }
 
     /// Σ w φ.
@@ -330,10 +333,9 @@ fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
 }
 
 /// σ of the step below a layer.
-fn sigma(pile: &Pile, k: i128) -> Result<BigRational, Error> {
+fn sigma(pile: &Pile, k: i128) -> Result<Sign, Error> {
     let sign = pile.shape().sign_below(k);
-    let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
-    Ok(BigRational::from_integer(sign.factor().into()))
+    sign.ok_or_else(|| bug("a step leads from every layer above the floor"))
 }
 
 /// Weight and load of a sphere, in mg: what it adds to each line, in f₀.

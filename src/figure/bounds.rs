@@ -73,10 +73,7 @@ pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
         }
     }
     cells.extend(words);
-    let mut remarks = vec![
-        "top: greatest".to_owned(),
-        "bottom: least".to_owned(),
-    ];
+    let mut remarks = vec!["top: greatest".to_owned(), "bottom: least".to_owned()];
     if attained.contains(&false) {
         remarks.push("dashed: outer bound".into());
     }

@@ -3,15 +3,14 @@
 use alloc::collections::BTreeMap;
 use alloc::vec;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim, Extreme};
-use crate::lattice::{Axis, Dimension, HorizontalContact, Site};
-use crate::{Error, Pile};
+use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Site};
+use crate::{Error, Pile, formula};
 
 /// The least and the greatest normal force of a bottom sphere on the floor, over all forces that balance the pile and
 /// only push.
@@ -285,32 +284,28 @@ impl Straight {
 
     /// The bound that is proved and attained for any K.
     fn bound(self, end: End) -> Option<BigRational> {
-        let Self { k, .. } = self;
-        let thirds = |n: BigInt| BigRational::new(n, 3.into());
-        match (self.corner(), end) {
-            (Some(_), End::Least) => Some(thirds(BigInt::from(k) + 3)),
-            (Some(_), End::Greatest) if k > 0 => Some(thirds(BigInt::from(k) * 3 + 1)),
-            (Some(_), End::Greatest) | (None, End::Least) => Some(BigRational::one()),
-            (None, End::Greatest) => None,
-        }
+        let k = BigRational::from_integer(self.k.into());
+        let onto = match (self.corner(), end) {
+            (Some(_), End::Least) => formula::least_on_corner(&k),
+            (Some(_), End::Greatest) if self.k > 0 => formula::greatest_on_corner(&k),
+            (Some(_), End::Greatest) | (None, End::Least) => BigRational::zero(),
+            (None, End::Greatest) => return None,
+        };
+        Some(normal_below(onto))
     }
 
     /// What no forces pass on an edge or inside, for any K; it may not be attained.
     fn outer_bound(self) -> NormalBound {
-        let [a, b, c] = self.sorted().map(BigInt::from);
-        let above: BigInt = if c.is_zero() && a == b {
-            &b * &b * 2
-        } else if c.is_zero() {
-            (&b + 1) * (&a - 1) * 2 + 1
-        } else {
-            // Σ C(n+2, 3).
-            [a, b, c]
-                .into_iter()
-                .map(|n| (&n + 2) * (&n + 1) * n / 6)
-                .sum()
+        let n = self.sorted().map(|n| BigRational::from_integer(n.into()));
+        let onto = match (self.sorted(), &n) {
+            ([a, b, 0], [k, j, _]) => {
+                let c = BigRational::from_integer(a.min(b + 1).into());
+                formula::greatest_on_edge(k, j, &c)
+            }
+            _ => formula::greatest_inside(&n),
         };
         NormalBound {
-            normal: BigRational::new(above + 3, 3.into()),
+            normal: normal_below(onto),
             attained: false,
             certificate: None,
         }
@@ -366,20 +361,16 @@ impl Straight {
             other[b] -= 1;
             Some((contact(one, other)?, BigRational::one()))
         });
-        let above = [
-            (a, b, r + n_b - n_c),
-            (a, c, r + n_c - n_b),
-            (b, c, n_b + n_c - r),
-        ];
-        let above = above.into_iter().filter(|(.., twice)| *twice != 0);
-        let above = above.filter_map(|(one, other, twice)| {
-            let rests = |l: usize| {
+        let nu = [r, n_b, n_c].map(|n| BigRational::from_integer(n.into()));
+        let above = [[b, c], [c, a], [a, b]].into_iter().zip(formula::arch(&nu));
+        let above = above.filter(|(_, force)| !force.is_zero());
+        let above = above.filter_map(|(ends, force)| {
+            let [one, other] = ends.map(|l| {
                 let mut site = self.n;
                 site[l] -= 1;
                 site
-            };
-            let force = BigRational::new(twice.into(), 2.into());
-            Some((contact(rests(one), rests(other))?, force))
+            });
+            Some((contact(one, other)?, force))
         });
         let mut forces = BTreeMap::new();
         for (contact, force) in flank.chain(above) {
@@ -393,15 +384,18 @@ impl Straight {
         let Some(l) = self.corner() else {
             return BTreeMap::new();
         };
-        let ones = |of: [bool; 3]| of.map(|of| BigRational::from_integer(i32::from(of).into()));
-        let own = core::array::from_fn(|direction| direction == l);
-        let of_sphere = |t: i128| match end {
-            End::Greatest if t > 0 => [true; 3],
-            _ => own,
-        };
-        let edge = (0..self.k).map(|t| (site(unit(l).map(|e| e * t)), ones(of_sphere(t))));
+        let edge = (0..self.k).map(|t| {
+            let all = matches!(end, End::Greatest) && t > 0;
+            let field = formula::corner_field(Direction::ALL[l], all);
+            (site(unit(l).map(|e| e * t)), field)
+        });
         edge.collect()
     }
+}
+
+/// 1 + G/3 in mg, of what rests on a bottom sphere in f₀.
+fn normal_below(onto: BigRational) -> BigRational {
+    BigRational::one() + onto / BigRational::from_integer(3.into())
 }
 
 fn unit(l: usize) -> [i128; 3] {

@@ -10,7 +10,8 @@ use super::exact::{Equation, near};
 use super::network::{Column, MOST_CERTIFIED, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim};
-use crate::{Culprit, Error, Pile};
+use crate::lattice::{Site, count};
+use crate::{Culprit, Error, Pile, formula};
 
 /// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of least
 /// energy, Σ f²/2κ + Σ X²/2κ′, and there is only one such state.
@@ -119,6 +120,9 @@ impl ElasticState {
 
 /// Returns the certificate of the elastic state.
 fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Error> {
+    if pile.is_paper_pile() && pile.sphere_count() <= MOST_CERTIFIED.into() {
+        return Ok(of_straight(pile, stiffness_ratio));
+    }
     let most = u64::from(MOST_CERTIFIED * pile.dimension().number());
     let springs = Springs {
         network: Network::above(pile, pile.layers() - 1, most)?,
@@ -134,6 +138,31 @@ fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Er
     }
     springs.network.check_size()?;
     springs.with_horizontal()
+}
+
+/// That the paper's pile bears what it bears without horizontal contacts.
+fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
+    let directions = pile.dimension().directions();
+    let floor = pile.layers() - 1;
+    let sites = pile.shape().sites().take_while(|site| site.k < floor);
+    let field = sites.map(|site| {
+        let Site { i, j, k } = site;
+        let height = BigRational::from_integer((floor - k).into());
+        let mut field = [(); 3].map(|()| BigRational::zero());
+        for (direction, n) in directions.iter().zip(count::above(&i, &j, &k)) {
+            let n = BigRational::from_integer(n.into());
+            field[direction.index()] = formula::elastic_field(&n, &height);
+        }
+        (site, field)
+    });
+    Certificate {
+        pile: pile.clone(),
+        claim: Claim::Elastic {
+            stiffness_ratio: stiffness_ratio.clone(),
+        },
+        horizontal: [].into(),
+        field: field.collect(),
+    }
 }
 
 /// A pile of springs: κ = 1, κ′ the stiffness ratio.

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use crate::error::bug;
-use crate::formula::tripled_half_turn;
+use crate::formula::{pushed, tripled_half_turn};
 use crate::lattice::{Direction, HorizontalContact, Site};
 use crate::{Error, Pile};
 
@@ -101,16 +101,18 @@ impl<'p> Network<'p> {
         }
         for contact in &self.contacts {
             let neighbour = self.pile.shape().neighbour(*contact)?;
-            let [a, b] = contact.axis.ends();
             let sign = self.pile.shape().sign_below(contact.site.k);
             let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
             let sigma = BigRational::from_integer(sign.factor().into());
-            columns.push(vec![
-                (self.equation(contact.site, a)?, -sigma.clone()),
-                (self.equation(contact.site, b)?, sigma.clone()),
-                (self.equation(neighbour, a)?, sigma.clone()),
-                (self.equation(neighbour, b)?, -sigma),
-            ]);
+            let (ends, mut column) = (contact.axis.ends(), Vec::new());
+            for (sphere, leads_away) in [(contact.site, true), (neighbour, false)] {
+                let entries = pushed(&sigma, ends, leads_away);
+                for end in ends {
+                    let entry = entries[end.index()].clone();
+                    column.push((self.equation(sphere, end)?, entry));
+                }
+            }
+            columns.push(column);
         }
         Ok(columns)
     }

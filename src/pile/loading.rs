@@ -7,7 +7,8 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::Error;
-use crate::lattice::{Direction, HorizontalContact, Sign, Site};
+use crate::formula;
+use crate::lattice::{HorizontalContact, Sign, Site};
 
 /// The weights of the spheres and the vertical loads on them, in mg, and forces of horizontal contacts, in f₀. None is
 /// negative.
@@ -56,12 +57,14 @@ impl Loading {
         if force.is_zero() {
             return Ok(());
         }
-        let [a, b] = contact.axis.ends().map(Direction::index);
         let push = &force * BigRational::from_integer(sign.factor().into());
-        for (site, more, less) in [(contact.site, a, b), (neighbour, b, a)] {
+        for (site, leads_away) in [(contact.site, true), (neighbour, false)] {
             let pushes = self.pushes.entry(site).or_default();
-            pushes[more] += &push;
-            pushes[less] -= &push;
+            let entries = formula::pushed(&push, contact.axis.ends(), leads_away);
+            pushes
+                .iter_mut()
+                .zip(entries)
+                .for_each(|(line, entry)| *line -= entry);
         }
         *self.horizontal.entry(contact).or_default() += force;
         Ok(())

@@ -62,6 +62,28 @@ pub struct Formulas {
     pub tripled_half_turn: fn(&Three) -> Three,
     /// [`formula::tripled_apart`].
     pub tripled_apart: fn(&Three) -> Three,
+    /// [`formula::pushed`].
+    pub pushed: fn(&P, [Direction; 2], bool) -> Three,
+    /// [`formula::beside`].
+    pub beside: fn(P, &P, &P, Sign) -> P,
+    /// [`formula::lowered`].
+    pub lowered: fn(P, &P) -> P,
+    /// [`formula::compression`].
+    pub compression: fn(&Three, &Three, [Direction; 2], Sign) -> P,
+    /// [`formula::elastic_field`].
+    pub elastic_field: fn(&P, &P) -> P,
+    /// [`formula::corner_field`].
+    pub corner_field: fn(Direction, bool) -> Three,
+    /// [`formula::least_on_corner`].
+    pub least_on_corner: fn(&P) -> P,
+    /// [`formula::greatest_on_corner`].
+    pub greatest_on_corner: fn(&P) -> P,
+    /// [`formula::greatest_inside`].
+    pub greatest_inside: fn(&Three) -> P,
+    /// [`formula::greatest_on_edge`].
+    pub greatest_on_edge: fn(&P, &P, &P) -> P,
+    /// [`formula::arch`].
+    pub arch: fn(&Three) -> Three,
 }
 
 impl Formulas {
@@ -89,5 +111,16 @@ impl Formulas {
         half_turn: formula::half_turn::<P>,
         tripled_half_turn: formula::tripled_half_turn,
         tripled_apart: formula::tripled_apart,
+        pushed: formula::pushed,
+        beside: formula::beside,
+        lowered: formula::lowered,
+        compression: formula::compression,
+        elastic_field: formula::elastic_field,
+        corner_field: formula::corner_field,
+        least_on_corner: formula::least_on_corner,
+        greatest_on_corner: formula::greatest_on_corner,
+        greatest_inside: formula::greatest_inside,
+        greatest_on_edge: formula::greatest_on_edge,
+        arch: formula::arch,
     };
 }

@@ -32,7 +32,7 @@ fn names_are_unique_and_found() {
 }
 
 /// What each statement must name.
-const SUBJECTS: [(&str, &str); 29] = [
+const SUBJECTS: [(&str, &str); 42] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
     ("spheres", "L(L+1)(L+2)/6 spheres"),
@@ -62,6 +62,22 @@ const SUBJECTS: [(&str, &str); 29] = [
     ("change-of-sign", "Equilibrium at a change of sign"),
     ("edge", "no run of five steps or more"),
     ("point-load", "Σv r² = n²ρ²"),
+    ("horizontal-balance", "in equilibrium with these pushes"),
+    ("virtual-work", "Σ f_l D_l + Σ X c = Σ w φ_l"),
+    ("elastic-straight", "The elastic state of the paper's pile"),
+    ("elastic-energy", "L(L−1)(L+1)(L+2)(2L+1)/40"),
+    ("settlement", "layers stay plane"),
+    ("elastic-monotone", "c ≤ 0 without horizontal forces"),
+    ("no-dip", "No dip"),
+    ("corner-least", "The least on a corner, (L+2)/3"),
+    ("corner-greatest", "The greatest on a corner, (L − 2/3)"),
+    ("arch", "The arch that empties a sphere"),
+    ("inner-greatest", "ΣC(n_l+2, 3)/3"),
+    (
+        "edge-greatest",
+        "2(j+1)(k−1) + 1 for k > j, and 2k² for k = j",
+    ),
+    ("run-horizontal", "no run of four steps from the top"),
 ];
 
 #[test]
@@ -133,6 +149,8 @@ fn every_formula_is_put_wrong() {
         above bounds_above descent spheres spheres_in_layer contacts contacts_of_strength directions
         disc_directions turned_about_z position squared_distance increments weight force passed_on
         resultant handed_on unbalanced half_turn tripled_half_turn tripled_apart
+        pushed beside lowered compression elastic_field corner_field least_on_corner
+        greatest_on_corner greatest_inside greatest_on_edge arch
     };
     let wrong: BTreeSet<_> = faults::all().iter().map(|fault| fault.field).collect();
     assert_eq!(wrong, BTreeSet::from(fields));

@@ -20,34 +20,34 @@ pub(super) fn faults() -> Vec<Fault> {
         } => ["counts"];
         "every sphere is above itself": above = |i, j, k| (RIGHT.above)(i, j, k).map(|n| n + &P::one())
             => ["counts", "strengths", "surface", "central-force", "base-normal", "weight", "total-moment",
-                "second-moment", "shear-ratio", "discs", "region-counts"];
+                "second-moment", "shear-ratio", "discs", "region-counts", "elastic-energy", "settlement"];
         "α for β": above = |i, j, k| swapped(&(RIGHT.above)(i, j, k))
-            => ["counts", "rotation", "surface", "action-reaction", "central-force", "shear", "shear-on-axis", "discs",
-                "region-counts"];
+            => ["counts", "rotation", "surface", "action-reaction", "central-force", "shear", "shear-on-axis",
+                "discs", "region-counts", "elastic-straight"];
         "k for k−i−j": above = |i, j, k| [k.clone(), i.clone(), j.clone()]
             => ["counts", "rotation", "surface", "central-force", "base-normal", "uniform-base", "weight", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
-                "region-counts"];
+                "region-counts", "elastic-straight", "elastic-energy", "settlement"];
 
         "β goes down along j, γ along i": descent = |sign, direction| {
             let [di, dj] = sign.descent(direction);
             [dj, di]
-        } => ["counts", "action-reaction", "region-counts"];
+        } => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
         "α goes down along j, γ straight": descent = |sign, direction| sign.descent(match direction {
             Direction::Alpha => Direction::Gamma,
             Direction::Beta => Direction::Beta,
             Direction::Gamma => Direction::Alpha,
-        }) => ["counts", "action-reaction", "region-counts"];
+        }) => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
         "α goes down along i": descent = |sign, direction| sign.descent(match direction {
             Direction::Alpha => Direction::Beta,
             other => other,
-        }) => ["counts", "action-reaction", "region-counts"];
+        }) => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
         "two sites at a time": descent = |sign, direction| sign.descent(direction).map(|d| 2 * d)
-            => ["counts", "action-reaction", "region-counts"];
+            => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
         "− steps taken as + steps": descent = |_, direction| Sign::Plus.descent(direction)
             => ["region-counts"];
         "+ steps taken as − steps": descent = |_, direction| Sign::Minus.descent(direction)
-            => ["counts", "action-reaction", "region-counts"];
+            => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
 
         "no spheres on the floor": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
             => ["spheres", "contacts", "weight", "discs", "dimensions"];
@@ -84,7 +84,7 @@ pub(super) fn faults() -> Vec<Fault> {
         "lines of α and β for each other": bounds_above = |i, j, lower, upper, m, sign| {
             let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             [beta, alpha, gamma]
-        } => ["region-counts", "edge"];
+        } => ["region-counts", "edge", "elastic-monotone"];
         "a surface one site too far out": bounds_above = |i, j, lower, upper, m, sign| {
             let wider = upper.each_ref().map(|bound| bound.clone() + &P::one());
             (RIGHT.bounds_above)(i, j, lower, &wider, m, sign)
@@ -95,16 +95,20 @@ pub(super) fn faults() -> Vec<Fault> {
         } => ["region-counts", "edge"];
         "every sphere twice": bounds_above = |i, j, lower, upper, m, sign| {
             (RIGHT.bounds_above)(i, j, lower, upper, m, sign).map(|of_line| of_line.each_ref().map(twice))
-        } => ["region-counts"];
+        } => ["region-counts", "elastic-monotone"];
         "runs without end": bounds_above = |i, j, lower, upper, m, sign| {
             let mut bounds = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             for of_line in &mut bounds {
                 of_line[0] = of_line[1].clone();
             }
             bounds
-        } => ["region-counts"];
+        } => ["region-counts", "elastic-monotone"];
+        "curved bounds": bounds_above = |i, j, lower, upper, m, sign| {
+            let bend = i.clone() * i + &twice(&(j.clone() * j));
+            (RIGHT.bounds_above)(i, j, lower, upper, m, sign).map(|of_line| of_line.map(|bound| bound + &bend))
+        } => ["region-counts", "edge", "elastic-monotone", "no-dip"];
         "− steps counted as + steps": bounds_above = |i, j, lower, upper, m, _| {
             (RIGHT.bounds_above)(i, j, lower, upper, m, Sign::Plus)
-        } => ["region-counts", "edge"];
+        } => ["region-counts", "edge", "elastic-monotone"];
     }
 }

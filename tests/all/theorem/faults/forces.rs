@@ -12,37 +12,45 @@ pub(super) fn faults() -> Vec<Fault> {
             => ["paper-system", "equilibrium", "base-normal", "uniform-base", "total-shear",
                 "total-moment", "second-moment", "discs"];
         "Δγ = s": increments = |s| [P::one(), P::one(), s.clone()]
-            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear", "total-shear",
-                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign", "edge",
-                "point-load"];
+            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
+                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
+                "edge", "point-load", "horizontal-balance", "elastic-straight", "elastic-energy"];
         "Δβ = −Δα": increments = |s| [P::one(), -P::one(), twice(s)]
-            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear", "total-shear",
-                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs", "change-of-sign",
-                "edge", "point-load"];
+            => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
+                "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
+                "change-of-sign", "edge", "point-load", "horizontal-balance", "elastic-straight"];
         "increments for twice the weight": increments = |s| (RIGHT.increments)(s).each_ref().map(twice)
-            => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis", "shear-ratio",
-                "discs", "edge", "point-load"];
+            => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis",
+                "shear-ratio", "discs", "edge", "point-load", "horizontal-balance", "elastic-straight",
+                "elastic-energy"];
 
         "one increment for all": weight = |increments| {
             increments.first().map_or_else(P::zero, Clone::clone)
-        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
-                "discs", "dimensions", "change-of-sign"];
+        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
+                "shear-ratio", "discs", "dimensions", "change-of-sign", "horizontal-balance"];
         "the last one left out": weight = |increments| {
             let [all @ .., _] = increments else { return P::zero() };
             (RIGHT.weight)(all)
-        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
-                "dimensions", "change-of-sign"];
+        } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
+                "shear-ratio", "dimensions", "change-of-sign", "horizontal-balance"];
 
-        "an increment too much": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface", "central-force", "base-normal", "weight", "total-moment", "second-moment", "shear-ratio",
-                "discs", "dimensions", "run", "edge"];
-        "squares": force = |n, w| (RIGHT.force)(n.clone() * &n, w) => ["action-reaction", "central-force", "base-normal", "uniform-base", "weight", "shear", "total-moment",
-                "second-moment", "shear-on-axis", "shear-ratio", "discs", "dimensions", "run", "edge"];
-        "spheres of weight 1 whatever their increment": force = |n, _| n => ["equilibrium", "action-reaction", "base-normal", "uniform-base", "weight", "total-shear",
-                "total-moment", "second-moment", "run", "change-of-sign"];
+        "an increment too much": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface", "central-force",
+                "base-normal", "weight", "total-moment", "second-moment", "shear-ratio", "discs", "dimensions",
+                "run", "edge", "horizontal-balance", "elastic-straight", "elastic-energy"];
+        "squares": force = |n, w| (RIGHT.force)(n.clone() * &n, w) => ["action-reaction", "central-force",
+                "base-normal", "uniform-base", "weight", "shear", "total-moment", "second-moment", "shear-on-axis",
+                "shear-ratio", "discs", "dimensions", "run", "edge", "horizontal-balance", "elastic-straight",
+                "elastic-energy"];
+        "spheres of weight 1 whatever their increment": force = |n, _| n => ["equilibrium", "action-reaction",
+                "base-normal", "uniform-base", "weight", "total-shear", "total-moment", "second-moment", "run",
+                "change-of-sign", "horizontal-balance"];
 
-        "weightless spheres": passed_on = |received, _| received => ["equilibrium", "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge"];
-        "what comes from above is lost": passed_on = |_, own| own.clone() => ["equilibrium", "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge"];
-        "twice its own": passed_on = |received, own| received + own + own => ["equilibrium", "action-reaction", "discs", "dimensions", "run", "change-of-sign", "edge"];
+        "weightless spheres": passed_on = |received, _| received => ["equilibrium", "action-reaction", "discs",
+                "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy"];
+        "what comes from above is lost": passed_on = |_, own| own.clone() => ["equilibrium", "action-reaction",
+                "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy"];
+        "twice its own": passed_on = |received, own| received + own + own => ["equilibrium", "action-reaction",
+                "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy"];
 
         "what a sphere receives": resultant = |from_above, directions| {
             -(RIGHT.resultant)(from_above, directions)
@@ -54,12 +62,12 @@ pub(super) fn faults() -> Vec<Fault> {
         "the paper's misprint, without a′ + b′ + c′": unbalanced = |to_below, below, from_above, above, weight| {
             let all = (RIGHT.unbalanced)(to_below, below, from_above, above, weight);
             all - &(RIGHT.resultant)(from_above, above)
-        } => ["paper-system", "equilibrium", "discs", "change-of-sign"];
+        } => ["paper-system", "equilibrium", "discs", "change-of-sign", "horizontal-balance"];
         "weightless spheres": unbalanced = |to_below, below, from_above, above, _| {
             (RIGHT.unbalanced)(to_below, below, from_above, above, &P::zero())
-        } => ["paper-system", "equilibrium", "discs", "change-of-sign"];
+        } => ["paper-system", "equilibrium", "discs", "change-of-sign", "horizontal-balance"];
 
-        "always zero": unbalanced = |_, _, _, _, _| Vector::zero() => ["paper-system"];
+        "always zero": unbalanced = |_, _, _, _, _| Vector::zero() => ["paper-system", "horizontal-balance"];
 
         "each once, with its own added": tripled_apart = |g| {
             (RIGHT.tripled_apart)(g).map(|x| x + &g[0])
@@ -68,13 +76,20 @@ pub(super) fn faults() -> Vec<Fault> {
         "the half-turn itself": tripled_half_turn = RIGHT.half_turn => ["tripled-half-turn"];
         "2Σ − g": tripled_half_turn = |g| g.clone().map(|x| twice(&sum(g)) - &x) => ["tripled-half-turn"];
 
-        "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load"];
-        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load"];
-        "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load"];
-        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load"];
+        "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn", "tripled-half-turn", "change-of-sign", "edge",
+                "point-load", "horizontal-balance", "run-horizontal"];
+        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load",
+                "horizontal-balance", "run-horizontal"];
+        "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn",
+                "change-of-sign", "edge", "point-load", "horizontal-balance", "run-horizontal"];
+        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn", "tripled-half-turn",
+                "change-of-sign", "edge", "point-load", "horizontal-balance", "run-horizontal"];
         "a square too much": half_turn = |g| {
             (RIGHT.half_turn)(g).map(|x| x + &(g[0].clone() * &g[0]))
-        } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load"];
-        "a third of a turn": half_turn = |[a, b, c]| [b.clone(), c.clone(), a.clone()] => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load"];
+        } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance",
+                "virtual-work", "run-horizontal"];
+        "a third of a turn": half_turn = |[a, b, c]| [b.clone(), c.clone(), a.clone()] => ["half-turn",
+                "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance", "virtual-work",
+                "run-horizontal"];
     }
 }

@@ -3,6 +3,7 @@
 mod counts;
 mod floor;
 mod forces;
+mod horizontal;
 mod places;
 
 use core::num::NonZeroI64;
@@ -46,6 +47,7 @@ pub(crate) fn all() -> Vec<Fault> {
         places::faults(),
         forces::faults(),
         floor::faults(),
+        horizontal::faults(),
     ]
     .into_iter()
     .flatten()

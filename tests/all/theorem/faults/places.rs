@@ -22,17 +22,18 @@ pub(super) fn faults() -> Vec<Fault> {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, Vector { x: -c.x, ..c }]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",
-                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
-                "point-load"];
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign", "point-load",
+                "horizontal-balance"];
         "ê_c twice as long": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, c.map(|part| twice(&part))]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "base-normal", "uniform-base",
-                "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis",
-                "shear-ratio", "change-of-sign", "point-load"];
+                "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
+                "change-of-sign", "point-load", "horizontal-balance"];
         "contacts point down": directions = |s| (RIGHT.directions)(s).map(|e| -e)
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "weight", "shear",
-                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign"];
+                "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
+                "horizontal-balance"];
         "φ = π/6 whatever s": directions = |_| (RIGHT.directions)(&over(P::one(), 2))
             => ["paper-system", "unit-directions", "equilibrium", "total-shear", "total-moment", "second-moment"];
         "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["paper-system", "central-force", "shear", "shear-on-axis"];
@@ -50,10 +51,11 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.disc_directions)().map(|e| Vector { y: P::one(), ..e })
         } => ["discs"];
 
-        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load"];
+        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load", "horizontal-balance"];
         "upside down": turned_about_z = |v| -v
-            => ["equilibrium", "change-of-sign"];
-        "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load"];
+            => ["equilibrium", "change-of-sign", "horizontal-balance"];
+        "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load",
+                "horizontal-balance"];
 
         "above the apex": position = |above, directions| -(RIGHT.position)(above, directions)
             => ["central-force", "shear-on-axis"];
@@ -67,10 +69,10 @@ pub(super) fn faults() -> Vec<Fault> {
 
         "a wrong sign in ê_a·ê_c": squared_distance = |n, s, sin2| {
             (RIGHT.squared_distance)(n, &-s.clone(), sin2)
-        } => ["unit-directions"];
+        } => ["unit-directions", "horizontal-balance"];
         "mixed products once": squared_distance = |n, s, sin2| {
             let squares = n.iter().fold(P::zero(), |sum, n| sum + &(n.clone() * n));
             over((RIGHT.squared_distance)(n, s, sin2) + &squares, 2)
-        } => ["unit-directions"];
+        } => ["unit-directions", "horizontal-balance"];
     }
 }
