@@ -58,6 +58,8 @@
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for nearest floats in slices |
 //! | rows of them, for what is larger than memory | [`fill_row`](NearestLayers::fill_row) and its like; [`packing.places()`](Packing::places) for centres and points of contact |
 //! | totals | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
+//! | what springs bear where neighbours of a layer touch | `pile.elastic(ratio)?.pile()` (feature `horizontal`), and of that pile any of these |
+//! | what a bottom sphere can bear there at least and at most | `pile.bounds(site)` (feature `horizontal`) |
 //! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | which stackings stand | [`census`] |
 //! | whether forces with horizontal contacts (a = R) are what somebody says, checked anew | [`certificate`] |

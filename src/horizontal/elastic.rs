@@ -78,6 +78,8 @@ impl Pile {
             {
                 None
             }
+            // What fails early is known to, however large the pile is.
+            Err(Error::TooLarge { .. }) if cannot_stand(&pile) => return Err(Error::CannotStand),
             certificate => Some(certificate?),
         };
         for (contact, force) in certificate.iter().flat_map(|c| &c.horizontal) {
@@ -138,6 +140,11 @@ fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Er
     }
     springs.network.check_size()?;
     springs.with_horizontal()
+}
+
+fn cannot_stand(pile: &Pile) -> bool {
+    let certificate = pile.equilibrium();
+    certificate.is_ok_and(|certificate| certificate.claim == Claim::CannotStand)
 }
 
 /// That the paper's pile bears what it bears without horizontal contacts.
@@ -298,9 +305,10 @@ impl Springs<'_> {
         };
         let (program, scale) = program.scaled();
         let Some(guess) = program.guess() else {
-            return Err(match network.pile.equilibrium()?.claim {
-                Claim::CannotStand => Error::CannotStand,
-                _ => unsolved(),
+            return Err(if cannot_stand(network.pile) {
+                Error::CannotStand
+            } else {
+                unsolved()
             });
         };
         let positive = |unknown: &usize| guess.positive[*unknown];
