@@ -143,12 +143,12 @@ const CONTACTS: &[Described] = &[
     (
         "id1",
         "",
-        "number of the upper sphere; of two neighbours the lesser",
+        "number of the upper sphere; of two neighbours that of the one that names their contact",
     ),
     (
         "id2",
         "",
-        "number of the lower sphere; of two neighbours the greater",
+        "number of the lower sphere, or of the other neighbour",
     ),
     ("force", "N", "contact force; positive is push"),
     ("fx", "N", "force on sphere id1 along x"),

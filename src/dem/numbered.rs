@@ -36,7 +36,7 @@ pub struct NumberedPile<'p> {
 /// A contact of a pile, its force rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NumberedContact {
-    /// The numbers of the upper sphere and of the lower one, which is the greater; of two neighbours in order.
+    /// The numbers of the upper sphere and of the lower one; of two neighbours that of the one that names their contact first.
     pub ids: [u64; 2],
     /// The upper sphere; of two neighbours the one that names their contact.
     pub site: Site,
@@ -272,22 +272,16 @@ impl<'p> NumberedPile<'p> {
         let pile = self.pile();
         pile.horizontal_forces().map(move |(contact, force)| {
             let neighbour = pile.shape().neighbour(contact)?;
-            let ids = [
-                self.numbering.id(contact.site)?,
-                self.numbering.id(neighbour)?,
-            ];
             let packed = self.packing.packed_horizontal(contact, force)?;
-            let vector = if ids[0] < ids[1] {
-                packed.vector
-            } else {
-                packed.vector.map(|component| -component)
-            };
             let contact = NumberedContact {
-                ids: [ids[0].min(ids[1]), ids[0].max(ids[1])],
+                ids: [
+                    self.numbering.id(contact.site)?,
+                    self.numbering.id(neighbour)?,
+                ],
                 site: contact.site,
                 direction: contact.axis.into(),
                 force: nearest(&packed.force, FORCE)?,
-                vector: rounded(&vector, FORCE)?,
+                vector: rounded(&packed.vector, FORCE)?,
             };
             contact.checked()
         })
@@ -369,6 +363,20 @@ impl<'p> NumberedPile<'p> {
 }
 
 impl NumberedContact {
+    /// Returns it as seen from the sphere with the lesser number.
+    pub(crate) fn in_order(self) -> Self {
+        let [first, second] = self.ids;
+        if first < second {
+            return self;
+        }
+        Self {
+            ids: [second, first],
+            // Not −0.
+            vector: self.vector.map(|component| 0.0 - component),
+            ..self
+        }
+    }
+
     /// Returns it, if its force is a normal float.
     fn checked(self) -> Result<Self, Error> {
         if self.force.is_normal() {

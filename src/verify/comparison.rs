@@ -83,7 +83,7 @@ impl Comparison {
             error => error.into(),
         };
         for contact in numbered.contacts().map_err(out_of_range)? {
-            let contact = contact.map_err(out_of_range)?;
+            let contact = contact.map_err(out_of_range)?.in_order();
             tally.add(&contact, pairs.meet(contact.ids));
         }
         Ok(Self(tally.close(&pairs, numbered.numbering())))

@@ -473,3 +473,45 @@ fn a_pile_too_large_to_compare_is_refused_before_anything_is_done() {
         assert!(matches!(refused, Refusal::Scene(Error::TooLarge { .. })));
     }
 }
+
+#[test]
+fn horizontal_contacts_are_compared_too() {
+    let bare = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
+    let elastic = bare.elastic(&ratio(1, 1)).unwrap();
+    let pile = elastic.pile();
+    let packing = packing(pile, ratio(1, 1));
+    let horizontal = pile.horizontal_forces().map(|(contact, force)| {
+        let packed = packing.packed_horizontal(contact, force).unwrap();
+        let neighbour = pile.shape().neighbour(contact).unwrap();
+        let vector = packed.vector.map(|x| x.nearest::<f64>().unwrap());
+        let ids = [id(pile, contact.site), id(pile, neighbour)];
+        Measured::new(ids, packed.force.nearest::<f64>().unwrap()).with_vector(vector)
+    });
+    let horizontal: Vec<Measured> = horizontal.collect();
+    let all: Vec<Measured> = perfect(&packing)
+        .into_iter()
+        .chain(horizontal.clone())
+        .collect();
+    let comparison = compare(&packing, &all);
+    assert_eq!(comparison.matched(), 129);
+    assert!(comparison.accepted(0.0), "{comparison}");
+    // Told by the other sphere.
+    let reversed: Vec<Measured> = all.iter().map(|measured| measured.reversed()).collect();
+    assert!(compare(&packing, &reversed).accepted(0.0));
+    // One left out, one too strong, one that pushes the wrong way, and one that is open.
+    let missing = compare(&packing, &all[..128]);
+    assert_eq!(missing.missing(), 1);
+    assert!(missing.to_string().contains("gamma-beta"), "{missing}");
+    let mut wrong = all.clone();
+    wrong[127].force *= 1.5;
+    assert!(!compare(&packing, &wrong).accepted(0.1));
+    let mut wrong = all.clone();
+    wrong[128].vector = wrong[128].vector.map(|vector| vector.map(|x| -x));
+    assert!(!compare(&packing, &wrong).accepted(0.1));
+    let open = Measured::new([2, 3], 0.1).with_vector([0.0, 0.1, 0.0]);
+    let with_open: Vec<Measured> = all.iter().copied().chain([open]).collect();
+    assert_eq!(compare(&packing, &with_open).extra(0.01), 1);
+    // The isostatic forces of the pile are others.
+    let isostatic = Packing::new(&bare, &Spacing::new(ratio(1, 1)).unwrap()).unwrap();
+    assert!(!compare(&isostatic, &all).accepted(0.1));
+}

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use cannonpile::certificate::Certificate;
 use cannonpile::scene::{Scene, State};
 use cannonpile::serde::write_certificate;
 use cannonpile::shape::Selection;
@@ -59,37 +60,37 @@ struct Asked {
 }
 
 impl<P: Args> Forces<P> {
-    /// Returns the scene, and its pile with the horizontal forces of its state; their proof is written, if it is wanted.
-    fn read(&self) -> Result<(Scene, Pile), Failure> {
-        let Some(file) = &self.certificate else {
-            return self.scene.read_state();
-        };
+    /// Returns the scene, its pile with the horizontal forces of its state, and the proof of these, if it is wanted.
+    fn read(&self) -> Result<(Scene, Pile, Option<Certificate>), Failure> {
+        if self.certificate.is_none() {
+            let (scene, pile) = self.scene.read_state()?;
+            return Ok((scene, pile, None));
+        }
         let (scene, pile) = self.scene.read_whole()?;
         if scene.state == State::Isostatic {
             return Err(Failure::Message(
-                "--certificate: isostatic forces follow from balance alone and need none: give --state elastic, or leave it out"
+                "--certificate: isostatic forces follow from balance alone and need none: give --state elastic, or leave \
+                 it out"
                     .to_owned(),
             ));
         }
         let progress = Progress::begin("finding the elastic state");
         let elastic = scene.elastic(&pile)?;
         drop(progress);
-        let certificate = elastic.certificate().ok_or_else(|| {
+        let certificate = elastic.certificate().cloned();
+        let certificate = certificate.ok_or_else(|| {
             Failure::Message(
-                "--certificate: that straight piles open is proved for all of them, and a file for this one would be too long:                  leave it out, or use fewer layers"
+                "--certificate: that straight piles open is proved for all of them, and a file for this one would be too \
+                 long: leave it out, or use fewer layers"
                     .to_owned(),
             )
         })?;
-        write_to("certificate", Some(file), |mut out| {
-            Ok(write_certificate(certificate, &mut out)?)
-        })?;
-        Ok((scene, elastic.pile().clone()))
+        Ok((scene, elastic.pile().clone(), Some(certificate)))
     }
 
     fn write(
         &self,
-        scene: &Scene,
-        pile: &Pile,
+        (scene, pile, certificate): &(Scene, Pile, Option<Certificate>),
         selection: Selection,
         asked: &Asked,
     ) -> Result<bool, Failure> {
@@ -98,6 +99,11 @@ impl<P: Args> Forces<P> {
         let progress = Progress::of_rows(asked.doing, rows.try_into().ok());
         let units = self.method.of(self.numbers.units.of(scene, pile)?)?;
         let table = (asked.table)(&units, selection).map_err(|error| narrower(error, selection))?;
+        if let Some(certificate) = certificate {
+            write_to("certificate", self.certificate.as_deref(), |mut out| {
+                Ok(write_certificate(certificate, &mut out)?)
+            })?;
+        }
         let pulls = Pulls::in_column(asked.column);
         self.output
             .write_table(pulls.watch(table), self.numbers.number, &progress)?;
@@ -118,15 +124,15 @@ Examples:
   cannonpile base --layers 1000000000000000000000000000000 --at 5,7";
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.read()?;
-        let selection = self.part.selection(&pile)?;
+        let read = self.read()?;
+        let selection = self.part.selection(&read.1)?;
         let asked = Asked {
             doing: "forces on the floor",
             column: "normal",
             rows: 1,
             table: table::base,
         };
-        self.write(&scene, &pile, selection, &asked)
+        self.write(&read, selection, &asked)
     }
 }
 
@@ -145,11 +151,13 @@ Examples:
   cannonpile contacts --layers 20 --units si --number f64 --output contacts.csv";
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.read()?;
-        let selection = self.part.part.selection(&pile)?;
+        let read = self.read()?;
+        let (scene, pile, _) = &read;
+        let selection = self.part.part.selection(pile)?;
         if self.part.touching && scene.state == State::Isostatic {
             return Err(Failure::Message(
-                "--touching: horizontal contacts are those of the elastic state: give --state elastic, or leave it out".to_owned(),
+                "--touching: horizontal contacts are those of the elastic state: give --state elastic, or leave it out"
+                    .to_owned(),
             ));
         }
         if let Selection::One(site) = selection
@@ -171,6 +179,6 @@ Examples:
                 table::contacts
             },
         };
-        self.write(&scene, &pile, selection, &asked)
+        self.write(&read, selection, &asked)
     }
 }

@@ -2,7 +2,8 @@
 
 use cannonpile::Pile;
 use cannonpile::dem::{PileExport, PileFile};
-use cannonpile::lattice::{Dimension, Site};
+use cannonpile::lattice::{Axis, Dimension, Site};
+use cannonpile::scene::State;
 use cannonpile::shape::Selection;
 use cannonpile::table::{self, FileFormat, NumberFormat, Table, Units};
 
@@ -66,7 +67,17 @@ fn contacts_are_the_table_with_numbers_besides() {
             assert_eq!(cells.len(), 6 + places);
             cells[2..].join(",")
         });
-        assert!(found.eq(wanted), "{scene:?}");
+        if scene.state == State::Isostatic {
+            assert!(found.eq(wanted), "{scene:?}");
+            return;
+        }
+        // There horizontal contacts come last.
+        let [mut found, mut wanted] = [found.collect::<Vec<_>>(), wanted.collect()];
+        let is_horizontal = |line: &str| Axis::ALL.iter().any(|axis| line.ends_with(axis.name()));
+        assert!(found.iter().any(|line| is_horizontal(line)));
+        found.sort_unstable();
+        wanted.sort_unstable();
+        assert_eq!(found, wanted);
     });
 }
 
