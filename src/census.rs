@@ -23,12 +23,16 @@
 //!    stands ([`under_one_sphere`] carries it out).
 //! 3. *A last run of any length stands* if its first step does, since within a run lines only grow.
 //!
+//! With horizontal contacts, at a = R, one more stands, by the same reasons: `horizontal::census`, of the feature
+//! `horizontal`, has the table and the proof.
+//!
 //! # On a base
 //! Counted from a base up nothing so simple holds: what fails with few layers on it may stand with more, and the other
 //! way round. So every stacking is carried as high as it goes, and looked at there ([`on_base`]); nothing is pruned.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
@@ -56,12 +60,30 @@ pub struct Entry {
     pub standing: Standing,
 }
 
-impl Entry {
-    fn new(pile: Pile) -> Result<Self, Error> {
+/// What a census lists: a pile, and the judgement on it.
+pub(crate) trait Judged: Sized {
+    /// Of m·L − n entries is a census of six layers or more with what fails: m and n.
+    const ENTRIES: [i128; 2];
+
+    fn judge(pile: Pile) -> Result<Self, Error>;
+
+    fn stands(&self) -> bool;
+}
+
+impl Judged for Entry {
+    const ENTRIES: [i128; 2] = [11, 50];
+
+    fn judge(pile: Pile) -> Result<Self, Error> {
         let standing = pile.standing()?;
         Ok(Self { pile, standing })
     }
 
+    fn stands(&self) -> bool {
+        self.stands()
+    }
+}
+
+impl Entry {
     /// Whether it stands.
     ///
     /// # Examples
@@ -108,13 +130,23 @@ pub fn under_one_sphere(
     layers: i128,
     failing: bool,
 ) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
+    search(layers, failing)
+}
+
+/// The search from the top, however a beginning is judged: if it stands, so do its own beginnings, and it with its last step
+/// repeated; and no run of more than [`LONGEST_RUN`] steps stands before a change of sign.
+pub(crate) fn search<E: Judged>(
+    layers: i128,
+    failing: bool,
+) -> Result<impl Iterator<Item = Result<E, Error>>, Error> {
     // The number is checked here; a single layer has no step.
     let steps = Stacking::fcc(layers)?.layers() - 1;
     // As many as are listed, and no fewer for less than six layers.
-    let rows = BigUint::from((11 * layers).unsigned_abs());
-    if failing && rows > BigUint::from(MAX_ENTRIES) {
+    let [of_a_layer, less] = E::ENTRIES;
+    let rows = of_a_layer * layers - less;
+    if failing && rows > MAX_ENTRIES.into() {
         return Err(Error::TooManyRows {
-            rows: rows - 50_u32,
+            rows: rows.unsigned_abs().into(),
             limit: MAX_ENTRIES,
             remedy: "ask for fewer layers, or only for those that stand",
         });
@@ -126,6 +158,7 @@ pub fn under_one_sphere(
             beginning: Beginning::default(),
             next: None,
         }],
+        judged: PhantomData,
     })
 }
 
@@ -156,10 +189,11 @@ impl Beginning {
 }
 
 /// Beginnings still to be looked at, the next one last.
-struct Search {
+struct Search<E> {
     steps: i128,
     failing: bool,
     waiting: Vec<Waiting>,
+    judged: PhantomData<E>,
 }
 
 /// A beginning itself, or the beginnings that follow it with one run more, from the next length on.
@@ -168,17 +202,17 @@ struct Waiting {
     next: Option<i128>,
 }
 
-impl Search {
+impl<E: Judged> Search<E> {
     /// The entry of a beginning: itself carried to all layers, if its last change of sign stands, with the longer
     /// beginnings put in line; or its failure.
-    fn visit(&mut self, beginning: Beginning) -> Result<Option<Entry>, Error> {
+    fn visit(&mut self, beginning: Beginning) -> Result<Option<E>, Error> {
         if !beginning.0.is_empty() {
-            let first_step = Entry::new(beginning.pile(1)?)?;
+            let first_step = E::judge(beginning.pile(1)?)?;
             if !first_step.stands() {
                 return Ok(Some(first_step).filter(|_| self.failing));
             }
         }
-        let entry = Entry::new(beginning.pile(self.left(&beginning))?)?;
+        let entry = E::judge(beginning.pile(self.left(&beginning))?)?;
         self.waiting.push(Waiting {
             beginning,
             next: Some(1),
@@ -192,8 +226,8 @@ impl Search {
     }
 }
 
-impl Iterator for Search {
-    type Item = Result<Entry, Error>;
+impl<E: Judged> Iterator for Search<E> {
+    type Item = Result<E, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
@@ -244,6 +278,13 @@ impl Iterator for Search {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
+    carried_up(base)
+}
+
+/// Every stacking of a base, however it is judged.
+pub(crate) fn carried_up<E: Judged>(
+    base: Region,
+) -> Result<impl Iterator<Item = Result<E, Error>>, Error> {
     let rows = stackings_of(base);
     if rows > BigUint::from(MAX_ENTRIES) {
         return Err(Error::TooManyRows {
@@ -273,7 +314,7 @@ pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>
             }
             if !higher {
                 let from_top = Stacking::from_signs(signs.iter().rev().copied());
-                return Some(from_top.and_then(|stacking| Entry::new(Pile::on(base, stacking)?)));
+                return Some(from_top.and_then(|stacking| E::judge(Pile::on(base, stacking)?)));
             }
         }
     }))

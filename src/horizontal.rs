@@ -3,11 +3,12 @@
 //! The paper leaves it open: "horizontal contacts should be considered in order to get more physical behavior like
 //! arching. But in this case, the system is hyperstatic and more complicated techniques are to be used." There is one
 //! equation less than there are unknown forces for each horizontal contact above the floor
-//! ([`paper`](crate::paper#horizontal-contacts)). Three questions have an answer nevertheless:
+//! ([`paper`](crate::paper#horizontal-contacts)). Four questions have an answer nevertheless:
 //!
 //! | question | call |
 //! |---|---|
 //! | Are there forces that only push? | [`Pile::equilibrium`](crate::Pile::equilibrium) |
+//! | Of which stackings are there? | [`census`] |
 //! | What can a bottom sphere bear at least, and at most? | [`Pile::bounds`](crate::Pile::bounds) |
 //! | What do springs bear that only push? | [`Pile::elastic`](crate::Pile::elastic) |
 //!
@@ -20,10 +21,12 @@
 
 mod base;
 mod bounds;
+pub mod census;
 mod elastic;
 mod exact;
 mod network;
 mod program;
+mod run;
 mod stand;
 
 pub use base::BaseBounds;

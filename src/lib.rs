@@ -62,6 +62,7 @@
 //! | what a bottom sphere can bear there at least and at most | `pile.bounds(site)` (feature `horizontal`) |
 //! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | which stackings stand | [`census`] |
+//! | whether a pile stands with horizontal contacts (a = R), and which do | `Pile::equilibrium`, `horizontal::census` |
 //! | whether forces with horizontal contacts (a = R) are what somebody says, checked anew | [`certificate`] |
 //! | what is proved for every pile | [`theorem`] |
 //! | how a question is answered, and what that takes | [`Pile::plan`], [`Counters`] |

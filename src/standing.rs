@@ -3,7 +3,8 @@
 //! Spheres push, they do not pull. Where α, β and γ are the only contacts, the forces are unique: one that is negative
 //! means that no frictionless equilibrium exists, and the pile cannot stand ([`paper`](crate::paper#tension)). A force of zero
 //! stands. Where further spheres touch (q = 1, q = 9/4 with a change of sign, q = 8/3 without), forces that are nowhere
-//! negative still prove that it stands, and a negative one proves nothing.
+//! negative still prove that it stands, and a negative one proves nothing; at q = 1 `Pile::equilibrium` decides (feature
+//! `horizontal`).
 //!
 //! Within a run a line only grows, since no weight is negative. So the least force is where a line begins: at a
 //! surface, or at a change of sign; and only the layers where the sign changes need a look.
@@ -48,7 +49,8 @@ pub enum Verdict {
     Yes,
     /// A contact would have to pull, and there is no other way to balance the forces.
     No,
-    /// A contact would have to pull, but further contacts may take its part.
+    /// A contact would have to pull, but further contacts may take its part. If they are neighbours of a layer, a = R,
+    /// `Pile::equilibrium` decides (feature `horizontal`); spheres two or three layers apart are not gone into.
     Undetermined,
 }
 
@@ -107,7 +109,8 @@ pub struct Standing {
 
 impl Standing {
     /// Whether the pile stands, at a spacing at which the spheres `touching` touch beside the contacts α, β, γ: none of
-    /// them between the bounds of [`Clearance`](crate::geometry::Clearance).
+    /// them between the bounds of [`Clearance`](crate::geometry::Clearance). These forces are the sloping ones, of α, β
+    /// and γ alone; with those of horizontal contacts `Pile::equilibrium` answers.
     ///
     /// # Examples
     /// ```

@@ -65,6 +65,9 @@ pub(crate) use pieces::{columns, in_pieces, slices};
 pub(crate) use progress::Progress;
 pub use rows::{Column, Table};
 pub use summary::Summary;
+#[cfg(feature = "horizontal")]
+#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+pub use tables::horizontal_census;
 pub(crate) use tables::refuse_beyond;
 pub use tables::{MAX_ROWS, base, census, contacts, spheres, theorems, touching_contacts};
 pub use unfinished::remove_unfinished;

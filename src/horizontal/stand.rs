@@ -8,13 +8,13 @@ use core::iter::repeat_n;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+use super::census::DecidedBy;
 use super::network::{Column, MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim};
 use crate::error::bug;
-use crate::lattice::Sign;
 use crate::shape::Anchor;
-use crate::stacking::Stacking;
+use crate::stacking::{Run, Stacking};
 use crate::{Error, Pile};
 
 /// The layers above the one that is held in the first beginning that is looked at, if the pile fails no further down.
@@ -26,10 +26,11 @@ const NO_PULL: f64 = 1e-5;
 impl Pile {
     /// Returns a certificate that the pile stands at a = R, with horizontal contacts, or that it cannot.
     ///
-    /// Where the sloping contacts alone bear it nothing is computed but [`standing`](Self::standing). Below the last
+    /// A run that is too long before a change of sign is found at once ([`census`](crate::horizontal::census)). Where the
+    /// sloping contacts alone bear it nothing is computed but [`standing`](Self::standing). Below the last
     /// change of sign nothing has to be looked at, since there every force only grows; and of what is above it first the
     /// beginnings, since a pile stands only if each of them does. Of a pile of more than 10⁵ spheres the certificate is
-    /// that of its first layers, by the same reasons.
+    /// that of its first layers, by the same reasons: its [`pile`](Certificate::pile) are these.
     ///
     /// # Errors
     /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`] if more than 15,000 equations would have to be solved;
@@ -51,38 +52,61 @@ impl Pile {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn equilibrium(&self) -> Result<Certificate, Error> {
-        self.check_horizontal()?;
-        let pile = self.clone().without_horizontal_forces();
-        match pile.first_failure()? {
-            None => Ok(pile.certified(Claim::Stands)),
-            Some(failure) => pile.equilibrium_after(failure),
-        }
+        self.decided().map(|(certificate, _)| certificate)
     }
 
-    /// Whether it is in equilibrium, if it is not without horizontal forces from below this layer on.
-    fn equilibrium_after(&self, failure: i128) -> Result<Certificate, Error> {
+    /// The same, and what decides it.
+    pub(super) fn decided(&self) -> Result<(Certificate, DecidedBy), Error> {
+        self.check_horizontal()?;
+        self.clone().without_horizontal_forces().decided_bare()
+    }
+
+    fn decided_bare(&self) -> Result<(Certificate, DecidedBy), Error> {
+        if let Some(certificate) = self.too_long_run()? {
+            return Ok((certificate, DecidedBy::Run));
+        }
         // Held is what lies under the last change of sign.
         let shape = self.shape();
         let last_run = shape.stretch(shape.stacking().changes());
+        let Some(failure) = self.first_failure()? else {
+            let pile = match last_run {
+                Some(run) => self.certified_down_to(run.from + 1)?,
+                None => self.clone(),
+            };
+            return Ok((pile.certified(Claim::Stands), DecidedBy::Sloping));
+        };
         let last_run = last_run.ok_or_else(|| bug("a pile that fails has a step"))?;
         let last = last_run.from + 1;
         let mut floor = (failure + 1).max(FIRST).min(last);
         loop {
             let certificate = self.equilibrium_above(floor, floor == last)?;
-            if floor == last || certificate.claim == Claim::CannotStand {
-                return Ok(certificate);
+            match certificate.claim {
+                Claim::CannotStand => return Ok((certificate, DecidedBy::Work)),
+                _ if floor == last => return Ok((certificate, DecidedBy::Horizontal)),
+                _ => floor = (floor + floor / 2).min(last),
             }
-            floor = (floor + floor / 2).min(last);
+        }
+    }
+
+    /// The pile itself, or, if it is large, its layers down to one.
+    pub(super) fn certified_down_to(&self, floor: i128) -> Result<Self, Error> {
+        if self.sphere_count() <= MOST_CERTIFIED.into() {
+            Ok(self.clone())
+        } else {
+            self.beginning(floor)
         }
     }
 
     /// The layers down to one, as a pile of their own.
     fn beginning(&self, floor: i128) -> Result<Self, Error> {
         let shape = self.shape();
-        let signs = (0..floor).map(|k| shape.sign_below(k));
-        let signs: Option<Vec<Sign>> = signs.collect();
-        let signs = signs.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
-        let stacking = Stacking::from_signs(signs)?;
+        let mut left = floor;
+        let runs = shape.stacking().runs().map_while(|run| {
+            let steps = run.steps.min(left);
+            left -= steps;
+            (steps > 0).then_some(Run { steps, ..run })
+        });
+        let stacking = Stacking::from_runs(runs)?;
         let pile = match shape.anchor() {
             Anchor::Top(top) => Self::under(top, stacking)?,
             Anchor::Base(_) => Self::on(shape.layer(floor)?, stacking)?,
@@ -101,7 +125,7 @@ impl Pile {
         Ok(pile)
     }
 
-    fn certified(self, claim: Claim) -> Certificate {
+    pub(super) fn certified(self, claim: Claim) -> Certificate {
         Certificate {
             pile: self,
             claim,
@@ -110,8 +134,8 @@ impl Pile {
         }
     }
 
-    /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not. Below them
-    /// forces only grow, if they are the whole.
+    /// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not. Below
+    /// them forces only grow, if they are the whole.
     fn equilibrium_above(&self, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
         let network = Network::above(self, floor, MOST_EQUATIONS)?;
         let (equations, unknowns) = (network.weights.len(), network.columns.len());
@@ -136,9 +160,8 @@ impl Pile {
         // What is said is checked, whatever floats say.
         let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
         // What cannot stand cannot with more below it; what stands does so as far as it was looked at.
-        let is_small = self.sphere_count() <= MOST_CERTIFIED.into();
-        let pile = if is_small && (is_whole || !stands) {
-            self.clone()
+        let pile = if is_whole || !stands {
+            self.certified_down_to(floor)?
         } else {
             self.beginning(floor)?
         };

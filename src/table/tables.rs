@@ -8,6 +8,9 @@ mod theorems;
 
 pub use base::base;
 pub use census::census;
+#[cfg(feature = "horizontal")]
+#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+pub use census::horizontal_census;
 pub use contacts::{contacts, touching_contacts};
 pub use spheres::spheres;
 pub use theorems::theorems;

@@ -120,6 +120,7 @@ mod census {
 #[cfg(feature = "horizontal")]
 mod horizontal {
     mod bounds;
+    mod census;
     mod states;
 
     /// All stackings of so many steps that begin with +.

@@ -4,7 +4,7 @@ use crate::census::Entry;
 use crate::table::cell::Cell;
 use crate::table::rows::{Column, Row, Table};
 use crate::table::summary::steps;
-use crate::{ContactForce, Error};
+use crate::{ContactForce, Error, Pile, Standing, Verdict};
 
 /// The most layers of a stacking with a change of sign whose normal forces a census has.
 const MOST_LAYERS: i128 = 100_000;
@@ -31,45 +31,107 @@ const MOST_LAYERS: i128 = 100_000;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> Table<'t> {
-    let mut columns: Vec<Column> = ["stacking", "layers", "stands"].map(Column::plain).into();
+    let row = |entry: Result<Entry, Error>| -> Row {
+        let Entry { pile, standing, .. } = entry?;
+        let mut cells = judged(&pile, standing.verdict(&[]));
+        cells.extend(without_horizontal_contacts(&pile, Some(&standing))?);
+        Ok(cells)
+    };
+    Table::of_rows(columns(&[]), "stackings", entries.map(row))
+}
+
+/// Stackings and whether they stand at a = R, one a row: as [`census`], and `decided_by`, the
+/// [reason](crate::horizontal::census::DecidedBy), after `stands`.
+///
+/// All columns after `decided_by` are of the forces without horizontal contacts; the least is left out where it would take
+/// too long to find.
+///
+/// # Examples
+/// ```
+/// use cannonpile::horizontal::census;
+/// use cannonpile::table::{self, FileFormat, NumberFormat};
+///
+/// let table = table::horizontal_census(census::under_one_sphere(6, false)?);
+/// let mut csv = Vec::new();
+/// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert!(String::from_utf8(csv)?.contains("\n+-+-+,6,yes,horizontal,-22/81,27,,,4,1,-2,gamma\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[cfg(feature = "horizontal")]
+#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+pub fn horizontal_census<'t>(
+    entries: impl Iterator<Item = Result<crate::horizontal::census::Entry, Error>> + 't,
+) -> Table<'t> {
+    let row = |entry: Result<crate::horizontal::census::Entry, Error>| -> Row {
+        let entry = entry?;
+        let verdict = if entry.stands() {
+            Verdict::Yes
+        } else {
+            Verdict::No
+        };
+        let mut cells = judged(&entry.pile, verdict);
+        cells.push(entry.decided_by.name().into());
+        let standing = match entry.pile.standing() {
+            Err(Error::TooLarge { .. }) => None,
+            standing => Some(standing?),
+        };
+        cells.extend(without_horizontal_contacts(&entry.pile, standing.as_ref())?);
+        Ok(cells)
+    };
+    Table::of_rows(columns(&["decided_by"]), "stackings", entries.map(row))
+}
+
+/// The columns of a census; `more` after the verdict.
+fn columns(more: &[&'static str]) -> Vec<Column> {
+    let names = ["stacking", "layers", "stands"].iter().chain(more);
+    let mut columns: Vec<Column> = names.map(|name| Column::plain(name)).collect();
     columns.push(Column::measured("min_contact", "mg/(3cosθ)"));
     columns.push(Column::plain("base_spheres"));
     columns.extend(["normal_min", "normal_max"].map(|name| Column::measured(name, "mg")));
     columns.extend(["k", "i", "j", "direction"].map(Column::plain));
-    let row = |entry: Result<Entry, Error>| -> Row {
-        let Entry { pile, standing, .. } = entry?;
-        let mut cells = vec![
-            Cell::Word(steps(&pile).into()),
-            pile.layers().into(),
-            standing.verdict(&[]).name().into(),
-        ];
-        let least = standing.least.as_ref();
-        cells.push(least.map_or(Cell::Missing, |least| least.force.clone().into()));
-        cells.push(Cell::Integer(pile.base_spheres().into()));
-        let base = match standing.first_failure {
-            Some(_) => None,
-            None if pile.layers() > MOST_LAYERS && pile.shape().stacking().changes() > 0 => None,
-            None => match pile.base_extremes() {
-                Err(Error::TooLarge { .. }) => None,
-                base => Some(base?),
-            },
-        };
-        cells.extend(match base {
-            Some(base) => [base.normal_min.into(), base.normal_max.into()],
-            None => [Cell::Missing, Cell::Missing],
-        });
-        cells.extend(match least {
-            Some(ContactForce {
-                site, direction, ..
-            }) => [
-                site.k.into(),
-                site.i.into(),
-                site.j.into(),
-                direction.name().into(),
-            ],
-            None => [(); 4].map(|()| Cell::Missing),
-        });
-        Ok(cells)
+    columns
+}
+
+fn judged(pile: &Pile, verdict: Verdict) -> Vec<Cell> {
+    vec![
+        Cell::Word(steps(pile).into()),
+        pile.layers().into(),
+        verdict.name().into(),
+    ]
+}
+
+/// The cells after the verdict; of the forces as far as they are known.
+fn without_horizontal_contacts(
+    pile: &Pile,
+    standing: Option<&Standing>,
+) -> Result<Vec<Cell>, Error> {
+    let least = standing.and_then(|standing| standing.least.as_ref());
+    let mut cells = vec![least.map_or(Cell::Missing, |least| least.force.clone().into())];
+    cells.push(Cell::Integer(pile.base_spheres().into()));
+    let stands = standing.is_some_and(|standing| standing.first_failure.is_none());
+    let is_tall = pile.layers() > MOST_LAYERS && pile.shape().stacking().changes() > 0;
+    let base = if stands && !is_tall {
+        match pile.base_extremes() {
+            Err(Error::TooLarge { .. }) => None,
+            base => Some(base?),
+        }
+    } else {
+        None
     };
-    Table::of_rows(columns, "stackings", entries.map(row))
+    cells.extend(match base {
+        Some(base) => [base.normal_min.into(), base.normal_max.into()],
+        None => [Cell::Missing, Cell::Missing],
+    });
+    cells.extend(match least {
+        Some(ContactForce {
+            site, direction, ..
+        }) => [
+            site.k.into(),
+            site.i.into(),
+            site.j.into(),
+            direction.name().into(),
+        ],
+        None => [(); 4].map(|()| Cell::Missing),
+    });
+    Ok(cells)
 }

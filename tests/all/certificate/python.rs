@@ -252,3 +252,18 @@ fn random_piles_have_one_verdict() {
     }
     assert!((5..75).contains(&accepted), "{accepted}");
 }
+
+#[cfg(feature = "horizontal")]
+#[test]
+fn the_census_is_accepted_by_both() {
+    if left_out() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let census = cannonpile::horizontal::census::under_one_sphere(7, true).unwrap();
+    for entry in census.map(Result::unwrap) {
+        assert!(agreed(&entry.certificate, folder.path()), "{entry:?}");
+    }
+    let long = Pile::under(Region::SITE, "(1,40,3)".parse().unwrap()).unwrap();
+    assert!(agreed(&long.equilibrium().unwrap(), folder.path()));
+}

@@ -37,7 +37,7 @@ macro_rules! console {
 console! {
     base: 88;
     bounds: 18;
-    census: 13;
+    census: 21;
     check: 12;
     completions: 2;
     contacts: 50;

@@ -1,0 +1,94 @@
+"""The bounds of bottom spheres once more, by an exact linear program: QSopt_ex solves it in rationals.
+
+Usage: exact_lp.py FOLDER BOUNDS, the folder that `cannonpile export --to csv --spacing 1` has written and the csv file
+of `cannonpile bounds`; exact_lp.py FOLDER, for a pile that cannot stand.
+
+In a = R all places are integers in thirds of the two lattice vectors of a layer and in layers, and all contacts as long
+as each other. So the balance of a sphere has integer coefficients: the force of a contact over the rise of a layer
+between its ends is mu (1, da, db), and sum mu da = sum mu db = 0, sum mu dk = w.
+"""
+
+import math
+import re
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+from pathlib import Path
+
+from touching import bounds, pairs, spheres
+
+
+def integers(place):
+    """The place in thirds of (0, 2) and (sqrt(3), 1), and in layers of height sqrt(8/3), all in radii."""
+    x, y, z = place
+    b = x / math.sqrt(3)
+    numbers = (3 * (y - b) / 2, 3 * b, z / math.sqrt(8 / 3))
+    whole = [round(number) for number in numbers]
+    if any(abs(number - one) > 1e-6 for number, one in zip(numbers, whole)):
+        raise SystemExit(f"FAILED: {place} is no place of the lattice")
+    return whole
+
+
+class Program:
+    """All forces mu >= 0 that balance the free spheres."""
+
+    def __init__(self, piled, folder):
+        self.piled, self.touching, self.folder = piled, pairs(piled), folder
+        places = [integers(sphere.place) for sphere in piled]
+        balance = {number: [{}, {}, {}] for number, sphere in enumerate(piled) if not sphere.fixed}
+        self.bearing = {number: [] for number, sphere in enumerate(piled) if sphere.fixed}
+        for name, (one, other) in enumerate(self.touching):
+            for end, by in ((one, other), (other, one)):
+                if end in balance:
+                    for equation, here, there in zip(balance[end], places[end], places[by]):
+                        equation[name] = here - there
+                else:
+                    self.bearing[end].append(name)
+        self.rows = []
+        for number, equations in balance.items():
+            weight = piled[number].weight
+            for equation, total in zip(equations, (0, 0, weight)):
+                terms = "".join(f" {c * weight.denominator:+d} m{name}" for name, c in equation.items() if c)
+                self.rows.append(f" r{len(self.rows)}:{terms} = {total * weight.denominator}")
+
+    def extreme(self, sense, number):
+        """The least or the greatest sum of mu on a bottom sphere; None if no forces balance the pile."""
+        goal = " + ".join(f"m{name}" for name in self.bearing[number]) or "0 m0"
+        file, answer = (Path(self.folder) / name for name in ("pile.lp", "pile.sol"))
+        lines = [f"{sense}\n goal: {goal}", "Subject To", *self.rows, "End"]
+        file.write_text("\n".join(lines) + "\n")
+        answer.unlink(missing_ok=True)
+        run = subprocess.run(["esolver", "-L", "-O", answer, file], capture_output=True, text=True, timeout=300)
+        said = answer.read_text() if answer.exists() else ""
+        status = re.search(r"status\s*=?\s*(\w+)", said, re.IGNORECASE)
+        if status and status[1].upper() == "INFEASIBLE":
+            return None
+        value = re.search(r"Value = (\S+)", said)
+        if not (status and status[1].upper() == "OPTIMAL" and value):
+            raise SystemExit(f"FAILED: esolver finds neither forces nor that there are none: {said[:200]}{run.stderr[-500:]}")
+        return Fraction(value[1])
+
+
+def main(folder, file=None):
+    piled = spheres(folder)
+    with tempfile.TemporaryDirectory() as scratch:
+        program = Program(piled, scratch)
+        if file is None:
+            if program.extreme("Minimize", next(iter(program.bearing))) is not None:
+                raise SystemExit("FAILED: forces balance a pile that cannot stand")
+            print(f"no forces balance {len(piled)} spheres")
+            return
+        claimed = bounds(file)
+        if len(claimed) != len(program.bearing):
+            raise SystemExit(f"FAILED: {len(claimed)} bounds, of {len(program.bearing)} bottom spheres")
+        for number in program.bearing:
+            least, greatest, attained = claimed[piled[number].site]
+            weight = piled[number].weight
+            exact = [weight + program.extreme(sense, number) for sense in ("Minimize", "Maximize")]
+            if exact != [least, greatest] and (attained or not least <= exact[0] <= exact[1] <= greatest):
+                raise SystemExit(f"FAILED: {piled[number].site} bears {exact[0]} to {exact[1]}, not {least} to {greatest}")
+    print(f"{2 * len(claimed)} bounds are those of QSopt_ex: {len(piled)} spheres, {len(program.touching)} contacts")
+
+
+main(*sys.argv[1:])

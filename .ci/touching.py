@@ -1,0 +1,56 @@
+"""The spheres of an exported pile at a = R and the pairs that touch, found by their places alone.
+
+What reads this takes nothing else of the library: no direction, no sign, no equation.
+"""
+
+import csv
+import math
+from collections import namedtuple
+from fractions import Fraction
+from pathlib import Path
+
+# `place` are x, y, z in radii; `weight` is in mg, with the load; `site` is (i, j).
+Sphere = namedtuple("Sphere", "place weight fixed site")
+
+
+def table(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def spheres(folder):
+    """The spheres of spheres.csv, by their id less one."""
+    read = []
+    for row in table(Path(folder) / "spheres.csv"):
+        radius, mass = float(row["radius"]), float(row["mass"])
+        place = [float(row[axis]) / radius for axis in "xyz"]
+        # The load is a force; g is 1 m/s² where none is given.
+        weight = 1 + Fraction(row["load"]) / Fraction(mass)
+        read.append(Sphere(place, weight, row["fixed"] == "1", (int(row["i"]), int(row["j"]))))
+    return read
+
+
+def pairs(piled):
+    """The pairs (upper, lower) that touch, two diameters of difference at most in no direction, one of them free."""
+    cells = {}
+    for number, sphere in enumerate(piled):
+        cells.setdefault(tuple(math.floor(c / 2) for c in sphere.place), []).append(number)
+    found = []
+    for number, sphere in enumerate(piled):
+        x, y, z = (math.floor(c / 2) for c in sphere.place)
+        near = [(x + a, y + b, z + c) for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]
+        for other in (other for cell in near for other in cells.get(cell, []) if other > number):
+            distance = math.dist(sphere.place, piled[other].place)
+            if distance < 2 - 1e-9:
+                raise SystemExit(f"FAILED: spheres {number + 1} and {other + 1} overlap")
+            if distance < 2 + 1e-9 and not (sphere.fixed and piled[other].fixed):
+                found.append((number, other))
+    return found
+
+
+def bounds(path):
+    """The least and the greatest normal force by site, and whether both are attained."""
+    return {
+        (int(row["i"]), int(row["j"])): (Fraction(row["normal_min"]), Fraction(row["normal_max"]), row["proved"] == "yes")
+        for row in table(path)
+    }

@@ -1,0 +1,194 @@
+//! Which stackings stand at a = R, horizontal contacts included: each with a certificate.
+//!
+//! # Under one sphere
+//! Of L layers there stand, one of each mirror pair, with horizontal contacts and without
+//!
+//! | L | 1 | 2 | 3 | 4 | 5 | 6 and more |
+//! |---|---|---|---|---|---|---|
+//! | with | 1 | 1 | 2 | 4 | 8 | 12 |
+//! | [without](crate::census) | 1 | 1 | 2 | 4 | 8 | 11 |
+//!
+//! The one more is (1,1,1,1,*) in Zhdanov's notation: five layers of HCP, and then straight for ever. The proof that the
+//! number stops growing has four parts; f and X ≥ 0 are the forces of [`certificate`](crate::certificate).
+//!
+//! 1. *A run before a change has at most three steps from the top, four after a change.* Within a run of + steps take the
+//!    spheres with the largest i of each layer. Nothing rests on them but along β, and no contact of theirs leads further
+//!    out, so that of the horizontal ones those that push on them add to β what is ≥ 0: f_β = g_β + 1 + (≥ 0). After r
+//!    steps from the top g_β ≥ r; after r steps from a change, where all that is known is f_β ≥ 0, g_β ≥ r − 1. If the sign
+//!    changes there, g_α = g_γ = 0, and the same contacts now take away: f_β = 1 − g_β/3 − (≥ 0). So g_β ≤ 3. As a
+//!    certificate: φ_β = 1 on four spheres of the edge, −3 on the fifth, where the sign changes. Then D ≤ 0 and c ≤ 0, and
+//!    the work is 4 − 3 > 0. This holds under any top, and however far down.
+//! 2. *The beginnings of what stands stand.* What lies below a layer changes no equation above it, and it can be held.
+//! 3. *What stands does so with its last step repeated.* Below the last change of sign let X = 0: f = g + w ≥ 0.
+//! 4. *The rest is a finite search* ([`under_one_sphere`] carries it out): by 2 from the top, by 3 run after run, and by 1
+//!    with runs of at most four steps before a change. Each beginning that fails has a certificate, and none with a fifth
+//!    change of sign is left.
+//!
+//! # On a base
+//! As without horizontal contacts every stacking is carried as high as it goes ([`on_base`]), and looked at there.
+
+use core::fmt;
+
+use crate::census::{Judged, carried_up, search};
+use crate::certificate::{Certificate, Claim};
+use crate::lattice::Region;
+use crate::{Error, Pile};
+
+/// A stacking, and the proof that it stands at a = R, or cannot.
+///
+/// # Examples
+/// ```
+/// use cannonpile::horizontal::census;
+///
+/// for entry in census::under_one_sphere(6, true)? {
+///     assert_eq!(entry?.certificate.check(), Ok(()));
+/// }
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Entry {
+    /// The pile of this stacking.
+    pub pile: Pile,
+    /// The proof; of its first layers, if it has more than 10⁵ spheres ([`Pile::equilibrium`]).
+    pub certificate: Certificate,
+    /// What the proof rests on.
+    pub decided_by: DecidedBy,
+}
+
+/// What decides whether a pile stands at a = R.
+///
+/// # Examples
+/// ```
+/// use cannonpile::horizontal::census::{self, DecidedBy};
+///
+/// let entries: Result<Vec<_>, _> = census::under_one_sphere(6, false)?.collect();
+/// let entries = entries?;
+/// let horizontal = entries.iter().filter(|entry| entry.decided_by == DecidedBy::Horizontal);
+/// let stackings: Vec<_> = horizontal.map(|entry| entry.pile.shape().stacking().to_string()).collect();
+/// // Only HCP needs them.
+/// assert_eq!(stackings, ["+-+-+"]);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum DecidedBy {
+    /// It stands without horizontal contacts: no force along α, β, γ pulls.
+    Sloping,
+    /// It stands by the forces of horizontal contacts that the certificate has.
+    Horizontal,
+    /// It cannot stand: a run is too long before a change of sign, by the spheres of an edge (module documentation, 1).
+    Run,
+    /// It cannot stand: the field of the certificate would do work for nothing.
+    Work,
+}
+
+impl DecidedBy {
+    /// `sloping`, `horizontal`, `run`, `work`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::horizontal::census::DecidedBy;
+    ///
+    /// assert_eq!(DecidedBy::Run.name(), "run");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sloping => "sloping",
+            Self::Horizontal => "horizontal",
+            Self::Run => "run",
+            Self::Work => "work",
+        }
+    }
+}
+
+impl fmt::Display for DecidedBy {
+    /// `sloping`, `horizontal`, `run`, `work`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl Entry {
+    /// Whether it stands.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::horizontal::census;
+    ///
+    /// let entries: Result<Vec<_>, _> = census::under_one_sphere(7, true)?.collect();
+    /// assert_eq!(entries?.iter().filter(|entry| entry.stands()).count(), 12);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn stands(&self) -> bool {
+        self.certificate.claim == Claim::Stands
+    }
+}
+
+impl Judged for Entry {
+    const ENTRIES: [i128; 2] = [12, 56];
+
+    fn judge(pile: Pile) -> Result<Self, Error> {
+        let (certificate, decided_by) = pile.decided()?;
+        Ok(Self {
+            pile,
+            certificate,
+            decided_by,
+        })
+    }
+
+    fn stands(&self) -> bool {
+        self.stands()
+    }
+}
+
+/// The stackings of `layers` layers under one sphere that stand at a = R, one of each mirror pair (the one that begins with
+/// +); with `failing`, also the shortest beginnings that cannot. In order of their runs.
+///
+/// Of those that stand there are at most twelve (module documentation); with what fails there are 12L − 56 for six
+/// layers or more.
+///
+/// # Errors
+/// [`Error::Layers`] unless 1 ≤ `layers` ≤ 10³⁶; [`Error::TooManyRows`] for more than
+/// [`MAX_ENTRIES`](crate::census::MAX_ENTRIES) with what fails. An entry is no error: all that is not decided by the lemmas is small, and was decided.
+///
+/// # Examples
+/// ```
+/// use cannonpile::horizontal::census;
+///
+/// // However many layers there are, no more than these stand.
+/// let standing: Result<Vec<_>, _> = census::under_one_sphere(10_i128.pow(36), false)?.collect();
+/// let standing = standing?;
+/// assert_eq!(standing.len(), 12);
+/// assert!(standing.iter().all(|entry| entry.certificate.check() == Ok(())));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn under_one_sphere(
+    layers: i128,
+    failing: bool,
+) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
+    search(layers, failing)
+}
+
+/// Every stacking of a base, carried up as in [`census::on_base`](crate::census::on_base), with whether it stands at a = R.
+///
+/// # Errors
+/// [`Error::TooManyRows`] as there; in an entry those of [`Pile::equilibrium`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::horizontal::census;
+/// use cannonpile::lattice::Region;
+///
+/// let entries: Result<Vec<_>, _> = census::on_base(Region::hexagon(3, 4)?)?.collect();
+/// let entries = entries?;
+/// let horizontal = entries.iter().find(|entry| entry.decided_by == census::DecidedBy::Horizontal);
+/// assert_eq!(horizontal.unwrap().pile.shape().stacking().to_string(), "-+-+-");
+/// assert_eq!(entries.iter().filter(|entry| !entry.stands()).count(), 3);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>>, Error> {
+    carried_up(base)
+}
