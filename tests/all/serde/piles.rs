@@ -31,7 +31,7 @@ fn scenes() {
         format!(
             r#"{{"layers":"{MAX_LAYERS}","dimension":3,"sin-phi":null,"stacking":"hcp","anchor":{{"base":"hexagon:3,2"}},"#
         ) + r#""loads":[{"at":{"layer":null,"i":"1","j":"-2"},"weight":"5/2"}],"weightless":false,"#
-            + r#""spacing":"6/5","radius":"1","mass":"1","gravity":"1"}"#
+            + r#""spacing":"6/5","radius":"1","mass":"1","gravity":"1","state":"isostatic","stiffness-ratio":"1"}"#
     );
     back(&Scene::default());
     assert_eq!(
@@ -89,7 +89,7 @@ fn piles() {
     assert_eq!(
         back(&pile),
         r#"{"dimension":2,"sin_phi":"0","stacking":"+","anchor":{"top":"hexagon:1"},"weightless":false,"#.to_owned()
-            + r#""weights":[],"loads":[{"site":{"i":"0","j":"0","k":"0"},"weight":"1/3"}]}"#
+            + r#""weights":[],"loads":[{"site":{"i":"0","j":"0","k":"0"},"weight":"1/3"}],"horizontal":[]}"#
     );
 }
 
