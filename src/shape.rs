@@ -14,6 +14,7 @@ pub(crate) use runs::Stretch;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+#[cfg(feature = "export")]
 use num_bigint::BigUint;
 
 use crate::Error;
@@ -291,6 +292,13 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
     }
 
+    /// Returns σ of the steps of a straight pile, 1 if there are none: what turns its sites into those of + steps.
+    #[cfg(feature = "horizontal")]
+    pub(crate) fn straight_factor(&self) -> i128 {
+        // Not a default: of one sphere both turns are the same.
+        self.sign_below(0).map_or(1, |sign| sign.factor().into())
+    }
+
     /// Returns the layer that the others are grown from.
     ///
     /// # Examples
@@ -477,6 +485,7 @@ impl Shape {
     }
 
     /// Returns how many horizontal contacts a layer has: each of its lines has one less than spheres.
+    #[cfg(feature = "export")]
     pub(crate) fn horizontal_contacts_in(&self, k: i128) -> BigUint {
         let Some(region) = self.region(k) else {
             return BigUint::ZERO;

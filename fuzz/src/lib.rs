@@ -138,6 +138,13 @@ pub fn engine(bytes: &[u8]) -> Corpus {
     )
 }
 
+/// What a tiny pile with horizontal contacts can bear is proved, and is what an exact linear program says.
+#[cfg(feature = "horizontal")]
+#[must_use]
+pub fn horizontal(bytes: &[u8]) -> Corpus {
+    all_hold(bytes, &[claims::horizontal::any_pile])
+}
+
 /// Measured forces are read as they were written or refused, exact ones accepted, and a planted fault is found.
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {

@@ -9,7 +9,7 @@ use num_traits::{One, Zero};
 use super::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Program, accepted};
 use crate::certificate::{Certificate, Claim, Extreme};
-use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Site};
+use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Site, count};
 use crate::{Error, Pile, formula};
 
 /// The least and the greatest normal force of a bottom sphere on the floor, over all forces that balance the pile and
@@ -260,9 +260,12 @@ fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational
     }
 }
 
-/// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), and K = L−1.
+/// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), of − steps (k+i+j, −i, −j), and K =
+/// L−1.
 #[derive(Clone, Copy)]
 struct Straight {
+    /// σ of all steps.
+    sigma: i128,
     /// Of the bottom sphere.
     n: [i128; 3],
     k: i128,
@@ -271,8 +274,10 @@ struct Straight {
 impl Straight {
     fn of(pile: &Pile, Site { i, j, k }: Site) -> Option<Self> {
         let is_it = pile.is_paper_pile() && pile.dimension() == Dimension::Three;
+        let sigma = pile.shape().straight_factor();
         is_it.then_some(Self {
-            n: [k - i - j, i, j],
+            sigma,
+            n: count::above(&(sigma * i), &(sigma * j), &k),
             k,
         })
     }
@@ -335,7 +340,7 @@ impl Straight {
                 let mut beside = on_edge;
                 beside[l] -= 1;
                 beside[other] += 1;
-                contact(on_edge, beside)
+                self.contact(on_edge, beside)
             })
         });
         pairs
@@ -359,7 +364,7 @@ impl Straight {
             let mut other = one;
             other[a] += 1;
             other[b] -= 1;
-            Some((contact(one, other)?, BigRational::one()))
+            Some((self.contact(one, other)?, BigRational::one()))
         });
         let nu = [r, n_b, n_c].map(|n| BigRational::from_integer(n.into()));
         let above = [[b, c], [c, a], [a, b]].into_iter().zip(formula::arch(&nu));
@@ -370,7 +375,7 @@ impl Straight {
                 site[l] -= 1;
                 site
             });
-            Some((contact(one, other)?, force))
+            Some((self.contact(one, other)?, force))
         });
         let mut forces = BTreeMap::new();
         for (contact, force) in flank.chain(above) {
@@ -387,9 +392,26 @@ impl Straight {
         let edge = (0..self.k).map(|t| {
             let all = matches!(end, End::Greatest) && t > 0;
             let field = formula::corner_field(Direction::ALL[l], all);
-            (site(unit(l).map(|e| e * t)), field)
+            (self.site(unit(l).map(|e| e * t)), field)
         });
         edge.collect()
+    }
+
+    fn site(self, [a, i, j]: [i128; 3]) -> Site {
+        let [i, j, k] = [self.sigma * i, self.sigma * j, a + i + j];
+        Site { i, j, k }
+    }
+
+    /// The horizontal contact of two neighbours.
+    fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
+        let [one, other] = [one, other].map(|n| self.site(n));
+        let both = [(one, other), (other, one)]
+            .into_iter()
+            .flat_map(|(from, to)| {
+                Axis::ALL.map(|axis| (HorizontalContact { site: from, axis }, to))
+            });
+        let mut found = both.filter(|(contact, to)| contact.neighbour() == Some(*to));
+        found.next().map(|(contact, _)| contact)
     }
 }
 
@@ -400,18 +422,4 @@ fn normal_below(onto: BigRational) -> BigRational {
 
 fn unit(l: usize) -> [i128; 3] {
     core::array::from_fn(|direction| i128::from(direction == l))
-}
-
-fn site([a, i, j]: [i128; 3]) -> Site {
-    Site { i, j, k: a + i + j }
-}
-
-/// The horizontal contact of two neighbours.
-fn contact(one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
-    let [one, other] = [one, other].map(site);
-    let both = [(one, other), (other, one)]
-        .into_iter()
-        .flat_map(|(from, to)| Axis::ALL.map(|axis| (HorizontalContact { site: from, axis }, to)));
-    let mut found = both.filter(|(contact, to)| contact.neighbour() == Some(*to));
-    found.next().map(|(contact, _)| contact)
 }

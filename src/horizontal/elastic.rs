@@ -150,13 +150,16 @@ fn cannot_stand(pile: &Pile) -> bool {
 /// That the paper's pile bears what it bears without horizontal contacts.
 fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
     let directions = pile.dimension().directions();
-    let floor = pile.layers() - 1;
+    let (floor, sigma) = (pile.layers() - 1, pile.shape().straight_factor());
     let sites = pile.shape().sites().take_while(|site| site.k < floor);
     let field = sites.map(|site| {
         let Site { i, j, k } = site;
         let height = BigRational::from_integer((floor - k).into());
         let mut field = [(); 3].map(|()| BigRational::zero());
-        for (direction, n) in directions.iter().zip(count::above(&i, &j, &k)) {
+        for (direction, n) in directions
+            .iter()
+            .zip(count::above(&(sigma * i), &(sigma * j), &k))
+        {
             let n = BigRational::from_integer(n.into());
             field[direction.index()] = formula::elastic_field(&n, &height);
         }
@@ -205,8 +208,9 @@ impl Springs<'_> {
         self.stiffness_ratio * along(&self.network.columns[unknown], field)
     }
 
-    /// The forces X of these contacts and the gaps μ = f − D of these, one after the other, for which κ′ c = X and f =
-    /// 0: as exact as they are unique.
+    /// The forces X of these contacts and the gaps μ = f − D of these, one after the other, for which κ′ c = X and f = 0.
+    /// The forces are unique; gaps that are not, of open contacts of spheres that nothing presses, are such that nothing
+    /// is compressed there.
     fn solved(&self, pushing: &Pushing, guess: &[f64]) -> Option<Vec<BigRational>> {
         let equations = self.network.weights.len();
         let zeros = || vec![BigRational::zero(); equations];
@@ -248,7 +252,8 @@ impl Springs<'_> {
             system.push((coefficients.collect(), -alone.forces[*unknown].clone()));
         }
         near(system, guess, |solution| {
-            !solution.iter().any(Signed::is_negative)
+            let is_signed = !solution.iter().any(Signed::is_negative);
+            is_signed && self.certificate(pushing, solution).check().is_ok()
         })
     }
 
@@ -321,11 +326,10 @@ impl Springs<'_> {
                 .collect(),
         };
         let float_scale = scale.to_f64().ok_or_else(unsolved)?;
-        let forces = pushing
-            .horizontal
-            .iter()
-            .map(|unknown| guess.unknowns[*unknown] * float_scale);
-        let numbers: Vec<f64> = forces.chain(pushing.open.iter().map(|_| 0.0)).collect();
+        let forces = pushing.horizontal.iter().map(|u| guess.unknowns[*u]);
+        let gaps = pushing.open.iter().map(|u| guess.slacks[*u]);
+        let numbers = forces.chain(gaps).map(|number| number * float_scale);
+        let numbers: Vec<f64> = numbers.collect();
         let solution = self.solved(&pushing, &numbers).ok_or_else(unsolved)?;
         accepted(Some(self.certificate(&pushing, &solution)), equations)
     }

@@ -30,6 +30,8 @@ pub(super) struct Guess {
     pub(super) unknowns: Vec<f64>,
     /// By equation: the multipliers y of a minimum, with Σ column y ≤ cost.
     pub(super) multipliers: Vec<f64>,
+    /// By unknown: what is left of its inequality.
+    pub(super) slacks: Vec<f64>,
     /// By unknown: whether it is positive, and its inequality an equality.
     pub(super) positive: Vec<bool>,
 }
@@ -43,6 +45,7 @@ impl Program<'_> {
             return Some(Guess {
                 unknowns: Vec::new(),
                 multipliers: Vec::new(),
+                slacks: Vec::new(),
                 positive: Vec::new(),
             });
         }
@@ -93,6 +96,7 @@ impl Program<'_> {
         Some(Guess {
             positive: positive.collect(),
             unknowns: solution.x.clone(),
+            slacks: slacks.to_vec(),
             // Of the program as it is posed there, with the other sign.
             multipliers: multipliers.iter().map(|y| -y).collect(),
         })

@@ -72,6 +72,11 @@ properties! {
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
 }
 
+#[cfg(feature = "horizontal")]
+properties! {
+    what_can_be_borne_is_what_an_exact_program_says: claims::horizontal::any_pile, 192;
+}
+
 #[cfg(feature = "export")]
 properties! {
     any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;
@@ -272,6 +277,21 @@ fn bounds_are_made_and_refused() {
     });
     assert_eq!(kinds.len(), 5, "{kinds:?}");
     assert!(kinds.values().all(|count| *count >= 8), "{kinds:?}");
+}
+
+#[cfg(feature = "horizontal")]
+#[test]
+fn tiny_piles_stand_or_not_with_pushes_or_without() {
+    let kinds = census(|u| {
+        let pile = region::tiny(u)?
+            .pile()
+            .expect("what was described is a pile");
+        let alone = pile.first_failure().expect("a verdict").is_none();
+        let claim = pile.equilibrium().expect("a verdict").claim;
+        Ok(format!("{claim:?} alone={alone}"))
+    });
+    // What stands alone stands.
+    assert_eq!(kinds.len(), 3, "{kinds:?}");
 }
 
 #[test]

@@ -92,6 +92,24 @@ fn straight_piles_have_the_formulas() {
 }
 
 #[test]
+fn piles_of_minus_steps_are_those_of_plus_steps_turned() {
+    let turned = Pile::under(Region::SITE, "-----".parse().unwrap()).unwrap();
+    let plus = all(&Pile::triangular(6).unwrap());
+    let minus = all(&turned);
+    assert_eq!(plus.len(), minus.len());
+    for (Site { i, j, k }, bounds) in minus {
+        bounds.iter().for_each(is_proved);
+        let image = &plus[&Site { i: -i, j: -j, k }];
+        let numbers = |bounds: &[NormalBound; 2]| {
+            bounds
+                .each_ref()
+                .map(|bound| (bound.normal.clone(), bound.attained))
+        };
+        assert_eq!(numbers(&bounds), numbers(image), "({i},{j})");
+    }
+}
+
+#[test]
 fn very_high_piles_have_them_too() {
     let layers = 10_i128.pow(30);
     let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);

@@ -78,6 +78,7 @@ fn springs_of_straight_piles_are_the_paper_s() {
     for pile in [
         Pile::triangular(9).unwrap(),
         Pile::discs(9).unwrap(),
+        under_one_sphere("-----"),
         Pile::under(Region::hexagon(3, 2).unwrap(), "----".parse().unwrap()).unwrap(),
         Pile::on(Region::hexagon(5, 6).unwrap(), "+++".parse().unwrap()).unwrap(),
     ] {
@@ -146,4 +147,16 @@ fn what_has_no_springs_is_refused() {
         leaning.equilibrium(),
         Err(Error::NoHorizontalContacts { .. })
     ));
+}
+
+/// Springs of spheres that nothing presses are as long as they like: any of their displacements will do that press
+/// nothing.
+#[test]
+fn springs_that_nothing_presses_are_open() {
+    let base = Region::new(-3..=0, -3..=1, -5..=-1).unwrap();
+    let pile = Pile::on(base, "+++".parse().unwrap()).unwrap();
+    let loaded = pile.with_load(Site { i: -2, j: -3, k: 1 }, ratio(1, 1));
+    let pile = loaded.unwrap().weightless();
+    let elastic = pile.elastic(&ratio(1, 1)).unwrap();
+    assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
 }

@@ -38,31 +38,7 @@ pub(crate) struct Solved {
 
 impl Solved {
     pub(crate) fn of(described: &Described) -> Self {
-        let [x, y, s] = [
-            described.region.x(),
-            described.region.y(),
-            described.region.s(),
-        ];
-        let bounds = [&x, &y, &s].map(|range| [*range.start(), *range.end()]);
-        let [[x0, x1], [y0, y1], [s0, s1]] = bounds;
-        let sites = within([x0, x1, y0, y1, s0, s1], REACH);
-        let signs: String = described.signs.iter().map(ToString::to_string).collect();
-        let mut pile = if described.from_base {
-            Balance::on(&sites, &signs).expect("a base that carries its steps")
-        } else {
-            Balance::under(&sites, &signs)
-        };
-        for (site, weight) in &described.weights {
-            pile.weights.insert(place(*site), weight.clone());
-        }
-        if described.weightless {
-            pile.ordinary.set_zero();
-            pile.weights.clear();
-        }
-        for (site, load) in &described.loads {
-            let weight = pile.weight(place(*site)) + load;
-            pile.weights.insert(place(*site), weight);
-        }
+        let pile = balance_of(described);
         let forces = pile.forces();
         let sphere = |(k, j, i): Place| (k, (j, i));
         let by_sphere = |forces: &BTreeMap<Place, [BigRational; 3]>| {
@@ -93,6 +69,36 @@ impl Solved {
         let thirds = self.pile.position((k, j, i));
         thirds.map(|third| BigRational::from(third) / ratio(3, 1))
     }
+}
+
+/// The pile of the oracle.
+pub(crate) fn balance_of(described: &Described) -> Balance {
+    let [x, y, s] = [
+        described.region.x(),
+        described.region.y(),
+        described.region.s(),
+    ];
+    let bounds = [&x, &y, &s].map(|range| [*range.start(), *range.end()]);
+    let [[x0, x1], [y0, y1], [s0, s1]] = bounds;
+    let sites = within([x0, x1, y0, y1, s0, s1], REACH);
+    let signs: String = described.signs.iter().map(ToString::to_string).collect();
+    let mut pile = if described.from_base {
+        Balance::on(&sites, &signs).expect("a base that carries its steps")
+    } else {
+        Balance::under(&sites, &signs)
+    };
+    for (site, weight) in &described.weights {
+        pile.weights.insert(place(*site), weight.clone());
+    }
+    if described.weightless {
+        pile.ordinary.set_zero();
+        pile.weights.clear();
+    }
+    for (site, load) in &described.loads {
+        let weight = pile.weight(place(*site)) + load;
+        pile.weights.insert(place(*site), weight);
+    }
+    pile
 }
 
 /// As the library names it.

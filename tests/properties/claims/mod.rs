@@ -27,6 +27,7 @@
 //! | `numbered` | the spheres of any pile are numbered without a gap |
 //! | `measured` | measured forces are read as written, and a planted fault is found (feature `export`) |
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
+//! | `horizontal` | what a pile with horizontal contacts can bear is what an exact program says, with proofs (feature `horizontal`) |
 //!
 //! `handed_on` has the oracle's forces of what a generator describes.
 
@@ -36,6 +37,8 @@ pub(crate) mod fixed;
 pub(crate) mod floats;
 pub(crate) mod growth;
 pub(crate) mod handed_on;
+#[cfg(feature = "horizontal")]
+pub(crate) mod horizontal;
 #[cfg(feature = "serde")]
 pub(crate) mod json;
 pub(crate) mod laws;

@@ -134,6 +134,35 @@ pub(crate) fn described(u: &mut Unstructured<'_>) -> Result<Described> {
         small_region(u)?
     };
     let signs = stacking::signs(u, 5)?;
+    grown(u, from_base, region, signs, weight)
+}
+
+/// A pile of up to four layers, now and then five, small enough for exact programs over all its forces; with light
+/// weights and loads.
+#[cfg(feature = "horizontal")]
+pub(crate) fn tiny(u: &mut Unstructured<'_>) -> Result<Described> {
+    let from_base = u.ratio(1, 2)?;
+    let (region, most) = if u.ratio(1, 4)? {
+        let [i, j] = [u.int_in_range(-2..=2)?, u.int_in_range(-2..=2)?];
+        let ends = [i + u.int_in_range(0..=1)?, j + u.int_in_range(0..=1)?];
+        let region = Region::new(i..=ends[0], j..=ends[1], i + j..=ends[0] + ends[1]);
+        let most = if from_base { 3 } else { 2 };
+        (region.expect("a rhombus or a part of its edge"), most)
+    } else {
+        (Region::SITE, if u.ratio(1, 8)? { 4 } else { 3 })
+    };
+    let signs = stacking::signs(u, most)?;
+    grown(u, from_base, region, signs, light)
+}
+
+/// From a top, or from a base that it is grown to.
+fn grown(
+    u: &mut Unstructured<'_>,
+    from_base: bool,
+    region: Region,
+    signs: Vec<Sign>,
+    weight: fn(&mut Unstructured<'_>) -> Result<BigRational>,
+) -> Result<Described> {
     let mut described = Described {
         region: if from_base {
             base(u, region, &signs)?
@@ -190,4 +219,13 @@ fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
         3 => number::power(2, u.int_in_range(-70..=130)?),
         _ => number::rational(u)?.abs(),
     })
+}
+
+/// Nothing, or some weights of a sphere.
+#[cfg(feature = "horizontal")]
+pub(crate) fn light(u: &mut Unstructured<'_>) -> Result<BigRational> {
+    Ok(number::ratio(
+        u.int_in_range(0..=9)?,
+        u.int_in_range(1..=9)?,
+    ))
 }

@@ -2,11 +2,13 @@
 //!
 //! | file | what it has |
 //! |---|---|
+//! | `admissible` | all forces that only push, horizontal ones included, and exact linear programs over them |
 //! | `balance` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
 //! | `overlap` | the distance of every two spheres |
 //! | `sets` | regions and layers as plain sets of sites |
 
+pub(crate) mod admissible;
 pub(crate) mod balance;
 pub(crate) mod elimination;
 pub(crate) mod overlap;
