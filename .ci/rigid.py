@@ -104,6 +104,8 @@ def main(folder, file=None):
         if least < greatest:
             used.append((max(normal) - min(normal)) / float(greatest - least))
     mean = math.fsum(used) / max(1, len(used))
+    # What always bears the same proves little.
+    require(not used or mean > 0.1, "the states are hardly different")
     print(
         f"{len(claimed)} normal forces lie within their bounds, in {len(found)} states of {len(piled)} spheres that take up "
         f"{mean:.0%} of what the bounds leave"

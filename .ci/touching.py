@@ -31,13 +31,13 @@ def spheres(folder):
 
 
 def pairs(piled):
-    """The pairs (upper, lower) that touch, two diameters of difference at most in no direction, one of them free."""
+    """The pairs (upper, lower) that touch, one of them free; cells are a little wider than a diameter."""
     cells = {}
     for number, sphere in enumerate(piled):
-        cells.setdefault(tuple(math.floor(c / 2) for c in sphere.place), []).append(number)
+        cells.setdefault(tuple(math.floor(c / 2.1) for c in sphere.place), []).append(number)
     found = []
     for number, sphere in enumerate(piled):
-        x, y, z = (math.floor(c / 2) for c in sphere.place)
+        x, y, z = (math.floor(c / 2.1) for c in sphere.place)
         near = [(x + a, y + b, z + c) for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]
         for other in (other for cell in near for other in cells.get(cell, []) if other > number):
             distance = math.dist(sphere.place, piled[other].place)

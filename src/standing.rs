@@ -47,7 +47,8 @@ use crate::{ContactForce, Error, Pile};
 pub enum Verdict {
     /// No contact has to pull.
     Yes,
-    /// A contact would have to pull, and there is no other way to balance the forces.
+    /// A contact would have to pull, and there is no other way to balance the forces; with given horizontal forces, none with
+    /// these.
     No,
     /// A contact would have to pull, but further contacts may take its part. If they are neighbours of a layer, a = R,
     /// `Pile::equilibrium` decides (feature `horizontal`); spheres two or three layers apart are not gone into.

@@ -24,8 +24,8 @@ type Triple = [BigRational; 3];
 impl Certificate {
     /// Checks every equation of the claim.
     ///
-    /// Takes a few operations on rationals for each contact of the pile; of a claim that a field alone proves, only for those
-    /// around its spheres, however large the pile is.
+    /// Takes a few operations on rationals for each contact of the pile; of a claim that it cannot stand,
+    /// only for those around the spheres of the field, however large the pile is.
     ///
     /// # Errors
     /// The first equation that does not hold; [`Refusal::Pile`] with [`Error::TooLarge`] of what would not fit into memory.
@@ -46,6 +46,9 @@ impl Certificate {
         if !pile.is_regular() {
             let sin_phi = pile.sin_phi().clone();
             return Err(Box::new(Refusal::NoSuchPile { sin_phi }));
+        }
+        if let Some((contact, _)) = pile.horizontal_forces().next() {
+            return Err(Box::new(Refusal::GivenForces { contact }));
         }
         self.fits()?;
         let floor = pile.layers() - 1;

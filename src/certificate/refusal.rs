@@ -73,6 +73,11 @@ pub enum Refusal {
         /// sin φ.
         sin_phi: BigRational,
     },
+    /// Horizontal contacts of the pile itself were given forces; a certificate has its own.
+    GivenForces {
+        /// The first of them.
+        contact: HorizontalContact,
+    },
     /// The stiffness ratio is not positive.
     Stiffness {
         /// What it is.
@@ -169,6 +174,10 @@ impl fmt::Display for Refusal {
                 let sin_phi = sin_phi.clone();
                 Error::NoHorizontalContacts { sin_phi }.fmt(f)
             }
+            Self::GivenForces { contact } => write!(
+                f,
+                "the pile itself has a force in the horizontal contact {contact}: leave it out there"
+            ),
             Self::Stiffness { given } => {
                 write!(f, "the stiffness ratio must be positive, not {given}")
             }

@@ -17,11 +17,12 @@ use crate::table::{Cell, Column, Table};
 pub enum PileFormat {
     /// Any: `spheres.csv`, `contacts.csv`, `base.csv`, and `columns.csv`, which says what is in their columns.
     Csv,
-    /// LAMMPS: `pile.data`, and `pile.in`, which relaxes it and writes the forces.
+    /// LAMMPS: `pile.data`, and `pile.in`, which relaxes it and writes the forces: those of springs that are all alike, whatever
+    /// forces horizontal contacts were given.
     Lammps,
     /// ParaView: `spheres.vtp`, `contacts.vtp`.
     Vtp,
-    /// YADE: `spheres.txt`, and `pile.py`, which relaxes it and writes the forces.
+    /// YADE: `spheres.txt`, and `pile.py`, which relaxes it and writes the forces, as LAMMPS does.
     Yade,
 }
 

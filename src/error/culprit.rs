@@ -127,10 +127,9 @@ impl Error {
             | Self::TooManyRows { .. }
             | Self::NotSolved { .. }
             | Self::TooManyMarks { .. } => Culprit::Layers,
-            Self::CannotStand
-            | Self::RunLength { .. }
-            | Self::TooManyRuns { .. }
-            | Self::Misspelled { .. } => Culprit::Stacking,
+            Self::RunLength { .. } | Self::TooManyRuns { .. } | Self::Misspelled { .. } => {
+                Culprit::Stacking
+            }
             Self::SinPhi { .. }
             | Self::SinPhiOfDiscs
             | Self::NoSpacing { .. }
@@ -150,7 +149,8 @@ impl Error {
             Self::Overflow { .. } => Culprit::Number,
             Self::InFile { error, .. } => error.culprit().unwrap_or(Culprit::File),
             Self::NotToml { .. } | Self::UnknownKey { .. } => Culprit::File,
-            Self::NoSuchDirection { .. }
+            Self::CannotStand
+            | Self::NoSuchDirection { .. }
             | Self::EmptyRegion { .. }
             | Self::RegionSide { .. }
             | Self::NeedsUnits { .. }

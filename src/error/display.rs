@@ -124,7 +124,8 @@ impl fmt::Display for Whole<'_> {
                 "bounds are those of a pile that weighs something: give the spheres their weight",
             ),
             Error::CannotStand => f.write_str(
-                "this pile cannot stand: no forces that only push balance it, horizontal contacts included",
+                "this pile cannot stand: no forces that only push balance it, horizontal contacts included; change the stacking, or the \
+                 loads",
             ),
             Error::NotSolved { equations } => write!(
                 f,

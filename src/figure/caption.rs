@@ -34,6 +34,7 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
         }
         (count, _) => parts.push(counted(&count.into(), "load")),
     }
+    parts.extend(subject.horizontal_state());
     let spacing = subject.spacing()?.ratio().to_string();
     parts.push(format!("a/R = {}", brief(&spacing, 20)));
     Ok(parts.join(", "))

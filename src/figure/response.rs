@@ -34,7 +34,7 @@ use num_rational::BigRational;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
-    let pile = pile.weightless();
+    let pile = pile.weightless().without_horizontal_forces();
     if pile.loads().len() > 0 {
         return Ok(pile);
     }

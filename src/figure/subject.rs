@@ -115,10 +115,19 @@ impl<'p> Subject<'p> {
         }
     }
 
-    /// Says of which horizontal contacts a figure is.
+    /// Says what horizontal contacts do, if they are counted in.
+    pub(super) fn horizontal_state(&self) -> Option<String> {
+        match self.pile().horizontal_forces().len() {
+            0 => self.horizontal.then(|| "horizontal contacts open".into()),
+            1 => Some("1 horizontal contact pushes".into()),
+            pushing => Some(format!("{pushing} horizontal contacts push")),
+        }
+    }
+
+    /// Says how open horizontal contacts are drawn, if they are.
     pub(super) fn sight(&self) -> &'static str {
         if self.horizontal {
-            "; elastic state, open contacts dashed"
+            "; dashed: open"
         } else {
             ""
         }

@@ -75,6 +75,8 @@ impl Pile {
     /// bounds, elsewhere the least, and, of more than 31 layers, an upper bound that may not be attained. All else is a
     /// linear program over the forces of all contacts, whose solution is made exact and certified.
     ///
+    /// The horizontal forces that a pile was given are left out.
+    ///
     /// # Errors
     /// [`Error::NotOnFloor`] or [`Error::SiteOutside`] of a site that is no bottom sphere;
     /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`]; [`Error::CannotStand`] if there are no such forces;

@@ -295,18 +295,20 @@ impl Springs<'_> {
         let network = &self.network;
         let equations = network.weights.len();
         let unsolved = || Error::NotSolved { equations };
-        let ratio = self
-            .stiffness_ratio
-            .to_f64()
-            .filter(|ratio| ratio.is_normal());
-        let softness = ratio.ok_or_else(unsolved)?.recip();
-        let curvature =
-            (0..network.columns.len()).map(|u| if u < equations { 1.0 } else { softness });
+        // In units of √(κ′/κ) horizontal forces are as soft as the others. It is a guess: beyond these ratios, which forces
+        // push does not change any more, or other numbers do not fit either.
+        let ratio = self.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
+        let unit = ratio.clamp(1e-12, 1e12).sqrt();
+        let exact_unit = BigRational::from_float(unit).ok_or_else(unsolved)?;
+        let mut columns = network.columns.clone();
+        for (_, coefficient) in columns.iter_mut().skip(equations).flatten() {
+            *coefficient *= &exact_unit;
+        }
         let program = Program {
-            curvature: curvature.collect(),
-            columns: &network.columns,
+            curvature: vec![1.0; columns.len()],
+            columns: &columns,
             sums: network.weights.clone(),
-            cost: vec![BigRational::zero(); network.columns.len()],
+            cost: vec![BigRational::zero(); columns.len()],
         };
         let (program, scale) = program.scaled();
         let Some(guess) = program.guess() else {
@@ -326,7 +328,7 @@ impl Springs<'_> {
                 .collect(),
         };
         let float_scale = scale.to_f64().ok_or_else(unsolved)?;
-        let forces = pushing.horizontal.iter().map(|u| guess.unknowns[*u]);
+        let forces = pushing.horizontal.iter().map(|u| guess.unknowns[*u] * unit);
         let gaps = pushing.open.iter().map(|u| guess.slacks[*u]);
         let numbers = forces.chain(gaps).map(|number| number * float_scale);
         let numbers: Vec<f64> = numbers.collect();

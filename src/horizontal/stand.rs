@@ -32,6 +32,8 @@ impl Pile {
     /// beginnings, since a pile stands only if each of them does. Of a pile of more than 10⁵ spheres the certificate is
     /// that of its first layers, by the same reasons: its [`pile`](Certificate::pile) are these.
     ///
+    /// The horizontal forces that a pile was given are left out.
+    ///
     /// # Errors
     /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`] if more than 15,000 equations would have to be solved;
     /// [`Error::NotSolved`] if they are, in floats, and what comes of it is no proof; as for

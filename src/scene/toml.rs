@@ -60,10 +60,12 @@ const LONGEST: usize = 16 << 20;
 /// | `stacking` | `"fcc"`, `"hcp"`, `"dhcp"`, or spelled out | `"fcc"` |
 /// | `top` or `base` | `"hexagon:P,Q"`, `"hexagon:N"`, `"triangle:N"` or `"region:x0..x1,y0..y1,s0..s1"` | one sphere on top |
 /// | `dimension` | 2 or 3 | 3 |
-/// | `sin-phi`, `spacing` | a number | none: ½, and 6/5 where it is needed |
+/// | `sin-phi`, `spacing` | a number | none: ½, and where it is needed 6/5, or 1 for the elastic state |
 /// | `radius`, `mass`, `gravity` | a number | 1 |
 /// | `load` | an array of `"K,I,J=W"`, or of tables with `at` and `weight` | none |
 /// | `weightless` | `true` or `false` | `false` |
+/// | `state` | `"isostatic"` or `"elastic"` | `"isostatic"` |
+/// | `stiffness-ratio` | a number | 1 |
 ///
 /// A number is a TOML number, read exactly as it stands there, or a string: `6`, `1.2`, `1e-3`, `"6/5"`. Keys that are
 /// not in the table are refused. A load may also be written as

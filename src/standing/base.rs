@@ -30,7 +30,8 @@ pub struct BaseExtremes {
     pub normal_max: BigRational,
     /// The greatest ratio of shear to normal force, in tanθ: necessary for a base that does not slide; a base that may
     /// roll needs more ([`paper`](crate::paper#errata), 4). Of bottom spheres without a normal force there is none, and of those that
-    /// would be pulled it is that of the magnitudes: both occur only in piles without weight, or that do not stand.
+    /// would be pulled it is that of the magnitudes: both occur only in piles without weight, that do not stand, or that
+    /// were given horizontal forces.
     pub max_shear_ratio: Surd,
 }
 

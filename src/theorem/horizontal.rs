@@ -96,9 +96,9 @@ pub(super) const THEOREMS: &[Theorem] = &[
         name: "corner-least",
         statement: "The least on a corner, (L+2)/3 mg: φ = 1 along the edge that leads there, and 0 along the other lines and on \
                     other spheres, has D = 0 at all contacts of the edge but the last, D = 1 there, and c = −1 at \
-                    the horizontal contacts of the edge. Σφ = K, so (in words, by theorem virtual-work) K f₀ at least rest \
-                    on the corner; an identity",
-        hypotheses: "K = L−1; other contacts have D = c = 0",
+                    the horizontal contacts of the edge. Other contacts (in words) have D = c = 0. Σφ = K, so (in words, by theorem \
+                    virtual-work) K f₀ at least rest on the corner; an identity",
+        hypotheses: "K = L−1",
         method: ProofKind::Identity,
         symbols: "K",
         derive: corner_least,
@@ -107,12 +107,13 @@ pub(super) const THEOREMS: &[Theorem] = &[
         name: "corner-greatest",
         statement: "The greatest on a corner, (L − 2/3) mg: φ = 1 along all lines of the spheres of the edge below the apex, and \
                     along the edge at the apex, has D = 0 along the edge, D = 1 at its last contact, D = 1 or, at the \
-                    apex, 0 along the other lines, and c = 0. Σφ = 3K−2, so (in words) no more rests on the corner. \
+                    apex, 0 along the other lines, and c = 0; other contacts (in words) have D = c = 0. Σφ = 3K−2, so (in words) no more \
+                    rests on the corner. \
                     X = 1 between the spheres of the edge and their neighbours attain it: a sphere (t, 0, 0) that receives \
                     3t−2 along the edge passes on 3(t+1)−2, the first from the apex, and nothing along other lines, and \
-                    its neighbour adds 0 along the edge, 2 along the line that leads to it and 1 along the third, so that \
+                    its neighbour adds 0 along the edge, 2 along the line that leads to it from that edge and 1 along the third, so that \
                     (in words) no force is negative; by induction",
-        hypotheses: "K = L−1 ≥ 1, for K = 1 the field of corner-least; other contacts have D = c = 0",
+        hypotheses: "K = L−1 ≥ 1, for K = 1 the field of corner-least",
         method: ProofKind::Induction,
         symbols: "K, t, g_1, g_2, g_3",
         derive: corner_greatest,

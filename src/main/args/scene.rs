@@ -44,7 +44,7 @@ pub(crate) struct SceneOptions {
     /// The spheres weigh nothing: only the loads act; --weightless=false overrides a file
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
-    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed]
+    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed; 1 for the elastic state]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
     spacing: Option<BigRational>,
     /// Radius R of a sphere, in m [default: 1]
@@ -84,18 +84,32 @@ impl SceneOptions {
     }
 
     /// Returns the scene described, with its state, and its pile, of whose horizontal contacts nothing is known.
-    pub(crate) fn read_whole(&self) -> Result<(Scene, Pile), Refused> {
-        self.scene().and_then(checked)
+    pub(crate) fn read_whole(&self) -> Result<(Scene, Pile), Failure> {
+        let scene = self.scene()?;
+        self.check_ratio(&scene)?;
+        Ok(checked(scene)?)
+    }
+
+    fn check_ratio(&self, scene: &Scene) -> Result<(), Failure> {
+        if self.stiffness_ratio.is_none() || scene.state == State::Elastic {
+            return Ok(());
+        }
+        Err(Failure::Message(
+            "--stiffness-ratio: it is that of springs: give --state elastic, or leave it out"
+                .to_owned(),
+        ))
     }
 
     fn isostatic(&self) -> Result<Scene, Failure> {
         let scene = self.scene()?;
         if scene.state == State::Isostatic {
+            self.check_ratio(&scene)?;
             return Ok(scene);
         }
         let place = self.place(Culprit::State);
         Err(Failure::Message(format!(
-            "{place}: the elastic state is that of base, contacts, export, verify, plot network and plot base: leave it out"
+            "{place}: the elastic state is that of base, contacts, export, verify, plot network and plot base: leave it out, or \
+             use isostatic"
         )))
     }
 

@@ -42,7 +42,7 @@ pub(crate) struct Bounds {
 
 impl Bounds {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
+        let (scene, pile) = self.scene.read_whole()?;
         scene.check_touching()?;
         let selection = self.part.selection(&pile)?;
         self.output.format()?;

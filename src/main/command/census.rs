@@ -22,8 +22,7 @@ a time that grows like L³.
 
 With --spacing 1 horizontal contacts are counted in, and there is no 'undetermined': each verdict has a proof, and
 decided_by says which: 'sloping', without them no contact pulls; 'horizontal', their forces hold the pile; 'run', one of more
-than 3 steps from the top, or 4 after a change of sign, cannot end; 'work', other virtual displacements forbid it. There are
-12L − 56 rows. min_contact and all after it are without horizontal contacts. The proof itself:
+than 3 steps from the top, or 4 after a change of sign, cannot end; 'work', other virtual displacements forbid it. Without --standing there are 12L − 56 rows, from six layers on. min_contact and all after it are without horizontal contacts. The proof itself:
   cannonpile summary --spacing 1 --stacking=STACKING --certificate FILE
 Above 1 and below 3/2 nothing else touches, as without --spacing; at 3/2 spheres two layers apart do where the sign changes,
 and there is no census, nor above it, where they overlap.
@@ -44,7 +43,8 @@ pub(crate) struct Census {
     /// region:x0..x1,y0..y1,s0..s1
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "layers")]
     base: Option<Region>,
-    /// a/R: with 1 neighbours of a layer touch, and hold what pulls without them; above 1 and below 3/2 as without it
+    /// a/R: at 1 neighbours of a layer touch, and horizontal contacts are counted in; above 1 and below 3/2 nothing but the
+    /// contacts touches, as without this option
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
     spacing: Option<BigRational>,
     /// Only those that stand

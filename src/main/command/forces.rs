@@ -142,7 +142,7 @@ Each row is a sphere (k, i, j), counted from k = 0 at the top, and its contact w
 The force is positive for a push, in mg/(3cosθ); with --units si in N and m, for R = 1 m, m = 1 kg and g = 1 m/s² unless
 these are given, with the force on the upper sphere fx, fy, fz and the point of contact x, y, z. With --state elastic rows
 of horizontal contacts that bear a force follow those of their sphere (k, i, j), whose neighbour is (i+1, j) for the
-direction alpha-beta, (i, j+1) for alpha-gamma, (i+1, j-1) for gamma-beta.
+direction alpha-beta, (i, j+1) for alpha-gamma, (i+1, j-1) for gamma-beta; the neighbour has no row of its own for it.
 
 Examples:
   cannonpile contacts --layers 4

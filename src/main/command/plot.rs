@@ -198,7 +198,7 @@ impl Plot {
             }),
             Self::Shear(of) => of.draw(|subject, _| Ok(figure::shear(subject)?)),
             Self::Bounds(of) => {
-                let (mut scene, pile) = of.of.scene.read()?;
+                let (mut scene, pile) = of.of.scene.read_whole()?;
                 scene.check_touching()?;
                 scene.spacing = Some(One::one());
                 of.draw_pile(&scene, &pile, |subject, _| Ok(figure::bounds(subject)?))

@@ -32,7 +32,7 @@ pub(crate) struct Spheres {
 
 impl Spheres {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let (scene, pile) = self.scene.read()?;
+        let (scene, pile) = self.scene.read_whole()?;
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
         let rows = spheres(&pile, selection)?;

@@ -35,6 +35,9 @@ impl Scene {
         let mut file = File(String::from(
             "# A pile of spheres, for cannonpile: any command with --scene and the name of this file.\n",
         ));
+        if self.state == State::Elastic {
+            file.0 += "# Those that know no elastic state take it with --state isostatic.\n";
+        }
         if let Some(layers) = self.layers {
             file.key("Number of layers.", "layers", &integer(&layers.into()));
         }

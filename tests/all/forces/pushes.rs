@@ -4,10 +4,11 @@ use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Axis, HorizontalContact, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Method, Packing, Pile};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-use crate::support::cases::{Case, Random};
+use crate::support::cases::{Bounds, Case, Random, repeated};
 use crate::support::compare::agrees;
 use crate::support::oracles::balance::ratio;
 
@@ -69,6 +70,79 @@ fn every_method_and_the_floats_nearest_to_it_agree() {
         }
         let sum: BigRational = exact.iter().map(|contact| contact.force.clone()).sum();
         assert_eq!(forces.sum_of_contacts(Selection::All), Ok(sum));
+    }
+}
+
+/// What is the same after a third of a turn until a push makes it another.
+#[test]
+fn one_push_breaks_every_symmetry() {
+    let contact = HorizontalContact {
+        site: Site { i: 0, j: 0, k: 2 },
+        axis: Axis::AlphaBeta,
+    };
+    for top in [Bounds::SITE, Bounds::hexagon(3, 3), Bounds::triangle(3)] {
+        for signs in ["+++++", "++-+-", "-+-++-"] {
+            let mut case = Case::under(&top, signs);
+            let force = ratio(3, 7);
+            let pile = case
+                .pile
+                .clone()
+                .with_horizontal_force(contact, force.clone());
+            case.pile = pile.unwrap();
+            case.balance.push((2, 0, 0), [1, 0], &force);
+            agrees(&case).unwrap();
+        }
+    }
+}
+
+/// Long numbers, over coprime denominators, after many changes of sign: as many limbs as they take.
+#[test]
+fn long_pushes_keep_every_digit() {
+    let denominators = [10_007_i64, 99_991, 1_000_003];
+    let mut case = Case::under(&Bounds::SITE, &repeated("+-", 12));
+    for (n, denominator) in denominators.into_iter().enumerate() {
+        let k = 3 + 3 * n;
+        let site = Site {
+            i: 0,
+            j: 0,
+            k: i128::try_from(k).unwrap(),
+        };
+        let force = BigRational::new((BigInt::from(1) << 70) + n, denominator.into());
+        let contact = HorizontalContact {
+            site,
+            axis: Axis::AlphaGamma,
+        };
+        case.pile = case
+            .pile
+            .with_horizontal_force(contact, force.clone())
+            .unwrap();
+        case.balance.push((site.k, 0, 0), [0, 1], &force);
+    }
+    agrees(&case).unwrap();
+    let exact = case.pile.forces::<BigRational>();
+    let by = |method| {
+        let contacts = exact
+            .clone()
+            .by(method)
+            .unwrap()
+            .contacts(Selection::All)
+            .unwrap();
+        contacts.map(Result::unwrap).collect::<Vec<_>>()
+    };
+    assert_eq!(by(Method::Tree), by(Method::Sweep));
+}
+
+#[test]
+fn extremes_of_the_base_are_those_of_its_spheres() {
+    let mut random = Random(44);
+    for case in cases(80, &mut random) {
+        let Ok(extremes) = case.pile.base_extremes() else {
+            continue;
+        };
+        let forces = case.balance.forces();
+        let normals = || forces.floor.values().map(|[normal, ..]| normal);
+        assert_eq!(Some(&extremes.normal_min), normals().min());
+        assert_eq!(Some(&extremes.normal_max), normals().max());
     }
 }
 

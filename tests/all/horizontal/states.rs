@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use cannonpile::certificate::Claim;
+use cannonpile::certificate::{Certificate, Claim, Refusal};
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
@@ -159,4 +159,51 @@ fn springs_that_nothing_presses_are_open() {
     let pile = loaded.unwrap().weightless();
     let elastic = pile.elastic(&ratio(1, 1)).unwrap();
     assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
+}
+
+/// However soft or stiff horizontal springs are.
+#[test]
+fn the_active_contacts_are_found_at_every_stiffness_ratio() {
+    let loaded = Pile::triangular(6).unwrap();
+    let site = Site { i: 1, j: 0, k: 2 };
+    let piles = [
+        under_one_sphere("+-+-+"),
+        under_one_sphere("+-+-+++"),
+        loaded.with_load(site, ratio(30, 1)).unwrap(),
+    ];
+    let tiny = ratio(1, 1_000_000_000_000) * ratio(1, 1_000_000_000_000);
+    let ratios = [
+        tiny.clone(),
+        ratio(1, 1_000_000_000),
+        ratio(1, 1_000_000),
+        ratio(1, 1000),
+        ratio(1_000_000, 1),
+        tiny.recip(),
+    ];
+    for pile in &piles {
+        for stiffness in &ratios {
+            let elastic = pile.elastic(stiffness).unwrap();
+            assert_eq!(
+                elastic.certificate().unwrap().check(),
+                Ok(()),
+                "{stiffness}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_certificate_of_a_pile_with_forces_of_its_own_is_refused() {
+    let elastic = under_one_sphere("+-+-+").elastic(&ratio(1, 1)).unwrap();
+    let certificate = elastic.certificate().unwrap().clone();
+    let pile = elastic.pile().clone();
+    let (contact, _) = pile.horizontal_forces().next().unwrap();
+    let planted = Certificate {
+        pile,
+        ..certificate
+    };
+    assert_eq!(
+        *planted.check().unwrap_err(),
+        Refusal::GivenForces { contact }
+    );
 }
