@@ -1,0 +1,188 @@
+//! What exact bounds and elastic states of piles with horizontal contacts cost, beside the floats of an interior point.
+//!
+//! `cargo bench --manifest-path benches/Cargo.toml --bench horizontal`
+//! prints seconds and, last, lines `ratio NAME VALUE`: medians of pairs that are measured in turn in one run. With
+//! `-- --smoke` it only checks the answers, of small piles. Every certificate is checked again, outside of what is
+//! measured; the formula and the floats must say the same.
+
+mod floats;
+
+use std::env;
+use std::time::Instant;
+
+use cannonpile::Pile;
+use cannonpile::horizontal::{ElasticState, NormalBounds};
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive};
+
+use floats::Floats;
+
+/// How much is measured.
+#[derive(Clone, Copy)]
+struct Extent {
+    /// Only that the answers are right.
+    smoke: bool,
+    repetitions: usize,
+}
+
+impl Extent {
+    /// The size of a pile to measure, or one that is quickly checked.
+    fn size(self, full: usize, smoke: usize) -> usize {
+        if self.smoke { smoke } else { full }
+    }
+
+    /// The answer, and the median of the seconds that it takes.
+    fn timed<T>(self, mut run: impl FnMut() -> T) -> (T, f64) {
+        let mut once = || {
+            let begun = Instant::now();
+            let answer = run();
+            (answer, begun.elapsed().as_secs_f64())
+        };
+        let (answer, first) = once();
+        let others = (1..self.repetitions).map(|_| once().1);
+        let times = median(core::iter::once(first).chain(others));
+        (answer, times)
+    }
+}
+
+fn main() {
+    let smoke = env::args().any(|argument| argument == "--smoke");
+    let repetitions = if smoke { 1 } else { 5 };
+    let extent = Extent { smoke, repetitions };
+    println!("seconds  what");
+    let ratios = [bounds(extent), elastic(extent)];
+    for (name, value) in ratios {
+        println!("ratio {name} {value:.2}");
+    }
+}
+
+/// Both bounds of one sphere and of all, and the ratio of the greatest to its floats.
+fn bounds(extent: Extent) -> (&'static str, f64) {
+    for layers in [extent.size(10, 4), extent.size(16, 7)] {
+        let (pile, site) = straight(layers);
+        let (bounds, seconds) = extent.timed(|| pile.bounds(site).expect("bounds"));
+        prove(&bounds);
+        // 1 + C(k+2, 3).
+        let k = (layers - 1) / 3;
+        let most = BigRational::from_integer((1 + k * (k + 1) * (k + 2) / 6).into());
+        assert_eq!(bounds.greatest.normal, most);
+        say(
+            &format!("bounds of the centre, straight, {layers} layers"),
+            seconds,
+        );
+    }
+    let once = Extent {
+        repetitions: 1,
+        ..extent
+    };
+    let mixed = under_one_sphere("+-+-+", extent.size(12, 6));
+    for (name, pile) in [
+        ("straight", straight(extent.size(16, 5)).0),
+        ("+-+-+…", mixed),
+    ] {
+        let all = || -> Vec<NormalBounds> {
+            let all = pile.base_bounds(Selection::Base).expect("a base");
+            all.map(|bounds| bounds.expect("bounds").1).collect()
+        };
+        let (all, seconds) = once.timed(all);
+        all.iter().for_each(prove);
+        let layers = pile.layers();
+        say(
+            &format!("bounds of {} spheres, {name}, {layers} layers", all.len()),
+            seconds,
+        );
+    }
+    let (pile, site) = straight(extent.size(16, 7));
+    let floats = Floats::of(&pile);
+    let ratio = ratio(
+        extent,
+        || pile.bounds(site).expect("bounds").greatest.normal,
+        || floats.greatest(site),
+    );
+    ("bounds_16_centre_over_clarabel", ratio)
+}
+
+/// The elastic states of stackings that stand only with horizontal contacts, and the ratio of one to its floats.
+fn elastic(extent: Extent) -> (&'static str, f64) {
+    let stiffness_ratio = BigRational::one();
+    let solve = |pile: &Pile| pile.elastic(&stiffness_ratio).expect("a state");
+    for signs in ["+-+-+", "++-+", "+--+-"] {
+        let pile = under_one_sphere(signs, extent.size(14, 7));
+        let (state, seconds) = extent.timed(|| solve(&pile));
+        let certificate = state.certificate().expect("a certificate");
+        assert_eq!(certificate.check(), Ok(()));
+        let (layers, pushing) = (pile.layers(), state.pile().horizontal_forces().len());
+        let what = format!("elastic state, {signs}…, {layers} layers, {pushing} contacts push");
+        say(&what, seconds);
+    }
+    let pile = under_one_sphere("+-+-+", extent.size(14, 7));
+    let floats = Floats::of(&pile);
+    let ratio = ratio(extent, || energy(&solve(&pile)), || floats.energy());
+    ("elastic_14_over_clarabel", ratio)
+}
+
+/// The straight pile, and the bottom sphere at the centre or next to it.
+fn straight(layers: usize) -> (Pile, Site) {
+    let layers = i128::try_from(layers).expect("few");
+    let (k, i) = (layers - 1, (layers - 1) / 3);
+    let pile = Pile::triangular(layers).expect("a pile");
+    (pile, Site { i, j: i, k })
+}
+
+/// These steps, the last of them repeated.
+fn under_one_sphere(signs: &str, layers: usize) -> Pile {
+    let last = signs.chars().last();
+    let more = core::iter::repeat_n(last, layers - 1 - signs.len()).flatten();
+    let signs: String = signs.chars().chain(more).collect();
+    let stacking = signs.parse().expect("a stacking");
+    Pile::under(Region::SITE, stacking).expect("a pile")
+}
+
+/// ½ (Σ f² + Σ X²).
+fn energy(state: &ElasticState) -> BigRational {
+    let pile = state.pile();
+    let forces = pile.forces::<BigRational>();
+    let sloping = forces.contacts(Selection::All).expect("contacts");
+    let sloping = sloping.map(|contact| contact.expect("a contact").force);
+    let horizontal = pile.horizontal_forces().map(|(_, force)| force.clone());
+    let squares = sloping.chain(horizontal).map(|force| &force * &force);
+    squares.sum::<BigRational>() / BigRational::from_integer(2.into())
+}
+
+/// Where there is a certificate, it is of this bound.
+fn prove(bounds: &NormalBounds) {
+    for bound in [&bounds.least, &bounds.greatest] {
+        assert!(bound.attained, "{bound:?}");
+        if let Some(certificate) = &bound.certificate {
+            assert_eq!(certificate.check(), Ok(()));
+        }
+    }
+}
+
+/// The median of the ratios of the times of an exact answer and the same in floats.
+fn ratio(extent: Extent, exact: impl Fn() -> BigRational, floats: impl Fn() -> f64) -> f64 {
+    let once = Extent {
+        repetitions: 1,
+        ..extent
+    };
+    let pairs = (0..extent.repetitions).map(|_| {
+        let (exact, exact_seconds) = once.timed(&exact);
+        let (float, float_seconds) = once.timed(&floats);
+        let exact = exact.to_f64().expect("a number");
+        assert!((float / exact - 1.0).abs() < 1e-6, "{float} for {exact}");
+        exact_seconds / float_seconds
+    });
+    median(pairs)
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn say(what: &str, seconds: f64) {
+    println!("{seconds:7.3}  {what}");
+}
