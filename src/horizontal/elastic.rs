@@ -298,7 +298,7 @@ impl Springs<'_> {
         // In units of √(κ′/κ) horizontal forces are as soft as the others. It is a guess: beyond these ratios, which forces
         // push does not change any more, or other numbers do not fit either.
         let ratio = self.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
-        let unit = ratio.clamp(1e-12, 1e12).sqrt();
+        let unit = ratio.clamp(1e-6, 1e6).sqrt();
         let exact_unit = BigRational::from_float(unit).ok_or_else(unsolved)?;
         let mut columns = network.columns.clone();
         for (_, coefficient) in columns.iter_mut().skip(equations).flatten() {
