@@ -295,9 +295,10 @@ impl Springs<'_> {
         let network = &self.network;
         let equations = network.weights.len();
         let unsolved = || Error::NotSolved { equations };
-        // In units of √(κ′/κ) horizontal forces are as soft as the others. It is a guess: beyond these ratios, which forces
-        // push does not change any more, or other numbers do not fit either.
+        // In units of √(κ′/κ) horizontal forces are as soft as the others.
+        // Not a default: what is too great for a float is too great for a guess.
         let ratio = self.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
+        // Not a default: beyond these ratios which forces push hardly changes, and what is guessed is made exact.
         let unit = ratio.clamp(1e-6, 1e6).sqrt();
         let exact_unit = BigRational::from_float(unit).ok_or_else(unsolved)?;
         let mut columns = network.columns.clone();
