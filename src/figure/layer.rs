@@ -112,6 +112,7 @@ impl Layer {
     }
 
     /// The corners of the upper and of the lower half of the cell of a sphere.
+    #[cfg(feature = "horizontal")]
     pub(super) fn halves(&self, panel: &Panel, at: Point) -> [Vec<Point>; 2] {
         let corners = self.cell(panel, at);
         let of = |corners_of_half: &[usize]| {
