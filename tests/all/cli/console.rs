@@ -35,14 +35,14 @@ macro_rules! console {
 
 // Each with the number of its commands.
 console! {
-    base: 88;
-    bounds: 18;
+    base: 89;
+    bounds: 19;
     census: 21;
     check: 12;
     completions: 2;
-    contacts: 50;
+    contacts: 51;
     explain: 12;
-    export: 34;
+    export: 36;
     help: 18;
     plot: 38;
     prove: 5;
