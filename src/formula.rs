@@ -38,7 +38,7 @@ pub use horizontal::{
     arch, beside, compression, corner_field, elastic_field, greatest_inside, greatest_on_corner,
     greatest_on_edge, least_on_corner, lowered, pushed,
 };
-pub(crate) use turn::{THREE, triples};
+pub(crate) use turn::triples;
 pub use turn::{half_turn, tripled_apart, tripled_half_turn};
 
 use core::ops::Add;

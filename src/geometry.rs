@@ -26,7 +26,7 @@ use num_traits::One;
 
 use crate::Error;
 use crate::lattice::Dimension;
-use crate::scalar::{Algebra, Ring, Surd};
+use crate::scalar::{Algebra, Ring, Surd, TWO};
 
 /// Returns the contact directions ê_a, ê_b, ê_c in the symbolic basis: (s, ½, −1), (s, −½, −1), (−1, 0, −1).
 ///
@@ -299,6 +299,3 @@ pub(crate) fn square_per_sin2(dimension: Dimension) -> BigRational {
         Dimension::Three => 3,
     })
 }
-
-// Unwrapped by the compiler: zero would not build.
-const TWO: core::num::NonZeroI64 = core::num::NonZeroI64::new(2).unwrap();

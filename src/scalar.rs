@@ -77,6 +77,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
+// What is divided by in formulas. Unwrapped by the compiler: zero would not build.
+pub(crate) const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
+pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
+
 /// How the result of an operation relates to the true one.
 ///
 /// It is part of the scalar's type ([`Algebra::EXACTNESS`]); the law suite reads it to know what to

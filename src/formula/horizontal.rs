@@ -1,10 +1,8 @@
 //! Horizontal contacts, at a = R: how they enter the balance of a sphere, what fields prove, and closed forms of straight piles.
 
-use core::num::NonZeroI64;
-
 use super::{force, passed_on};
 use crate::lattice::{Direction, Sign, count};
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::{Algebra, Ring, TWO};
 
 /// Returns what a horizontal contact of force X adds to H of a sphere: −X on a and +X on b if it leads away from the
 /// sphere p to p + d_b − d_a, and the reverse if it leads here, from p − d_b + d_a. `ends` are a and b.
@@ -163,9 +161,6 @@ pub fn arch<T: Algebra>(nu: &[T; 3]) -> [T; 3] {
     let half = |x: &T, y: &T, less: &T| (x.clone() + y - less).div_int(TWO);
     [half(b, c, a), half(c, a, b), half(a, b, c)]
 }
-
-// Unwrapped by the compiler: zero would not build.
-const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 
 fn signed<T: Ring>(x: T, sign: Sign) -> T {
     match sign {

@@ -1,11 +1,10 @@
 //! How forces pass from layer to layer where the stacking changes.
 
-use core::num::NonZeroI64;
 use core::ops::{Add, Sub};
 
 use num_traits::One;
 
-use crate::scalar::{Algebra, Exactness};
+use crate::scalar::{Algebra, Exactness, THREE};
 
 /// Returns what a sphere at a change of sign passes on of the forces g that it receives: G g, with G = (2/3)J − I and J all ones,
 /// that is (2/3)(g_α + g_β + g_γ)(1, 1, 1) − g; over three times the denominator of g, 3G g, if the ring of numerators
@@ -94,6 +93,3 @@ fn twice_sum<T: Clone + for<'a> Add<&'a T, Output = T>>([a, b, c]: &[T; 3]) -> T
     let sum = a.clone() + b + c;
     sum.clone() + &sum
 }
-
-/// What a change of sign divides by. Unwrapped by the compiler: zero would not build.
-pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();

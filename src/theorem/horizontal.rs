@@ -10,10 +10,9 @@ use super::setting::{
     sum_over_layer, symbol,
 };
 use super::{Formulas, ProofKind, Step, Theorem};
-use crate::formula::THREE;
 use crate::geometry::Vector;
 use crate::lattice::{Axis, Direction, Sign};
-use crate::scalar::{Algebra, Symbol};
+use crate::scalar::{Algebra, Symbol, THREE};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {

@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 
 use super::{Formulas, Step};
 use crate::geometry::Vector;
-use crate::scalar::{Algebra, Polynomial, Ring, Symbol};
+use crate::scalar::{Algebra, Polynomial, Ring, Symbol, TWO};
 
 pub(super) type P = Polynomial;
 
@@ -23,8 +23,7 @@ pub(super) fn int(n: i128) -> P {
 
 /// 1/2.
 pub(super) fn half() -> P {
-    // Unwrapped by the compiler: zero would not build.
-    int(1).div_int(const { core::num::NonZeroI64::new(2).unwrap() })
+    int(1).div_int(TWO)
 }
 
 /// A pile of L layers with sin φ = s, as its formulas give it.

@@ -7,10 +7,9 @@ use num_traits::{One, Zero};
 
 use super::setting::{P, Setting, by_line, equations, int, nothing_left, passed_on, symbol};
 use super::{Formulas, ProofKind, Step, Theorem};
-use crate::formula::THREE;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign};
-use crate::scalar::{Algebra, Symbol};
+use crate::scalar::{Algebra, Symbol, THREE};
 
 pub(super) const THEOREMS: &[Theorem] = &[
     Theorem {
