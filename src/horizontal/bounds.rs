@@ -170,13 +170,7 @@ impl Solver<'_> {
         let (program, scale) = program.scaled();
         let Some(guess) = program.guess() else {
             // Bounded, so that only the forces can be missing.
-            let certificate = self.pile.equilibrium()?;
-            return Err(match certificate.claim {
-                Claim::CannotStand => Error::CannotStand,
-                _ => Error::NotSolved {
-                    equations: program.sums.len(),
-                },
-            });
+            return Err(self.pile.unsolved(program.sums.len()));
         };
         let horizontal = program.exact_unknowns(&guess).map(|unknowns| {
             let horizontal = network.horizontal(&unknowns);
@@ -194,7 +188,7 @@ impl Solver<'_> {
         let normal = self.normal_of(&field);
         if let Some(horizontal) = horizontal {
             let both = self.certificate(end, normal.clone(), Some(horizontal), field.clone());
-            if let Ok(certificate) = accepted(Some(both), equations) {
+            if let Ok(certificate) = accepted(both, equations) {
                 return Ok(NormalBound {
                     normal,
                     attained: true,
@@ -206,7 +200,7 @@ impl Solver<'_> {
         Ok(NormalBound {
             normal,
             attained: false,
-            certificate: Some(accepted(Some(certificate), equations)?),
+            certificate: Some(accepted(certificate, equations)?),
         })
     }
 

@@ -79,7 +79,7 @@ impl Pile {
                 None
             }
             // What fails early is known to, however large the pile is.
-            Err(Error::TooLarge { .. }) if cannot_stand(&pile) => return Err(Error::CannotStand),
+            Err(Error::TooLarge { .. }) if pile.cannot_stand() => return Err(Error::CannotStand),
             certificate => Some(certificate?),
         };
         for (contact, force) in certificate.iter().flat_map(|c| &c.horizontal) {
@@ -140,11 +140,6 @@ fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Er
     }
     springs.network.check_size()?;
     springs.with_horizontal()
-}
-
-fn cannot_stand(pile: &Pile) -> bool {
-    let certificate = pile.equilibrium();
-    certificate.is_ok_and(|certificate| certificate.claim == Claim::CannotStand)
 }
 
 /// That the paper's pile bears what it bears without horizontal contacts.
@@ -313,11 +308,7 @@ impl Springs<'_> {
         };
         let (program, scale) = program.scaled();
         let Some(guess) = program.guess() else {
-            return Err(if cannot_stand(network.pile) {
-                Error::CannotStand
-            } else {
-                unsolved()
-            });
+            return Err(network.pile.unsolved(equations));
         };
         let positive = |unknown: &usize| guess.positive[*unknown];
         let pushing = Pushing {
@@ -334,7 +325,7 @@ impl Springs<'_> {
         let numbers = forces.chain(gaps).map(|number| number * float_scale);
         let numbers: Vec<f64> = numbers.collect();
         let solution = self.solved(&pushing, &numbers).ok_or_else(unsolved)?;
-        accepted(Some(self.certificate(&pushing, &solution)), equations)
+        accepted(self.certificate(&pushing, &solution), equations)
     }
 }
 

@@ -161,12 +161,8 @@ impl Program<'_> {
 /// Returns a certificate if the checker accepts it.
 ///
 /// # Errors
-/// [`Error::TooLarge`] if it would not fit into memory; [`Error::NotSolved`] if it is refused, or there is none.
-pub(super) fn accepted(
-    certificate: Option<Certificate>,
-    equations: usize,
-) -> Result<Certificate, Error> {
-    let certificate = certificate.ok_or(Error::NotSolved { equations })?;
+/// [`Error::TooLarge`] if it would not fit into memory; [`Error::NotSolved`] if it is refused.
+pub(super) fn accepted(certificate: Certificate, equations: usize) -> Result<Certificate, Error> {
     match certificate.check() {
         Ok(()) => Ok(certificate),
         Err(refusal) => Err(match *refusal {

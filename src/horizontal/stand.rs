@@ -57,7 +57,7 @@ impl Pile {
         self.decided().map(|(certificate, _)| certificate)
     }
 
-    /// The same, and what decides it.
+    /// Whether it is in equilibrium, with the proof, and what decides it.
     pub(super) fn decided(&self) -> Result<(Certificate, DecidedBy), Error> {
         self.check_horizontal()?;
         self.clone().without_horizontal_forces().decided_bare()
@@ -87,6 +87,21 @@ impl Pile {
                 _ if floor == last => return Ok((certificate, DecidedBy::Horizontal)),
                 _ => floor = (floor + floor / 2).min(last),
             }
+        }
+    }
+
+    /// Whether it is known that no forces balance it which only push.
+    pub(super) fn cannot_stand(&self) -> bool {
+        let certificate = self.equilibrium();
+        certificate.is_ok_and(|certificate| certificate.claim == Claim::CannotStand)
+    }
+
+    /// Why a program over its forces, of so many equations, has no solution.
+    pub(super) fn unsolved(&self, equations: usize) -> Error {
+        if self.cannot_stand() {
+            Error::CannotStand
+        } else {
+            Error::NotSolved { equations }
         }
     }
 
@@ -191,6 +206,9 @@ impl Pile {
                     ..pile.certified(Claim::CannotStand)
                 })
         };
-        accepted(certificate, equations)
+        accepted(
+            certificate.ok_or(Error::NotSolved { equations })?,
+            equations,
+        )
     }
 }

@@ -189,7 +189,7 @@ fn signed(x: P, sign: Sign) -> P {
     x * &int(sign.factor().into())
 }
 
-/// The same on all lines.
+/// A value on all lines.
 fn each(value: i128) -> [P; 3] {
     [value; 3].map(int)
 }
