@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 use super::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
-use super::program::{Program, accepted};
+use super::program::{Program, accepted, of_formulas};
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Site, count};
 use crate::{Error, Pile, formula};
@@ -137,7 +137,8 @@ impl Solver<'_> {
                 )
             };
             let is_small = self.pile.sphere_count() <= MOST_CERTIFIED.into();
-            let certificate = is_small.then(certificate);
+            let certificate = is_small.then(|| of_formulas(certificate()));
+            let certificate = certificate.transpose()?;
             return Ok(NormalBound {
                 normal,
                 attained: true,

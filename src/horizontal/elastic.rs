@@ -8,7 +8,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Equation, near};
 use super::network::{Column, MOST_CERTIFIED, Network};
-use super::program::{Program, accepted};
+use super::program::{Program, accepted, of_formulas};
 use crate::certificate::{Certificate, Claim};
 use crate::lattice::{Site, count};
 use crate::{Culprit, Error, Pile, formula};
@@ -123,7 +123,7 @@ impl ElasticState {
 /// Returns the certificate of the elastic state.
 fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Error> {
     if pile.is_paper_pile() && pile.sphere_count() <= MOST_CERTIFIED.into() {
-        return Ok(of_straight(pile, stiffness_ratio));
+        return of_formulas(of_straight(pile, stiffness_ratio));
     }
     let most = u64::from(MOST_CERTIFIED * pile.dimension().number());
     let springs = Springs {
