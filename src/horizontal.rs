@@ -28,6 +28,8 @@ mod network;
 mod program;
 mod run;
 mod stand;
+mod straight;
+mod symmetry;
 
 pub use base::BaseBounds;
 pub use bounds::{NormalBound, NormalBounds};

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::bounds::{NormalBound, NormalBounds};
-use crate::lattice::{Dimension, Region, Site};
-use crate::shape::{Anchor, Rows, Selection};
+use super::symmetry::SixFold;
+use crate::lattice::Site;
+use crate::shape::{Rows, Selection};
 use crate::{Error, Pile};
 
 /// The bounds of bottom spheres one by one, from [`Pile::base_bounds`].
@@ -24,9 +25,8 @@ use crate::{Error, Pile};
 pub struct BaseBounds<'p> {
     pile: &'p Pile,
     sites: core::iter::Flatten<Rows<'p>>,
-    /// Where the symmetries of the pile map bottom spheres on each other: o − i − j, i and j in order, o the net number of +
-    /// steps.
-    symmetric: Option<(i128, HashMap<[i128; 3], NormalBounds>)>,
+    /// Where the symmetries of the pile map bottom spheres on each other: what is known, by their coordinates in order.
+    symmetric: Option<(SixFold<'p>, HashMap<[i128; 3], NormalBounds>)>,
 }
 
 impl Pile {
@@ -47,11 +47,7 @@ impl Pile {
         if let Some(site) = rows.clone().flatten().next().filter(|site| site.k != floor) {
             return Err(Error::NotOnFloor { site, floor });
         }
-        let shape = self.shape();
-        let is_symmetric = self.dimension() == Dimension::Three
-            && shape.anchor() == Anchor::Top(Region::SITE)
-            && self.clone().without_horizontal_forces().system().is_even();
-        let symmetric = is_symmetric.then(|| (shape.shift_from_origin(floor), HashMap::new()));
+        let symmetric = SixFold::of(self).map(|six_fold| (six_fold, HashMap::new()));
         Ok(BaseBounds {
             pile: self,
             sites: rows.flatten(),
@@ -65,10 +61,10 @@ impl Iterator for BaseBounds<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         let site = self.sites.next()?;
-        let Some((shift, known)) = &mut self.symmetric else {
+        let Some((six_fold, known)) = &mut self.symmetric else {
             return Some(self.pile.bounds(site).map(|bounds| (site, bounds)));
         };
-        let mut orbit = [*shift - site.i - site.j, site.i, site.j];
+        let mut orbit = six_fold.coordinates(site);
         orbit.sort_unstable();
         if let Some(bounds) = known.get(&orbit) {
             return Some(Ok((site, bounds.clone())));

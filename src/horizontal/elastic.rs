@@ -8,7 +8,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Equation, near};
 use super::network::{Column, MOST_CERTIFIED, Network};
-use super::program::{Program, accepted, of_formulas};
+use super::program::{Aim, Closeness, Program, accepted, of_formulas};
 use crate::certificate::{Certificate, Claim};
 use crate::lattice::{Site, count};
 use crate::{Culprit, Error, Pile, formula};
@@ -301,13 +301,12 @@ impl Springs<'_> {
             *coefficient *= &exact_unit;
         }
         let program = Program {
-            curvature: vec![1.0; columns.len()],
-            columns: &columns,
+            columns: columns.as_slice().into(),
             sums: network.weights.clone(),
-            cost: vec![BigRational::zero(); columns.len()],
+            aim: Aim::Squares,
         };
         let (program, scale) = program.scaled();
-        let Some(guess) = program.guess() else {
+        let Some(guess) = program.guess(Closeness::Tight) else {
             return Err(network.pile.unsolved(equations));
         };
         let positive = |unknown: &usize| guess.positive[*unknown];

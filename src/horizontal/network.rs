@@ -100,12 +100,12 @@ impl<'p> Network<'p> {
             }
         }
         for contact in &self.contacts {
-            let neighbour = self.pile.shape().neighbour(*contact)?;
+            let [sphere, neighbour] = self.ends(*contact)?;
             let sign = self.pile.shape().sign_below(contact.site.k);
             let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
             let sigma = BigRational::from_integer(sign.factor().into());
             let (ends, mut column) = (contact.axis.ends(), Vec::new());
-            for (sphere, leads_away) in [(contact.site, true), (neighbour, false)] {
+            for (sphere, leads_away) in [(sphere, true), (neighbour, false)] {
                 let entries = pushed(&sigma, ends, leads_away);
                 for end in ends {
                     let entry = entries[end.index()].clone();
@@ -123,10 +123,16 @@ impl<'p> Network<'p> {
         support.filter(|support| support.k < self.floor)
     }
 
-    fn equation(&self, site: Site, direction: Direction) -> Result<usize, Error> {
+    /// The number of an equation, and of the sloping force in its direction.
+    pub(super) fn equation(&self, site: Site, direction: Direction) -> Result<usize, Error> {
         let sphere = self.numbers.get(&site);
         let sphere = sphere.ok_or_else(|| bug("a sphere of the network has a number"))?;
         Ok(sphere * self.pile.dimension().directions().len() + direction.index())
+    }
+
+    /// The two spheres of a horizontal contact.
+    pub(super) fn ends(&self, contact: HorizontalContact) -> Result<[Site; 2], Error> {
+        Ok([contact.site, self.pile.shape().neighbour(contact)?])
     }
 
     /// T of layer k, of a unit force in a direction.

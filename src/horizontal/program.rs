@@ -1,8 +1,11 @@
 //! Programs over forces that only push: a guess in floats, then exact.
 
+use alloc::borrow::Cow;
+
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
-    DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
+    DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus,
+    SupportedConeT, ZeroConeT,
 };
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -13,16 +16,30 @@ use crate::Error;
 use crate::certificate::{Certificate, Refusal};
 use crate::error::bug;
 
-/// Minimise Σ cost x + ½ Σ curvature x² over x ≥ 0 with Σ column x = sums.
+/// Minimise over x ≥ 0 with Σ column x = sums.
 pub(super) struct Program<'n> {
     /// By unknown.
-    pub(super) columns: &'n [Column],
+    pub(super) columns: Cow<'n, [Column]>,
     /// By equation.
     pub(super) sums: Vec<BigRational>,
-    /// By unknown.
-    pub(super) cost: Vec<BigRational>,
-    /// By unknown.
-    pub(super) curvature: Vec<f64>,
+    pub(super) aim: Aim,
+}
+
+/// What is to be least.
+pub(super) enum Aim {
+    /// Σ cost x: the costs by unknown.
+    Cost(Vec<BigRational>),
+    /// ½ Σ x².
+    Squares,
+}
+
+/// How close floats come to a minimum before they are made exact, as a share of it.
+#[derive(Clone, Copy)]
+pub(super) enum Closeness {
+    /// Enough, as a rule, to say which forces are zero.
+    Loose,
+    /// As close as floats come with certainty.
+    Tight,
 }
 
 /// What floats make of a program.
@@ -39,10 +56,9 @@ pub(super) struct Guess {
 
 impl Program<'_> {
     /// Returns what an interior point finds; `None` if it finds nothing.
-    pub(super) fn guess(&self) -> Option<Guess> {
-        let (equations, unknowns) = (self.sums.len(), self.columns.len());
+    pub(super) fn guess(&self, closeness: Closeness) -> Option<Guess> {
         // A layer that is on the floor has no forces to find.
-        if unknowns == 0 {
+        if self.columns.is_empty() {
             return Some(Guess {
                 unknowns: Vec::new(),
                 multipliers: Vec::new(),
@@ -50,6 +66,39 @@ impl Program<'_> {
                 positive: Vec::new(),
             });
         }
+        let sums = floats(&self.sums)?;
+        match &self.aim {
+            Aim::Cost(cost) => self.guess_of_cost(&floats(cost)?, &sums, closeness),
+            Aim::Squares => self.guess_of_squares(sums, closeness),
+        }
+    }
+
+    /// By the program of the multipliers, which is the smaller one: Σ sums y is greatest with Σ column y ≤ cost, and the
+    /// unknowns are its multipliers.
+    fn guess_of_cost(&self, cost: &[f64], sums: &[f64], closeness: Closeness) -> Option<Guess> {
+        let (equations, unknowns) = (sums.len(), self.columns.len());
+        let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        for (unknown, column) in self.columns.iter().enumerate() {
+            for (equation, coefficient) in column {
+                rows.push(unknown);
+                columns.push(*equation);
+                values.push(coefficient.to_f64()?);
+            }
+        }
+        let matrix = CscMatrix::new_from_triplets(unknowns, equations, rows, columns, values);
+        let lowered: Vec<f64> = sums.iter().map(|sum| -sum).collect();
+        let found = closeness.solve(
+            &CscMatrix::zeros((equations, equations)),
+            &lowered,
+            &matrix,
+            cost,
+            &[NonnegativeConeT(unknowns)],
+        )?;
+        Some(Guess::new(found.z, found.x, found.s))
+    }
+
+    fn guess_of_squares(&self, mut sums: Vec<f64>, closeness: Closeness) -> Option<Guess> {
+        let (equations, unknowns) = (sums.len(), self.columns.len());
         let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for (unknown, column) in self.columns.iter().enumerate() {
             for (equation, coefficient) in column {
@@ -63,44 +112,18 @@ impl Program<'_> {
         }
         let matrix =
             CscMatrix::new_from_triplets(equations + unknowns, unknowns, rows, columns, values);
-        let places: Vec<usize> = (0..unknowns).collect();
-        let curvature = CscMatrix::new_from_triplets(
-            unknowns,
-            unknowns,
-            places.clone(),
-            places,
-            self.curvature.clone(),
-        );
-        let floats = |numbers: &[BigRational]| -> Option<Vec<f64>> {
-            numbers.iter().map(BigRational::to_f64).collect()
-        };
-        let (cost, mut sums) = (floats(&self.cost)?, floats(&self.sums)?);
         sums.resize(equations + unknowns, 0.0);
-        let cones = [ZeroConeT(equations), NonnegativeConeT(unknowns)];
-        let settings = DefaultSettings {
-            verbose: false,
-            presolve_enable: false,
-            ..DefaultSettings::default()
-        };
-        let mut solver =
-            DefaultSolver::new(&curvature, &cost, &matrix, &sums, &cones, settings).ok()?;
-        solver.solve();
-        let solution = &solver.solution;
-        if !matches!(
-            solution.status,
-            SolverStatus::Solved | SolverStatus::AlmostSolved
-        ) {
-            return None;
-        }
-        let (multipliers, slacks) = solution.z.split_at(equations);
-        let positive = solution.x.iter().zip(slacks).map(|(x, slack)| x > slack);
-        Some(Guess {
-            positive: positive.collect(),
-            unknowns: solution.x.clone(),
-            slacks: slacks.to_vec(),
-            // Of the program as it is posed there, with the other sign.
-            multipliers: multipliers.iter().map(|y| -y).collect(),
-        })
+        let mut found = closeness.solve(
+            &CscMatrix::identity(unknowns),
+            &vec![0.0; unknowns],
+            &matrix,
+            &sums,
+            &[ZeroConeT(equations), NonnegativeConeT(unknowns)],
+        )?;
+        let slacks = found.z.split_off(equations);
+        // Of the program as it is posed there, with the other sign.
+        let multipliers = found.z.iter().map(|y| -y).collect();
+        Some(Guess::new(found.x, multipliers, slacks))
     }
 
     /// Returns exact x ≥ 0 of which only those are positive that the guess says.
@@ -127,12 +150,15 @@ impl Program<'_> {
 
     /// Returns exact multipliers y with Σ column y ≤ cost, and equality where the guess says so.
     pub(super) fn exact_multipliers(&self, guess: &Guess) -> Option<Vec<BigRational>> {
-        let of_positive = self.columns.iter().zip(&self.cost).zip(&guess.positive);
+        let Aim::Cost(cost) = &self.aim else {
+            return None;
+        };
+        let of_positive = self.columns.iter().zip(cost).zip(&guess.positive);
         let equations = of_positive.filter(|(_, positive)| **positive);
         let equations =
             equations.map(|((column, cost), _)| (column.iter().cloned().collect(), cost.clone()));
         near(equations.collect(), &guess.multipliers, |multipliers| {
-            self.columns.iter().zip(&self.cost).all(|(column, cost)| {
+            self.columns.iter().zip(cost).all(|(column, cost)| {
                 let terms = column
                     .iter()
                     .map(|(equation, c)| c * &multipliers[*equation]);
@@ -157,6 +183,56 @@ impl Program<'_> {
         }
         (self, scale)
     }
+}
+
+impl Guess {
+    fn new(unknowns: Vec<f64>, multipliers: Vec<f64>, slacks: Vec<f64>) -> Self {
+        let positive = unknowns.iter().zip(&slacks).map(|(x, slack)| x > slack);
+        Self {
+            positive: positive.collect(),
+            unknowns,
+            multipliers,
+            slacks,
+        }
+    }
+}
+
+impl Closeness {
+    /// Minimises q x + ½ x P x over A x + s = b, with s in the cones.
+    fn solve(
+        self,
+        p: &CscMatrix,
+        q: &[f64],
+        a: &CscMatrix,
+        b: &[f64],
+        cones: &[SupportedConeT<f64>],
+    ) -> Option<DefaultSolution<f64>> {
+        let mut settings = DefaultSettings {
+            verbose: false,
+            presolve_enable: false,
+            ..DefaultSettings::default()
+        };
+        if let Self::Loose = self {
+            settings.tol_gap_abs = LOOSE;
+            settings.tol_gap_rel = LOOSE;
+            settings.tol_feas = LOOSE;
+        }
+        let mut solver = DefaultSolver::new(p, q, a, b, cones, settings).ok()?;
+        solver.solve();
+        let found = solver.solution;
+        let is_solved = matches!(
+            found.status,
+            SolverStatus::Solved | SolverStatus::AlmostSolved
+        );
+        is_solved.then_some(found)
+    }
+}
+
+/// A third of the iterations less than what clarabel holds to be close.
+const LOOSE: f64 = 1e-5;
+
+fn floats(numbers: &[BigRational]) -> Option<Vec<f64>> {
+    numbers.iter().map(BigRational::to_f64).collect()
 }
 
 /// Returns a certificate if the checker accepts it.

@@ -1,7 +1,6 @@
 //! Whether there are forces that only push.
 
 use alloc::collections::BTreeMap;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::iter::repeat_n;
 
@@ -10,7 +9,7 @@ use num_traits::{One, Zero};
 
 use super::census::DecidedBy;
 use super::network::{Column, MOST_CERTIFIED, MOST_EQUATIONS, Network};
-use super::program::{Program, accepted};
+use super::program::{Aim, Closeness, Program, accepted};
 use crate::certificate::{Certificate, Claim};
 use crate::error::bug;
 use crate::shape::Anchor;
@@ -167,13 +166,14 @@ impl Pile {
             repeat_n(BigRational::zero(), unknowns).chain(repeat_n(BigRational::one(), equations));
         let with_pulls: Vec<Column> = network.columns.iter().cloned().chain(pulls).collect();
         let program = Program {
-            columns: &with_pulls,
+            columns: with_pulls.as_slice().into(),
             sums: network.weights.clone(),
-            cost: cost.collect(),
-            curvature: vec![0.0; unknowns + equations],
+            aim: Aim::Cost(cost.collect()),
         };
         let (program, scale) = program.scaled();
-        let mut guess = program.guess().ok_or(Error::NotSolved { equations })?;
+        let mut guess = program
+            .guess(Closeness::Tight)
+            .ok_or(Error::NotSolved { equations })?;
         // What is said is checked, whatever floats say.
         let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
         // What cannot stand cannot with more below it; what stands does so as far as it was looked at.
@@ -184,7 +184,7 @@ impl Pile {
         };
         let certificate = if stands {
             let program = Program {
-                columns: &network.columns,
+                columns: network.columns.as_slice().into(),
                 ..program
             };
             guess.unknowns.truncate(unknowns);

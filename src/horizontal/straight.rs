@@ -1,0 +1,174 @@
+//! What formulas say of the bottom spheres of straight piles.
+
+use alloc::collections::BTreeMap;
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::bounds::{End, NormalBound};
+use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Site, count};
+use crate::{Pile, formula};
+
+/// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), of − steps (k+i+j, −i, −j), and K =
+/// L−1.
+#[derive(Clone, Copy)]
+pub(super) struct Straight {
+    /// σ of all steps.
+    sigma: i128,
+    /// Of the bottom sphere.
+    n: [i128; 3],
+    k: i128,
+}
+
+impl Straight {
+    pub(super) fn of(pile: &Pile, Site { i, j, k }: Site) -> Option<Self> {
+        let is_it = pile.is_paper_pile() && pile.dimension() == Dimension::Three;
+        let sigma = pile.shape().straight_factor();
+        is_it.then_some(Self {
+            sigma,
+            n: count::above(&(sigma * i), &(sigma * j), &k),
+            k,
+        })
+    }
+
+    /// The direction whose line ends in this corner.
+    fn corner(self) -> Option<usize> {
+        self.n.iter().position(|n| *n == self.k)
+    }
+
+    /// The bound that is proved and attained for any K.
+    pub(super) fn bound(self, end: End) -> Option<BigRational> {
+        let k = BigRational::from_integer(self.k.into());
+        let onto = match (self.corner(), end) {
+            (Some(_), End::Least) => formula::least_on_corner(&k),
+            (Some(_), End::Greatest) if self.k > 0 => formula::greatest_on_corner(&k),
+            (Some(_), End::Greatest) | (None, End::Least) => BigRational::zero(),
+            (None, End::Greatest) => return None,
+        };
+        Some(normal_below(onto))
+    }
+
+    /// What no forces pass on an edge or inside, for any K; it may not be attained.
+    pub(super) fn outer_bound(self) -> NormalBound {
+        let n = self.sorted().map(|n| BigRational::from_integer(n.into()));
+        let onto = match (self.sorted(), &n) {
+            ([a, b, 0], [k, j, _]) => {
+                let c = BigRational::from_integer(a.min(b + 1).into());
+                formula::greatest_on_edge(k, j, &c)
+            }
+            _ => formula::greatest_inside(&n),
+        };
+        NormalBound {
+            normal: normal_below(onto),
+            attained: false,
+            certificate: None,
+        }
+    }
+
+    /// n_A ≥ n_B ≥ n_C.
+    fn sorted(self) -> [i128; 3] {
+        let mut sorted = self.n;
+        sorted.sort_unstable_by(|one, other| other.cmp(one));
+        sorted
+    }
+
+    /// X that attains the bound.
+    pub(super) fn forces(self, end: End) -> BTreeMap<HorizontalContact, BigRational> {
+        match (self.corner(), end) {
+            (Some(l), End::Greatest) => self.press(l),
+            (Some(_), End::Least) => BTreeMap::new(),
+            (None, _) => self.arch(),
+        }
+    }
+
+    /// The spheres of the edge that leads to a corner are pressed by their neighbours, with X = 1.
+    fn press(self, l: usize) -> BTreeMap<HorizontalContact, BigRational> {
+        let pairs = (1..self.k).flat_map(|t| {
+            [(l + 1) % 3, (l + 2) % 3].map(|other| {
+                let on_edge = unit(l).map(|e| e * t);
+                let mut beside = on_edge;
+                beside[l] -= 1;
+                beside[other] += 1;
+                self.contact(on_edge, beside)
+            })
+        });
+        pairs
+            .flatten()
+            .map(|contact| (contact, BigRational::one()))
+            .collect()
+    }
+
+    /// The arch that takes everything off an inner sphere or one on an edge: of n_A ≥ n_B ≥ n_C, the spheres (t, n_B,
+    /// n_C) push at (t+1, n_B−1, n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on
+    /// n push at each other.
+    fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
+        let mut order = [0, 1, 2];
+        order.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
+        let [a, b, c] = order;
+        let [n_a, n_b, n_c] = order.map(|l| self.n[l]);
+        let r = n_a.min(n_b + n_c);
+        let flank = (0..n_a - r).filter_map(|t| {
+            let mut one = self.n;
+            one[a] = t;
+            let mut other = one;
+            other[a] += 1;
+            other[b] -= 1;
+            Some((self.contact(one, other)?, BigRational::one()))
+        });
+        let nu = [r, n_b, n_c].map(|n| BigRational::from_integer(n.into()));
+        let above = [[b, c], [c, a], [a, b]].into_iter().zip(formula::arch(&nu));
+        let above = above.filter(|(_, force)| !force.is_zero());
+        let above = above.filter_map(|(ends, force)| {
+            let [one, other] = ends.map(|l| {
+                let mut site = self.n;
+                site[l] -= 1;
+                site
+            });
+            Some((self.contact(one, other)?, force))
+        });
+        let mut forces = BTreeMap::new();
+        for (contact, force) in flank.chain(above) {
+            *forces.entry(contact).or_insert_with(BigRational::zero) += force;
+        }
+        forces
+    }
+
+    /// φ that proves it.
+    pub(super) fn field(self, end: End) -> BTreeMap<Site, [BigRational; 3]> {
+        let Some(l) = self.corner() else {
+            return BTreeMap::new();
+        };
+        let edge = (0..self.k).map(|t| {
+            let all = matches!(end, End::Greatest) && t > 0;
+            let field = formula::corner_field(Direction::ALL[l], all);
+            (self.site(unit(l).map(|e| e * t)), field)
+        });
+        edge.collect()
+    }
+
+    fn site(self, [a, i, j]: [i128; 3]) -> Site {
+        let [i, j, k] = [self.sigma * i, self.sigma * j, a + i + j];
+        Site { i, j, k }
+    }
+
+    /// The horizontal contact of two neighbours.
+    fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
+        let [one, other] = [one, other].map(|n| self.site(n));
+        let both = [(one, other), (other, one)]
+            .into_iter()
+            .flat_map(|(from, to)| {
+                Axis::ALL.map(|axis| (HorizontalContact { site: from, axis }, to))
+            });
+        let mut found = both.filter(|(contact, to)| contact.neighbour() == Some(*to));
+        found.next().map(|(contact, _)| contact)
+    }
+}
+
+/// 1 + G/3 in mg, of what rests on a bottom sphere in f₀.
+fn normal_below(onto: BigRational) -> BigRational {
+    BigRational::one() + onto / BigRational::from_integer(3.into())
+}
+
+fn unit(l: usize) -> [i128; 3] {
+    core::array::from_fn(|direction| i128::from(direction == l))
+}
