@@ -20,6 +20,8 @@
 //! | | forces across a change of sign, which the paper's pile has not | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
 //! | | horizontal contacts, which the paper leaves out | [`pushed`], [`beside`] |
 //! | | what fields prove of them | [`lowered`], [`compression`], [`elastic_field`], [`corner_field`] |
+//! | | moments of the response to a load, and of its mean over random stackings | [`third_moment`], [`fourth_moment`], [`fourth_moment_of_pair`], [`mean_third_moment`], [`mean_fourth_moment_of_pairs`] |
+//! | | waves of that mean | [`wave`] |
 //! | | what can rest on a bottom sphere with them | [`least_on_corner`], [`greatest_on_corner`], [`greatest_inside`], [`greatest_on_edge`], [`arch`] |
 //!
 //! | pile | increments | their sum W |
@@ -31,9 +33,14 @@
 //! They are numbers in the unit f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base, so that every formula is
 //! a polynomial in s and the counts. Who wants mg divides by W once.
 
+mod disorder;
 mod horizontal;
 mod turn;
 
+pub use disorder::{
+    fourth_moment, fourth_moment_of_pair, mean_fourth_moment_of_pairs, mean_third_moment,
+    third_moment, wave,
+};
 pub use horizontal::{
     arch, beside, compression, corner_field, elastic_field, greatest_inside, greatest_on_corner,
     greatest_on_edge, least_on_corner, lowered, pushed,

@@ -55,6 +55,8 @@ mod balance;
 mod base;
 mod counts;
 mod dimensions;
+mod disorder;
+
 mod display;
 mod formulas;
 mod horizontal;
@@ -278,6 +280,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         dimensions::THEOREMS,
         stackings::THEOREMS,
         horizontal::THEOREMS,
+        disorder::THEOREMS,
     ]
     .into_iter()
     .flatten()

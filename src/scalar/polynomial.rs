@@ -333,7 +333,7 @@ impl Polynomial {
     }
 
     /// Returns the coefficients of the powers of `symbol`, from the constant up, as polynomials in the others.
-    fn coefficients(&self, symbol: Symbol) -> Vec<Self> {
+    pub(crate) fn coefficients(&self, symbol: Symbol) -> Vec<Self> {
         let top = self.degree_in(symbol);
         (0..=top)
             .map(|power| {

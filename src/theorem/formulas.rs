@@ -82,6 +82,18 @@ pub struct Formulas {
     pub greatest_inside: fn(&Three) -> P,
     /// [`formula::greatest_on_edge`].
     pub greatest_on_edge: fn(&P, &P, &P) -> P,
+    /// [`formula::third_moment`].
+    pub third_moment: fn(&P, &P) -> P,
+    /// [`formula::fourth_moment`].
+    pub fourth_moment: fn(&P) -> P,
+    /// [`formula::fourth_moment_of_pair`].
+    pub fourth_moment_of_pair: fn(&P, &P, &P) -> P,
+    /// [`formula::mean_third_moment`].
+    pub mean_third_moment: fn(&P, &P, &P) -> P,
+    /// [`formula::mean_fourth_moment_of_pairs`].
+    pub mean_fourth_moment_of_pairs: fn(&P, &P, &P) -> P,
+    /// [`formula::wave`].
+    pub wave: fn(&P) -> [P; 2],
     /// [`formula::arch`].
     pub arch: fn(&Three) -> Three,
 }
@@ -122,5 +134,11 @@ impl Formulas {
         greatest_inside: formula::greatest_inside,
         greatest_on_edge: formula::greatest_on_edge,
         arch: formula::arch,
+        third_moment: formula::third_moment,
+        fourth_moment: formula::fourth_moment,
+        fourth_moment_of_pair: formula::fourth_moment_of_pair,
+        mean_third_moment: formula::mean_third_moment,
+        mean_fourth_moment_of_pairs: formula::mean_fourth_moment_of_pairs,
+        wave: formula::wave,
     };
 }

@@ -32,7 +32,7 @@ fn names_are_unique_and_found() {
 }
 
 /// What each statement must name.
-const SUBJECTS: [(&str, &str); 42] = [
+const SUBJECTS: [(&str, &str); 51] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
     ("spheres", "L(L+1)(L+2)/6 spheres"),
@@ -78,6 +78,15 @@ const SUBJECTS: [(&str, &str); 42] = [
         "2(j+1)(k−1) + 1 for k > j, and 2k² for k = j",
     ),
     ("run-horizontal", "no run of four steps from the top"),
+    ("resultant-form", "do without the signs"),
+    ("squares", "Σf² = Σg² + 2nΣg + 3n²"),
+    ("third-moment", "Σv r³cos3φ"),
+    ("fourth-moment", "Σv r⁴"),
+    ("mean-modes", "(M−1)(M−μ) = 0"),
+    ("mean-spectrum", "λ³Q(λ+μ/λ)"),
+    ("wave", "HCP is a wave"),
+    ("faults", "(5/3)^d"),
+    ("one-fault", "six loads 2/9"),
 ];
 
 #[test]
@@ -151,6 +160,7 @@ fn every_formula_is_put_wrong() {
         resultant handed_on unbalanced half_turn tripled_half_turn tripled_apart
         pushed beside lowered compression elastic_field corner_field least_on_corner
         greatest_on_corner greatest_inside greatest_on_edge arch
+        third_moment fourth_moment fourth_moment_of_pair mean_third_moment mean_fourth_moment_of_pairs wave
     };
     let wrong: BTreeSet<_> = faults::all().iter().map(|fault| fault.field).collect();
     assert_eq!(wrong, BTreeSet::from(fields));

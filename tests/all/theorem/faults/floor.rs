@@ -43,10 +43,12 @@ pub(super) fn faults() -> Vec<Fault> {
             => ["equilibrium", "shear", "total-shear", "total-moment", "shear-on-axis",
                 "shear-ratio", "discs"];
         "load shifted from γ to α": handed_on = force!(|f, above| z = f.z + &above[0] - &above[2])
-            => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment", "shear-ratio",
+            => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
+                "shear-ratio",
                 "discs"];
         "load drawn in from the rim": handed_on = force!(|f, above| z = f.z + &squeeze(above))
-            => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment", "shear-ratio",
+            => ["equilibrium", "base-normal", "uniform-base", "weight", "total-moment", "second-moment",
+                "shear-ratio",
                 "discs"];
     }
 }

@@ -14,50 +14,54 @@ pub(super) fn faults() -> Vec<Fault> {
         "Δγ = s": increments = |s| [P::one(), P::one(), s.clone()]
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
-                "edge", "point-load", "horizontal-balance", "elastic-straight", "elastic-energy"];
+                "edge", "point-load", "horizontal-balance", "elastic-straight", "elastic-energy", "squares",
+                "faults"];
         "Δβ = −Δα": increments = |s| [P::one(), -P::one(), twice(s)]
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "shear",
                 "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "discs",
-                "change-of-sign", "edge", "point-load", "horizontal-balance", "elastic-straight"];
+                "change-of-sign", "edge", "point-load", "horizontal-balance", "elastic-straight", "squares",
+                "faults"];
         "increments for twice the weight": increments = |s| (RIGHT.increments)(s).each_ref().map(twice)
             => ["paper-system", "central-force", "base-normal", "uniform-base", "shear", "shear-on-axis",
                 "shear-ratio", "discs", "edge", "point-load", "horizontal-balance", "elastic-straight",
-                "elastic-energy"];
+                "elastic-energy", "squares", "faults"];
 
         "one increment for all": weight = |increments| {
             increments.first().map_or_else(P::zero, Clone::clone)
         } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
-                "shear-ratio", "discs", "dimensions", "change-of-sign", "horizontal-balance"];
+                "shear-ratio", "discs", "dimensions", "change-of-sign", "horizontal-balance", "squares"];
         "the last one left out": weight = |increments| {
             let [all @ .., _] = increments else { return P::zero() };
             (RIGHT.weight)(all)
         } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
-                "shear-ratio", "dimensions", "change-of-sign", "horizontal-balance"];
+                "shear-ratio", "dimensions", "change-of-sign", "horizontal-balance", "squares"];
 
         "an increment too much": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface", "central-force",
                 "base-normal", "weight", "total-moment", "second-moment", "shear-ratio", "discs", "dimensions",
-                "run", "edge", "horizontal-balance", "elastic-straight", "elastic-energy"];
+                "run", "edge", "horizontal-balance", "elastic-straight", "elastic-energy", "squares"];
         "squares": force = |n, w| (RIGHT.force)(n.clone() * &n, w) => ["action-reaction", "central-force",
-                "base-normal", "uniform-base", "weight", "shear", "total-moment", "second-moment", "shear-on-axis",
-                "shear-ratio", "discs", "dimensions", "run", "edge", "horizontal-balance", "elastic-straight",
-                "elastic-energy"];
+                "base-normal", "uniform-base", "weight", "shear", "total-moment", "second-moment",
+                "shear-on-axis", "shear-ratio", "discs", "dimensions", "run", "edge", "horizontal-balance",
+                "elastic-straight", "elastic-energy", "squares"];
         "spheres of weight 1 whatever their increment": force = |n, _| n => ["equilibrium", "action-reaction",
                 "base-normal", "uniform-base", "weight", "total-shear", "total-moment", "second-moment", "run",
-                "change-of-sign", "horizontal-balance"];
+                "change-of-sign", "horizontal-balance", "squares"];
 
         "weightless spheres": passed_on = |received, _| received => ["equilibrium", "action-reaction", "discs",
-                "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy"];
+                "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy", "squares"];
         "what comes from above is lost": passed_on = |_, own| own.clone() => ["equilibrium", "action-reaction",
-                "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy"];
+                "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy",
+                "squares"];
         "twice its own": passed_on = |received, own| received + own + own => ["equilibrium", "action-reaction",
-                "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy"];
+                "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy",
+                "squares"];
 
         "what a sphere receives": resultant = |from_above, directions| {
             -(RIGHT.resultant)(from_above, directions)
         } => ["central-force"];
         "nothing along γ": resultant = |[a, b, _], directions| {
             (RIGHT.resultant)(&[a.clone(), b.clone(), P::zero()], directions)
-        } => ["central-force"];
+        } => ["central-force", "resultant-form"];
 
         "the paper's misprint, without a′ + b′ + c′": unbalanced = |to_below, below, from_above, above, weight| {
             let all = (RIGHT.unbalanced)(to_below, below, from_above, above, weight);
@@ -76,20 +80,28 @@ pub(super) fn faults() -> Vec<Fault> {
         "the half-turn itself": tripled_half_turn = RIGHT.half_turn => ["tripled-half-turn"];
         "2Σ − g": tripled_half_turn = |g| g.clone().map(|x| twice(&sum(g)) - &x) => ["tripled-half-turn"];
 
-        "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn", "tripled-half-turn", "change-of-sign", "edge",
-                "point-load", "horizontal-balance", "run-horizontal"];
-        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load",
-                "horizontal-balance", "run-horizontal"];
+        "−I": half_turn = |g| g.clone().map(|x| -x) => ["half-turn", "tripled-half-turn", "change-of-sign",
+                "edge", "point-load", "horizontal-balance", "run-horizontal", "resultant-form", "squares",
+                "third-moment", "fourth-moment", "mean-spectrum", "wave", "faults", "one-fault"];
+        "I": half_turn = Clone::clone => ["half-turn", "tripled-half-turn", "change-of-sign", "edge",
+                "point-load", "horizontal-balance", "run-horizontal", "resultant-form", "third-moment",
+                "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
         "J − I": half_turn = |g| g.clone().map(|x| sum(g) - &x) => ["half-turn", "tripled-half-turn",
-                "change-of-sign", "edge", "point-load", "horizontal-balance", "run-horizontal"];
-        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn", "tripled-half-turn",
-                "change-of-sign", "edge", "point-load", "horizontal-balance", "run-horizontal"];
+                "change-of-sign", "edge", "point-load", "horizontal-balance", "run-horizontal", "resultant-form",
+                "squares", "third-moment", "fourth-moment", "mean-modes", "mean-spectrum", "wave", "faults",
+                "one-fault"];
+        "(1/3)J − I": half_turn = |g| g.clone().map(|x| over(sum(g), 3) - &x) => ["half-turn",
+                "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance",
+                "run-horizontal", "resultant-form", "squares", "third-moment", "fourth-moment", "mean-modes",
+                "mean-spectrum", "wave", "faults", "one-fault"];
         "a square too much": half_turn = |g| {
             (RIGHT.half_turn)(g).map(|x| x + &(g[0].clone() * &g[0]))
         } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance",
-                "virtual-work", "run-horizontal"];
+                "virtual-work", "run-horizontal", "resultant-form", "squares", "third-moment", "fourth-moment",
+                "mean-modes", "mean-spectrum", "wave", "faults", "one-fault"];
         "a third of a turn": half_turn = |[a, b, c]| [b.clone(), c.clone(), a.clone()] => ["half-turn",
                 "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance", "virtual-work",
-                "run-horizontal"];
+                "run-horizontal", "resultant-form", "third-moment", "fourth-moment", "mean-modes",
+                "mean-spectrum", "wave", "faults", "one-fault"];
     }
 }

@@ -1,6 +1,7 @@
 //! Wrong formulas, each with the theorems that do not hold of it: those and no others.
 
 mod counts;
+mod disorder;
 mod floor;
 mod forces;
 mod horizontal;
@@ -48,6 +49,7 @@ pub(crate) fn all() -> Vec<Fault> {
         forces::faults(),
         floor::faults(),
         horizontal::faults(),
+        disorder::faults(),
     ]
     .into_iter()
     .flatten()

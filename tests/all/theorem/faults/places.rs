@@ -23,24 +23,26 @@ pub(super) fn faults() -> Vec<Fault> {
             [a, b, Vector { x: -c.x, ..c }]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",
                 "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign", "point-load",
-                "horizontal-balance"];
+                "horizontal-balance", "resultant-form", "third-moment", "fourth-moment", "one-fault"];
         "ê_c twice as long": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, c.map(|part| twice(&part))]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "base-normal", "uniform-base",
                 "weight", "shear", "total-shear", "total-moment", "second-moment", "shear-on-axis", "shear-ratio",
-                "change-of-sign", "point-load", "horizontal-balance"];
+                "change-of-sign", "point-load", "horizontal-balance", "resultant-form", "third-moment",
+                "fourth-moment", "one-fault"];
         "contacts point down": directions = |s| (RIGHT.directions)(s).map(|e| -e)
             => ["paper-system", "equilibrium", "central-force", "base-normal", "uniform-base", "weight", "shear",
                 "total-moment", "second-moment", "shear-on-axis", "shear-ratio", "change-of-sign",
                 "horizontal-balance"];
         "φ = π/6 whatever s": directions = |_| (RIGHT.directions)(&over(P::one(), 2))
             => ["paper-system", "unit-directions", "equilibrium", "total-shear", "total-moment", "second-moment"];
-        "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["paper-system", "central-force", "shear", "shear-on-axis"];
+        "ê_a for ê_b": directions = |s| swapped(&(RIGHT.directions)(s)) => ["paper-system", "central-force",
+                "shear", "shear-on-axis"];
         "y in units of cosφ": directions = |s| {
             (RIGHT.directions)(s).map(|e| Vector { y: twice(&e.y), ..e })
         } => ["paper-system", "unit-directions", "central-force", "shear", "second-moment", "shear-on-axis",
-                "shear-ratio", "point-load"];
+                "shear-ratio", "point-load", "third-moment", "fourth-moment", "one-fault"];
 
         "both supports of a disc on one side": disc_directions = || {
             let [a, _, c] = (RIGHT.disc_directions)();
@@ -51,16 +53,17 @@ pub(super) fn faults() -> Vec<Fault> {
             (RIGHT.disc_directions)().map(|e| Vector { y: P::one(), ..e })
         } => ["discs"];
 
-        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load", "horizontal-balance"];
+        "under − as under +": turned_about_z = |v| v => ["change-of-sign", "point-load", "horizontal-balance",
+                "resultant-form", "third-moment", "fourth-moment", "one-fault"];
         "upside down": turned_about_z = |v| -v
-            => ["equilibrium", "change-of-sign", "horizontal-balance"];
+            => ["equilibrium", "change-of-sign", "horizontal-balance", "resultant-form"];
         "mirrored": turned_about_z = |v| Vector { x: -v.x, ..v } => ["change-of-sign", "point-load",
-                "horizontal-balance"];
+                "horizontal-balance", "resultant-form", "third-moment", "fourth-moment", "one-fault"];
 
         "above the apex": position = |above, directions| -(RIGHT.position)(above, directions)
             => ["central-force", "shear-on-axis"];
         "from a corner": position = moved!(|at| x = at.x + &P::one())
-            => ["central-force", "shear-on-axis", "point-load"];
+            => ["central-force", "shear-on-axis", "point-load", "third-moment", "fourth-moment", "one-fault"];
         "mirrored": position = moved!(|at| y = -at.y) => ["central-force", "shear-on-axis"];
         "half as deep": position = moved!(|at| z = over(at.z, 2)) => ["central-force"];
         // Moments balance in every coordinate that is linear in the counts.

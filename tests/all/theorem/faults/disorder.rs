@@ -1,0 +1,41 @@
+//! Wrong moments and waves of the response to a load.
+
+use num_traits::One;
+
+use super::{Fault, Formulas, P, RIGHT, faults};
+use cannonpile::scalar::Ring;
+
+fn int(n: i128) -> P {
+    P::from_i128(n)
+}
+
+pub(super) fn faults() -> Vec<Fault> {
+    faults! {
+        "one less for the step itself": third_moment = |n, s| (RIGHT.third_moment)(n, s) - &P::one() => ["third-moment"];
+        "every sign alike": third_moment = |n, s| (RIGHT.third_moment)(n, &(s.clone() - s + &P::one())) => ["third-moment"];
+        "a step further down": third_moment = |n, s| (RIGHT.third_moment)(&(n.clone() + &P::one()), s) => ["third-moment"];
+        "FCC, n⁴": fourth_moment = |n| n.clone() * n * n * n => ["fourth-moment"];
+        "the last step left out": fourth_moment = |n| (RIGHT.fourth_moment)(&(n.clone() - &P::one())) => ["fourth-moment"];
+        "each pair once": fourth_moment_of_pair = |n, s, t| {
+            let twice = (RIGHT.fourth_moment_of_pair)(n, s, t);
+            twice * &P::constant(&num_rational::BigRational::new(1.into(), 2.into()))
+        } => ["fourth-moment"];
+        "s and t exchanged": fourth_moment_of_pair = |n, s, t| (RIGHT.fourth_moment_of_pair)(n, t, s) => ["fourth-moment"];
+        "the mean without what decays": mean_third_moment = |n, mu, _| (RIGHT.mean_third_moment)(n, mu, &int(0)) => ["third-moment"];
+        "the mean of −q": mean_third_moment = |n, mu, x| (RIGHT.mean_third_moment)(n, &-mu.clone(), x) => ["third-moment"];
+        "μ too much": mean_third_moment = |n, mu, x| (RIGHT.mean_third_moment)(n, mu, x) + mu => ["third-moment"];
+        "pairs without what decays": mean_fourth_moment_of_pairs =
+            |n, mu, _| (RIGHT.mean_fourth_moment_of_pairs)(n, mu, &int(0)) => ["fourth-moment"];
+        "pairs of a step less": mean_fourth_moment_of_pairs =
+            |n, mu, x| (RIGHT.mean_fourth_moment_of_pairs)(&(n.clone() - &P::one()), mu, x) => ["fourth-moment"];
+        "twice the damping": wave = |q| {
+            let [damping, dispersion] = (RIGHT.wave)(q);
+            [int(2) * &damping, dispersion]
+        } => ["mean-spectrum"];
+        "no dispersion": wave = |q| {
+            let [damping, _] = (RIGHT.wave)(q);
+            [damping, int(0)]
+        } => ["mean-spectrum"];
+        "of −q": wave = |q| (RIGHT.wave)(&-q.clone()) => ["mean-spectrum"];
+    }
+}
