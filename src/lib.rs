@@ -62,6 +62,7 @@
 //! | what a bottom sphere can bear there at least and at most | `pile.bounds(site)` (feature `horizontal`) |
 //! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
 //! | which stackings stand | [`census`] |
+//! | what the piles of all stackings bear in the mean, at any fault probability | [`disorder`] |
 //! | whether a pile stands with horizontal contacts (a = R), and which do | `Pile::equilibrium`, `horizontal::census` |
 //! | whether forces with horizontal contacts (a = R) are what somebody says, checked anew | [`certificate`] |
 //! | what is proved for every pile | [`theorem`] |
@@ -87,6 +88,7 @@
 //! | | [`Forces`], [`Packing`] | the one thing to ask, in pile units and in SI |
 //! | | [`Standing`], [`census`] | which piles stand |
 //! | | [`certificate`] | what is claimed of horizontal contacts, and its checker |
+//! | | [`disorder`] | random stackings |
 //! | | [`theorem`] | what is proved for every pile: of [`formula`], and of nothing else |
 //! | tools | [`scene`], `serde`, `table`, `dem`, `verify`, `figure` | files in and out, pictures; each behind a feature |
 //! | roof | [`Error`] | what can be wrong with a question, and [which input](Culprit) is to blame |
@@ -125,6 +127,7 @@ pub mod certificate;
 #[cfg(feature = "export")]
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod dem;
+pub mod disorder;
 mod engine;
 mod error;
 #[cfg(feature = "plot")]

@@ -1,0 +1,287 @@
+//! Random stackings of a number of layers: how many there are, and where their bottom layers lie.
+
+use core::fmt;
+use core::str::FromStr;
+
+use num_bigint::BigUint;
+use num_integer::binomial;
+use num_traits::{One, Zero};
+
+use crate::Error;
+use crate::lattice::{MAX_LAYERS, Sign};
+use crate::scalar::{Algebra, THREE, TWO};
+
+/// The sign of the first step, from the top layer to the one below.
+///
+/// # Examples
+/// ```
+/// use cannonpile::disorder::FirstSign;
+///
+/// assert_eq!("random".parse(), Ok(FirstSign::Random));
+/// assert_eq!(FirstSign::Minus.to_string(), "-");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FirstSign {
+    /// +, in every stacking.
+    Plus,
+    /// −, in every stacking.
+    Minus,
+    /// + or −, each with the probability ½.
+    Random,
+}
+
+impl FirstSign {
+    /// `+`, `-`, `random`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::FirstSign;
+    ///
+    /// assert_eq!(FirstSign::Random.name(), "random");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Plus => "+",
+            Self::Minus => "-",
+            Self::Random => "random",
+        }
+    }
+
+    /// Returns the signs that the first step can have.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::FirstSign;
+    /// use cannonpile::lattice::Sign;
+    ///
+    /// assert_eq!(FirstSign::Minus.signs(), [Sign::Minus]);
+    /// assert_eq!(FirstSign::Random.signs(), [Sign::Plus, Sign::Minus]);
+    /// ```
+    #[must_use]
+    pub const fn signs(self) -> &'static [Sign] {
+        match self {
+            Self::Plus => &[Sign::Plus],
+            Self::Minus => &[Sign::Minus],
+            Self::Random => &[Sign::Plus, Sign::Minus],
+        }
+    }
+}
+
+impl fmt::Display for FirstSign {
+    /// `+`, `-`, `random`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for FirstSign {
+    type Err = Error;
+
+    /// Reads what [`name`](Self::name) prints.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::FirstSign;
+    ///
+    /// assert_eq!("+".parse::<FirstSign>()?, FirstSign::Plus);
+    /// assert!("?".parse::<FirstSign>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let all = [Self::Plus, Self::Minus, Self::Random];
+        let found = all.into_iter().find(|found| found.name() == text);
+        found.ok_or_else(|| Error::syntax(text, "the first sign: +, - or random"))
+    }
+}
+
+/// All stackings of L layers, each with its probability.
+///
+/// Of the n = L − 1 signs the first is given, or + or − with probability ½; each later one differs from the one before
+/// with the fault probability q, 0 ≤ q ≤ 1, independently. So a stacking with d changes of sign, its faults, has
+/// the probability q^d (1−q)^(n−1−d), half of that if the first sign is random: q = 0 is FCC, q = 1 is HCP, and at q = ½
+/// all stackings are equally likely. Read from the base up it is the same ensemble.
+///
+/// # Examples
+/// ```
+/// use cannonpile::disorder::{FirstSign, RandomStackings};
+///
+/// let stackings = RandomStackings::new(5, FirstSign::Plus)?;
+/// assert_eq!((stackings.layers(), stackings.first()), (5, FirstSign::Plus));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct RandomStackings {
+    layers: i128,
+    first: FirstSign,
+}
+
+/// The most layers of which the probabilities of the registries are found: they take as many steps.
+const MOST_LAYERS: u64 = 10_000;
+
+impl RandomStackings {
+    /// Returns the stackings of this many layers.
+    ///
+    /// # Errors
+    /// [`Error::Layers`] unless 1 ≤ `layers` ≤ [`MAX_LAYERS`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// assert!(RandomStackings::new(10_i128.pow(36), FirstSign::Random).is_ok());
+    /// assert!(RandomStackings::new(0, FirstSign::Random).is_err());
+    /// ```
+    pub fn new(layers: i128, first: FirstSign) -> Result<Self, Error> {
+        if !(1..=MAX_LAYERS).contains(&layers) {
+            return Err(Error::Layers {
+                given: layers.into(),
+            });
+        }
+        Ok(Self { layers, first })
+    }
+
+    /// Returns the number L of layers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// assert_eq!(RandomStackings::new(3, FirstSign::Plus)?.layers(), 3);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn layers(&self) -> i128 {
+        self.layers
+    }
+
+    /// Returns the sign of the first step.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// assert_eq!(RandomStackings::new(3, FirstSign::Minus)?.first(), FirstSign::Minus);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn first(&self) -> FirstSign {
+        self.first
+    }
+
+    /// Returns the number of steps, n = L − 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// assert_eq!(RandomStackings::new(3, FirstSign::Plus)?.steps(), 2);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn steps(&self) -> i128 {
+        self.layers - 1
+    }
+
+    /// Returns the greatest number of faults, n − 1; 0 of one layer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// let most = |layers| Ok(RandomStackings::new(layers, FirstSign::Plus)?.most_faults());
+    /// assert_eq!([most(5)?, most(2)?, most(1)?], [3, 0, 0]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn most_faults(&self) -> i128 {
+        if self.layers > 2 { self.layers - 2 } else { 0 }
+    }
+
+    /// Returns how many stackings have `faults` changes of sign: C(n−1, faults), twice that with a random first sign.
+    ///
+    /// A single layer has no sign: it is one stacking, whatever the first sign. It takes as many steps as there are faults,
+    /// or straight steps between them, if they are fewer.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
+    /// let counts: Vec<_> = (0..=5).map(|d| stackings.count_with(d).to_string()).collect();
+    /// assert_eq!(counts, ["1", "4", "6", "4", "1", "0"]);
+    /// let random = RandomStackings::new(6, FirstSign::Random)?;
+    /// assert_eq!(random.count_with(2), 12_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn count_with(&self, faults: u32) -> BigUint {
+        if i128::from(faults) > self.most_faults() {
+            return BigUint::zero();
+        }
+        if self.layers == 1 {
+            return BigUint::one();
+        }
+        // Not negative, and few faults of many.
+        let of = self.most_faults().unsigned_abs();
+        let few = u128::from(faults).min(of - u128::from(faults));
+        let stackings = binomial(BigUint::from(of), BigUint::from(few));
+        stackings * BigUint::from(self.first.signs().len())
+    }
+
+    /// Returns the probabilities that the bottom layer has the registry 0, 1, 2 at the fault probability `q`: that s ≡ 0,
+    /// 1, 2 (mod 3), with s the number of + steps less that of − steps.
+    ///
+    /// p_n − ⅓, with n the number of steps, obeys x_(n+1) = −(1−q) x_n − (1−2q) x_(n−1) in each registry. *Proof.* With
+    /// ω = e^(2πi/3) let e_± = E ω^s over what ends in a ± step. A step more makes ω((1−q)e_+ + q e_−) and ω̄((1−q)e_− +
+    /// q e_+) of them: a matrix of trace −(1−q) and determinant 1−2q, which obeys its own characteristic equation, and so
+    /// does the conjugate one, of which p_n − ⅓ is made. ∎
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 10⁴ layers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{FirstSign, RandomStackings};
+    ///
+    /// // Of the stackings ++ and +- one each ends in registries 2 and 0.
+    /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    /// assert_eq!(stackings.registry(&0.25)?, [0.25, 0.0, 0.75]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn registry<T: Algebra>(&self, q: &T) -> Result<[T; 3], Error> {
+        if self.layers > i128::from(MOST_LAYERS) {
+            return Err(Error::TooLarge {
+                quantity: "the probabilities of the registries of random stackings",
+                needed: self.layers.unsigned_abs().into(),
+                limit: MOST_LAYERS,
+                remedy: "ask for fewer layers",
+            });
+        }
+        let third = T::one().div_int(THREE);
+        let [none, all, half] = [
+            -third.clone(),
+            T::one() - &third,
+            T::one().div_int(TWO) - &third,
+        ];
+        // The deviations from ⅓ before and after the first step.
+        let mut before = [all.clone(), none.clone(), none.clone()];
+        let mut after = match self.first {
+            FirstSign::Plus => [none.clone(), all, none],
+            FirstSign::Minus => [none.clone(), none, all],
+            FirstSign::Random => [none, half.clone(), half],
+        };
+        let same = T::one() - q;
+        let memory = same.clone() - q;
+        for _ in 0..self.steps() {
+            let next = core::array::from_fn(|registry| {
+                -(after[registry].clone() * &same) - &(before[registry].clone() * &memory)
+            });
+            (before, after) = (after, next);
+        }
+        Ok(before.map(|deviation| deviation + &third))
+    }
+}
