@@ -286,6 +286,23 @@ pub enum Error {
     Weightless,
     /// A pile that no forces balance which only push, horizontal contacts included.
     CannotStand,
+    /// A fault probability that is not between 0 and 1.
+    FaultProbability {
+        /// The value asked for.
+        given: BigRational,
+    },
+    /// A load on a sphere that is not at its place in every stacking.
+    PlaceOfLoad {
+        /// The sphere.
+        site: Site,
+        /// Whether the stackings stand on a base, so that no layer above it is in its place in all of them.
+        on_base: bool,
+    },
+    /// The response to loads of spheres that weigh something, or that bear no load.
+    OnlyOfLoads {
+        /// What was asked for.
+        quantity: &'static str,
+    },
     /// A program over contact forces whose solution in floats leads to no exact one.
     NotSolved {
         /// The equations of balance that it has.

@@ -247,9 +247,12 @@ impl RandomStackings {
     /// ```
     /// use cannonpile::disorder::{FirstSign, RandomStackings};
     ///
-    /// // Of the stackings ++ and +- one each ends in registries 2 and 0.
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// // The stacking ++ ends in the registry 2, and +- in 0.
     /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
-    /// assert_eq!(stackings.registry(&0.25)?, [0.25, 0.0, 0.75]);
+    /// let registry = stackings.registry(&Polynomial::from(Symbol("q")))?;
+    /// assert_eq!(registry.map(|p| p.to_string()), ["q", "0", "-q + 1"]);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn registry<T: Algebra>(&self, q: &T) -> Result<[T; 3], Error> {

@@ -56,6 +56,8 @@ pub enum Culprit {
     StiffnessRatio,
     /// The text of a file.
     File,
+    /// The probability of a change of sign.
+    FaultProbability,
 }
 
 impl Culprit {
@@ -89,6 +91,7 @@ impl Culprit {
             Self::State => "state",
             Self::StiffnessRatio => "stiffness-ratio",
             Self::File => "file",
+            Self::FaultProbability => "fault-probability",
         }
     }
 }
@@ -134,8 +137,9 @@ impl Error {
             | Self::SinPhiOfDiscs
             | Self::NoSpacing { .. }
             | Self::NoHorizontalContacts { .. } => Culprit::SinPhi,
-            Self::NegativeLoad { .. } => Culprit::Load,
-            Self::Weightless => Culprit::Weightless,
+            Self::NegativeLoad { .. } | Self::PlaceOfLoad { .. } => Culprit::Load,
+            Self::FaultProbability { .. } => Culprit::FaultProbability,
+            Self::Weightless | Self::OnlyOfLoads { .. } => Culprit::Weightless,
             Self::Overlap { .. } | Self::TooFlat { .. } | Self::NotTouching { .. } => {
                 Culprit::Spacing
             }

@@ -153,6 +153,23 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "the {quantity} of the sphere (i,j,k) = {site} must not be negative, but is {given}"
             ),
+            Error::FaultProbability { given } => write!(
+                f,
+                "the fault probability must be at least 0 and at most 1, not {given}"
+            ),
+            Error::PlaceOfLoad { site, on_base } => write!(
+                f,
+                "the sphere (i,j,k) = {site} is not at one place in every stacking: {}",
+                if *on_base {
+                    "leave loads out, or let the stackings hang from a top layer"
+                } else {
+                    "put loads on the top layer, k = 0"
+                }
+            ),
+            Error::OnlyOfLoads { quantity } => write!(
+                f,
+                "{quantity} is that of loads on spheres that weigh nothing: make them weightless, and put a load on one"
+            ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
             }

@@ -155,6 +155,37 @@ impl Polynomial {
         Self::canonical(terms.into_iter().collect(), value.denom().clone())
     }
 
+    /// Returns Σ `coefficients`[j] · `symbol`^j over one denominator; `None` if that is 0.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::{Polynomial, Symbol};
+    ///
+    /// let polynomial = Polynomial::in_powers(Symbol("q"), [2, 0, -4].map(Into::into), 6.into());
+    /// assert_eq!(polynomial.unwrap().to_string(), "(-2 q^2 + 1)/3");
+    /// ```
+    #[must_use]
+    pub fn in_powers(
+        symbol: Symbol,
+        coefficients: impl IntoIterator<Item = BigInt>,
+        denominator: BigInt,
+    ) -> Option<Self> {
+        let sign = if denominator.is_negative() { -1 } else { 1 };
+        let terms = coefficients
+            .into_iter()
+            .zip(0..)
+            .map(|(coefficient, power)| {
+                let powers = if power == 0 {
+                    Vec::new()
+                } else {
+                    Vec::from([(symbol, power)])
+                };
+                (Monomial(powers), coefficient * sign)
+            });
+        let polynomial = Self::canonical(terms.collect(), denominator * sign);
+        polynomial.is_defined().then_some(polynomial)
+    }
+
     /// Returns the fault, for a power that does not fit.
     fn fault() -> Self {
         Self {

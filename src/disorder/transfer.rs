@@ -1,0 +1,525 @@
+//! The one recursion: what the forces of all stackings add up to, layer after layer.
+//!
+//! Let f_σ be the sum, over all beginnings of stackings whose next sign is σ, of what the spheres of a layer pass on, by
+//! place and direction: each stacking with its share of probability, or each of those with d faults alike. One step leads
+//! the forces along their contacts,
+//!
+//! g_σ(x + σu_l, l) = f_σ(x, l),
+//!
+//! whichever beginning they come of, since a place is the same for all. There the next sign is chosen: the same one, with
+//! 1 − q, where forces go on straight, or the other, with q, where they make a [half-turn](crate::formula::half_turn); and the
+//! spheres of the layer add what they weigh:
+//!
+//! f_σ ← (1 − q) g_σ + q G g_(−σ) + w·P(a sphere at x, next sign σ).
+//!
+//! *Proof.* Each stacking obeys its own equations, which are linear, and the choice depends on the sign before alone. ∎
+//! In numbers without thirds the second share is (q/3)·3G. By faults the shares are all of g_(σ,d) and all of 3G g_(−σ,d−1), over
+//! 3^d, and nothing is said of q.
+//!
+//! On a base the spheres of a layer depend on the steps that are left. So the net number of these is kept too, and the
+//! recursion starts with every number at which the base carries a top layer.
+
+use alloc::vec::Vec;
+use core::num::NonZeroI64;
+use core::ops::Range;
+
+use num_bigint::BigInt;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::frame::Frame;
+use super::number::{Number, Share, add};
+use super::place::Place;
+use super::walk::{SIGNS, Walk};
+use crate::Error;
+use crate::error::bug;
+use crate::formula;
+use crate::geometry::{Vector, directions};
+use crate::lattice::{Direction, Sign};
+use crate::scalar::Algebra;
+
+/// The forces of one class and next sign: a plane of cells for each direction.
+type Planes<T> = [Vec<T>; 3];
+
+/// Forces by the net number of steps left (one number only, but on a base), class, and next sign; `None` where there are none.
+type Layer<T> = Vec<Vec<[Option<Planes<T>>; 2]>>;
+
+/// What is run over a frame.
+pub(super) struct Transfer<'f, T, S> {
+    pub(super) frame: &'f Frame<'f>,
+    /// How many classes there are: numbers of faults, or one.
+    pub(super) classes: usize,
+    /// Of what goes on straight.
+    pub(super) same: S,
+    /// Of three times what makes a half-turn.
+    pub(super) change: S,
+    /// What a sphere adds to each line, in the unit of forces.
+    pub(super) weight: T,
+    /// What loads add, by site of the top layer.
+    pub(super) loads: Vec<([i128; 2], T)>,
+}
+
+/// What the bottom sphere at a place bears, summed over stackings.
+#[derive(Clone, Debug)]
+pub(super) struct Spot<T> {
+    pub(super) place: Place,
+    /// By class: the share of stackings that have a sphere there, and the force on the floor.
+    pub(super) classes: Vec<(T, Floor<T>)>,
+}
+
+/// Normal force and shears on the floor: six times those in the units of the base, in the unit of the numerators.
+#[derive(Clone, Debug)]
+pub(super) struct Floor<T> {
+    pub(super) normal: T,
+    pub(super) shear_x: T,
+    pub(super) shear_y: T,
+}
+
+impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
+    /// Returns what each place of the bottom layer bears.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn run(&self) -> Result<Vec<Spot<T>>, Error> {
+        let frame = self.frame;
+        let first = frame.piles.stackings.first().signs();
+        let mut walk = Walk::new(
+            self.classes,
+            frame.steps,
+            frame.plus(),
+            // Of a single layer there is one stacking.
+            if frame.steps == 0 {
+                &[Sign::Plus]
+            } else {
+                first
+            },
+            frame.starts(),
+        );
+        let mut layer = self.empty();
+        if frame.steps > 0 {
+            self.load(&mut layer, &walk)?;
+            self.add_weights(&mut layer, &walk, 0)?;
+        }
+        let mut below = self.empty();
+        for k in 1..frame.steps {
+            walk.step();
+            walk.choose(&self.same, &self.change, |class| self.before(class));
+            self.pass_on(&mut layer, &mut below, k)?;
+            core::mem::swap(&mut layer, &mut below);
+            self.add_weights(&mut layer, &walk, k)?;
+        }
+        if frame.steps > 0 {
+            walk.step();
+        }
+        self.bottom(&layer, &walk)
+    }
+
+    /// The class from which a fault leads to this one.
+    fn before(&self, class: usize) -> Option<usize> {
+        if self.classes == 1 {
+            Some(class)
+        } else {
+            class.checked_sub(1)
+        }
+    }
+
+    fn empty(&self) -> Layer<T> {
+        let left = if self.frame.base().is_some() {
+            2 * self.frame.steps + 1
+        } else {
+            1
+        };
+        let class = || (0..self.classes).map(|_| [None, None]).collect();
+        (0..left).map(|_| class()).collect()
+    }
+
+    fn planes(&self) -> Planes<T> {
+        [(); 3].map(|()| alloc::vec![T::zero(); self.frame.grid.cells()])
+    }
+
+    /// The first layer, with its loads alone.
+    fn load(&self, layer: &mut Layer<T>, walk: &Walk<T>) -> Result<(), Error> {
+        for start in self.frame.starts() {
+            let begun = self
+                .of_net(start)
+                .and_then(|at| layer.get_mut(at)?.first_mut())
+                .ok_or_else(|| bug("a stacking begins with no fault"))?;
+            for (sign, planes) in begun.iter_mut().enumerate() {
+                if walk.of(0, sign).is_none() {
+                    continue;
+                }
+                let planes = planes.get_or_insert_with(|| self.planes());
+                for (site, load) in &self.loads {
+                    let cell = self.frame.top_cell(*site);
+                    for plane in planes.iter_mut() {
+                        let at = cell.and_then(|cell| plane.get_mut(cell));
+                        add(at.ok_or_else(|| bug("loads are on the top layer"))?, load);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The index of a number of net steps that are left; 0 of what is not on a base.
+    fn of_net(&self, net: isize) -> Option<usize> {
+        if self.frame.base().is_some() {
+            self.frame.steps.checked_add_signed(net)
+        } else {
+            Some(0)
+        }
+    }
+
+    /// Adds what the spheres of layer `k` weigh.
+    fn add_weights(&self, layer: &mut Layer<T>, walk: &Walk<T>, k: usize) -> Result<(), Error> {
+        if self.weight.is_zero() {
+            return Ok(());
+        }
+        if self.frame.base().is_some() {
+            self.add_weights_on_base(layer, walk, k)
+        } else {
+            self.add_weights_below(layer, walk, k)
+        }
+    }
+
+    fn add_weights_below(
+        &self,
+        layer: &mut Layer<T>,
+        walk: &Walk<T>,
+        k: usize,
+    ) -> Result<(), Error> {
+        let frame = self.frame;
+        let within = -(k as i128)..=k as i128;
+        let classes = layer
+            .first_mut()
+            .ok_or_else(|| bug("there is one number of net steps"))?;
+        for (_, cells) in frame.grid.window(k) {
+            let nets = cells
+                .clone()
+                .map(|cell| frame.nets(k, cell, within.clone()));
+            let nets: Vec<_> = nets.collect();
+            for (class, signs) in classes.iter_mut().enumerate() {
+                for (sign, planes) in signs.iter_mut().enumerate() {
+                    let Some(counts) = walk.of(class, sign) else {
+                        continue;
+                    };
+                    let planes = planes.get_or_insert_with(|| self.planes());
+                    let [a, b, c] = rows_mut(planes, &cells)?;
+                    let lines = a.iter_mut().zip(b).zip(c);
+                    for (((a, b), c), nets) in lines.zip(&nets) {
+                        if nets.is_empty() {
+                            continue;
+                        }
+                        let own = nets.sum(counts, frame.steps) * &self.weight;
+                        add(a, &own);
+                        add(b, &own);
+                        add(c, &own);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn add_weights_on_base(
+        &self,
+        layer: &mut Layer<T>,
+        walk: &Walk<T>,
+        k: usize,
+    ) -> Result<(), Error> {
+        for (net, classes) in self.nets().zip(layer) {
+            let Some(region) = self.frame.region(k, net) else {
+                continue;
+            };
+            let rows = self.frame.rows_of(&region)?;
+            for (class, signs) in classes.iter_mut().enumerate() {
+                for (sign, planes) in signs.iter_mut().enumerate() {
+                    let counts = walk.of(class, sign);
+                    let place = walk.place_of(net);
+                    let Some(count) = counts.and_then(|counts| counts.get(place?)) else {
+                        continue;
+                    };
+                    if count.is_zero() {
+                        continue;
+                    }
+                    let own = count.clone() * &self.weight;
+                    let planes = planes.get_or_insert_with(|| self.planes());
+                    for cells in &rows {
+                        for row in rows_mut(planes, cells)? {
+                            for force in row {
+                                add(force, &own);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The net numbers of steps left, in the order of layers: −n to n on a base, else one.
+    fn nets(&self) -> core::ops::RangeInclusive<isize> {
+        // As many as there are cells in memory.
+        let steps = self.frame.steps.cast_signed();
+        if self.frame.base().is_some() {
+            -steps..=steps
+        } else {
+            0..=0
+        }
+    }
+
+    /// The number of net steps left before a step that leaves this one; itself where it is not on a base.
+    fn left_before(&self, net: isize, sign: Sign) -> Option<usize> {
+        let step = if sign == Sign::Plus {
+            self.frame.plus()
+        } else {
+            -self.frame.plus()
+        };
+        self.of_net(net - step)
+    }
+
+    /// Leads the forces of a layer to layer `k` and across it, without its weights.
+    fn pass_on(&self, from: &mut Layer<T>, to: &mut Layer<T>, k: usize) -> Result<(), Error> {
+        for (net, classes) in self.nets().zip(to) {
+            // What cannot come to the base in the steps that are left does not matter.
+            let reaches = net.unsigned_abs() <= self.frame.steps - k;
+            for (class, signs) in classes.iter_mut().enumerate() {
+                for (at, planes) in signs.iter_mut().enumerate() {
+                    let of = |sign: usize, class: Option<usize>| {
+                        let net = self.left_before(net, SIGNS[sign])?;
+                        from.get(net)?.get(class?)?.get(sign)?.as_ref()
+                    };
+                    let straight = of(at, Some(class)).map(|planes| (SIGNS[at], planes));
+                    let turned =
+                        of(1 - at, self.before(class)).map(|planes| (SIGNS[1 - at], planes));
+                    if !reaches || (straight.is_none() && turned.is_none()) {
+                        *planes = None;
+                        continue;
+                    }
+                    let planes = planes.get_or_insert_with(|| self.planes());
+                    self.combine(planes, straight, turned, k)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What goes on straight and what makes a half-turn, together.
+    fn combine(
+        &self,
+        planes: &mut Planes<T>,
+        straight: Option<(Sign, &Planes<T>)>,
+        turned: Option<(Sign, &Planes<T>)>,
+        k: usize,
+    ) -> Result<(), Error> {
+        for (_, cells) in self.frame.grid.window(k) {
+            let [a, b, c] = rows_mut(planes, &cells)?;
+            if let Some((sign, from)) = straight {
+                let [ga, gb, gc] = self.above(from, &cells, sign)?;
+                carry(a, ga, &self.same);
+                carry(b, gb, &self.same);
+                carry(c, gc, &self.same);
+            } else {
+                for row in [&mut *a, &mut *b, &mut *c] {
+                    row.fill(T::zero());
+                }
+            }
+            if let Some((sign, from)) = turned {
+                let from = self.above(from, &cells, sign)?;
+                turn([a, b, c], from, &self.change);
+            }
+        }
+        Ok(())
+    }
+
+    /// The forces that come to these cells along each direction.
+    fn above<'l>(
+        &self,
+        planes: &'l Planes<T>,
+        cells: &Range<usize>,
+        sign: Sign,
+    ) -> Result<[&'l [T]; 3], Error> {
+        let [a, b, c] = planes;
+        let along = |plane: &'l [T], direction| {
+            let cells = self.frame.grid.above(cells, sign, direction)?;
+            plane.get(cells).ok_or_else(|| bug(FREE))
+        };
+        Ok([
+            along(a, Direction::Alpha)?,
+            along(b, Direction::Beta)?,
+            along(c, Direction::Gamma)?,
+        ])
+    }
+
+    /// The last step, and what the floor feels.
+    fn bottom(&self, layer: &Layer<T>, walk: &Walk<T>) -> Result<Vec<Spot<T>>, Error> {
+        let frame = self.frame;
+        let floor = FloorFactors::new()?;
+        let counts: Vec<_> = (0..self.classes).map(|class| walk.of_both(class)).collect();
+        let mut spots = Vec::new();
+        for cell in frame.bottom()? {
+            let mut classes = Vec::with_capacity(self.classes);
+            for (class, counts) in counts.iter().enumerate() {
+                let spheres = frame.spheres(cell, counts);
+                let own = spheres.clone() * &self.weight;
+                let mut force = floor.own(own);
+                for (at, sign) in SIGNS.into_iter().enumerate() {
+                    let net = self.left_before(0, sign);
+                    let planes = net.and_then(|net| layer.get(net)?.get(class)?.get(at)?.as_ref());
+                    if let Some(planes) = planes {
+                        let [a, b, c] = self.above(planes, &(cell..cell + 1), sign)?;
+                        let ([a], [b], [c]) = (a, b, c) else {
+                            return Err(bug(FREE));
+                        };
+                        floor.add([a, b, c], sign, &mut force);
+                    }
+                }
+                classes.push((spheres, force));
+            }
+            let place = frame.place(cell)?;
+            spots.push(Spot { place, classes });
+        }
+        if frame.steps == 0 {
+            self.load_floor(&mut spots, &floor)?;
+        }
+        Ok(spots)
+    }
+
+    /// Of a single layer the floor feels the loads at once.
+    fn load_floor(&self, spots: &mut [Spot<T>], floor: &FloorFactors<T>) -> Result<(), Error> {
+        for (site, load) in &self.loads {
+            let place = Place::of(*site, 0);
+            let spot = spots.iter_mut().find(|spot| Some(spot.place) == place);
+            let classes = spot.map(|spot| &mut spot.classes);
+            let (_, force) = classes
+                .and_then(|classes| classes.first_mut())
+                .ok_or_else(|| bug("loads are on the top layer"))?;
+            let own = floor.own(load.clone());
+            add(&mut force.normal, &own.normal);
+        }
+        Ok(())
+    }
+}
+
+const FREE: &str = "there is a free cell all around";
+
+fn rows_mut<'l, T>(
+    [a, b, c]: &'l mut Planes<T>,
+    cells: &Range<usize>,
+) -> Result<[&'l mut [T]; 3], Error> {
+    let rows = (
+        a.get_mut(cells.clone()),
+        b.get_mut(cells.clone()),
+        c.get_mut(cells.clone()),
+    );
+    let (Some(a), Some(b), Some(c)) = rows else {
+        return Err(bug(FREE));
+    };
+    Ok([a, b, c])
+}
+
+/// The share that goes on straight.
+#[inline]
+fn carry<T: Number>(to: &mut [T], from: &[T], same: &impl Share<T>) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = same.of(from.clone());
+    }
+}
+
+/// Adds the share that makes a half-turn.
+#[inline]
+fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &impl Share<T>) {
+    let [ga, gb, gc] = from;
+    let to = a.iter_mut().zip(b).zip(c);
+    for (((a, b), c), ((ga, gb), gc)) in to.zip(ga.iter().zip(gb).zip(gc)) {
+        let [ta, tb, tc] = formula::tripled_half_turn(&[ga.clone(), gb.clone(), gc.clone()]);
+        add(a, &change.of(ta));
+        add(b, &change.of(tb));
+        add(c, &change.of(tc));
+    }
+}
+
+/// What a force from above, and a weight, make of the force on the floor: six times it in the units of the base.
+struct FloorFactors<T> {
+    /// By sign and direction.
+    lines: [[[T; 3]; 3]; 2],
+    own: T,
+}
+
+impl<T: Number> FloorFactors<T> {
+    fn new() -> Result<Self, Error> {
+        // Directions over 2, and mg is three units of force along the lines.
+        let half = num_rational::BigRational::new(1.into(), 2.into());
+        let two = BigInt::from(2);
+        let numerator = |x: num_rational::BigRational| (x * &two).to_integer();
+        let straight = directions(&half).map(|direction| direction.map(numerator));
+        let turned = straight.clone().map(Vector::turned_about_z);
+        let [zero, one] = [BigInt::zero(), BigInt::one()];
+        let units = [0, 1, 2].map(|line| {
+            let mut unit = [zero.clone(), zero.clone(), zero.clone()];
+            unit[line].clone_from(&one);
+            unit
+        });
+        let small = |n: &BigInt| {
+            let n = n
+                .to_i8()
+                .ok_or_else(|| bug("factors of the floor are small"))?;
+            let magnitude = (0..n.unsigned_abs()).fold(T::zero(), |sum, _| sum + &T::one());
+            Ok(if n < 0 {
+                T::zero() - &magnitude
+            } else {
+                magnitude
+            })
+        };
+        let line = |unit: &[BigInt; 3], directions: &[Vector<BigInt>; 3]| {
+            let Vector { x, y, z } = formula::handed_on(unit, directions, &zero);
+            Ok::<_, Error>([small(&z)?, small(&x)?, small(&y)?])
+        };
+        let lines = |directions: &[Vector<BigInt>; 3]| {
+            let [a, b, c] = &units;
+            Ok::<_, Error>([
+                line(a, directions)?,
+                line(b, directions)?,
+                line(c, directions)?,
+            ])
+        };
+        let weight = formula::weight(&formula::increments(&half));
+        let own = formula::handed_on(
+            &[zero.clone(), zero.clone(), zero.clone()],
+            &straight,
+            &numerator(weight),
+        );
+        Ok(Self {
+            lines: [lines(&straight)?, lines(&turned)?],
+            own: small(&own.z)?,
+        })
+    }
+
+    /// A weight, in the unit of forces.
+    fn own(&self, weight: T) -> Floor<T> {
+        Floor {
+            normal: weight * &self.own,
+            shear_x: T::zero(),
+            shear_y: T::zero(),
+        }
+    }
+
+    /// Adds three forces from above, by the sign of the step above.
+    fn add(&self, forces: [&T; 3], sign: Sign, floor: &mut Floor<T>) {
+        let [plus, minus] = &self.lines;
+        let lines = if sign == Sign::Plus { plus } else { minus };
+        for (force, [normal, shear_x, shear_y]) in forces.into_iter().zip(lines) {
+            add(&mut floor.normal, &(force.clone() * normal));
+            add(&mut floor.shear_x, &(force.clone() * shear_x));
+            add(&mut floor.shear_y, &(force.clone() * shear_y));
+        }
+    }
+}
+
+/// Six times the base's unit over 2·3: what the numerators of the floor are divided by.
+pub(super) const FLOOR_UNIT: NonZeroI64 = NonZeroI64::new(6).unwrap();
+
+/// Returns the shares 1 − q and q/3 of a fault probability.
+pub(super) fn shares<T: Algebra>(q: &T) -> [T; 2] {
+    let same = T::one() - q;
+    [same, q.clone().div_int(crate::scalar::THREE)]
+}

@@ -1,0 +1,81 @@
+//! How wide the integers of a recursion have to be.
+//!
+//! A step of a stacking is orthogonal: it leads each force to another place, and a [half-turn](crate::formula::half_turn)
+//! keeps the sum of squares. So the forces of one stacking, all of a layer, have a norm of at most
+//! B = Σ_j ‖w_j‖, with w_j what the spheres of layer j add: √(3 n_j) for n_j of them, and √3·3W for a load of W mg on one.
+//! By faults the forces over 3^d of a class are the sum over at most C(k,d) beginnings, so that none is
+//! greater than 3^d C(k,d) B; by probability, over N^k, they are a mean, and none is greater than N^k B. Within 3G g no term is greater than
+//! 2√3 ‖g‖, and what the floor feels is Σ ± (at most 2) g over two signs, and six times its own weight: less than 16 times
+//! these bounds.
+
+use num_bigint::{BigInt, BigUint};
+use num_integer::binomial;
+use num_traits::{One, Signed};
+
+use super::frame::Frame;
+
+/// The integers of a recursion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Width {
+    /// `i64`.
+    Narrow,
+    /// `i128`.
+    Wide,
+    /// As long as they get.
+    Big,
+}
+
+impl Width {
+    /// Of numbers of so many bits, the sign aside.
+    pub(super) const fn of(bits: u64) -> Self {
+        match bits {
+            0..=62 => Self::Narrow,
+            63..=126 => Self::Wide,
+            _ => Self::Big,
+        }
+    }
+
+    /// How many words a number takes.
+    pub(super) const fn words(self, bits: u64) -> u64 {
+        match self {
+            Self::Narrow => 1,
+            Self::Wide => 2,
+            // The list of digits, its place in memory and its sign.
+            Self::Big => 6 + bits / 64,
+        }
+    }
+}
+
+/// The greatest 3^d C(n−1, d), in bits: at most that of 4^(n−1).
+pub(super) fn bits_of_counts(steps: i128) -> u64 {
+    let Ok(of) = u32::try_from((steps - 1).max(0)) else {
+        return u64::MAX / 4;
+    };
+    if of > 1000 {
+        // 4^(n−1).
+        return 2 * u64::from(of);
+    }
+    // The terms grow as long as 3(n−1−d) > d+1: the greatest is at d = ⌊3n/4⌋.
+    let greatest =
+        |d: u32| binomial(BigUint::from(of), BigUint::from(d)) * BigUint::from(3_u32).pow(d);
+    let around = (3 * of) / 4;
+    let bits = [around, (around + 1).min(of)].map(|d| greatest(d).bits());
+    bits[0].max(bits[1])
+}
+
+/// The bits of B over a denominator, sixteenfold; of a frame, or before there is one as many steps as memory allows.
+pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> u64 {
+    let mut sum = BigUint::one();
+    if !frame.piles.is_weightless() {
+        for layer in 0..=frame.steps {
+            // No layer has more spheres than cells. ⌊√⌋ + 1 is above the root.
+            sum += BigUint::from(3 * frame.grid.reached(layer)).sqrt() + 1_u32;
+        }
+    }
+    let loads = frame.piles.loads().values();
+    for load in loads {
+        // √3·3 < 6.
+        sum += load.abs().ceil().to_integer().magnitude() * 6_u32;
+    }
+    (sum * denominator.magnitude()).bits() + 4
+}
