@@ -302,6 +302,17 @@ pub enum Error {
     OnlyOfLoads {
         /// What was asked for.
         quantity: &'static str,
+        /// Whether they weigh nothing, and only a load is missing.
+        weightless: bool,
+    },
+    /// No stacking at all has so many layers on a base.
+    NoStacking {
+        /// The layers asked for.
+        layers: i128,
+        /// The most that a stacking has.
+        greatest: i128,
+        /// The base.
+        base: Box<Region>,
     },
     /// A program over contact forces whose solution in floats leads to no exact one.
     NotSolved {

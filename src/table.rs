@@ -69,7 +69,10 @@ pub use summary::Summary;
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use tables::horizontal_census;
 pub(crate) use tables::refuse_beyond;
-pub use tables::{MAX_ROWS, base, census, contacts, spheres, theorems, touching_contacts};
+pub use tables::{
+    MAX_ROWS, base, by_faults, census, contacts, mean, mean_of_polynomials, spheres, theorems,
+    touching_contacts,
+};
 pub use unfinished::remove_unfinished;
 pub(crate) use unfinished::{Pending, remove_leftovers};
 pub use units::Units;

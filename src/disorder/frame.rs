@@ -40,7 +40,7 @@ impl<'p> Frame<'p> {
     /// Returns the cells, if memory has them.
     ///
     /// # Errors
-    /// [`Error::TooLarge`]; [`Error::OnlyOfLoads`] for a plane with weight or without loads; [`Error::TooHigh`] for a base
+    /// [`Error::TooLarge`]; [`Error::OnlyOfLoads`] for a plane with weight or without loads; [`Error::NoStacking`] for a base
     /// that carries no stacking of so many layers.
     pub(super) fn new(piles: &'p RandomPiles, load: Load) -> Result<Self, Error> {
         let steps = piles.stackings.steps();
@@ -279,7 +279,7 @@ fn check_height(base: &Region, stackings: RandomStackings) -> Result<(), Error> 
     let heights = (0..).take_while(|minus| base.shrunk(0, *minus).is_some());
     let greatest = heights.map(most).fold(0, i128::max) + 1;
     if greatest < stackings.layers() {
-        return Err(Error::TooHigh {
+        return Err(Error::NoStacking {
             layers: stackings.layers(),
             greatest,
             base: Box::new(*base),

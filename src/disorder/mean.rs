@@ -206,7 +206,7 @@ impl RandomPiles {
     ///
     /// # Errors
     /// [`Error::TooLarge`] of what would not fit in memory; [`Error::OnlyOfLoads`] for a plane with weight or without loads;
-    /// [`Error::TooHigh`] for a base that carries no stacking; [`Error::Overflow`] of a scalar.
+    /// [`Error::NoStacking`] for a base that carries no stacking; [`Error::Overflow`] of a scalar.
     ///
     /// # Examples
     /// ```

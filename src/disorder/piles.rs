@@ -266,7 +266,10 @@ impl RandomPiles {
         if self.weightless && !self.loads.is_empty() {
             return Ok(());
         }
-        Err(Error::OnlyOfLoads { quantity })
+        Err(Error::OnlyOfLoads {
+            quantity,
+            weightless: self.weightless,
+        })
     }
 
     /// The numbers of net steps of the bottom layer, whatever the stacking.

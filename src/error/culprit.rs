@@ -125,6 +125,7 @@ impl Error {
             Self::Layers { .. }
             | Self::LayersOfStacking { .. }
             | Self::TooHigh { .. }
+            | Self::NoStacking { .. }
             | Self::RegionTooLarge { .. }
             | Self::TooLarge { .. }
             | Self::TooManyRows { .. }
@@ -137,7 +138,11 @@ impl Error {
             | Self::SinPhiOfDiscs
             | Self::NoSpacing { .. }
             | Self::NoHorizontalContacts { .. } => Culprit::SinPhi,
-            Self::NegativeLoad { .. } | Self::PlaceOfLoad { .. } => Culprit::Load,
+            Self::NegativeLoad { .. }
+            | Self::PlaceOfLoad { .. }
+            | Self::OnlyOfLoads {
+                weightless: true, ..
+            } => Culprit::Load,
             Self::FaultProbability { .. } => Culprit::FaultProbability,
             Self::Weightless | Self::OnlyOfLoads { .. } => Culprit::Weightless,
             Self::Overlap { .. } | Self::TooFlat { .. } | Self::NotTouching { .. } => {
@@ -185,7 +190,7 @@ impl Error {
             Self::Excluded { beside, .. } => Some(*beside),
             Self::LayersOfStacking { .. } => Some(Culprit::Stacking),
             Self::SinPhiOfDiscs => Some(Culprit::Dimension),
-            Self::TooHigh { .. } => Some(Culprit::Base),
+            Self::TooHigh { .. } | Self::NoStacking { .. } => Some(Culprit::Base),
             _ => None,
         }
     }

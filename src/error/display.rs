@@ -166,9 +166,25 @@ impl fmt::Display for Whole<'_> {
                     "put loads on the top layer, k = 0"
                 }
             ),
-            Error::OnlyOfLoads { quantity } => write!(
+            Error::OnlyOfLoads {
+                quantity,
+                weightless,
+            } => write!(
                 f,
-                "{quantity} is that of loads on spheres that weigh nothing: make them weightless, and put a load on one"
+                "{quantity} is that of loads on spheres that weigh nothing: {}",
+                if *weightless {
+                    "put a load on one of the top layer"
+                } else {
+                    "make them weightless, and put a load on one of the top layer"
+                }
+            ),
+            Error::NoStacking {
+                layers,
+                greatest,
+                base,
+            } => write!(
+                f,
+                "no stacking has {layers} layers on the base {base}: the highest has {greatest}"
             ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")

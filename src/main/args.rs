@@ -1,6 +1,7 @@
 //! The options that commands share.
 
 mod scene;
+mod stackings;
 
 use std::ffi::OsStr;
 use std::io::Write;
@@ -17,6 +18,7 @@ use num_bigint::BigUint;
 use crate::output::{Failure, Refused, write_to};
 use crate::progress::Progress;
 pub(crate) use scene::SceneOptions;
+pub(crate) use stackings::PilesOfStackings;
 
 /// One sphere of the base.
 #[derive(Args)]

@@ -7,6 +7,7 @@ pub(crate) mod completions;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod forces;
+pub(crate) mod mean;
 pub(crate) mod plot;
 pub(crate) mod prove;
 pub(crate) mod scene;

@@ -15,8 +15,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
-    bounds, census, check, completions, explain, export, plot, prove, scene, spheres, summary,
-    verify,
+    bounds, census, check, completions, explain, export, mean, plot, prove, scene, spheres,
+    summary, verify,
 };
 use output::{Failure, complain};
 
@@ -54,6 +54,8 @@ enum Command {
     Spheres(spheres::Spheres),
     /// Which stackings stand, under one sphere or on a base
     Census(census::Census),
+    /// What the base bears in the mean over random stackings
+    Mean(mean::Mean),
     /// How a question would be answered, what that takes at most, and what it took
     Explain(explain::Explain),
     /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
@@ -83,6 +85,7 @@ impl Command {
             Self::Bounds(command) => command.run(),
             Self::Spheres(command) => command.run(),
             Self::Census(command) => command.run(),
+            Self::Mean(command) => command.run(),
             Self::Explain(command) => command.run(),
             Self::Export(command) => command.run(),
             Self::Scene(command) => command.run(),
@@ -107,7 +110,11 @@ impl Command {
             Self::Scene(command) => &command.scene,
             Self::Verify(command) => &command.scene,
             Self::Plot(command) => command.scene(),
-            Self::Census(_) | Self::Prove(_) | Self::Check(_) | Self::Completions(_) => {
+            Self::Census(_)
+            | Self::Mean(_)
+            | Self::Prove(_)
+            | Self::Check(_)
+            | Self::Completions(_) => {
                 return None;
             }
         })

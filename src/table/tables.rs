@@ -1,8 +1,9 @@
-//! The tables there are: base, contacts, spheres, theorems, census.
+//! The tables there are: base, contacts, spheres, theorems, census, random stackings.
 
 mod base;
 mod census;
 mod contacts;
+mod disorder;
 mod spheres;
 mod theorems;
 
@@ -12,6 +13,7 @@ pub use census::census;
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use census::horizontal_census;
 pub use contacts::{contacts, touching_contacts};
+pub use disorder::{by_faults, mean, mean_of_polynomials};
 pub use spheres::spheres;
 pub use theorems::theorems;
 

@@ -192,8 +192,7 @@ impl SceneOptions {
     /// Returns where the file gives an option that the line does not.
     pub(crate) fn line_of(&self, option: &str) -> Option<String> {
         let file = self.scene_file.as_ref()?;
-        let line = file.content.line(option).filter(|_| !self.gives(option))?;
-        Some(format!("--scene {}: line {line}, {option}", file.name))
+        file.place_of(option).filter(|_| !self.gives(option))
     }
 
     /// Returns the refusal as a message: the option or the line of the file to change, what is wrong, and the remedy.
@@ -263,13 +262,24 @@ fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
 
 /// A scene file, and what it was called on the line.
 #[derive(Clone)]
-struct NamedFile {
+pub(super) struct NamedFile {
     name: String,
     content: SceneFile,
 }
 
 impl NamedFile {
-    fn read(name: &str) -> Result<Self, String> {
+    /// Returns the scene of the file.
+    pub(super) const fn scene(&self) -> &Scene {
+        self.content.scene()
+    }
+
+    /// Returns where the file gives an option.
+    pub(super) fn place_of(&self, option: &str) -> Option<String> {
+        let line = self.content.line(option)?;
+        Some(format!("--scene {}: line {line}, {option}", self.name))
+    }
+
+    pub(super) fn read(name: &str) -> Result<Self, String> {
         let text = text_of(name).map_err(|error| {
             let reason = match error.kind() {
                 io::ErrorKind::InvalidData => "not text in UTF-8".into(),
