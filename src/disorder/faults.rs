@@ -133,7 +133,7 @@ impl RandomPiles {
         let cells = frame.bottom()?.into_iter().enumerate();
         let places = cells.map(|(at, cell)| Ok((frame.place(cell)?, at)));
         let mut places = places.collect::<Result<Vec<_>, Error>>()?;
-        places.sort_by_key(|(place, _)| (place.b, place.a));
+        places.sort_unstable();
         let question = Question {
             frame: &frame,
             denominator: &denominator,

@@ -105,7 +105,7 @@ pub struct Mean<T> {
 impl<T> Mean<T> {
     /// Puts rows in their order.
     pub(super) fn of(mut rows: Vec<MeanForce<T>>) -> Self {
-        rows.sort_by_key(|row| (row.place.b, row.place.a));
+        rows.sort_by_key(|row| row.place);
         Self { rows }
     }
 
@@ -156,8 +156,7 @@ impl<T> Mean<T> {
     /// ```
     #[must_use]
     pub fn at(&self, place: Place) -> Option<&MeanForce<T>> {
-        let key = |row: &MeanForce<T>| (row.place.b, row.place.a);
-        let found = self.rows.binary_search_by_key(&(place.b, place.a), key);
+        let found = self.rows.binary_search_by_key(&place, |row| row.place);
         self.rows.get(found.ok()?)
     }
 }

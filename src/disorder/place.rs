@@ -13,6 +13,8 @@ use crate::lattice::Sign;
 /// and so a place holds a sphere only in layers with s ≡ a + b (mod 3), of one registry. Of a pile on a base the same
 /// holds with −s the net steps from the layer down to the base, so that in the base itself a = 2i + j, b = i + 2j.
 ///
+/// Places are ordered as tables print them: by b, then a.
+///
 /// # Examples
 /// ```
 /// use cannonpile::disorder::Place;
@@ -105,11 +107,38 @@ impl Place {
         aa.checked_sub(ab)?.checked_add(bb)
     }
 
+    /// Returns the place so many steps along u_β and u_γ further on; the size of the piles was checked.
+    pub(super) const fn moved(self, [a, b]: [isize; 2]) -> Self {
+        Self {
+            a: self.a + a as i128,
+            b: self.b + b as i128,
+        }
+    }
+
     /// How a contact of each direction leads from place to place: ±u_α, ±u_β, ±u_γ.
     pub(super) const fn descents(sign: Sign) -> [[isize; 2]; 3] {
         match sign {
             Sign::Plus => [[-1, -1], [1, 0], [0, 1]],
             Sign::Minus => [[1, 1], [-1, 0], [0, -1]],
         }
+    }
+}
+
+impl Ord for Place {
+    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
+        (self.b, self.a).cmp(&(other.b, other.a))
+    }
+}
+
+impl PartialOrd for Place {
+    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl core::fmt::Display for Place {
+    /// Prints `(a,b)`.
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "({},{})", self.a, self.b)
     }
 }
