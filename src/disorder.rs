@@ -1,6 +1,8 @@
 //! Random stackings: every stacking with its probability, and what the piles of all of them bear in the mean.
 
 mod correlation;
+#[cfg(feature = "ensemble")]
+mod ensemble;
 mod faults;
 mod frame;
 mod grid;
@@ -14,6 +16,12 @@ mod transfer;
 mod walk;
 mod width;
 
+#[cfg(feature = "ensemble")]
+#[cfg_attr(docsrs, doc(cfg(feature = "ensemble")))]
+pub use ensemble::{
+    By, Choice, Distribution, Ensemble, Extreme, Histogram, Samples, Shard, Tally, Unmergeable,
+    WithFaults,
+};
 pub use faults::{ByFaults, FaultForce};
 pub use mean::{Mean, MeanForce};
 pub use pairs::PairMoments;

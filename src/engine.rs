@@ -33,6 +33,8 @@ pub(crate) use limbs::Planes;
 pub(crate) use lines::{Lines, Received};
 pub use meter::{Counters, Meter};
 pub(crate) use nearest::{Readout, Unit};
+#[cfg(feature = "ensemble")]
+pub(crate) use parallel::try_for_each;
 pub use plan::Plan;
 pub(crate) use plan::{Keeping, trees_are_cheaper};
 pub use question::{Method, Quantity, Question};

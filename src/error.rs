@@ -263,6 +263,13 @@ pub enum Error {
         /// The narrower question.
         remedy: &'static str,
     },
+    /// More stackings than are gone through, all of them.
+    TooManyStackings {
+        /// How many there are.
+        stackings: BigUint,
+        /// How many are allowed.
+        limit: u64,
+    },
     /// More rows than anybody can read.
     TooManyRows {
         /// How many there would be.

@@ -129,6 +129,7 @@ impl Error {
             | Self::RegionTooLarge { .. }
             | Self::TooLarge { .. }
             | Self::TooManyRows { .. }
+            | Self::TooManyStackings { .. }
             | Self::NotSolved { .. }
             | Self::TooManyMarks { .. } => Culprit::Layers,
             Self::RunLength { .. } | Self::TooManyRuns { .. } | Self::Misspelled { .. } => {

@@ -246,6 +246,11 @@ impl fmt::Display for Whole<'_> {
                 }
                 write!(f, " are too many, at most {limit}: {remedy}")
             }
+            Error::TooManyStackings { stackings, limit } => write!(
+                f,
+                "{stackings} stackings are too many to go through at a time, at most {limit}: draw samples, take a \
+                 smaller shard, or fewer layers"
+            ),
             Error::TooManyMarks {
                 marks,
                 what,

@@ -130,6 +130,19 @@ mod horizontal {
     }
 }
 
+#[cfg(feature = "ensemble")]
+mod ensemble {
+    mod enumeration;
+    mod parts;
+    mod samples;
+
+    use num_rational::BigRational;
+
+    fn ratio(n: i64, d: i64) -> BigRational {
+        BigRational::new(n.into(), d.into())
+    }
+}
+
 #[cfg(feature = "std")]
 mod certificate;
 

@@ -1,0 +1,491 @@
+//! What is not linear in the stackings: how many stand, the least force, the distribution of forces. By going through all
+//! of them, or through samples.
+//!
+//! Means over random stackings obey one recursion. Whether a pile stands, its least force, and how its forces are
+//! distributed do not: every stacking has to be looked at. An [`Ensemble`] is one top layer with every stacking below
+//! it; a [`Choice`] says whether all are taken or some are drawn, a [`Shard`] which part of them. What is counted is a
+//! [`Tally`]: exact integers and rationals, by number of faults, so that any fault probability can be put in afterwards, and
+//! that the tallies of parts [merge](Tally::merge) into that of the whole, bit for bit, however it was cut up and in whatever order
+//! they come.
+//!
+//! # What is counted of which piles
+//! *All* includes stackings of which some contact would have to pull: its forces are those of a prestressed pile, whose contacts
+//! can. *Standing* are those of which none pulls, those that a pile of loose spheres can have.
+//!
+//! # Why it is exact
+//! A force below a layer is an integer over 3^d times the common denominator of the loads, with d changes of sign above it.
+//! The sum of the squares of all forces of a layer depends on the weights only (each force arrives at one sphere, and
+//! the half-turn is orthogonal), so that no force exceeds its root: this bound, computed beforehand, decides whether 64 bits
+//! suffice, or 128, or none do and big integers are taken.
+//!
+//! # Why it is fast
+//! Stackings that begin alike have the same forces down to where they part. All of n steps are walked as the tree that they
+//! are, which has at most 2ⁿ⁺¹ layers where the stackings have n 2ⁿ. If the top layer with its loads is its own mirror image, one
+//! of each mirror pair is walked.
+//!
+//! # With horizontal contacts
+//! At a = R also stackings of which some contacts pull may stand. The beginnings of what stands stand, and what
+//! stands does so with its last step repeated; so only changes of sign below what stands so far need
+//! a proof ([`Pile::equilibrium`](crate::Pile), feature `horizontal`).
+
+mod choice;
+mod count;
+mod draw;
+mod layer;
+mod merge;
+mod setup;
+mod survivors;
+mod tally;
+mod walk;
+mod wilson;
+#[cfg(feature = "serde")]
+mod written;
+
+pub use choice::{Choice, Samples, Shard};
+pub use merge::Unmergeable;
+pub use tally::{By, Distribution, Extreme, Histogram, Tally, WithFaults};
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use draw::Drawer;
+use layer::Numerator;
+use setup::{Setup, Task};
+use survivors::Survivors;
+use walk::{Walked, walk};
+
+use crate::disorder::RandomStackings;
+use crate::engine::try_for_each;
+use crate::formula;
+use crate::lattice::{Region, Site};
+use crate::stacking::Stacking;
+use crate::{Error, Pile};
+
+/// Every stacking below one top layer.
+///
+/// # Examples
+/// ```
+/// use cannonpile::disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+/// use cannonpile::lattice::Region;
+///
+/// let stackings = RandomStackings::new(5, FirstSign::Plus)?;
+/// let ensemble = Ensemble::under(Region::hexagon(2, 2)?, stackings)?;
+/// let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
+/// assert_eq!(tally.standing(By::Sloping), Some(8_u32.into()));
+/// let least = tally.faults[3].all.least.as_ref().unwrap();
+/// assert_eq!((least.stacking.to_string(), least.force.to_string()), ("+-+-".into(), "2/9".into()));
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ensemble {
+    /// The top layer, as a pile of its own.
+    top: Pile,
+    stackings: RandomStackings,
+    has_horizontal_contacts: bool,
+    bins: BigRational,
+}
+
+impl Ensemble {
+    /// Returns the ensemble of these stackings under a top layer, with bins of a third.
+    ///
+    /// # Errors
+    /// Those of [`Pile::under`].
+    ///
+    /// # Examples
+    /// See [`Ensemble`].
+    pub fn under(top: Region, stackings: RandomStackings) -> Result<Self, Error> {
+        Ok(Self {
+            top: Pile::under(top, Stacking::single_layer())?,
+            stackings,
+            has_horizontal_contacts: false,
+            bins: BigRational::new(1.into(), 3.into()),
+        })
+    }
+
+    /// Returns the ensemble with one more vertical load on a sphere (i, j) of the top layer, in mg. What lies below is another
+    /// sphere in another stacking, and bears none.
+    ///
+    /// # Errors
+    /// [`Error::SiteOutside`]; [`Error::NegativeLoad`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    /// let load = BigRational::from_integer(1.into());
+    /// let loaded = Ensemble::under(Region::SITE, stackings)?.with_load([0, 0], load)?;
+    /// let tally = loaded.weightless().run(&Choice::All, Shard::WHOLE)?;
+    /// assert_eq!(tally.faults[1].all.least.as_ref().unwrap().force.to_string(), "-1/3");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_load(mut self, [i, j]: [i128; 2], load: BigRational) -> Result<Self, Error> {
+        self.top = self.top.with_load(Site { i, j, k: 0 }, load)?;
+        Ok(self)
+    }
+
+    /// Returns the ensemble with spheres that weigh nothing: the response to the loads. A pile then counts as standing if none of
+    /// its contacts pulls.
+    ///
+    /// # Examples
+    /// See [`with_load`](Self::with_load).
+    #[must_use]
+    pub fn weightless(mut self) -> Self {
+        self.top = self.top.weightless();
+        self
+    }
+
+    /// Returns the ensemble, of which it is also counted how many stand at a = R, with horizontal contacts.
+    ///
+    /// # Errors
+    /// [`Error::Weightless`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// let touching = Ensemble::under(Region::SITE, stackings)?.with_horizontal_contacts()?;
+    /// let tally = touching.run(&Choice::All, Shard::WHOLE)?;
+    /// // They hold five layers of HCP.
+    /// assert_eq!(tally.standing(By::Sloping), Some(11_u32.into()));
+    /// assert_eq!(tally.standing(By::Horizontal), Some(12_u32.into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[cfg(feature = "horizontal")]
+    #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
+    pub fn with_horizontal_contacts(mut self) -> Result<Self, Error> {
+        if self.top.is_weightless() {
+            return Err(Error::Weightless);
+        }
+        self.has_horizontal_contacts = true;
+        Ok(self)
+    }
+
+    /// Returns the ensemble with bins of this width: in f₀ of contact forces, in mg of normal forces.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] for a width that is not positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Ensemble, FirstSign, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// assert_eq!(ensemble.bins().to_string(), "1/3");
+    /// assert!(ensemble.clone().with_bins(BigRational::new(1.into(), 10.into())).is_ok());
+    /// assert!(ensemble.with_bins(BigRational::from_integer(0.into())).is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn with_bins(mut self, width: BigRational) -> Result<Self, Error> {
+        use alloc::string::ToString;
+
+        if !width.is_positive() {
+            let expected = "a width of bins: a positive number";
+            return Err(Error::syntax(&width.to_string(), expected));
+        }
+        self.bins = width;
+        Ok(self)
+    }
+
+    /// Returns the stackings.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Ensemble, FirstSign, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// assert_eq!(Ensemble::under(Region::SITE, stackings)?.stackings(), stackings);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn stackings(&self) -> RandomStackings {
+        self.stackings
+    }
+
+    /// Returns the top layer, as a pile of one layer: its spheres, their loads, and whether spheres weigh nothing.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Ensemble, FirstSign, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// let ensemble = Ensemble::under(Region::hexagon(2, 2)?, stackings)?;
+    /// assert_eq!(ensemble.top().sphere_count(), 7_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn top(&self) -> &Pile {
+        &self.top
+    }
+
+    /// Returns the width of the bins, in f₀ of contact forces, in mg of normal forces.
+    ///
+    /// # Examples
+    /// See [`with_bins`](Self::with_bins).
+    #[must_use]
+    pub const fn bins(&self) -> &BigRational {
+        &self.bins
+    }
+
+    /// Returns whether it is also counted how many stand with horizontal contacts.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Ensemble, FirstSign, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// assert!(!Ensemble::under(Region::SITE, stackings)?.has_horizontal_contacts());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn has_horizontal_contacts(&self) -> bool {
+        self.has_horizontal_contacts
+    }
+
+    /// Returns the pile of one stacking, of as many layers as that has.
+    ///
+    /// # Errors
+    /// Those of [`Pile::under`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Ensemble, FirstSign, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    /// let pile = Ensemble::under(Region::SITE, stackings)?.pile("+-".parse()?)?;
+    /// assert_eq!(pile.sphere_count(), 11_u32.into());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn pile(&self, stacking: Stacking) -> Result<Pile, Error> {
+        let mut pile = Pile::under(self.region(), stacking)?;
+        for (site, load) in self.top.loads() {
+            pile = pile.with_load(site, load.clone())?;
+        }
+        Ok(if self.top.is_weightless() {
+            pile.weightless()
+        } else {
+            pile
+        })
+    }
+
+    /// Returns what is counted of a part of all stackings, or of samples.
+    ///
+    /// # Errors
+    /// [`Error::TooManyStackings`] for a part of more than 2²⁴ of all; [`Error::TooLarge`] for layers that do not fit in
+    /// memory, for more than 10⁵ bins, and for more than 2⁶² contact forces; with horizontal contacts those of
+    /// `Pile::equilibrium`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, Tally};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(9, FirstSign::Random)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// let drawn = Choice::Drawn(Samples::new(100, 1, half)?);
+    /// let whole = ensemble.run(&drawn, Shard::WHOLE)?;
+    /// // In parts, on as many machines.
+    /// let parts: Result<Vec<_>, _> = (1..=3).map(|part| ensemble.run(&drawn, Shard::new(part, 3)?)).collect();
+    /// assert_eq!(Tally::merge(&parts?), Ok(whole));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn run(&self, choice: &Choice, shard: Shard) -> Result<Tally, Error> {
+        self.run_observed(choice, shard, &|_| {})
+    }
+
+    /// Returns what [`run`](Self::run) does; the observer is called from time to time with how many stackings more have been
+    /// looked at.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use std::sync::atomic::{AtomicU64, Ordering};
+    ///
+    /// let stackings = RandomStackings::new(9, FirstSign::Plus)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// let done = AtomicU64::new(0);
+    /// let count = |more| { done.fetch_add(more, Ordering::Relaxed); };
+    /// ensemble.run_observed(&Choice::All, Shard::WHOLE, &count)?;
+    /// assert_eq!(done.into_inner(), 128);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn run_observed(
+        &self,
+        choice: &Choice,
+        shard: Shard,
+        observer: &(dyn Fn(u64) + Sync),
+    ) -> Result<Tally, Error> {
+        let task = Task::new(self, choice, shard)?;
+        let run = Run {
+            ensemble: self,
+            choice,
+            shard,
+            task: &task,
+            observer,
+        };
+        if task.fits(64) {
+            run.in_numbers::<i64>()
+        } else if task.fits(128) {
+            run.in_numbers::<i128>()
+        } else {
+            run.in_numbers::<BigInt>()
+        }
+    }
+
+    /// The sites of the top layer.
+    fn region(&self) -> Region {
+        self.top.shape().base()
+    }
+
+    /// What a sphere without a load weighs, in mg: 0 or 1.
+    fn weight(&self) -> BigRational {
+        if self.top.is_weightless() {
+            BigRational::zero()
+        } else {
+            BigRational::one()
+        }
+    }
+
+    /// What the spheres of the top layer add to each of their lines, in row order.
+    fn own_of_top(&self, increment: &BigRational) -> Result<Vec<BigRational>, Error> {
+        let weight = self.weight();
+        let own = |site| -> Result<_, Error> {
+            let total = weight.clone() + self.top.load(site)?;
+            Ok(formula::force(total, increment))
+        };
+        self.top.shape().sites().map(own).collect()
+    }
+
+    /// Whether the top layer with its loads is its own mirror image, so that stackings that are mirror images of each other have
+    /// the same forces.
+    fn is_its_own_mirror_image(&self) -> bool {
+        let region = self.region();
+        let [sum_of_i, sum_of_j] =
+            [region.x(), region.y()].map(|range| range.start() + range.end());
+        let image = |site: Site| Site {
+            i: sum_of_i - site.i,
+            j: sum_of_j - site.j,
+            ..site
+        };
+        let has_same =
+            |(site, load): (Site, &BigRational)| self.top.load(image(site)).as_ref() == Ok(load);
+        region.is_its_own_mirror_image() && self.top.loads().all(has_same)
+    }
+}
+
+/// A walk through the stackings of a part, piece by piece.
+struct Run<'r> {
+    ensemble: &'r Ensemble,
+    choice: &'r Choice,
+    shard: Shard,
+    task: &'r Task,
+    observer: &'r (dyn Fn(u64) + Sync),
+}
+
+/// How many samples are drawn before they are sorted and walked.
+const DRAWN: u64 = 1 << 13;
+
+/// The pieces that all stackings are cut into, at most, where they are many.
+const PIECES: u64 = 1 << 7;
+
+/// How many pieces are counted before they are put together.
+const AT_ONCE: usize = 1 << 6;
+
+impl Run<'_> {
+    fn in_numbers<T: Numerator>(&self) -> Result<Tally, Error> {
+        #[cfg(feature = "horizontal")]
+        let survivors = self
+            .ensemble
+            .has_horizontal_contacts
+            .then(|| Survivors::of(self.ensemble));
+        #[cfg(not(feature = "horizontal"))]
+        let survivors: Option<Survivors> = None;
+        let setup = self.task.setup::<T>(self.ensemble, survivors)?;
+        let nothing = || Tally::nothing(self.ensemble.clone(), self.choice.clone(), self.shard);
+        let mut tally = nothing()?;
+        let mut pieces = self.pieces();
+        loop {
+            let ranges: Vec<_> = pieces.by_ref().take(AT_ONCE).collect();
+            if ranges.is_empty() {
+                return Ok(tally);
+            }
+            let mut counted = ranges
+                .iter()
+                .map(|_| nothing())
+                .collect::<Result<Vec<_>, _>>()?;
+            try_for_each(
+                ranges.into_iter().zip(&mut counted).collect(),
+                |(range, counted)| self.count(&setup, range, counted),
+            )?;
+            for counted in &counted {
+                tally.add(counted);
+            }
+        }
+    }
+
+    /// The part, cut up.
+    fn pieces(&self) -> impl Iterator<Item = Range<u64>> + use<> {
+        let Range { start, end } = self.task.range;
+        let length = match self.choice {
+            // Beginnings of which all stackings are walked, if there are many.
+            Choice::All => ((end - start) / PIECES).max(1 << 8).next_power_of_two(),
+            Choice::Drawn(_) => DRAWN,
+        };
+        let first = start / length;
+        let after = end.div_ceil(length);
+        (first..after).map(move |piece| {
+            let from = piece * length;
+            from.max(start)..(from + length).min(end)
+        })
+    }
+
+    /// Counts a piece.
+    fn count<T: Numerator>(
+        &self,
+        setup: &Setup<T>,
+        range: Range<u64>,
+        tally: &mut Tally,
+    ) -> Result<(), Error> {
+        let length = range.end - range.start;
+        let walked = match self.choice {
+            Choice::All => Walked::Range(range),
+            Choice::Drawn(samples) => {
+                let first = self.ensemble.stackings.first();
+                let drawer = Drawer::new(samples, first, setup.steps)?;
+                let mut drawn: Vec<_> = range.map(|n| drawer.sample(n)).collect();
+                drawn.sort_unstable();
+                Walked::Listed(drawn)
+            }
+        };
+        let counted = walk(setup, &walked)?;
+        let has_held = self.ensemble.has_horizontal_contacts;
+        let kinds = counted.all.iter().zip(&counted.standing).zip(&counted.held);
+        for (faults, (((all, standing), held), with)) in kinds.zip(&mut tally.faults).enumerate() {
+            let held = has_held.then_some(*held);
+            *with = WithFaults::of([all, standing], held, setup, faults)?;
+        }
+        (self.observer)(length);
+        Ok(())
+    }
+}

@@ -1,0 +1,247 @@
+//! Tallies of parts, put together.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::{Choice, Shard, Tally};
+use crate::Error;
+
+/// Why tallies do not make one.
+///
+/// # Examples
+/// ```
+/// use cannonpile::disorder::{Tally, Unmergeable};
+///
+/// assert_eq!(Tally::merge(&[]), Err(Unmergeable::Nothing));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unmergeable {
+    /// There is no tally at all.
+    Nothing,
+    /// One is of something else than the first.
+    Other {
+        /// Its place among those given, from 0.
+        place: usize,
+        /// What differs: `layers`, `top`, `seed` and so on.
+        what: &'static str,
+        /// What it has.
+        found: String,
+        /// What the first has.
+        expected: String,
+    },
+    /// Two are of the same part.
+    Twice {
+        /// The place of the second among those given, from 0.
+        place: usize,
+        /// The part.
+        shard: Shard,
+    },
+    /// Parts are missing.
+    Missing {
+        /// Which, in order; of many the first.
+        shards: Vec<Shard>,
+        /// How many.
+        count: u64,
+    },
+    /// A tally that no run can have made.
+    Impossible {
+        /// Its place among those given, from 0.
+        place: usize,
+    },
+}
+
+impl fmt::Display for Unmergeable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("there is nothing to merge: give the parts"),
+            Self::Other {
+                what,
+                found,
+                expected,
+                ..
+            } => write!(
+                f,
+                "another {what} than that of the first part, {found} and not {expected}: leave it out, or run it again"
+            ),
+            Self::Twice { shard, .. } => {
+                write!(
+                    f,
+                    "the part {shard} is there already: leave one of them out"
+                )
+            }
+            Self::Missing { shards, count } => {
+                let names: Vec<_> = shards.iter().map(Shard::to_string).collect();
+                let more = if *count > shards.len() as u64 {
+                    ", …"
+                } else {
+                    ""
+                };
+                let parts = if *count == 1 { "part is" } else { "parts are" };
+                write!(
+                    f,
+                    "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and give its file too",
+                    names.join(", ")
+                )
+            }
+            Self::Impossible { .. } => {
+                f.write_str("its counts are not those of its stackings: run it again")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Unmergeable {}
+
+/// How many missing parts are named.
+const NAMED: usize = 20;
+
+impl Tally {
+    /// Returns the tally of the whole, of those of all its parts, in any order.
+    ///
+    /// # Errors
+    /// [`Unmergeable`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard, Tally};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(7, FirstSign::Plus)?;
+    /// let ensemble = Ensemble::under(Region::triangle(3)?, stackings)?;
+    /// let part = |index| ensemble.run(&Choice::All, Shard::new(index, 3)?);
+    /// let parts = [part(3)?, part(1)?, part(2)?];
+    /// assert_eq!(Tally::merge(&parts), Ok(ensemble.run(&Choice::All, Shard::WHOLE)?));
+    /// let missing = Tally::merge(&parts[..2]).unwrap_err();
+    /// assert!(missing.to_string().starts_with("1 part is missing, 2/3: "));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn merge(parts: &[Self]) -> Result<Self, Unmergeable> {
+        let first = parts.first().ok_or(Unmergeable::Nothing)?;
+        for (place, part) in parts.iter().enumerate() {
+            if let Some((what, found, expected)) = part.difference(first) {
+                return Err(Unmergeable::Other {
+                    place,
+                    what,
+                    found,
+                    expected,
+                });
+            }
+            if parts
+                .iter()
+                .take(place)
+                .any(|other| other.shard == part.shard)
+            {
+                let shard = part.shard;
+                return Err(Unmergeable::Twice { place, shard });
+            }
+            if !part.is_possible() {
+                return Err(Unmergeable::Impossible { place });
+            }
+        }
+        let mut present: Vec<u64> = parts.iter().map(|part| part.shard.index()).collect();
+        present.sort_unstable();
+        let of = first.shard.of();
+        let count = of - present.len() as u64;
+        if count > 0 {
+            let missing = (1..=of).filter(|index| present.binary_search(index).is_err());
+            let shards = missing.filter_map(|index| Shard::new(index, of).ok());
+            let shards = shards.take(NAMED).collect();
+            return Err(Unmergeable::Missing { shards, count });
+        }
+        let mut whole = first.clone();
+        parts.iter().skip(1).for_each(|part| whole.add(part));
+        whole.shard = Shard::WHOLE;
+        Ok(whole)
+    }
+
+    /// Adds what was counted of others of the same ensemble.
+    pub(super) fn add(&mut self, other: &Self) {
+        let faults = self.faults.iter_mut().zip(&other.faults);
+        faults.for_each(|(ours, theirs)| ours.add(theirs));
+    }
+
+    /// What makes it a part of another whole: the name of it, and both values.
+    fn difference(&self, first: &Self) -> Option<(&'static str, String, String)> {
+        let described = |tally: &Self| {
+            let Self {
+                ensemble,
+                choice,
+                shard,
+                ..
+            } = tally;
+            let stackings = ensemble.stackings();
+            let top = ensemble.top();
+            let loads = top
+                .loads()
+                .map(|(site, load)| alloc::format!("{},{}={load}", site.i, site.j));
+            let loads: Vec<_> = loads.collect();
+            let loads = if loads.is_empty() {
+                "none".into()
+            } else {
+                loads.join(" ")
+            };
+            let [samples, seed, q] = match choice {
+                Choice::All => [(); 3].map(|()| "none".into()),
+                Choice::Drawn(samples) => [
+                    samples.count().to_string(),
+                    samples.seed().to_string(),
+                    samples.fault_probability().to_string(),
+                ],
+            };
+            [
+                ("number of layers", stackings.layers().to_string()),
+                ("first sign", stackings.first().to_string()),
+                ("top", alloc::format!("{:#}", top.shape().base())),
+                ("load", loads),
+                (
+                    "weight of spheres",
+                    if top.is_weightless() { "0" } else { "1" }.into(),
+                ),
+                (
+                    "spacing",
+                    if ensemble.has_horizontal_contacts() {
+                        "1"
+                    } else {
+                        "above 1"
+                    }
+                    .into(),
+                ),
+                ("width of bins", ensemble.bins().to_string()),
+                ("number of samples", samples),
+                ("seed", seed),
+                ("fault probability", q),
+                ("number of parts", shard.of().to_string()),
+            ]
+        };
+        let pairs = described(self).into_iter().zip(described(first));
+        let mut pairs = pairs.filter(|(ours, theirs)| ours != theirs);
+        pairs
+            .next()
+            .map(|((what, ours), (_, theirs))| (what, ours, theirs))
+    }
+
+    /// Whether it has the stackings of its part, each number of faults once.
+    fn is_possible(&self) -> bool {
+        let Ok(expected) = self.expected_stackings() else {
+            return false;
+        };
+        let most = self.ensemble.stackings().most_faults();
+        let has_held = self.ensemble.has_horizontal_contacts();
+        let is_row = |(d, with): (usize, &super::WithFaults)| {
+            let forces = [&with.all, &with.standing]
+                .iter()
+                .all(|of| of.forces.total() == of.contacts && of.stackings <= with.all.stackings);
+            with.faults as usize == d && forces && with.held.is_some() == has_held
+        };
+        self.faults.len() as i128 == most + 1
+            && self.faults.iter().enumerate().all(is_row)
+            && self.stackings() == expected
+    }
+
+    /// How many stackings its part has.
+    fn expected_stackings(&self) -> Result<num_bigint::BigUint, Error> {
+        super::setup::stackings_of(&self.ensemble, &self.choice, self.shard)
+    }
+}

@@ -1,0 +1,372 @@
+//! What is decided before stackings are walked: how wide numbers must be, and what they are multiples of.
+
+use alloc::vec::Vec;
+
+use num_bigint::{BigInt, BigUint};
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::count::Level;
+use super::layer::{Numerator, Planes};
+use super::survivors::Survivors;
+use super::{Choice, Ensemble, Shard};
+use crate::Error;
+use crate::disorder::FirstSign;
+use crate::error::bug;
+use crate::formula;
+use crate::lattice::{Region, Sign};
+
+/// The most numbers that a walk keeps: those of a layer for each layer.
+const MOST_NUMBERS: u64 = 100_000_000;
+
+/// The most bins from the least force that there may be to the greatest.
+const MOST_BINS: u64 = 100_000;
+
+/// The most stackings that one walk goes through, all of them.
+pub(super) const MOST_STACKINGS: u64 = 1 << 24;
+
+/// The order of all stackings of an ensemble: that of their signs from the top, + before −.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Order {
+    /// The first sign, where it is given, or one of two mirror images is walked for both.
+    first: Option<Sign>,
+    /// The number of signs that are not given.
+    free: u32,
+    /// How many stackings each stands for.
+    pub(super) factor: u32,
+}
+
+impl Order {
+    fn new(ensemble: &Ensemble, choice: &Choice, steps: usize) -> Result<Self, Error> {
+        let given = match ensemble.stackings().first() {
+            FirstSign::Plus => Some(Sign::Plus),
+            FirstSign::Minus => Some(Sign::Minus),
+            FirstSign::Random => None,
+        };
+        let both = *choice == Choice::All && given.is_none() && steps > 0;
+        let halves = both && ensemble.is_its_own_mirror_image();
+        let first = if halves { Some(Sign::Plus) } else { given };
+        let free = if first.is_some() {
+            steps.saturating_sub(1)
+        } else {
+            steps
+        };
+        Ok(Self {
+            first,
+            free: u32::try_from(free).map_err(|_| bug("layers that fit in memory are few"))?,
+            factor: if halves { 2 } else { 1 },
+        })
+    }
+
+    /// The first sign, where it is given.
+    pub(super) const fn first(&self) -> Option<Sign> {
+        self.first
+    }
+
+    /// How many there are, where 64 bits hold that.
+    fn count(&self) -> Option<u64> {
+        // So that sums of two of them fit too.
+        (self.free < 62).then(|| 1 << self.free)
+    }
+
+    /// How many there are; of more than walks go through, none.
+    pub(super) fn total(&self) -> u64 {
+        // Not a default: that of an order whose stackings are drawn is not asked for.
+        self.count().unwrap_or(0)
+    }
+
+    /// The signs of the stacking at a place of the order.
+    pub(super) fn signs(&self, place: u64) -> Vec<Sign> {
+        let free = (0..self.free).rev().map(|bit| match place >> bit & 1 {
+            0 => Sign::Plus,
+            _ => Sign::Minus,
+        });
+        self.first.into_iter().chain(free).collect()
+    }
+}
+
+/// What is asked of an ensemble, checked, and what it takes.
+pub(super) struct Task {
+    steps: usize,
+    order: Order,
+    /// Of stackings or samples, those of the part.
+    pub(super) range: core::ops::Range<u64>,
+    /// What all forces and the width of the bins are multiples of, times 3^faults.
+    scale: BigInt,
+    /// The forces below the top layer, in f₀: what its spheres add to their lines.
+    top_own: Vec<BigRational>,
+    /// What a sphere of another layer adds, times the scale.
+    own: BigInt,
+    width: BigInt,
+    /// No numerator exceeds it.
+    bound: BigInt,
+}
+
+impl Task {
+    pub(super) fn new(ensemble: &Ensemble, choice: &Choice, shard: Shard) -> Result<Self, Error> {
+        let spheres = sizes(ensemble)?;
+        let steps = spheres.len() - 1;
+        let order = Order::new(ensemble, choice, steps)?;
+        let range = match choice {
+            Choice::All => {
+                let too_many = |stackings: BigUint| Error::TooManyStackings {
+                    stackings,
+                    limit: MOST_STACKINGS,
+                };
+                let total = order.count();
+                let total = total.ok_or_else(|| too_many(BigUint::one() << order.free))?;
+                let range = shard.range(total);
+                if range.end - range.start > MOST_STACKINGS {
+                    return Err(too_many((range.end - range.start).into()));
+                }
+                range
+            }
+            Choice::Drawn(samples) => shard.range(samples.count()),
+        };
+        let contacts = spheres.iter().sum::<u128>() * 3;
+        let walked = u128::from(range.end - range.start) * u128::from(order.factor);
+        if walked
+            .checked_mul(contacts)
+            .is_none_or(|forces| forces >= 1 << 62)
+        {
+            return Err(Error::TooLarge {
+                quantity: "the contact forces of all samples",
+                needed: BigUint::from(walked) * contacts,
+                limit: 1 << 62,
+                remedy: "take a smaller shard, or fewer samples",
+            });
+        }
+        Self::of(ensemble, &spheres, order, range)
+    }
+
+    /// Of layers with at most so many spheres.
+    fn of(
+        ensemble: &Ensemble,
+        spheres: &[u128],
+        order: Order,
+        range: core::ops::Range<u64>,
+    ) -> Result<Self, Error> {
+        let steps = spheres.len() - 1;
+        let half = BigRational::new(1.into(), 2.into());
+        // On an equilateral base all three are one.
+        let [increment, ..] = formula::increments(&half);
+        let top_own = ensemble.own_of_top(&increment)?;
+        let weight = ensemble.weight();
+        let sums = Sums::of(&top_own, &weight);
+        let level = spheres
+            .iter()
+            .skip(1)
+            .fold(Level::default(), |level, spheres| level.next(*spheres));
+        // A force is no greater than the root of the sum of squares of its layer, which grows on the way down.
+        let greatest = sums.squares(1, &level).ceil().to_integer().sqrt() + 1_u32;
+        let bins =
+            (BigRational::from_integer(greatest.clone() + &greatest) / ensemble.bins()).ceil();
+        if bins > BigRational::from_integer(MOST_BINS.into()) {
+            return Err(Error::TooLarge {
+                quantity: "the histogram of contact forces",
+                needed: bins.to_integer().into_parts().1,
+                limit: MOST_BINS,
+                remedy: "use wider bins, or fewer layers",
+            });
+        }
+        let own = formula::force(weight, &increment);
+        let denominators = top_own.iter().chain([&own, ensemble.bins()]);
+        let scale = denominators.fold(BigInt::one(), |scale, number| scale.lcm(number.denom()));
+        let times = |number: &BigRational| (number * &scale).to_integer();
+        let width = times(ensemble.bins());
+        // Sums of three on the way, and their tripled half-turn; three widths for the normal forces.
+        let bound = (greatest * &scale * 16_u32).max(width.clone() * 3_u32);
+        Ok(Self {
+            steps,
+            order,
+            range,
+            own: times(&own),
+            top_own,
+            bound: bound * power_of_three(steps.saturating_sub(1)),
+            width,
+            scale,
+        })
+    }
+
+    /// Whether numbers of so many bits suffice, their sign included.
+    pub(super) fn fits(&self, bits: u64) -> bool {
+        self.bound.bits() < bits
+    }
+
+    /// In numbers that are wide enough.
+    pub(super) fn setup<T: Numerator>(
+        &self,
+        ensemble: &Ensemble,
+        survivors: Option<Survivors>,
+    ) -> Result<Setup<T>, Error> {
+        let number = |big: BigInt| T::try_from(big).map_err(|_| bug("the bound holds for all"));
+        let kinds = self.steps.saturating_sub(1) + 1;
+        let powers: Result<Vec<T>, Error> = (0..kinds)
+            .map(|faults| number(power_of_three(faults)))
+            .collect();
+        let powers = powers?;
+        let times_powers = |of: &BigInt| -> Result<Vec<T>, Error> {
+            let of = number(of.clone())?;
+            Ok(powers.iter().map(|power| of.clone() * power).collect())
+        };
+        let top_own = self.top_own.iter();
+        let top_own: Result<Vec<T>, Error> = top_own
+            .map(|own| number((own * &self.scale).to_integer()))
+            .collect();
+        let top_own = top_own?;
+        Ok(Setup {
+            steps: self.steps,
+            order: self.order,
+            top: ensemble.region(),
+            top_own: [top_own.clone(), top_own.clone(), top_own],
+            own: times_powers(&self.own)?,
+            widths: times_powers(&self.width)?,
+            normal_widths: times_powers(&(self.width.clone() * 3_u32))?,
+            powers,
+            scale: self.scale.clone(),
+            sums: Sums::of(&self.top_own, &ensemble.weight()),
+            survivors,
+        })
+    }
+}
+
+/// What a walk works with.
+pub(super) struct Setup<T> {
+    pub(super) steps: usize,
+    pub(super) order: Order,
+    pub(super) top: Region,
+    /// The forces below the top layer.
+    pub(super) top_own: Planes<T>,
+    /// By faults, from here on: what a sphere adds to its lines.
+    own: Vec<T>,
+    widths: Vec<T>,
+    normal_widths: Vec<T>,
+    /// 3^faults.
+    pub(super) powers: Vec<T>,
+    pub(super) scale: BigInt,
+    pub(super) sums: Sums,
+    survivors: Option<Survivors>,
+}
+
+impl<T> Setup<T> {
+    pub(super) fn own(&self, faults: usize) -> Result<&T, Error> {
+        self.own.get(faults).ok_or_else(too_many_faults)
+    }
+
+    /// The width of bins of forces.
+    pub(super) fn width(&self, faults: usize) -> Result<&T, Error> {
+        self.widths.get(faults).ok_or_else(too_many_faults)
+    }
+
+    /// That of three times a normal force.
+    pub(super) fn normal_width(&self, faults: usize) -> Result<&T, Error> {
+        self.normal_widths.get(faults).ok_or_else(too_many_faults)
+    }
+
+    pub(super) fn power(&self, faults: usize) -> Result<&T, Error> {
+        self.powers.get(faults).ok_or_else(too_many_faults)
+    }
+
+    /// Whether horizontal contacts hold a beginning that does not stand without.
+    pub(super) fn is_held(&self, signs: &[Sign]) -> Result<bool, Error> {
+        match &self.survivors {
+            Some(survivors) => survivors.are_held(signs),
+            None => Ok(false),
+        }
+    }
+}
+
+fn too_many_faults() -> Error {
+    bug("a stacking has no more faults than signs that can change")
+}
+
+/// The sums of forces of layers, in f₀: the same whatever the stacking, for layers of given sizes.
+///
+/// With n_k spheres of the weight w in layer k and S_k, Q_k the sums of the contact forces below it and of their squares,
+/// S_k = S_(k−1) + 3w n_k and Q_k = Q_(k−1) + 2w S_(k−1) + 3w² n_k. *Proof.* Each force f arrives at one sphere as one of
+/// its three g, so the sums of g and g² are those of the layer above. The half-turn G keeps both, as it is orthogonal and
+/// G(1, 1, 1) = (1, 1, 1). What is passed on is g or Gg, and w more on each line. ∎
+#[derive(Clone, Debug)]
+pub(super) struct Sums {
+    /// S_0, Q_0.
+    top: [BigRational; 2],
+    /// w, which is 0 or 1.
+    weight: BigRational,
+}
+
+impl Sums {
+    fn of(top_own: &[BigRational], weight: &BigRational) -> Self {
+        let three = BigInt::from(3_u32);
+        let squares = top_own.iter().map(|own| own * own);
+        let sum = top_own.iter().sum::<BigRational>() * &three;
+        Self {
+            top: [sum, squares.sum::<BigRational>() * &three],
+            weight: weight.clone(),
+        }
+    }
+
+    /// The sum of the forces below some layers, by what lies above them in all.
+    pub(super) fn sum(&self, layers: u128, levels: &Level) -> BigRational {
+        let [top, _] = &self.top;
+        let below = BigRational::from_integer(BigInt::from(levels.under_top) * 3_u32);
+        top * BigInt::from(layers) + below * &self.weight
+    }
+
+    /// The sum of their squares.
+    pub(super) fn squares(&self, layers: u128, levels: &Level) -> BigRational {
+        let [sum, squares] = &self.top;
+        let mixed = sum * BigInt::from(levels.depth) * BigInt::from(2_u32);
+        let below = mixed + BigRational::from_integer(levels.squares.into());
+        squares * BigInt::from(layers) + below * &self.weight
+    }
+}
+
+fn power_of_three(exponent: usize) -> BigInt {
+    num_traits::pow(BigInt::from(3_u32), exponent)
+}
+
+/// The most spheres of each layer, whatever the stacking.
+fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
+    let top = ensemble.region();
+    let mut sizes = Vec::new();
+    let mut numbers = BigUint::zero();
+    for k in 0..ensemble.stackings().layers() {
+        let layers = (0..=k).map(|plus| top.grown(plus, k - plus).site_count());
+        let most = layers.max().ok_or_else(|| bug("a layer has a region"))?;
+        // What comes down and what is passed on.
+        numbers += &most * 6_u32;
+        if numbers > BigUint::from(MOST_NUMBERS) {
+            return Err(Error::TooLarge {
+                quantity: "the layers of one stacking",
+                needed: numbers,
+                limit: MOST_NUMBERS,
+                remedy: "use fewer layers, or a smaller top",
+            });
+        }
+        sizes.push(
+            most.to_u128()
+                .ok_or_else(|| bug("what is below the limit fits"))?,
+        );
+    }
+    Ok(sizes)
+}
+
+/// How many stackings a part has.
+pub(super) fn stackings_of(
+    ensemble: &Ensemble,
+    choice: &Choice,
+    shard: Shard,
+) -> Result<BigUint, Error> {
+    let steps = usize::try_from(ensemble.stackings().steps());
+    let steps = steps.map_err(|_| bug("a tally has few layers"))?;
+    let (total, factor) = match choice {
+        Choice::All => {
+            let order = Order::new(ensemble, choice, steps)?;
+            (order.total(), order.factor)
+        }
+        Choice::Drawn(samples) => (samples.count(), 1),
+    };
+    let range = shard.range(total);
+    Ok(BigUint::from(range.end - range.start) * factor)
+}

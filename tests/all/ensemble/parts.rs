@@ -1,0 +1,187 @@
+//! Parts: cut up in any way they come to the whole, and what is no part of it is refused by name.
+
+use cannonpile::Error;
+use cannonpile::disorder::{
+    Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, Tally, Unmergeable,
+};
+use num_rational::BigRational;
+
+use super::ratio;
+
+fn ensemble(top: &str, layers: i128) -> Result<Ensemble, Error> {
+    Ensemble::under(
+        top.parse()?,
+        RandomStackings::new(layers, FirstSign::Random)?,
+    )
+}
+
+fn drawn(count: u64, seed: u64, q: BigRational) -> Result<Choice, Error> {
+    Ok(Choice::Drawn(Samples::new(count, seed, q)?))
+}
+
+#[test]
+fn cut_up_in_any_way() -> Result<(), Error> {
+    let choices = [Choice::All, drawn(9000, 1, ratio(1, 3))?];
+    for (top, layers) in [("hexagon:1", 10), ("triangle:2", 6), ("hexagon:1", 1)] {
+        let ensemble = ensemble(top, layers)?;
+        for choice in &choices {
+            let whole = ensemble.run(choice, Shard::WHOLE)?;
+            for of in [1, 2, 3, 5, 64, 700] {
+                let parts = (1..=of).map(|index| ensemble.run(choice, Shard::new(index, of)?));
+                let mut parts = parts.collect::<Result<Vec<_>, _>>()?;
+                // In another order than that of their numbers.
+                parts.sort_by_key(|part| part.shard.index() * 389 % of);
+                assert_eq!(Tally::merge(&parts).as_ref(), Ok(&whole), "{top} {of}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_no_part_is_refused() -> Result<(), Error> {
+    let load = |ensemble: Ensemble| ensemble.with_load([0, 0], ratio(1, 2));
+    let this = || load(ensemble("hexagon:2", 4)?);
+    let choice = drawn(90, 7, ratio(1, 3))?;
+    let first = Shard::new(1, 3)?;
+    let second = Shard::new(2, 3)?;
+    let begin = this()?.run(&choice, first)?;
+    let others: [(Ensemble, Choice, Shard, [&str; 3]); 10] = [
+        (
+            load(ensemble("hexagon:2", 5)?)?,
+            choice.clone(),
+            second,
+            ["number of layers", "5", "4"],
+        ),
+        (
+            load(Ensemble::under(
+                "hexagon:2".parse()?,
+                RandomStackings::new(4, FirstSign::Minus)?,
+            )?)?,
+            choice.clone(),
+            second,
+            ["first sign", "-", "random"],
+        ),
+        (
+            load(ensemble("hexagon:3", 4)?)?,
+            choice.clone(),
+            second,
+            ["top", "hexagon:3", "hexagon:2"],
+        ),
+        (
+            load(this()?)?,
+            choice.clone(),
+            second,
+            ["load", "0,0=1", "0,0=1/2"],
+        ),
+        (
+            this()?.weightless(),
+            choice.clone(),
+            second,
+            ["weight of spheres", "0", "1"],
+        ),
+        (
+            this()?.with_bins(ratio(1, 2))?,
+            choice.clone(),
+            second,
+            ["width of bins", "1/2", "1/3"],
+        ),
+        (
+            this()?,
+            Choice::All,
+            second,
+            ["number of samples", "none", "90"],
+        ),
+        (
+            this()?,
+            drawn(90, 8, ratio(1, 3))?,
+            second,
+            ["seed", "8", "7"],
+        ),
+        (
+            this()?,
+            drawn(90, 7, ratio(1, 4))?,
+            second,
+            ["fault probability", "1/4", "1/3"],
+        ),
+        (
+            this()?,
+            choice.clone(),
+            Shard::new(2, 4)?,
+            ["number of parts", "4", "3"],
+        ),
+    ];
+    for (ensemble, choice, shard, [name, has, of_first]) in others {
+        let other = ensemble.run(&choice, shard)?;
+        let refused = Tally::merge(&[begin.clone(), other]).unwrap_err();
+        assert!(refused.to_string().contains(name), "{refused}");
+        let Unmergeable::Other {
+            place,
+            what,
+            found,
+            expected,
+        } = refused
+        else {
+            panic!("{refused}");
+        };
+        assert_eq!(
+            (place, what, found.as_str(), expected.as_str()),
+            (1, name, has, of_first)
+        );
+    }
+    let third = this()?.run(&choice, Shard::new(3, 3)?)?;
+    let missing = Tally::merge(&[third.clone(), begin.clone()]).unwrap_err();
+    assert_eq!(
+        missing,
+        Unmergeable::Missing {
+            shards: vec![second],
+            count: 1
+        }
+    );
+    assert!(
+        missing
+            .to_string()
+            .starts_with("1 part is missing, 2/3: run ensemble with --shard")
+    );
+    let twice = Tally::merge(&[third.clone(), begin.clone(), third.clone()]).unwrap_err();
+    assert_eq!(
+        twice,
+        Unmergeable::Twice {
+            place: 2,
+            shard: third.shard
+        }
+    );
+    assert_eq!(Tally::merge(&[]), Err(Unmergeable::Nothing));
+    // As a file would have it that was cut, or changed.
+    let mut cut = begin;
+    cut.faults.pop();
+    assert_eq!(
+        Tally::merge(&[third, cut]),
+        Err(Unmergeable::Impossible { place: 1 })
+    );
+    Ok(())
+}
+
+#[cfg(feature = "horizontal")]
+#[test]
+fn another_spacing_is_refused() -> Result<(), Error> {
+    let part = |index| ensemble("hexagon:1", 5)?.run(&Choice::All, Shard::new(index, 2)?);
+    let touching = ensemble("hexagon:1", 5)?.with_horizontal_contacts()?;
+    let other = touching.run(&Choice::All, Shard::new(2, 2)?)?;
+    let refused = Tally::merge(&[part(1)?, other]).unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .starts_with("another spacing than that of the first part, 1 and not above 1:")
+    );
+    let parts = [1, 2].map(|index| {
+        touching
+            .run(&Choice::All, Shard::new(index, 2).unwrap())
+            .unwrap()
+    });
+    assert_eq!(
+        Tally::merge(&parts),
+        Ok(touching.run(&Choice::All, Shard::WHOLE)?)
+    );
+    Ok(())
+}
