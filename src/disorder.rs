@@ -7,6 +7,7 @@ mod faults;
 mod frame;
 mod grid;
 mod mean;
+mod moments;
 mod number;
 mod pairs;
 mod piles;
@@ -24,6 +25,7 @@ pub use ensemble::{
 };
 pub use faults::{ByFaults, FaultForce};
 pub use mean::{Mean, MeanForce};
+pub use moments::{Moments, Wave};
 pub use pairs::PairMoments;
 pub use piles::RandomPiles;
 pub use place::Place;

@@ -120,7 +120,7 @@ pub struct RandomStackings {
 }
 
 /// The most layers of which the probabilities of the registries are found: they take as many steps.
-const MOST_LAYERS: u64 = 10_000;
+pub(super) const MOST_LAYERS: u64 = 10_000;
 
 impl RandomStackings {
     /// Returns the stackings of this many layers.

@@ -18,8 +18,8 @@ const SEVEN_HUNDRED_SIXTY_EIGHT: NonZeroI64 = NonZeroI64::new(768).unwrap();
 /// use cannonpile::formula::third_moment;
 ///
 /// // In FCC three loads of 1/3 are at r = n: n³.
-/// let n = 7;
-/// assert_eq!((1..=n).map(|s| third_moment(&n, &s)).sum::<i64>(), n.pow(3));
+/// let n = 7.0;
+/// assert_eq!((1..=7).map(|s| third_moment(&n, &f64::from(s))).sum::<f64>(), 343.0);
 /// ```
 #[must_use]
 pub fn third_moment<T: Ring>(n: &T, s: &T) -> T {
@@ -54,10 +54,9 @@ pub fn fourth_moment<T: Algebra>(n: &T) -> T {
 /// use cannonpile::formula::{fourth_moment, fourth_moment_of_pair};
 ///
 /// // In FCC three loads of 1/3 are at r = n: n⁴.
-/// let n = 5;
-/// let pairs = (1..=n).flat_map(|t| (1..t).map(move |s| fourth_moment_of_pair(&n, &s, &t)));
-/// let pairs: i32 = pairs.sum();
-/// assert_eq!(fourth_moment(&f64::from(n)) + f64::from(pairs), 625.0);
+/// let pair = |s: i32, t: i32| fourth_moment_of_pair(&5.0, &f64::from(s), &f64::from(t));
+/// let pairs: f64 = (1..=5).flat_map(|t| (1..t).map(move |s| pair(s, t))).sum();
+/// assert_eq!(fourth_moment(&5.0) + pairs, 625.0);
 /// ```
 #[must_use]
 pub fn fourth_moment_of_pair<T: Ring>(n: &T, s: &T, t: &T) -> T {
