@@ -184,10 +184,10 @@ impl Default for Scene {
     }
 }
 
-/// The layers of a pile whose number nothing else says.
-const LAYERS: i128 = 10;
-
 impl Scene {
+    /// The layers of a pile whose number nothing else says.
+    pub const LAYERS: i128 = 10;
+
     /// Returns the pile, checked, also with the spacing if one is given.
     ///
     /// # Errors
@@ -223,7 +223,7 @@ impl Scene {
     }
 
     fn unloaded(&self) -> Result<Pile, Error> {
-        let layers = self.layers.unwrap_or(LAYERS);
+        let layers = self.layers.unwrap_or(Self::LAYERS);
         let stacked = match (&self.anchor, &self.stacking) {
             (Some(anchor), _) => Some(culprit_of(anchor)),
             (None, Some(_)) => Some(Culprit::Stacking),
@@ -250,7 +250,7 @@ impl Scene {
     fn stacked(&self) -> Result<Pile, Error> {
         let pattern = self.stacking.as_ref().unwrap_or(&Pattern::Fcc);
         let spelled = self.layers.or(pattern.layers());
-        let under = |top| Pile::under(top, pattern.stacking(spelled.unwrap_or(LAYERS))?);
+        let under = |top| Pile::under(top, pattern.stacking(spelled.unwrap_or(Self::LAYERS))?);
         match self.anchor {
             Some(Anchor::Base(base)) => {
                 let layers = match spelled {

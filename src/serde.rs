@@ -26,6 +26,7 @@
 //! | a record of two strings | [`Interval`](crate::scalar::Interval) (`lower`, `upper`) and [`DoubleDouble`](crate::scalar::DoubleDouble) (`high`, `low`), since many readers of JSON change the last digit of a float |
 //! | a name and what belongs to it | [`Selection`](crate::shape::Selection), [`Anchor`](crate::shape::Anchor), [`Claim`](crate::certificate::Claim): `"base"`, `{"layer":"3"}` |
 //! | what it is made of | [`Pile`](crate::Pile): `dimension`, `sin_phi`, `stacking` (from the top), `anchor`, `weightless`, `weights`, `loads` |
+//! | a record of what they are made of | with `ensemble`: `Ensemble` (`layers`, `first`, `top`, `loads`, `weightless`, `horizontal_contacts`, `bins`), what a `Tally` has of each number of faults |
 //! | a record with its maps as lists | [`Certificate`](crate::certificate::Certificate): `pile`, `claim`, `horizontal` (each `site`, `axis`, `force`), `field` (each `site`, `alpha`, `beta`, `gamma`) |
 //!
 //! # What is read
@@ -40,7 +41,8 @@
 //! Not data, and not here: what borrows a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps),
 //! theorems and their polynomials, errors.
 //!
-//! With the feature `export`, `read_certificate` and `write_certificate` read and write certificates as JSON files.
+//! With the feature `export`, `read_certificate` and `write_certificate` read and write certificates as JSON files; with
+//! `ensemble` too, `TallyRecord` does so with tallies of random stackings.
 //!
 //! [`number`] serves fields of your own: `#[serde(with = "cannonpile::serde::number")]`.
 
@@ -49,6 +51,8 @@ mod certificate;
 mod file;
 mod parts;
 mod records;
+#[cfg(all(feature = "ensemble", feature = "export"))]
+mod tally;
 mod words;
 
 #[cfg(feature = "export")]
@@ -56,5 +60,9 @@ mod words;
 pub use file::{
     MOST_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
 };
+
+#[cfg(all(feature = "ensemble", feature = "export"))]
+#[cfg_attr(docsrs, doc(cfg(all(feature = "ensemble", feature = "export"))))]
+pub use tally::TallyRecord;
 
 pub use crate::scalar::serde::{Number, number};

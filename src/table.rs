@@ -69,6 +69,9 @@ pub use summary::Summary;
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use tables::horizontal_census;
 pub(crate) use tables::refuse_beyond;
+#[cfg(feature = "ensemble")]
+#[cfg_attr(docsrs, doc(cfg(feature = "ensemble")))]
+pub use tables::{Binned, ensemble, ensemble_summary, histogram};
 pub use tables::{
     MAX_ROWS, base, by_faults, census, contacts, mean, mean_of_polynomials, spheres, theorems,
     touching_contacts,

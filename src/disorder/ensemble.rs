@@ -353,6 +353,27 @@ impl Ensemble {
         }
     }
 
+    /// Returns how many stackings, or samples, a part has: those that are looked at; of two mirror images that have the same forces
+    /// one is.
+    ///
+    /// # Errors
+    /// As for [`run`](Self::run), of what is too much.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(9, FirstSign::Random)?;
+    /// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+    /// assert_eq!(ensemble.size(&Choice::All, Shard::new(1, 4)?)?, 32);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn size(&self, choice: &Choice, shard: Shard) -> Result<u64, Error> {
+        let Range { start, end } = Task::new(self, choice, shard)?.range;
+        Ok(end - start)
+    }
+
     /// The sites of the top layer.
     fn region(&self) -> Region {
         self.top.shape().base()

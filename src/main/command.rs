@@ -4,6 +4,7 @@ pub(crate) mod bounds;
 pub(crate) mod census;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod ensemble;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod forces;
@@ -15,12 +16,35 @@ pub(crate) mod spheres;
 pub(crate) mod summary;
 pub(crate) mod verify;
 
-use cannonpile::Pile;
+use cannonpile::geometry::Spacing;
 use cannonpile::shape::Selection;
 use cannonpile::table::{Cell, Table};
+use cannonpile::{Error, Pile};
+use num_rational::BigRational;
+use num_traits::One;
 
-use crate::output::complain;
+use crate::output::{Failure, complain};
 use crate::progress::Progress;
+
+/// Whether neighbours of a layer touch, at the spacing that is given for all stackings of some layers; or why nothing is said of
+/// which stand at it. A pile of them with a change of sign leaves the least room.
+fn has_horizontal_contacts(
+    spacing: Option<&BigRational>,
+    with_a_change: impl FnOnce() -> Result<Pile, Error>,
+) -> Result<bool, Failure> {
+    let Some(spacing) = spacing.filter(|spacing| !spacing.is_one()) else {
+        return Ok(spacing.is_some());
+    };
+    let clearance = with_a_change()?.clearance();
+    let touching = clearance.check(&Spacing::new(spacing.clone())?)?;
+    if touching.is_empty() {
+        return Ok(false);
+    }
+    Err(Failure::Message(format!(
+        "--spacing {spacing}: where the sign changes spheres two layers apart touch, and whether they hold what pulls is \
+         not decided: use 1, or more than 1 and less than 3/2"
+    )))
+}
 
 /// Says in one line on stderr that no pile can bear such forces, if that is so.
 fn note_if_it_falls(pile: &Pile) {

@@ -15,8 +15,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
-    bounds, census, check, completions, explain, export, mean, plot, prove, scene, spheres,
-    summary, verify,
+    bounds, census, check, completions, ensemble, explain, export, mean, plot, prove, scene,
+    spheres, summary, verify,
 };
 use output::{Failure, complain};
 
@@ -56,6 +56,10 @@ enum Command {
     Census(census::Census),
     /// What the base bears in the mean over random stackings
     Mean(mean::Mean),
+    /// Random stackings one by one: how many stand, and how their forces are distributed
+    Ensemble(ensemble::EnsembleOf),
+    /// Parts of an ensemble, counted apart, put together
+    Merge(ensemble::Merge),
     /// How a question would be answered, what that takes at most, and what it took
     Explain(explain::Explain),
     /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
@@ -86,6 +90,8 @@ impl Command {
             Self::Spheres(command) => command.run(),
             Self::Census(command) => command.run(),
             Self::Mean(command) => command.run(),
+            Self::Ensemble(command) => command.run(),
+            Self::Merge(command) => command.run(),
             Self::Explain(command) => command.run(),
             Self::Export(command) => command.run(),
             Self::Scene(command) => command.run(),
@@ -104,6 +110,7 @@ impl Command {
             Self::Base(command) => &command.scene,
             Self::Contacts(command) => &command.scene,
             Self::Bounds(command) => &command.scene,
+            Self::Ensemble(command) => &command.scene,
             Self::Spheres(command) => &command.scene,
             Self::Explain(command) => &command.scene,
             Self::Export(command) => &command.scene,
@@ -112,11 +119,10 @@ impl Command {
             Self::Plot(command) => command.scene(),
             Self::Census(_)
             | Self::Mean(_)
+            | Self::Merge(_)
             | Self::Prove(_)
             | Self::Check(_)
-            | Self::Completions(_) => {
-                return None;
-            }
+            | Self::Completions(_) => return None,
         })
     }
 }

@@ -15,6 +15,8 @@ const TICK: Duration = Duration::from_millis(100);
 
 const OF_ROWS: &str =
     "{spinner} {msg} {bar:30} {percent}% of {human_len} rows, {per_sec}, {eta} left";
+const OF_STACKINGS: &str =
+    "{spinner} {msg} {bar:30} {percent}% of {human_len}, {per_sec}, {eta} left";
 const WITHOUT_END: &str = "{spinner} {msg}, {elapsed}";
 
 /// A line on stderr that goes away when this is dropped.
@@ -42,6 +44,11 @@ impl Progress {
             Some(rows) => Self::new(ProgressBar::new(rows), OF_ROWS, doing),
             None => Self::begin(doing),
         }
+    }
+
+    /// Begins something that goes through so many stackings.
+    pub(crate) fn of_stackings(doing: &'static str, stackings: u64) -> Self {
+        Self::new(ProgressBar::new(stackings), OF_STACKINGS, doing)
     }
 
     fn new(bar: ProgressBar, template: &str, doing: &'static str) -> Self {

@@ -173,7 +173,10 @@ pub fn write_certificates(certificates: &[Certificate], out: &mut impl Write) ->
 }
 
 /// A list with a line for each entry.
-fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) -> io::Result<()> {
+pub(super) fn lines(
+    entries: impl Iterator<Item = impl Serialize>,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let mut gap = "[\n    ";
     for entry in entries {
         out.write_all(gap.as_bytes())?;

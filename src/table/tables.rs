@@ -4,6 +4,8 @@ mod base;
 mod census;
 mod contacts;
 mod disorder;
+#[cfg(feature = "ensemble")]
+mod ensemble;
 mod spheres;
 mod theorems;
 
@@ -14,6 +16,9 @@ pub use census::census;
 pub use census::horizontal_census;
 pub use contacts::{contacts, touching_contacts};
 pub use disorder::{by_faults, mean, mean_of_polynomials};
+#[cfg(feature = "ensemble")]
+#[cfg_attr(docsrs, doc(cfg(feature = "ensemble")))]
+pub use ensemble::{Binned, ensemble, ensemble_summary, histogram};
 pub use spheres::spheres;
 pub use theorems::theorems;
 

@@ -4,7 +4,13 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Choice, Shard, Tally};
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+#[cfg(all(feature = "export", feature = "serde"))]
+use super::Ensemble;
+use super::setup::{MOST_BINS, stackings_of};
+use super::{Choice, Distribution, Histogram, Shard, Tally, WithFaults};
 use crate::Error;
 
 /// Why tallies do not make one.
@@ -156,6 +162,23 @@ impl Tally {
         Ok(whole)
     }
 
+    /// Returns the tally made of its parts, if a run can have counted so.
+    #[cfg(all(feature = "export", feature = "serde"))]
+    pub(crate) fn from_parts(
+        ensemble: Ensemble,
+        choice: Choice,
+        shard: Shard,
+        faults: Vec<WithFaults>,
+    ) -> Option<Self> {
+        let tally = Self {
+            ensemble,
+            choice,
+            shard,
+            faults,
+        };
+        tally.is_possible().then_some(tally)
+    }
+
     /// Adds what was counted of others of the same ensemble.
     pub(super) fn add(&mut self, other: &Self) {
         let faults = self.faults.iter_mut().zip(&other.faults);
@@ -222,26 +245,57 @@ impl Tally {
             .map(|((what, ours), (_, theirs))| (what, ours, theirs))
     }
 
-    /// Whether it has the stackings of its part, each number of faults once.
+    /// Whether it has the stackings of its part, each number of faults once, and bins that a run can have.
     fn is_possible(&self) -> bool {
         let Ok(expected) = self.expected_stackings() else {
             return false;
         };
-        let most = self.ensemble.stackings().most_faults();
+        let stackings = self.ensemble.stackings();
         let has_held = self.ensemble.has_horizontal_contacts();
-        let is_row = |(d, with): (usize, &super::WithFaults)| {
-            let forces = [&with.all, &with.standing]
-                .iter()
-                .all(|of| of.forces.total() == of.contacts && of.stackings <= with.all.stackings);
-            with.faults as usize == d && forces && with.held.is_some() == has_held
+        let is_row = |(d, with): (usize, &WithFaults)| {
+            with.faults as usize == d
+                && with.held.is_some() == has_held
+                && with.standing.stackings <= with.all.stackings
+                && [&with.all, &with.standing]
+                    .iter()
+                    .all(|of| of.is_possible(stackings.layers()))
         };
-        self.faults.len() as i128 == most + 1
+        self.faults.len() as i128 == stackings.most_faults() + 1
             && self.faults.iter().enumerate().all(is_row)
             && self.stackings() == expected
     }
 
     /// How many stackings its part has.
-    fn expected_stackings(&self) -> Result<num_bigint::BigUint, Error> {
-        super::setup::stackings_of(&self.ensemble, &self.choice, self.shard)
+    fn expected_stackings(&self) -> Result<BigUint, Error> {
+        stackings_of(&self.ensemble, &self.choice, self.shard)
+    }
+}
+
+impl Distribution {
+    /// Whether piles of so many layers can have it.
+    fn is_possible(&self, layers: i128) -> bool {
+        let extremes = [
+            &self.least,
+            &self.greatest,
+            &self.least_normal,
+            &self.greatest_normal,
+        ];
+        let mut extremes = extremes.into_iter().flatten();
+        self.forces.total() == self.contacts
+            && self.forces.is_possible()
+            && self.normals.is_possible()
+            && extremes.all(|extreme| extreme.stacking.layers() == layers)
+    }
+}
+
+impl Histogram {
+    /// Whether its bins are those of a run, and begin and end with a count.
+    fn is_possible(&self) -> bool {
+        let ends = [self.counts.first(), self.counts.last()];
+        let last = i128::from(self.first) + self.counts.len() as i128;
+        let most = i128::from(MOST_BINS);
+        ends.into_iter().flatten().all(|count| !count.is_zero())
+            && i128::from(self.first) >= -most
+            && last <= most
     }
 }

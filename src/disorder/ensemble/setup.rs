@@ -21,10 +21,10 @@ use crate::lattice::{Region, Sign};
 const MOST_NUMBERS: u64 = 100_000_000;
 
 /// The most bins from the least force that there may be to the greatest.
-const MOST_BINS: u64 = 100_000;
+pub(super) const MOST_BINS: u64 = 100_000;
 
 /// The most stackings that one walk goes through, all of them.
-pub(super) const MOST_STACKINGS: u64 = 1 << 24;
+const MOST_STACKINGS: u64 = 1 << 24;
 
 /// The order of all stackings of an ensemble: that of their signs from the top, + before −.
 #[derive(Clone, Copy, Debug)]

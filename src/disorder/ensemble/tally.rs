@@ -1,7 +1,9 @@
 //! What was counted of an ensemble, in exact numbers.
 
+use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
+use core::iter::successors;
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -410,6 +412,48 @@ impl Tally {
         Some(sum)
     }
 
+    /// Returns the weights of means, by number of faults: what each stacking that was looked at counts for. Of all stackings
+    /// it is the probability of one with d faults, q^d (1−q)^(n−1−d) with n steps, half of it with a random first sign; of
+    /// samples it is one over their number, whatever `q`. `None` of a part.
+    ///
+    /// So the mean number of contacts of a bin in a pile is the sum over d of the weight times the count.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] unless 0 ≤ q ≤ 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(4, FirstSign::Plus)?;
+    /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// let weights = tally.weights(&BigRational::new(1.into(), 3.into()))?.unwrap();
+    /// assert_eq!(weights.iter().map(|w| w.to_string()).collect::<Vec<_>>(), ["4/9", "2/9", "1/9"]);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn weights(&self, q: &BigRational) -> Result<Option<Vec<BigRational>>, Error> {
+        check_probability(q)?;
+        if self.shard != Shard::WHOLE {
+            return Ok(None);
+        }
+        let Choice::Drawn(samples) = &self.choice else {
+            let powers = |of: BigRational| {
+                let first = BigRational::one();
+                successors(Some(first), move |power| Some(power * &of)).take(self.faults.len())
+            };
+            let (change, stay) = (powers(q.clone()), powers(BigRational::one() - q));
+            let stay: Vec<_> = stay.collect();
+            let weights = change.zip(stay.into_iter().rev());
+            let first_signs = self.first_signs();
+            let weights = weights.map(|(change, stay)| change * stay / &first_signs);
+            return Ok(Some(weights.collect()));
+        };
+        let weight = BigRational::new(BigInt::one(), samples.count().into());
+        Ok(Some(vec![weight; self.faults.len()]))
+    }
+
     /// Returns the probability that a stacking stands at the fault probability q, Σ_d c_d q^d (1−q)^(n−1−d), half of it with
     /// a random first sign: exact, with c_d the number of those that stand among all with d faults and n the number of
     /// steps. `None` of samples, of a part, and with horizontal contacts where that was not asked.
@@ -438,25 +482,21 @@ impl Tally {
         by: By,
         q: &BigRational,
     ) -> Result<Option<BigRational>, Error> {
-        check_probability(q)?;
-        if self.choice != Choice::All || self.shard != Shard::WHOLE {
+        let Some(weights) = self.weights(q)?.filter(|_| self.choice == Choice::All) else {
             return Ok(None);
-        }
-        let stays = BigRational::one() - q;
-        // Σ_d c_d q^d (1−q)^(D−d): after the rows up to d it is the sum with d in the place of D.
-        let (mut sum, mut change) = (BigRational::zero(), BigRational::one());
-        for with in &self.faults {
+        };
+        let mut sum = BigRational::zero();
+        for (with, weight) in self.faults.iter().zip(weights) {
             let Some(count) = with.that_stand(by) else {
                 return Ok(None);
             };
-            sum = sum * &stays + &change * BigInt::from(count);
-            change *= q;
+            sum += weight * BigInt::from(count);
         }
-        Ok(Some(sum / self.first_signs()))
+        Ok(Some(sum))
     }
 
     /// How many first signs there are, each as likely.
-    pub(super) fn first_signs(&self) -> BigInt {
+    fn first_signs(&self) -> BigInt {
         let stackings = self.ensemble.stackings();
         // A single layer has no sign.
         if stackings.steps() == 0 {

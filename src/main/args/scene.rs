@@ -113,6 +113,47 @@ impl SceneOptions {
         )))
     }
 
+    /// Returns the scene described, of which every stacking is meant: the layer on top, and what is put on it.
+    pub(crate) fn of_all_stackings(&self) -> Result<Scene, Failure> {
+        let scene = self.isostatic()?;
+        let refused = [
+            (
+                scene.stacking.is_some(),
+                Culprit::Stacking,
+                "every stacking is meant: leave it out",
+            ),
+            (
+                matches!(scene.anchor, Some(Anchor::Base(_))),
+                Culprit::Base,
+                "which layers a base carries depends on the stacking, and they are not gone through from there: use --top, or \
+                 census --base",
+            ),
+            (
+                scene.dimension == Dimension::Two,
+                Culprit::Dimension,
+                "discs have one stacking only: use 3",
+            ),
+            (
+                scene.sin_phi.is_some(),
+                Culprit::SinPhi,
+                "other stackings than the paper's have an equilateral base: leave it out",
+            ),
+            (
+                scene.loads.iter().any(|(at, _)| at.layer != Some(0)),
+                Culprit::Load,
+                "a sphere below the top layer is another one in another stacking: put loads on the top layer, 0,I,J=W",
+            ),
+        ];
+        for (is_given, culprit, why) in refused {
+            if is_given {
+                let place = self.place(culprit);
+                return Err(Failure::Message(format!("{place}: {why}")));
+            }
+        }
+        scene.check_sizes()?;
+        Ok(scene)
+    }
+
     /// Returns the scene described and its pile, of this many layers where nothing says how many.
     pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Failure> {
         let mut scene = self.isostatic()?;

@@ -1,7 +1,6 @@
 //! `census`: which stackings stand.
 
 use cannonpile::census::{self, Entry};
-use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Region;
 use cannonpile::scene::parse;
 use cannonpile::stacking::Stacking;
@@ -9,8 +8,8 @@ use cannonpile::table::{self, Table};
 use cannonpile::{Culprit, Error, Pile, horizontal};
 use clap::Args;
 use num_rational::BigRational;
-use num_traits::One;
 
+use super::has_horizontal_contacts;
 use crate::args::{Number, Output};
 use crate::output::{Failure, Refused};
 use crate::progress::Progress;
@@ -91,10 +90,7 @@ impl Census {
 
     /// Whether neighbours of a layer touch, at the spacing that is given; or why there is no census at it.
     fn has_horizontal_contacts(&self) -> Result<bool, Failure> {
-        let Some(spacing) = self.spacing.as_ref().filter(|spacing| !spacing.is_one()) else {
-            return Ok(self.spacing.is_some());
-        };
-        // A pile with a change of sign leaves the least room; not every base carries one.
+        // Not every base carries a change of sign.
         let pile = |layers| {
             let stacking = Stacking::hcp(layers)?;
             match self.base {
@@ -102,18 +98,10 @@ impl Census {
                 Some(base) => Pile::on(base, stacking),
             }
         };
-        let pile = match self.base {
+        has_horizontal_contacts(self.spacing.as_ref(), || match self.base {
             None => pile(self.layers.min(3)),
             Some(_) => pile(3).or_else(|_| pile(1)),
-        }?;
-        let touching = pile.clearance().check(&Spacing::new(spacing.clone())?)?;
-        if touching.is_empty() {
-            return Ok(false);
-        }
-        Err(Failure::Message(format!(
-            "--spacing {spacing}: where the sign changes spheres two layers apart touch, and whether they hold what pulls is \
-             not decided: use 1, or more than 1 and less than 3/2"
-        )))
+        })
     }
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
