@@ -30,10 +30,15 @@
 
 mod choice;
 mod count;
+mod distribution;
 mod draw;
 mod layer;
 mod merge;
+mod order;
+mod part;
+mod run;
 mod setup;
+mod sums;
 mod survivors;
 mod tally;
 mod walk;
@@ -42,24 +47,20 @@ mod wilson;
 mod written;
 
 pub use choice::{Choice, Samples, Shard};
+pub use distribution::{Distribution, Extreme, Histogram};
 pub use merge::Unmergeable;
-pub use tally::{By, Distribution, Extreme, Histogram, Tally, WithFaults};
+pub use tally::{By, Tally, WithFaults};
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use draw::Drawer;
-use layer::Numerator;
-use setup::{Setup, Task};
-use survivors::Survivors;
-use walk::{Walked, walk};
+use run::Run;
+use setup::Task;
 
 use crate::disorder::RandomStackings;
-use crate::engine::try_for_each;
 use crate::formula;
 use crate::lattice::{Region, Site};
 use crate::stacking::Stacking;
@@ -336,21 +337,14 @@ impl Ensemble {
         shard: Shard,
         observer: &(dyn Fn(u64) + Sync),
     ) -> Result<Tally, Error> {
-        let task = Task::new(self, choice, shard)?;
-        let run = Run {
+        Run {
             ensemble: self,
             choice,
             shard,
-            task: &task,
+            task: &Task::new(self, choice, shard)?,
             observer,
-        };
-        if task.fits(64) {
-            run.in_numbers::<i64>()
-        } else if task.fits(128) {
-            run.in_numbers::<i128>()
-        } else {
-            run.in_numbers::<BigInt>()
         }
+        .tally()
     }
 
     /// Returns how many stackings, or samples, a part has: those that are looked at; of two mirror images that have the same forces
@@ -412,101 +406,5 @@ impl Ensemble {
         let has_same =
             |(site, load): (Site, &BigRational)| self.top.load(image(site)).as_ref() == Ok(load);
         region.is_its_own_mirror_image() && self.top.loads().all(has_same)
-    }
-}
-
-/// A walk through the stackings of a part, piece by piece.
-struct Run<'r> {
-    ensemble: &'r Ensemble,
-    choice: &'r Choice,
-    shard: Shard,
-    task: &'r Task,
-    observer: &'r (dyn Fn(u64) + Sync),
-}
-
-/// How many samples are drawn before they are sorted and walked.
-const DRAWN: u64 = 1 << 13;
-
-/// The pieces that all stackings are cut into, at most, where they are many.
-const PIECES: u64 = 1 << 7;
-
-/// How many pieces are counted before they are put together.
-const AT_ONCE: usize = 1 << 6;
-
-impl Run<'_> {
-    fn in_numbers<T: Numerator>(&self) -> Result<Tally, Error> {
-        #[cfg(feature = "horizontal")]
-        let survivors = self
-            .ensemble
-            .has_horizontal_contacts
-            .then(|| Survivors::of(self.ensemble));
-        #[cfg(not(feature = "horizontal"))]
-        let survivors: Option<Survivors> = None;
-        let setup = self.task.setup::<T>(self.ensemble, survivors)?;
-        let nothing = || Tally::nothing(self.ensemble.clone(), self.choice.clone(), self.shard);
-        let mut tally = nothing()?;
-        let mut pieces = self.pieces();
-        loop {
-            let ranges: Vec<_> = pieces.by_ref().take(AT_ONCE).collect();
-            if ranges.is_empty() {
-                return Ok(tally);
-            }
-            let mut counted = ranges
-                .iter()
-                .map(|_| nothing())
-                .collect::<Result<Vec<_>, _>>()?;
-            try_for_each(
-                ranges.into_iter().zip(&mut counted).collect(),
-                |(range, counted)| self.count(&setup, range, counted),
-            )?;
-            for counted in &counted {
-                tally.add(counted);
-            }
-        }
-    }
-
-    /// The part, cut up.
-    fn pieces(&self) -> impl Iterator<Item = Range<u64>> + use<> {
-        let Range { start, end } = self.task.range;
-        let length = match self.choice {
-            // Beginnings of which all stackings are walked, if there are many.
-            Choice::All => ((end - start) / PIECES).max(1 << 8).next_power_of_two(),
-            Choice::Drawn(_) => DRAWN,
-        };
-        let first = start / length;
-        let after = end.div_ceil(length);
-        (first..after).map(move |piece| {
-            let from = piece * length;
-            from.max(start)..(from + length).min(end)
-        })
-    }
-
-    /// Counts a piece.
-    fn count<T: Numerator>(
-        &self,
-        setup: &Setup<T>,
-        range: Range<u64>,
-        tally: &mut Tally,
-    ) -> Result<(), Error> {
-        let length = range.end - range.start;
-        let walked = match self.choice {
-            Choice::All => Walked::Range(range),
-            Choice::Drawn(samples) => {
-                let first = self.ensemble.stackings.first();
-                let drawer = Drawer::new(samples, first, setup.steps)?;
-                let mut drawn: Vec<_> = range.map(|n| drawer.sample(n)).collect();
-                drawn.sort_unstable();
-                Walked::Listed(drawn)
-            }
-        };
-        let counted = walk(setup, &walked)?;
-        let has_held = self.ensemble.has_horizontal_contacts;
-        let kinds = counted.all.iter().zip(&counted.standing).zip(&counted.held);
-        for (faults, (((all, standing), held), with)) in kinds.zip(&mut tally.faults).enumerate() {
-            let held = has_held.then_some(*held);
-            *with = WithFaults::of([all, standing], held, setup, faults)?;
-        }
-        (self.observer)(length);
-        Ok(())
     }
 }

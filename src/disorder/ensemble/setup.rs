@@ -9,10 +9,11 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::count::Level;
 use super::layer::{Numerator, Planes};
+use super::order::Order;
+use super::sums::Sums;
 use super::survivors::Survivors;
 use super::{Choice, Ensemble, Shard};
 use crate::Error;
-use crate::disorder::FirstSign;
 use crate::error::bug;
 use crate::formula;
 use crate::lattice::{Region, Sign};
@@ -25,66 +26,6 @@ pub(super) const MOST_BINS: u64 = 100_000;
 
 /// The most stackings that one walk goes through, all of them.
 const MOST_STACKINGS: u64 = 1 << 24;
-
-/// The order of all stackings of an ensemble: that of their signs from the top, + before −.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Order {
-    /// The first sign, where it is given, or one of two mirror images is walked for both.
-    first: Option<Sign>,
-    /// The number of signs that are not given.
-    free: u32,
-    /// How many stackings each stands for.
-    pub(super) factor: u32,
-}
-
-impl Order {
-    fn new(ensemble: &Ensemble, choice: &Choice, steps: usize) -> Result<Self, Error> {
-        let given = match ensemble.stackings().first() {
-            FirstSign::Plus => Some(Sign::Plus),
-            FirstSign::Minus => Some(Sign::Minus),
-            FirstSign::Random => None,
-        };
-        let both = *choice == Choice::All && given.is_none() && steps > 0;
-        let halves = both && ensemble.is_its_own_mirror_image();
-        let first = if halves { Some(Sign::Plus) } else { given };
-        let free = if first.is_some() {
-            steps.saturating_sub(1)
-        } else {
-            steps
-        };
-        Ok(Self {
-            first,
-            free: u32::try_from(free).map_err(|_| bug("layers that fit in memory are few"))?,
-            factor: if halves { 2 } else { 1 },
-        })
-    }
-
-    /// The first sign, where it is given.
-    pub(super) const fn first(&self) -> Option<Sign> {
-        self.first
-    }
-
-    /// How many there are, where 64 bits hold that.
-    fn count(&self) -> Option<u64> {
-        // So that sums of two of them fit too.
-        (self.free < 62).then(|| 1 << self.free)
-    }
-
-    /// How many there are; of more than walks go through, none.
-    pub(super) fn total(&self) -> u64 {
-        // Not a default: that of an order whose stackings are drawn is not asked for.
-        self.count().unwrap_or(0)
-    }
-
-    /// The signs of the stacking at a place of the order.
-    pub(super) fn signs(&self, place: u64) -> Vec<Sign> {
-        let free = (0..self.free).rev().map(|bit| match place >> bit & 1 {
-            0 => Sign::Plus,
-            _ => Sign::Minus,
-        });
-        self.first.into_iter().chain(free).collect()
-    }
-}
 
 /// What is asked of an ensemble, checked, and what it takes.
 pub(super) struct Task {
@@ -279,47 +220,6 @@ impl<T> Setup<T> {
 
 fn too_many_faults() -> Error {
     bug("a stacking has no more faults than signs that can change")
-}
-
-/// The sums of forces of layers, in f₀: the same whatever the stacking, for layers of given sizes.
-///
-/// With n_k spheres of the weight w in layer k and S_k, Q_k the sums of the contact forces below it and of their squares,
-/// S_k = S_(k−1) + 3w n_k and Q_k = Q_(k−1) + 2w S_(k−1) + 3w² n_k. *Proof.* Each force f arrives at one sphere as one of
-/// its three g, so the sums of g and g² are those of the layer above. The half-turn G keeps both, as it is orthogonal and
-/// G(1, 1, 1) = (1, 1, 1). What is passed on is g or Gg, and w more on each line. ∎
-#[derive(Clone, Debug)]
-pub(super) struct Sums {
-    /// S_0, Q_0.
-    top: [BigRational; 2],
-    /// w, which is 0 or 1.
-    weight: BigRational,
-}
-
-impl Sums {
-    fn of(top_own: &[BigRational], weight: &BigRational) -> Self {
-        let three = BigInt::from(3_u32);
-        let squares = top_own.iter().map(|own| own * own);
-        let sum = top_own.iter().sum::<BigRational>() * &three;
-        Self {
-            top: [sum, squares.sum::<BigRational>() * &three],
-            weight: weight.clone(),
-        }
-    }
-
-    /// The sum of the forces below some layers, by what lies above them in all.
-    pub(super) fn sum(&self, layers: u128, levels: &Level) -> BigRational {
-        let [top, _] = &self.top;
-        let below = BigRational::from_integer(BigInt::from(levels.under_top) * 3_u32);
-        top * BigInt::from(layers) + below * &self.weight
-    }
-
-    /// The sum of their squares.
-    pub(super) fn squares(&self, layers: u128, levels: &Level) -> BigRational {
-        let [sum, squares] = &self.top;
-        let mixed = sum * BigInt::from(levels.depth) * BigInt::from(2_u32);
-        let below = mixed + BigRational::from_integer(levels.squares.into());
-        squares * BigInt::from(layers) + below * &self.weight
-    }
 }
 
 fn power_of_three(exponent: usize) -> BigInt {

@@ -13,18 +13,11 @@ use num_integer::binomial;
 
 use super::count::{Counted, Forces, Level};
 use super::layer::{Numerator, Places, Planes, extremes, hand_down, pass_on, turn};
+use super::part::{Onward, Part, Walked, completed, signs_of};
 use super::setup::Setup;
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Region, Sign};
-
-/// Which stackings are walked.
-pub(super) enum Walked {
-    /// Those of a range of all, in order.
-    Range(core::ops::Range<u64>),
-    /// These, in order; some may be there several times.
-    Listed(Vec<Vec<Sign>>),
-}
 
 /// What a walk has counted, by faults.
 pub(super) struct Walk<T> {
@@ -32,48 +25,6 @@ pub(super) struct Walk<T> {
     pub(super) standing: Vec<Counted<T>>,
     /// How many stand with horizontal contacts, where that is asked.
     pub(super) held: Vec<u64>,
-}
-
-/// The stackings of a part that go on from a beginning.
-#[derive(Clone, Copy)]
-enum Part {
-    /// Of `size` stackings, of which `base` come before the first, those from `start` to before `end`.
-    Range {
-        base: u64,
-        size: u64,
-        start: u64,
-        end: u64,
-    },
-    /// These places of the list.
-    Listed { from: usize, to: usize },
-}
-
-/// How many stackings go on from a beginning, and the first of them, by their faults.
-#[derive(Clone, Default)]
-struct Onward(Vec<(u64, u64)>);
-
-impl Onward {
-    fn clear(&mut self) {
-        self.0.iter_mut().for_each(|entry| *entry = (0, 0));
-    }
-
-    /// Adds those that come after.
-    fn add(&mut self, other: &Self) {
-        for (entry, (count, first)) in self.0.iter_mut().zip(&other.0) {
-            if entry.0 == 0 {
-                entry.1 = *first;
-            }
-            entry.0 += count;
-        }
-    }
-
-    /// Those there are: faults, count, first.
-    fn entries(&self) -> impl Iterator<Item = (usize, u64, u64)> + '_ {
-        let entries = self.0.iter().enumerate();
-        entries
-            .map(|(faults, (count, first))| (faults, *count, *first))
-            .filter(|(_, count, _)| *count > 0)
-    }
 }
 
 /// A layer of the beginning that the walk is at.
@@ -175,7 +126,7 @@ impl<T: Numerator> Walker<'_, T> {
             return self.base(k, part, state);
         }
         for sign in [Sign::Plus, Sign::Minus] {
-            let next = self.going_on(part, k, sign)?;
+            let next = part.going_on(self.walked, &self.setup.order, k, sign)?;
             if let Some(next) = next {
                 self.step(k, sign, next, state)?;
             }
@@ -238,7 +189,7 @@ impl<T: Numerator> Walker<'_, T> {
             for (total, count, first) in onward.entries() {
                 let counted = counted.get_mut(total).ok_or_else(too_many_faults)?;
                 let scale = setup.power(total - faults)?;
-                let signs = signs_of(setup, self.walked, first)?;
+                let signs = signs_of(&setup.order, self.walked, first)?;
                 let complete = |_: &[Sign]| signs.clone();
                 counted
                     .forces
@@ -305,49 +256,6 @@ impl<T: Numerator> Walker<'_, T> {
         Ok(())
     }
 
-    /// What of a part goes on with a sign from a beginning of k; `None` if nothing does.
-    fn going_on(&self, part: Part, k: usize, sign: Sign) -> Result<Option<Part>, Error> {
-        Ok(match part {
-            Part::Range { .. } if k == 0 && self.setup.order.first().is_some() => {
-                Some(part).filter(|_| self.setup.order.first() == Some(sign))
-            }
-            Part::Range {
-                base,
-                size,
-                start,
-                end,
-            } => {
-                let half = size / 2;
-                let (base, start, end) = match sign {
-                    Sign::Plus => (base, start, end.min(half)),
-                    Sign::Minus => (base + half, start.max(half) - half, end.max(half) - half),
-                };
-                let size = half;
-                let part = Part::Range {
-                    base,
-                    size,
-                    start,
-                    end,
-                };
-                Some(part).filter(|_| start < end)
-            }
-            Part::Listed { from, to } => {
-                let listed = match self.walked {
-                    Walked::Listed(list) => list.get(from..to),
-                    Walked::Range(_) => None,
-                };
-                let listed = listed.ok_or_else(|| bug("places of a list are in it"))?;
-                let is_plus = |signs: &Vec<Sign>| signs.get(k) == Some(&Sign::Plus);
-                let middle = from + listed.partition_point(is_plus);
-                let (from, to) = match sign {
-                    Sign::Plus => (from, middle),
-                    Sign::Minus => (middle, to),
-                };
-                Some(Part::Listed { from, to }).filter(|_| from < to)
-            }
-        })
-    }
-
     /// Spreads what was counted of whole beginnings over the stackings that go on from them.
     fn spread(&mut self) -> Result<(), Error> {
         let setup = self.setup;
@@ -372,54 +280,6 @@ impl<T: Numerator> Walker<'_, T> {
     }
 }
 
-impl Part {
-    /// Whether every stacking that goes on belongs to it.
-    const fn is_whole(&self) -> bool {
-        matches!(self, Self::Range { size, start: 0, end, .. } if *size == *end)
-    }
-
-    /// How many stackings it has, and which is the first.
-    const fn entry(&self) -> (u64, u64) {
-        match self {
-            Self::Range {
-                base, start, end, ..
-            } => (*end - *start, *base + *start),
-            Self::Listed { from, to } => ((*to - *from) as u64, *from as u64),
-        }
-    }
-}
-
-/// The signs of a stacking by its place in the order, or in the list.
-fn signs_of<T>(setup: &Setup<T>, walked: &Walked, place: u64) -> Result<Vec<Sign>, Error> {
-    match walked {
-        Walked::Range(_) => Ok(setup.order.signs(place)),
-        Walked::Listed(list) => {
-            let place = usize::try_from(place).ok();
-            let signs = place.and_then(|place| list.get(place));
-            signs
-                .cloned()
-                .ok_or_else(|| bug("places of a list are in it"))
-        }
-    }
-}
-
-/// The first stacking that goes on from these signs with `left` more, of which `changes` differ from the one before.
-fn completed(signs: &[Sign], left: usize, changes: usize) -> Vec<Sign> {
-    let mut signs = signs.to_vec();
-    let mut changes = changes;
-    for after in (0..left).rev() {
-        // Not a default: a beginning has a sign.
-        let last = signs.last().copied().unwrap_or(Sign::Plus);
-        let needs = usize::from(last == Sign::Minus);
-        // With + next the other changes must fit in what is left.
-        let is_plus = needs <= changes && changes - needs <= after;
-        let sign = if is_plus { Sign::Plus } else { Sign::Minus };
-        changes -= usize::from(sign != last);
-        signs.push(sign);
-    }
-    signs
-}
-
 fn frame<T>(frames: &mut [Frame<T>], k: usize) -> Result<&mut Frame<T>, Error> {
     frames.get_mut(k).ok_or_else(missing_frame)
 }
@@ -430,34 +290,4 @@ fn missing_frame() -> Error {
 
 fn too_many_faults() -> Error {
     bug("a stacking has no more faults than signs that can change")
-}
-
-#[cfg(test)]
-mod tests {
-    use alloc::string::String;
-
-    use super::*;
-
-    #[test]
-    fn the_first_completion_comes_before_all_others() {
-        for left in 0..6_usize {
-            for first in [Sign::Plus, Sign::Minus] {
-                for changes in 0..=left {
-                    let all = (0..1_u32 << left).map(|bits| {
-                        let rest = (0..left).rev().map(|bit| match bits >> bit & 1 {
-                            0 => Sign::Plus,
-                            _ => Sign::Minus,
-                        });
-                        core::iter::once(first).chain(rest).collect::<Vec<_>>()
-                    });
-                    let is_such = |signs: &Vec<Sign>| {
-                        signs.windows(2).filter(|pair| pair[0] != pair[1]).count() == changes
-                    };
-                    let text = |signs: Vec<Sign>| signs.iter().map(|s| s.symbol()).collect();
-                    let expected: Option<String> = all.filter(is_such).min().map(text);
-                    assert_eq!(Some(text(completed(&[first], left, changes))), expected);
-                }
-            }
-        }
-    }
 }
