@@ -13,6 +13,7 @@
 //! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
 //! | `bounds`, with the feature `horizontal` | what bottom spheres can bear at a = R, at least and at most |
 //! | [`response()`] | what a layer feels of a load on the top |
+//! | [`mean_response()`], [`mean_profile()`] | what the floor feels of it in the mean over random stackings: as maps, and by distance |
 //!
 //! Axes are those of the exported files: x and y the paper's, z **up**. What is seen from above therefore has x to the right
 //! and y upwards, as every program shows the files from above. In the paper z points down: its figures 2 and 4 show the
@@ -37,11 +38,13 @@ mod base;
 #[cfg(feature = "horizontal")]
 mod bounds;
 mod caption;
+mod chart;
 mod colour;
 mod indexing;
 mod layer;
 mod map;
 mod mark;
+mod mean;
 mod network;
 mod page;
 mod panel;
@@ -58,6 +61,7 @@ pub use base::base;
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use bounds::bounds;
 pub use indexing::indexing;
+pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};
 pub use page::{Figure, Layout};
 pub use pile::pile;

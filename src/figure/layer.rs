@@ -82,7 +82,7 @@ impl Layer {
         Ok(Axes {
             names: [format!("x in {unit}"), y],
             origin,
-            unit: subject.radius()?,
+            unit: [subject.radius()?; 2],
         })
     }
 

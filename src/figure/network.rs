@@ -97,7 +97,7 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     let axes = Axes {
         names: [format!("{name} in {unit}"), format!("z in {unit}")],
         origin: [origin[across], origin[2]],
-        unit: subject.radius()?,
+        unit: [subject.radius()?; 2],
     };
     let (title, sight) = if discs {
         ("Force network", "")

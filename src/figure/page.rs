@@ -62,13 +62,13 @@ impl Default for Layout {
     }
 }
 
-/// A frame with ticks. What is drawn at (0, 0) lies at `origin`, and a length 1 is `unit`.
+/// A frame with ticks. What is drawn at (0, 0) lies at `origin`, and a length 1 across and upwards is `unit`.
 #[derive(Clone, Debug)]
 pub(super) struct Axes {
     /// What is shown across and upwards, with its unit; an axis without a name has no ticks either.
     pub(super) names: [String; 2],
     pub(super) origin: Point,
-    pub(super) unit: f64,
+    pub(super) unit: Point,
 }
 
 /// The bar that tells what colours mean.
@@ -238,12 +238,12 @@ impl Axes {
             if name.is_empty() {
                 continue;
             }
-            let (origin, length) = (self.origin[n], panel.size[n]);
+            let (origin, unit, length) = (self.origin[n], self.unit[n], panel.size[n]);
             // Ticks stand apart at all sizes.
             let count = if length < 220.0 { 3 } else { 8 };
-            let [least, most] = ends.map(|end| origin + end * self.unit);
+            let [least, most] = ends.map(|end| origin + end * unit);
             for tick in ticks(least, most, count) {
-                let place = (tick - origin) / self.unit;
+                let place = (tick - origin) / unit;
                 let [x, y] = panel.at([place; 2]);
                 let words = short(tick);
                 marks.extend(if n == 0 {
