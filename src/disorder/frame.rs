@@ -11,7 +11,7 @@ use super::grid::{FirstRows, Grid, Size, of_places, of_sites};
 use super::number::Number;
 use super::piles::{RandomPiles, Setting};
 use super::place::Place;
-use super::stackings::RandomStackings;
+use super::stackings::{FirstSign, RandomStackings};
 use super::walk::Nets;
 use crate::Error;
 use crate::error::bug;
@@ -274,10 +274,17 @@ fn check_height(base: &Region, stackings: RandomStackings) -> Result<(), Error> 
                 beyond = middle;
             }
         }
-        least + minus
+        [least, minus]
+    };
+    // One step at least has the first sign.
+    let begins = |[plus, minus]: &[i128; 2]| match stackings.first() {
+        FirstSign::Plus => *plus > 0,
+        FirstSign::Minus => *minus > 0,
+        FirstSign::Random => true,
     };
     let heights = (0..).take_while(|minus| base.shrunk(0, *minus).is_some());
-    let greatest = heights.map(most).fold(0, i128::max) + 1;
+    let heights = heights.map(most).filter(begins);
+    let greatest = heights.fold(0, |most, [plus, minus]| most.max(plus + minus)) + 1;
     if greatest < stackings.layers() {
         return Err(Error::NoStacking {
             layers: stackings.layers(),

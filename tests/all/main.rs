@@ -147,6 +147,17 @@ mod ensemble {
 mod certificate;
 
 #[cfg(feature = "std")]
+mod disorder {
+    mod ensemble_of_stackings;
+    mod enumeration;
+    mod few_faults;
+    mod moments;
+    mod refused;
+    mod sums;
+    mod widths;
+}
+
+#[cfg(feature = "std")]
 mod theorem;
 
 #[cfg(feature = "toml")]

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `answers` | all that is said about one straight pile, as plain data |
 //! | `cases`, `compare` | piles of any stacking made twice, for the library and for an oracle; their answers compared |
+//! | `disorder` | piles of random stackings made twice |
 //! | `judge` | which float is nearest to a number |
 //! | `oracles` | what the library is compared with |
 //! | `pair` | two scalars in step, and the first operation at which they part |
@@ -16,6 +17,7 @@
 pub(crate) mod answers;
 pub(crate) mod cases;
 pub(crate) mod compare;
+pub(crate) mod disorder;
 pub(crate) mod judge;
 pub(crate) mod oracles;
 pub(crate) mod pair;

@@ -5,11 +5,13 @@
 //! | `admissible` | all forces that only push, horizontal ones included, and exact linear programs over them |
 //! | `balance` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
+//! | `one_by_one` | the forces in all stackings, one by one, at places of the plane |
 //! | `overlap` | the distance of every two spheres |
 //! | `sets` | regions and layers as plain sets of sites |
 
 pub(crate) mod admissible;
 pub(crate) mod balance;
 pub(crate) mod elimination;
+pub(crate) mod one_by_one;
 pub(crate) mod overlap;
 pub(crate) mod sets;

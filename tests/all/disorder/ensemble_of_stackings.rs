@@ -1,0 +1,107 @@
+//! How many stackings there are, with which probability, and in which registry they end: counted one by one.
+
+use cannonpile::disorder::{FirstSign, Place, RandomStackings};
+use cannonpile::lattice::Sign;
+use cannonpile::scalar::{Polynomial, Symbol};
+use num_bigint::BigUint;
+use num_rational::BigRational;
+use num_traits::{One, Zero, pow};
+
+use crate::support::answers::ratio;
+use crate::support::disorder::{Piles, probabilities};
+use crate::support::oracles::one_by_one::{faults, of_site};
+
+const FIRSTS: [FirstSign; 3] = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
+
+#[test]
+fn counts_and_registries_of_all_stackings() {
+    for first in FIRSTS {
+        for steps in 0..=9_usize {
+            let stackings = RandomStackings::new(steps as i128 + 1, first).unwrap();
+            let all = Piles::response(steps, first).stackings();
+            let total = BigUint::from(all.len());
+            let choices = steps.saturating_sub(1);
+            let counts = (0..=choices as u32 + 2).map(|d| stackings.count_with(d));
+            let counts: Vec<_> = counts.collect();
+            for (d, count) in counts.iter().enumerate() {
+                let with = all.iter().filter(|signs| faults(signs) == d).count();
+                assert_eq!(*count, BigUint::from(with), "{first} {steps} {d}");
+            }
+            assert_eq!(counts.iter().sum::<BigUint>(), total);
+            assert_eq!(stackings.most_faults(), choices as i128);
+            for q in probabilities() {
+                let mut registry = [(); 3].map(|()| BigRational::zero());
+                let mut sum = BigRational::zero();
+                for signs in &all {
+                    let d = faults(signs);
+                    let share = pow(q.clone(), d) * pow(BigRational::one() - &q, choices - d);
+                    let net: i64 = signs.iter().sum();
+                    registry[usize::try_from(net.rem_euclid(3)).unwrap()] += &share;
+                    sum += share;
+                }
+                let registry = registry.map(|share| share / &sum);
+                assert_eq!(
+                    stackings.registry(&q).unwrap(),
+                    registry,
+                    "{first} {steps} {q}"
+                );
+                let symbolic = stackings.registry(&Polynomial::from(Symbol("q"))).unwrap();
+                let values = symbolic.map(|p| p.evaluate(&[(Symbol("q"), q.clone())]).unwrap());
+                assert_eq!(values, registry);
+            }
+        }
+    }
+}
+
+#[test]
+fn at_a_half_the_registries_even_out_by_halves() {
+    // ρ_n = ω (−½)^(n−1).
+    let stackings = RandomStackings::new(12, FirstSign::Plus).unwrap();
+    let registry = stackings.registry(&ratio(1, 2)).unwrap();
+    let decay = pow(ratio(-1, 2), 10);
+    let expected = [ratio(-1, 3), ratio(2, 3), ratio(-1, 3)].map(|x| x * &decay + ratio(1, 3));
+    assert_eq!(registry, expected);
+}
+
+#[test]
+fn first_signs_are_read_as_printed() {
+    for first in FIRSTS {
+        assert_eq!(first.to_string().parse(), Ok(first));
+        assert_eq!(first.name(), first.to_string());
+    }
+    for wrong in ["", "+-", "Random", "−"] {
+        assert!(wrong.parse::<FirstSign>().is_err(), "{wrong}");
+    }
+    assert_eq!(FirstSign::Plus.signs(), [Sign::Plus]);
+}
+
+#[test]
+fn a_place_is_a_site_of_one_registry() {
+    for net in -5..=5_i128 {
+        for (i, j) in (-4..=4).flat_map(|i| (-4..=4).map(move |j| (i, j))) {
+            let place = Place::of([i, j], net).unwrap();
+            assert_eq!(place.site(net), Some([i, j]));
+            assert_eq!(place.registry() as i128, net.rem_euclid(3));
+            for other in (-5..=5).filter(|other| (other - net) % 3 != 0) {
+                assert_eq!(place.site(other), None);
+            }
+            // Three times the place in lattice vectors at 60°: x² + xy + y², three of which are ρ².
+            let [x, y] = [3 * i - net, 3 * j - net];
+            assert_eq!(3 * place.distance_squared().unwrap(), x * x + x * y + y * y);
+            if net == 0 {
+                let [a, b] = of_site([i as i64, j as i64]);
+                assert_eq!(
+                    place,
+                    Place {
+                        a: a.into(),
+                        b: b.into()
+                    }
+                );
+            }
+        }
+    }
+    let far = i128::MAX;
+    assert_eq!(Place::of([far, 0], 0), None);
+    assert_eq!(Place { a: far, b: 0 }.site(0), None);
+    assert_eq!(Place { a: far, b: 0 }.distance_squared(), None);
+}
