@@ -1,0 +1,17 @@
+#!/bin/bash
+# One part of an ensemble for each rank, into a folder that all nodes see:
+#
+#   mpirun -n N mpirun.sh FOLDER OPTIONS
+#   mpirun -n 8 examples/cluster/mpirun.sh parts --layers 22 --all
+#
+# The ranks have nothing to say to each other; mpirun only starts them. Of Open MPI, and of MPICH and its kin.
+set -euo pipefail
+
+folder=$1
+shift
+rank=${OMPI_COMM_WORLD_RANK:-${PMI_RANK:?start it by mpirun}}
+parts=${OMPI_COMM_WORLD_SIZE:-${PMI_SIZE:?start it by mpirun}}
+mkdir -p "$folder"
+# Each part takes one core.
+export RAYON_NUM_THREADS=1
+exec "${CANNONPILE:-cannonpile}" ensemble "$@" --shard "$((rank + 1))/$parts" --output "$folder/part-$((rank + 1)).json"
