@@ -13,6 +13,7 @@
 //! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
 //! | `bounds`, with the feature `horizontal` | what bottom spheres can bear at a = R, at least and at most |
 //! | [`response()`] | what a layer feels of a load on the top |
+//! | `distribution`, with the feature `ensemble` | how often forces occur over random stackings |
 //! | [`mean_response()`], [`mean_profile()`] | what the floor feels of it in the mean over random stackings: as maps, and by distance |
 //!
 //! Axes are those of the exported files: x and y the paper's, z **up**. What is seen from above therefore has x to the right
@@ -40,6 +41,8 @@ mod bounds;
 mod caption;
 mod chart;
 mod colour;
+#[cfg(feature = "ensemble")]
+mod distribution;
 mod indexing;
 mod layer;
 mod map;
@@ -60,6 +63,9 @@ pub use base::base;
 #[cfg(feature = "horizontal")]
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use bounds::bounds;
+#[cfg(feature = "ensemble")]
+#[cfg_attr(docsrs, doc(cfg(feature = "ensemble")))]
+pub use distribution::distribution;
 pub use indexing::indexing;
 pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};

@@ -1,5 +1,6 @@
 //! The mean response to a load over random stackings: as maps, and by its distance from the load's line.
 
+use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
@@ -12,6 +13,7 @@ use super::panel::{BAR, Panel};
 use super::ticks::short;
 use crate::Error;
 use crate::disorder::{FirstSign, MeanForce, Place, RandomPiles, RandomStackings};
+use crate::error::bug;
 use crate::geometry::{directions, position};
 use crate::lattice::Site;
 
@@ -39,7 +41,11 @@ use crate::lattice::Site;
 /// ```
 pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figure, Error> {
     let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
-    let n = check_size(layers, probabilities)?;
+    let n = BigUint::from((layers - 1).unsigned_abs());
+    let cells = (&n * &n + &n) * 3_u32 + 1_u32;
+    let remedy = "use fewer layers, or fewer fault probabilities";
+    readable(&(cells * probabilities.len()), LIMIT, "cells", remedy)?;
+    let n = n.to_f64().ok_or_else(finite)?;
     let [alpha, beta, gamma] = steps();
     let of_place = |place: Place| -> Point {
         #[expect(clippy::cast_precision_loss, reason = "within a figure")]
@@ -104,7 +110,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
     }
     let bar = Bar {
         scale: Scale::around_zero([-1.0, 1.0]),
-        name: "load of a sphere",
+        name: "mean load",
         unit: "the greatest",
         remarks: vec!["dashed: r = nρ/√2".into()],
     };
@@ -140,16 +146,13 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figure, Error> {
-    /// How many points a curve has for each ρ.
+    // How many points a curve has for each ρ.
     const POINTS: u32 = 8;
     let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
-    let n = check_size(layers, probabilities)?;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a figure has fewer layers"
-    )]
-    let last = (n as u32 + 1) * POINTS;
+    let points = BigUint::from(layers.unsigned_abs()) * POINTS;
+    readable(&points, LIMIT, "points of a curve", "use fewer layers")?;
+    let (n, last) = ((layers - 1).to_f64(), points.to_u32());
+    let (n, last) = n.zip(last).ok_or_else(finite)?;
     let mut curves = Vec::new();
     for q in probabilities {
         let rows = means(stackings, q)?;
@@ -221,18 +224,9 @@ fn at_distance(row: &MeanForce<f64>) -> Option<(f64, f64)> {
     Some((square.to_f64()?.sqrt(), row.normal))
 }
 
-/// The number of steps, if there is room for the places of so many.
-fn check_size(layers: i128, probabilities: &[BigRational]) -> Result<f64, Error> {
-    let n = num_bigint::BigUint::from((layers - 1).unsigned_abs());
-    let maps = probabilities.len().max(1);
-    let cells = (&n * &n + &n) * 3_u32 + 1_u32;
-    readable(
-        &(cells * maps),
-        LIMIT,
-        "cells",
-        "use fewer layers, or fewer fault probabilities",
-    )?;
-    Ok(n.to_f64().unwrap_or(f64::INFINITY))
+/// What a small number of layers is.
+fn finite() -> Error {
+    bug("the layers of a figure are few")
 }
 
 /// The mean at each place that the load can reach, and the probability that a sphere is there.

@@ -116,7 +116,7 @@ impl Command {
             Self::Export(command) => &command.scene,
             Self::Scene(command) => &command.scene,
             Self::Verify(command) => &command.scene,
-            Self::Plot(command) => command.scene(),
+            Self::Plot(command) => return command.scene(),
             Self::Census(_)
             | Self::Mean(_)
             | Self::Merge(_)

@@ -154,6 +154,41 @@ impl SceneOptions {
         Ok(scene)
     }
 
+    /// Returns how many layers there are below a wide top, whatever their stacking, and one load on it.
+    pub(crate) fn of_wide_layers(&self) -> Result<i128, Failure> {
+        let scene = self.of_all_stackings()?;
+        let refused = [
+            (scene.anchor.is_some(), Culprit::Top),
+            (!scene.loads.is_empty(), Culprit::Load),
+        ];
+        for (is_given, culprit) in refused {
+            if is_given {
+                let place = self.place(culprit);
+                return Err(Failure::Message(format!(
+                    "{place}: with --fault-probability the load is 1 mg on a wide top: leave it out, or use mean"
+                )));
+            }
+        }
+        Ok(scene.layers.unwrap_or(Scene::LAYERS))
+    }
+
+    /// Returns the scene described and its pile, with a stacking that another option spells out.
+    pub(crate) fn read_stacked(&self, stacking: Pattern) -> Result<(Scene, Pile), Failure> {
+        let mut scene = self.isostatic()?;
+        let given = [
+            (scene.stacking.is_some(), Culprit::Stacking),
+            (scene.layers.is_some(), Culprit::Layers),
+        ];
+        if let Some((_, culprit)) = given.into_iter().find(|(is_given, _)| *is_given) {
+            let place = self.place(culprit);
+            return Err(Failure::Message(format!(
+                "{place}: --faults spells out the stacking, and with it the layers: leave out one of them"
+            )));
+        }
+        scene.stacking = Some(stacking);
+        Ok(checked(scene)?)
+    }
+
     /// Returns the scene described and its pile, of this many layers where nothing says how many.
     pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Failure> {
         let mut scene = self.isostatic()?;

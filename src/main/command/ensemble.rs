@@ -84,7 +84,7 @@ pub(crate) struct EnsembleOf {
 
 /// Forces that have a histogram.
 #[derive(Clone, Copy, ValueEnum)]
-enum Measured {
+pub(crate) enum Measured {
     /// Of contacts between spheres
     Forces,
     /// Of bottom spheres on the floor
@@ -110,7 +110,7 @@ fn natural(text: &str) -> Result<u64, Error> {
 }
 
 /// Reads a number from 0 to 1.
-fn probability(text: &str) -> Result<BigRational, Error> {
+pub(super) fn probability(text: &str) -> Result<BigRational, Error> {
     let q = parse::rational(text)?;
     if q.is_negative() || q > BigRational::one() {
         return Err(Error::Syntax {
@@ -280,7 +280,7 @@ impl Merge {
     }
 }
 
-fn read(path: &Path) -> Result<TallyRecord, Failure> {
+pub(super) fn read(path: &Path) -> Result<TallyRecord, Failure> {
     let name = path.display();
     let file = File::open(path).map_err(|error| {
         let reason = reason(&error);

@@ -5,11 +5,14 @@ use std::path::{Path, PathBuf};
 use cannonpile::figure::{self, Figure, Layout, Subject};
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, State, parse};
+use cannonpile::stacking::Pattern;
 use cannonpile::table::WriteError;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
+use num_rational::BigRational;
 use num_traits::One;
 
+use super::ensemble::{Measured as Histogram, probability};
 use crate::args::{SceneOptions, UnitSystem, one};
 use crate::output::{Failure, Refused, complain, write_to};
 use crate::progress::Progress;
@@ -21,7 +24,11 @@ Examples:
   cannonpile plot shear --output shear.svg
   cannonpile plot network --stacking hcp --layers 12 --output network.svg
   cannonpile plot network --stacking=+-+-+ --state elastic --layer 3 --output elastic.svg
-  cannonpile plot response --stacking hcp --top hexagon:5 --layers 6 --output response.svg";
+  cannonpile plot response --stacking hcp --top hexagon:5 --layers 6 --output response.svg
+  cannonpile plot response --faults 2,3 --output fault.svg
+  cannonpile plot response --fault-probability 0,1/4,1/2,1 --layers 17 --output mean.svg
+  cannonpile plot response --fault-probability 1/4,1/2,3/4 --layers 61 --profile --output wave.svg
+  cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg";
 
 /// A kind of figure.
 #[derive(Subcommand)]
@@ -71,6 +78,35 @@ pub(crate) enum Plot {
         /// The layer, counted from 0 at the top [default: the bottom layer]
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
+        /// The steps between faults, from the top: 2,3 is ++---; in place of --stacking and --layers
+        #[arg(
+            long,
+            value_name = "M,N,...",
+            allow_hyphen_values = true,
+            conflicts_with = "fault_probability"
+        )]
+        faults: Option<String>,
+        /// Instead, the mean over random stackings below a wide top that begin with + and change with these probabilities,
+        /// a map for each
+        #[arg(long, value_name = "Q,...", allow_hyphen_values = true, value_delimiter = ',', value_parser = probability, conflicts_with = "layer")]
+        fault_probability: Vec<BigRational>,
+        /// Of these means the sum over rings, as curves over the distance from the load's line
+        #[arg(long, requires = "fault_probability")]
+        profile: bool,
+    },
+    /// How forces are distributed over random stackings: the histogram of an ensemble
+    Distribution {
+        /// A record of ensemble or merge, in json
+        #[arg(value_name = "FILE")]
+        record: PathBuf,
+        /// Of which forces
+        #[arg(long, value_enum, default_value = "forces")]
+        histogram: Histogram,
+        /// The probability q that a sign differs from the one before [default: that of the record]
+        #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = probability)]
+        fault_probability: Option<BigRational>,
+        #[command(flatten)]
+        output: ToFile,
     },
 }
 
@@ -96,7 +132,7 @@ pub(crate) struct Measured {
 /// Where a figure goes.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
-struct ToFile {
+pub(crate) struct ToFile {
     /// Write to an SVG file, which is replaced only when all is written [default: stdout]
     #[arg(long = "output", value_name = "FILE.svg")]
     file: Option<PathBuf>,
@@ -114,7 +150,7 @@ impl Plot {
             file,
             width,
             no_title,
-        } = &self.of().output;
+        } = self.parts().1;
         keep_to_svg(file.as_deref())?;
         let figure = self.draw()?.laid_out(Layout {
             width: f64::from(*width),
@@ -129,8 +165,8 @@ impl Plot {
         Ok(true)
     }
 
-    pub(crate) const fn scene(&self) -> &SceneOptions {
-        &self.of().scene
+    pub(crate) const fn scene(&self) -> Option<&SceneOptions> {
+        self.parts().0
     }
 }
 
@@ -160,8 +196,10 @@ const INDEXED: i128 = 3;
 const WIDE: i128 = 4;
 
 impl Plot {
-    const fn of(&self) -> &Of {
-        match self {
+    /// The scene that is drawn, if it is one, and where the figure goes.
+    const fn parts(&self) -> (Option<&SceneOptions>, &ToFile) {
+        let of = match self {
+            Self::Distribution { output, .. } => return (None, output),
             Self::Pile(of) | Self::Indexing { of, .. } => of,
             Self::Shear(measured)
             | Self::Base(measured)
@@ -169,7 +207,8 @@ impl Plot {
             | Self::Sphere { of: measured, .. }
             | Self::Network { of: measured, .. }
             | Self::Response { of: measured, .. } => &measured.of,
-        }
+        };
+        (Some(&of.scene), &of.output)
     }
 
     fn draw(&self) -> Result<Figure, Failure> {
@@ -204,8 +243,29 @@ impl Plot {
                 of.draw_pile(&scene, &pile, |subject, _| Ok(figure::bounds(subject)?))
             }
             Self::Base(of) => of.draw_state(|subject, _| Ok(figure::base(subject)?)),
-            Self::Response { of, layer } => {
-                let (mut scene, mut pile) = of.of.scene.read()?;
+            Self::Response {
+                of,
+                fault_probability,
+                profile,
+                ..
+            } if !fault_probability.is_empty() => {
+                let layers = of.of.scene.of_wide_layers()?;
+                let progress = Progress::begin("drawing");
+                let drawn = if *profile {
+                    figure::mean_profile(layers, fault_probability)
+                } else {
+                    figure::mean_response(layers, fault_probability)
+                };
+                drop(progress);
+                Ok(drawn?)
+            }
+            Self::Response {
+                of, layer, faults, ..
+            } => {
+                let (mut scene, mut pile) = match faults {
+                    None => of.of.scene.read()?,
+                    Some(faults) => of.of.scene.read_stacked(runs(faults)?)?,
+                };
                 if needs_a_top(&scene) {
                     scene.anchor = Some(Anchor::Top(Region::hexagon(WIDE, WIDE)?));
                     pile = scene.pile()?;
@@ -216,8 +276,35 @@ impl Plot {
                     figure::response(subject, layer).map_err(of_layer)
                 })
             }
+            Self::Distribution {
+                record: file,
+                histogram,
+                fault_probability,
+                ..
+            } => {
+                let record = super::ensemble::read(file)?;
+                let of_record = record.fault_probability();
+                let q = fault_probability.as_ref().unwrap_or(of_record);
+                let figure = figure::distribution(record.tally(), (*histogram).into(), q)?;
+                figure.ok_or_else(|| {
+                    Failure::Message(format!(
+                        "{}: this is a part of an ensemble: merge it with the others first",
+                        file.display()
+                    ))
+                })
+            }
         }
     }
+}
+
+/// Runs of + and − steps, + first.
+fn runs(text: &str) -> Result<Pattern, Failure> {
+    let pattern = format!("({text})").parse();
+    pattern.map_err(|_| {
+        Failure::Message(format!(
+            "--faults: {text} is no list of steps: give the steps between faults, each 1 or more, as 2,3"
+        ))
+    })
 }
 
 /// Blames the layer that was to be drawn, not the number of layers.

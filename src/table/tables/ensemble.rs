@@ -158,7 +158,23 @@ pub enum Binned {
 }
 
 impl Binned {
-    fn of(self, with: &WithFaults) -> [&Histogram; 2] {
+    /// Returns the histograms of these forces: of all stackings with some number of faults, and of those that stand.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::table::Binned;
+    ///
+    /// let stackings = RandomStackings::new(2, FirstSign::Plus)?;
+    /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// let [all, standing] = Binned::Normals.histograms(&tally.faults[0]);
+    /// // Three bottom spheres bear 4/3, the fifth bin of a third.
+    /// assert_eq!((all.count(4), standing.count(4)), (3_u32.into(), 3_u32.into()));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    #[must_use]
+    pub fn histograms(self, with: &WithFaults) -> [&Histogram; 2] {
         let of = [&with.all, &with.standing];
         match self {
             Self::Forces => of.map(|of| &of.forces),
@@ -210,7 +226,7 @@ pub fn histogram<'t>(
         .map(|name| Column::measured(name, unit))
         .to_vec();
     columns.extend(["all", "standing"].map(|name| Column::measured(name, "")));
-    let all = tally.faults.iter().map(|with| binned.of(with)[0]);
+    let all = tally.faults.iter().map(|with| binned.histograms(with)[0]);
     let bins = all.flat_map(|all| (all.first..).zip(&all.counts).map(|(bin, _)| bin));
     let ends = bins.clone().min().zip(bins.max());
     let mean = move |count: &dyn Fn(&WithFaults) -> BigInt| {
@@ -223,7 +239,8 @@ pub fn histogram<'t>(
     let width = tally.ensemble.bins();
     let row = move |bin: i64| -> Row {
         let end = |bin: i64| Cell::from(width * BigInt::from(bin));
-        let [all, stand] = [0, 1].map(|of| mean(&|with| binned.of(with)[of].count(bin).into()));
+        let [all, stand] =
+            [0, 1].map(|of| mean(&|with| binned.histograms(with)[of].count(bin).into()));
         let stand = if standing.is_zero() {
             Cell::Missing
         } else {
