@@ -145,6 +145,15 @@ pub fn horizontal(bytes: &[u8]) -> Corpus {
     all_hold(bytes, &[claims::horizontal::any_pile])
 }
 
+/// The mean over random stackings is that of all stackings, looked at one by one.
+#[must_use]
+pub fn mean(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[claims::disorder::small, claims::disorder::any_size],
+    )
+}
+
 /// Measured forces are read as they were written or refused, exact ones accepted, and a planted fault is found.
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {

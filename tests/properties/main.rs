@@ -70,6 +70,8 @@ properties! {
     spheres_of_any_pile_are_numbered_without_gaps: claims::numbered::any_pile, 1024;
     forces_of_mixed_piles_are_one_whoever_is_asked: claims::engine::every_way, 512;
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
+    means_are_those_of_all_stackings: claims::disorder::small, 256;
+    means_of_any_size_are_found_or_refused: claims::disorder::any_size, 512;
 }
 
 #[cfg(feature = "horizontal")]

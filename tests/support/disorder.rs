@@ -226,10 +226,18 @@ pub(crate) fn alike<K: Ord + Debug, V: PartialEq + Debug>(
     Ok(())
 }
 
-/// All that the library says of these piles is what all stackings say one by one: by faults, at fault probabilities, as
+/// All that the library says of these piles is what all stackings say one by one: by faults, at [`probabilities`], as
 /// polynomials and in floats.
 pub(crate) fn agrees(described: &Piles) -> Result<(), String> {
-    let expected = described.sums();
+    agrees_at(described, &described.sums(), &probabilities())
+}
+
+/// The same at other fault probabilities, for sums that were made before.
+pub(crate) fn agrees_at(
+    described: &Piles,
+    expected: &Sums,
+    probabilities: &[BigRational],
+) -> Result<(), String> {
     let said = |error: Error| format!("{described:?}: {error}");
     let piles = described.piles().map_err(said)?;
     let by_faults = match piles.by_faults() {
@@ -239,15 +247,15 @@ pub(crate) fn agrees(described: &Piles) -> Result<(), String> {
     };
     alike(
         "by faults",
-        &expected,
+        expected,
         &self::by_faults(&piles).map_err(said)?,
     )?;
     let polynomials = by_faults.polynomial().map_err(said)?;
-    for q in probabilities() {
-        let expected = described.means(&expected, &q);
-        let exact = piles.exact(&q).map_err(said)?;
+    for q in probabilities {
+        let expected = described.means(expected, q);
+        let exact = piles.exact(q).map_err(said)?;
         alike("exact", &expected, &by_place(exact.clone()))?;
-        alike("at", &expected, &by_place(by_faults.at(&q).map_err(said)?))?;
+        alike("at", &expected, &by_place(by_faults.at(q).map_err(said)?))?;
         let put_in = polynomials.rows().iter().map(|row| {
             let values =
                 numbers(row.clone()).map(|p: Polynomial| p.evaluate(&[(Symbol("q"), q.clone())]));

@@ -27,10 +27,12 @@
 //! | `numbered` | the spheres of any pile are numbered without a gap |
 //! | `measured` | measured forces are read as written, and a planted fault is found (feature `export`) |
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
+//! | `disorder` | the mean over random stackings is that of all stackings, one by one |
 //! | `horizontal` | what a pile with horizontal contacts can bear is what an exact program says, with proofs (feature `horizontal`) |
 //!
 //! `handed_on` has the oracle's forces of what a generator describes.
 
+pub(crate) mod disorder;
 pub(crate) mod engine;
 pub(crate) mod equilibrium;
 pub(crate) mod fixed;

@@ -7,6 +7,7 @@
 //!
 //! | file | what it makes |
 //! |---|---|
+//! | `disorder` | piles of random stackings |
 //! | `number` | integers, rationals, floats, sin φ, radii and masses, roots |
 //! | `pile` | layers, piles, sites, directions, spacings, packings |
 //! | `region` | regions and their bounds, sites about them, small piles with weights and loads |
@@ -14,6 +15,7 @@
 //! | `stacking` | signs, runs, stackings as text |
 //! | `text` | numbers and sites as text: valid, with their values, and damaged |
 
+pub(crate) mod disorder;
 pub(crate) mod number;
 pub(crate) mod pile;
 pub(crate) mod region;
