@@ -1,4 +1,4 @@
-//! Random stackings: every stacking with its probability, and what the piles of all of them bear in the mean.
+#![doc = include_str!("disorder.md")]
 
 mod correlation;
 #[cfg(feature = "ensemble")]

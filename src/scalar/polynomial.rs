@@ -155,7 +155,7 @@ impl Polynomial {
         Self::canonical(terms.into_iter().collect(), value.denom().clone())
     }
 
-    /// Returns Σ `coefficients`[j] · `symbol`^j over one denominator; `None` if that is 0.
+    /// Returns Σ c_j · `symbol`^j over one denominator, c_j the `coefficients`; `None` if that is 0.
     ///
     /// # Examples
     /// ```

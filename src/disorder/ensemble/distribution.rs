@@ -63,7 +63,7 @@ pub struct Distribution {
     pub greatest_normal: Option<Extreme>,
 }
 
-/// How many numbers x lie in which bin, ⌊x/w⌋ with w the [width](Ensemble::bins).
+/// How many numbers x lie in which bin, ⌊x/w⌋ with w the [width](super::Ensemble::bins).
 ///
 /// # Examples
 /// ```
