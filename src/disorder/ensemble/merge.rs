@@ -4,14 +4,12 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 
-use num_bigint::BigUint;
 use num_traits::Zero;
 
 #[cfg(all(feature = "export", feature = "serde"))]
 use super::Ensemble;
 use super::setup::{MOST_BINS, stackings_of};
 use super::{Choice, Distribution, Histogram, Shard, Tally, WithFaults};
-use crate::Error;
 
 /// Why tallies do not make one.
 ///
@@ -247,10 +245,11 @@ impl Tally {
 
     /// Whether it has the stackings of its part, each number of faults once, and bins that a run can have.
     fn is_possible(&self) -> bool {
-        let Ok(expected) = self.expected_stackings() else {
-            return false;
-        };
         let stackings = self.ensemble.stackings();
+        // First, since layers beyond number are not gone into.
+        if self.faults.len() as i128 != stackings.most_faults() + 1 {
+            return false;
+        }
         let has_held = self.ensemble.has_horizontal_contacts();
         let is_row = |(d, with): (usize, &WithFaults)| {
             with.faults as usize == d
@@ -260,14 +259,8 @@ impl Tally {
                     .iter()
                     .all(|of| of.is_possible(stackings.layers()))
         };
-        self.faults.len() as i128 == stackings.most_faults() + 1
-            && self.faults.iter().enumerate().all(is_row)
-            && self.stackings() == expected
-    }
-
-    /// How many stackings its part has.
-    fn expected_stackings(&self) -> Result<BigUint, Error> {
-        stackings_of(&self.ensemble, &self.choice, self.shard)
+        let expected = stackings_of(&self.ensemble, &self.choice, self.shard);
+        expected == Ok(Some(self.stackings())) && self.faults.iter().enumerate().all(is_row)
     }
 }
 

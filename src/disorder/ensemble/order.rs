@@ -46,16 +46,9 @@ impl Order {
         self.first
     }
 
-    /// How many there are, where 64 bits hold that.
-    pub(super) fn count(&self) -> Option<u64> {
-        // So that sums of two of them fit too.
+    /// How many there are, if places are counted in 62 bits.
+    pub(super) fn total(&self) -> Option<u64> {
         (self.free < 62).then(|| 1 << self.free)
-    }
-
-    /// How many there are; of more than walks go through, none.
-    pub(super) fn total(&self) -> u64 {
-        // Not a default: that of an order whose stackings are drawn is not asked for.
-        self.count().unwrap_or(0)
     }
 
     /// The signs of the stacking at a place of the order.

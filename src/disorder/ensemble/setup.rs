@@ -18,8 +18,8 @@ use crate::error::bug;
 use crate::formula;
 use crate::lattice::{Region, Sign};
 
-/// The most numbers that a walk keeps: those of a layer for each layer.
-const MOST_NUMBERS: u64 = 100_000_000;
+/// The most words of 64 bits that a walk keeps: the numbers of a layer for each layer.
+const MOST_WORDS: u64 = 50_000_000;
 
 /// The most bins from the least force that there may be to the greatest.
 pub(super) const MOST_BINS: u64 = 100_000;
@@ -55,7 +55,7 @@ impl Task {
                     stackings,
                     limit: MOST_STACKINGS,
                 };
-                let total = order.count();
+                let total = order.total();
                 let total = total.ok_or_else(|| too_many(BigUint::one() << order.free))?;
                 let range = shard.range(total);
                 if range.end - range.start > MOST_STACKINGS {
@@ -118,13 +118,22 @@ impl Task {
         let width = times(ensemble.bins());
         // Sums of three on the way, and their tripled half-turn; three widths for the normal forces.
         let bound = (greatest * &scale * 16_u32).max(width.clone() * 3_u32);
+        let bound = bound * power_of_three(steps.saturating_sub(1));
+        // Big integers have their words elsewhere.
+        let words = match bound.bits() {
+            0..64 => 1,
+            64..128 => 2,
+            bits => bits / 64 + 5,
+        };
+        let numbers = BigUint::from(spheres.iter().sum::<u128>() * NUMBERS);
+        refuse_beyond_memory(numbers * words)?;
         Ok(Self {
             steps,
             order,
             range,
             own: times(&own),
             top_own,
-            bound: bound * power_of_three(steps.saturating_sub(1)),
+            bound,
             width,
             scale,
         })
@@ -226,6 +235,21 @@ fn power_of_three(exponent: usize) -> BigInt {
     num_traits::pow(BigInt::from(3_u32), exponent)
 }
 
+/// What is kept for each sphere of each layer: what comes down to it and what it passes on, three numbers each.
+const NUMBERS: u128 = 6;
+
+fn refuse_beyond_memory(words: BigUint) -> Result<(), Error> {
+    if words <= BigUint::from(MOST_WORDS) {
+        return Ok(());
+    }
+    Err(Error::TooLarge {
+        quantity: "the layers of one stacking",
+        needed: words,
+        limit: MOST_WORDS,
+        remedy: "use fewer layers, or a smaller top",
+    })
+}
+
 /// The most spheres of each layer, whatever the stacking.
 fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
     let top = ensemble.region();
@@ -234,16 +258,8 @@ fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
     for k in 0..ensemble.stackings().layers() {
         let layers = (0..=k).map(|plus| top.grown(plus, k - plus).site_count());
         let most = layers.max().ok_or_else(|| bug("a layer has a region"))?;
-        // What comes down and what is passed on.
-        numbers += &most * 6_u32;
-        if numbers > BigUint::from(MOST_NUMBERS) {
-            return Err(Error::TooLarge {
-                quantity: "the layers of one stacking",
-                needed: numbers,
-                limit: MOST_NUMBERS,
-                remedy: "use fewer layers, or a smaller top",
-            });
-        }
+        numbers += &most * NUMBERS;
+        refuse_beyond_memory(numbers.clone())?;
         sizes.push(
             most.to_u128()
                 .ok_or_else(|| bug("what is below the limit fits"))?,
@@ -252,21 +268,22 @@ fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
     Ok(sizes)
 }
 
-/// How many stackings a part has.
+/// How many stackings a part has; `None` of an ensemble of which no part is walked.
 pub(super) fn stackings_of(
     ensemble: &Ensemble,
     choice: &Choice,
     shard: Shard,
-) -> Result<BigUint, Error> {
-    let steps = usize::try_from(ensemble.stackings().steps());
-    let steps = steps.map_err(|_| bug("a tally has few layers"))?;
+) -> Result<Option<BigUint>, Error> {
     let (total, factor) = match choice {
         Choice::All => {
+            let Ok(steps) = usize::try_from(ensemble.stackings().steps()) else {
+                return Ok(None);
+            };
             let order = Order::new(ensemble, choice, steps)?;
             (order.total(), order.factor)
         }
-        Choice::Drawn(samples) => (samples.count(), 1),
+        Choice::Drawn(samples) => (Some(samples.count()), 1),
     };
-    let range = shard.range(total);
-    Ok(BigUint::from(range.end - range.start) * factor)
+    let range = total.map(|total| shard.range(total));
+    Ok(range.map(|range| BigUint::from(range.end - range.start) * factor))
 }

@@ -97,7 +97,10 @@ pub(super) fn walk<T: Numerator>(setup: &Setup<T>, walked: &Walked) -> Result<Wa
     let part = match walked {
         Walked::Range(range) => Part::Range {
             base: 0,
-            size: setup.order.total(),
+            size: setup
+                .order
+                .total()
+                .ok_or_else(|| bug("what is walked in order has places"))?,
             start: range.start,
             end: range.end,
         },
