@@ -1,5 +1,6 @@
 //! Figures, read back from their SVG: what is drawn is what the exact answers say, and whole.
 
+mod disorder;
 mod horizontal;
 mod shear;
 mod whole;

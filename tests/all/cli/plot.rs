@@ -150,6 +150,10 @@ fn the_figures_of_readme_are_those_of_the_commands() {
             "plot bounds --layers 7",
             include_str!("../../../examples/figures/bounds.svg"),
         ),
+        (
+            "plot response --fault-probability 0,1/4,1/2,1 --layers 13",
+            include_str!("../../../examples/figures/mean.svg"),
+        ),
     ] {
         assert!(stdout(command) == figure, "draw it again: {command}");
         assert!(
@@ -157,4 +161,51 @@ fn the_figures_of_readme_are_those_of_the_commands() {
             "{command}"
         );
     }
+}
+
+#[test]
+fn responses_of_random_stackings_are_maps_and_curves() {
+    let maps = stdout("plot response --fault-probability 0,1/4,0.5,1 --layers 5");
+    assert!(maps.contains("q = 1/4") && maps.contains("q = 1/2"));
+    assert_eq!(maps.matches("class=\"front\"").count(), 4);
+    let curves = stdout("plot response --fault-probability 1/4,1/2 --layers 9 --profile");
+    assert_eq!(curves.matches("class=\"curve\"").count(), 2);
+    // Two steps, a fault, three steps: the six loads and the three.
+    let spots = stdout("plot response --faults 2,3");
+    assert_eq!(spots, stdout("plot response --stacking ++---"));
+    assert_eq!(spots.matches("data-exact=\"2/9\"").count(), 6);
+    assert_eq!(spots.matches("data-exact=\"-1/9\"").count(), 3);
+    for (what, option) in [
+        ("--fault-probability 3/2", "--fault-probability"),
+        ("--fault-probability 1/2 --stacking hcp", "--stacking"),
+        ("--fault-probability 1/2 --top hexagon:2", "--top"),
+        ("--fault-probability 1/2 --load 0,0,0=2", "--load"),
+        ("--fault-probability 1/2 --layers 500", "--layers"),
+        ("--faults 2,0", "--faults"),
+        ("--faults 2,3 --stacking hcp", "--stacking"),
+        ("--faults 2,3 --layers 7", "--layers"),
+        ("--profile", "--fault-probability"),
+    ] {
+        let refused = refusal(&format!("plot response {what}"));
+        assert!(refused.contains(option), "{what}: {refused}");
+    }
+}
+
+#[test]
+fn a_distribution_is_drawn_of_a_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (whole, part) = (path("whole.json"), path("part.json"));
+    stdout(&format!("ensemble --layers 5 --all --output {whole}"));
+    stdout(&format!(
+        "ensemble --layers 5 --all --shard 1/2 --output {part}"
+    ));
+    let svg = stdout(&format!("plot distribution {whole}"));
+    assert!(svg.contains("those that stand") && svg.contains("q = 1/2"));
+    let normals = stdout(&format!(
+        "plot distribution {whole} --histogram normals --fault-probability 1/4"
+    ));
+    assert!(normals.contains("q = 1/4") && normals.contains("on the floor"));
+    assert!(refusal(&format!("plot distribution {part}")).contains("merge"));
+    assert!(refusal("plot distribution nowhere.json").contains("nowhere.json"));
 }
