@@ -2,6 +2,7 @@
 
 mod completions;
 mod console;
+mod ensemble;
 mod explain;
 mod export;
 mod plot;

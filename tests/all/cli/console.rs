@@ -41,9 +41,11 @@ console! {
     check: 12;
     completions: 2;
     contacts: 51;
+    ensemble: 35;
     explain: 12;
     export: 36;
     help: 18;
+    merge: 13;
     plot: 38;
     prove: 5;
     scene: 11;

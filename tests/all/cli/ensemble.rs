@@ -1,0 +1,259 @@
+//! Ensembles on the command line: in parts and whole, and what no part is.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::{cannonpile, refusal, stdout};
+
+/// A folder of this test, removed when it is dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ensemble-{name}"));
+        if path.exists() {
+            fs::remove_dir_all(&path).expect("left by a run that was stopped");
+        }
+        fs::create_dir_all(&path).expect("a folder");
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().expect("text").to_owned()
+    }
+
+    /// Writes a part, and returns its name.
+    fn part(&self, scene: &str, shard: &str, name: &str) -> String {
+        let file = self.file(name);
+        let said = stdout(&format!("ensemble {scene} --shard {shard} --output {file}"));
+        assert_eq!(said, "");
+        file
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What is left is removed by the next run.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+const SCENES: [&str; 4] = [
+    "--top hexagon:3 --layers 8 --all",
+    "--layers 9 --all --first random --load 0,0,0=2/3 --fault-probability 1/5",
+    "--top triangle:2 --layers 9 --samples 5000 --seed 3 --fault-probability 1/3 --first random --bins 1/7",
+    "--layers 8 --all --spacing 1",
+];
+
+#[test]
+fn three_parts_in_any_order_are_the_whole_byte_for_byte() {
+    for (n, scene) in SCENES.into_iter().enumerate() {
+        let folder = Folder::new(&format!("orders-{n}"));
+        let parts = [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("{i}.json")));
+        let whole = stdout(&format!("ensemble {scene} --format json"));
+        for [a, b, c] in [
+            [0, 1, 2],
+            [0, 2, 1],
+            [1, 0, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [2, 1, 0],
+        ] {
+            let merged = stdout(&format!("merge {} {} {}", parts[a], parts[b], parts[c]));
+            assert!(merged == whole, "{scene}: {a} {b} {c}");
+        }
+        // What is merged is whole, and nothing is left to do.
+        let file = folder.file("whole.json");
+        assert_eq!(
+            stdout(&format!(
+                "merge {} {} {} --output {file}",
+                parts[0], parts[1], parts[2]
+            )),
+            ""
+        );
+        assert_eq!(stdout(&format!("merge {file}")), whole);
+    }
+}
+
+#[test]
+fn on_one_thread_as_on_all() {
+    for scene in ["--layers 14 --all", "--layers 30 --samples 20000"] {
+        let arguments = format!("ensemble {scene} --format json");
+        let output = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+            .args(arguments.split_whitespace())
+            .env("RAYON_NUM_THREADS", "1")
+            .output()
+            .expect("the binary runs");
+        assert!(output.stdout == stdout(&arguments).into_bytes(), "{scene}");
+    }
+}
+
+fn record(arguments: &str) -> Value {
+    serde_json::from_str(&stdout(&format!("ensemble {arguments} --format json"))).expect("json")
+}
+
+#[test]
+fn probabilities_are_exact_or_intervals() {
+    let all = record("--layers 8 --all --first random --spacing 1");
+    for (key, expected) in [
+        ("cannonpile", env!("CARGO_PKG_VERSION")),
+        ("shard", "1/1"),
+        ("stackings", "128"),
+        ("standing", "22"),
+        ("standing_probability", "11/64"),
+        ("held", "24"),
+        ("held_probability", "3/16"),
+    ] {
+        assert_eq!(all[key], expected, "{key}");
+    }
+    assert_eq!(all["ensemble"]["horizontal_contacts"], true);
+    assert!(all.get("standing_interval").is_none() && all.get("held_interval").is_none());
+    // All FCC, all HCP.
+    for (q, expected) in [("0", "1"), ("1", "0")] {
+        let all = record(&format!("--layers 8 --all --fault-probability {q}"));
+        assert_eq!(all["standing_probability"], expected);
+    }
+    let drawn = record("--layers 8 --samples 2000 --seed 5");
+    assert!(drawn.get("standing_probability").is_none() && drawn.get("held").is_none());
+    assert_eq!(drawn["choice"]["drawn"]["samples"], 2000);
+    let bounds = drawn["standing_interval"].as_array().expect("two floats");
+    let [lower, upper] = [0, 1].map(|n| bounds[n].as_f64().expect("a float"));
+    assert!(lower < 0.171_875 && 0.171_875 < upper, "{lower} {upper}");
+    // Of a part nothing is said that is of the whole.
+    let part = record("--layers 8 --all --shard 1/2");
+    assert!(part.get("standing_probability").is_none());
+    // A histogram has as many contacts as there are.
+    for with in all["faults"].as_array().expect("rows") {
+        let counts = with["all"]["forces"]["counts"].as_array().expect("counts");
+        let counts = counts
+            .iter()
+            .map(|n| n.as_str().expect("text").parse::<u64>().expect("a count"));
+        assert_eq!(counts.sum::<u64>().to_string(), with["all"]["contacts"]);
+    }
+}
+
+#[test]
+fn what_is_no_part_is_refused_by_name() {
+    let folder = Folder::new("refused");
+    let scene = "--layers 6 --samples 90 --seed 7";
+    let first = folder.part(scene, "1/3", "first.json");
+    let third = folder.part(scene, "3/3", "third.json");
+    let of = |scene: &str| folder.part(scene, "2/3", "other.json");
+    for (other, what) in [
+        (
+            "--layers 7 --samples 90 --seed 7",
+            "another number of layers than that of the first part, 7 and not 6",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 8",
+            "another seed than that of the first part, 8 and not 7",
+        ),
+        (
+            "--layers 6 --samples 91 --seed 7",
+            "another number of samples",
+        ),
+        (
+            "--layers 6 --all",
+            "another number of samples than that of the first part, none and not 90",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --fault-probability 1/3",
+            "another fault probability",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --bins 1/4",
+            "another width of bins",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --top hexagon:2",
+            "another top",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --first random",
+            "another first sign",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --spacing 1",
+            "another spacing",
+        ),
+        (
+            "--layers 6 --samples 90 --seed 7 --load 0,0,0=1",
+            "another load",
+        ),
+    ] {
+        let other = of(other);
+        let said = refusal(&format!("merge {first} {other} {third}"));
+        assert!(
+            said.contains(what) && said.contains("other.json: "),
+            "{said}"
+        );
+    }
+    // Of all stackings the fault probability is only that of the figures; still they are of another.
+    let all = folder.part("--layers 6 --all", "1/2", "all.json");
+    let other = folder.part(
+        "--layers 6 --all --fault-probability 1/3",
+        "2/2",
+        "other.json",
+    );
+    assert!(refusal(&format!("merge {all} {other}")).contains("another fault probability"));
+
+    let second = folder.part(scene, "2/3", "second.json");
+    let text = fs::read_to_string(&second).expect("a part");
+    let changed = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        let file = folder.file("changed.json");
+        fs::write(&file, text.replacen(from, to, 1)).expect("written");
+        refusal(&format!("merge {first} {file} {third}"))
+    };
+    let version = env!("CARGO_PKG_VERSION");
+    let said = changed(
+        &format!(r#""cannonpile": "{version}""#),
+        r#""cannonpile": "0.0.1""#,
+    );
+    assert!(
+        said.contains(&format!(
+            "another version than that of the first part, 0.0.1 and not {version}"
+        )),
+        "{said}"
+    );
+    for (from, to) in [
+        (r#""shard": "2/3""#, r#""shard": "5/3""#),
+        (r#""contacts":""#, r#""contacts":"1"#),
+        (r#""faults":0"#, r#""faults":1"#),
+        (r#""stacking":""#, r#""stacking":"+"#),
+        (r#""first":"#, r#""second":"#),
+        ("]\n}", "]"),
+    ] {
+        let said = changed(from, to);
+        assert!(
+            said.contains("changed.json is no part of an ensemble: "),
+            "{from}: {said}"
+        );
+    }
+
+    let said = refusal(&format!("merge {third} {first}"));
+    assert!(said.contains("1 part is missing, 2/3: "), "{said}");
+    let said = refusal(&format!("merge {first} {second} {first} {third}"));
+    assert!(
+        said.contains("first.json: the part 1/3 is there already"),
+        "{said}"
+    );
+    let said = refusal(&format!("merge {first} nothing.json"));
+    assert!(
+        said.contains("nothing.json cannot be read: no such file"),
+        "{said}"
+    );
+    // Nothing was written where nothing could be.
+    let file = folder.file("none.json");
+    refusal(&format!("merge {first} {third} --output {file}"));
+    assert!(!Path::new(&file).exists());
+    assert_eq!(
+        cannonpile(&format!("merge {first} {second} {third}"))
+            .status
+            .code(),
+        Some(0)
+    );
+}
