@@ -1,9 +1,8 @@
-//! What random stackings cost: means over all of them, and all of them one by one.
+//! What random stackings cost: means in floats, by faults in integers, and exactly at one probability; and all of them, or
+//! samples, one by one.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench disorder`
-//! prints seconds and, last, lines `ratio NAME VALUE`: the powers of the number of steps by which times grow from half as many.
-//! With `-- --smoke` it only checks the answers, of few steps. Every mean keeps the load and its second moment, every count is
-//! that of the census.
+//! asserts the sum of every mean, and how many stand, and prints seconds and the exponents of the cost; with `-- --smoke` it takes few layers.
 
 use std::env;
 use std::time::Instant;
@@ -12,68 +11,72 @@ use cannonpile::disorder::{
     By, Choice, Ensemble, FirstSign, RandomPiles, RandomStackings, Samples, Shard,
 };
 use cannonpile::lattice::{Region, Site};
-use num_bigint::{BigInt, BigUint};
+use num_bigint::BigUint;
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::One;
 
-fn main() {
-    let smoke = env::args().any(|argument| argument == "--smoke");
-    println!("seconds  what");
-    let steps = if smoke { [6, 12] } else { [80, 160] };
-    let mean = steps.map(in_floats);
-    let steps = if smoke { [4, 8] } else { [20, 40] };
-    let faults = steps.map(by_faults);
-    let layers = if smoke { 8 } else { 20 };
-    one_by_one(layers, smoke);
-    for (name, [half, whole]) in [("mean_f64_exponent", mean), ("by_faults_exponent", faults)] {
-        println!("ratio {name} {:.2}", (whole / half).log2());
-    }
+fn stackings(steps: u32) -> RandomStackings {
+    RandomStackings::new(i128::from(steps) + 1, FirstSign::Plus).expect("few layers")
 }
 
-/// The response to a unit load, so many steps below it.
-fn response(steps: i128) -> RandomPiles {
-    let stackings = RandomStackings::new(steps + 1, FirstSign::Plus).expect("stackings");
-    let plane = RandomPiles::plane(stackings).weightless();
+/// One load on the plane.
+fn plane(steps: u32) -> RandomPiles {
+    let plane = RandomPiles::plane(stackings(steps)).weightless();
     plane
         .with_load(Site::APEX, BigRational::one())
         .expect("a load")
 }
 
-/// The mean at q = 1/2 in floats: its seconds.
-fn in_floats(steps: i128) -> f64 {
-    let piles = response(steps);
-    let (mean, seconds) = timed(|| piles.mean(&0.5).expect("a mean"));
-    let moment = |power: i32| -> f64 {
-        let rows = mean.rows().iter().map(|row| {
-            let square = row.place.distance_squared().and_then(|r| r.to_f64());
-            row.normal * square.expect("near").powi(power)
-        });
-        rows.sum()
-    };
-    let depth = steps.to_f64().expect("few");
-    assert!((moment(0) - 1.0).abs() < 1e-12);
-    assert!((moment(1) / (depth * depth) - 1.0).abs() < 1e-11);
-    say(&format!("mean response in f64, {steps} steps"), seconds);
-    seconds
+/// One sphere and all that it stands on.
+fn pile(steps: u32) -> RandomPiles {
+    RandomPiles::under(Region::SITE, stackings(steps))
 }
 
-/// All means at once, as integers by the number of faults: its seconds.
-fn by_faults(steps: i128) -> f64 {
-    let piles = response(steps);
-    let (faults, seconds) = timed(|| piles.by_faults().expect("counts"));
-    let mut sums = vec![BigRational::zero(); faults.most_faults() + 1];
-    for row in faults.rows() {
-        let row = row.expect("a row");
-        sums[row.faults as usize] += row.normal;
+fn in_floats(piles: &RandomPiles) {
+    let mean = piles.mean(&0.5_f64).expect("a mean");
+    let sum: f64 = mean.rows().iter().map(|row| row.normal).sum();
+    if piles.is_weightless() {
+        assert!((sum - 1.0).abs() < 1e-12, "{sum}");
     }
-    // The load, once for each stacking.
-    let stackings = piles.stackings();
-    for (faults, sum) in (0..).zip(sums) {
-        let count = BigRational::from_integer(BigInt::from(stackings.count_with(faults)));
-        assert_eq!(sum, count, "{faults} faults");
+}
+
+fn by_faults(piles: &RandomPiles) {
+    let by_faults = piles.by_faults().expect("sums");
+    let first = by_faults.rows().next().expect("a row").expect("a sum");
+    // In the corner of FCC the load is a third.
+    if piles.is_weightless() {
+        assert_eq!(first.normal, BigRational::new(1.into(), 3.into()));
     }
-    say(&format!("means by faults, exact, {steps} steps"), seconds);
-    seconds
+}
+
+fn exactly(piles: &RandomPiles) {
+    let third = BigRational::new(1.into(), 3.into());
+    let mean = piles.exact(&third).expect("a mean");
+    let sum: BigRational = mean.rows().iter().map(|row| row.normal.clone()).sum();
+    if piles.is_weightless() {
+        assert!(sum.is_one());
+    }
+}
+
+/// The least time of a few runs, in seconds.
+fn seconds(run: impl Fn()) -> f64 {
+    let runs = (0..3).map(|_| {
+        let start = Instant::now();
+        run();
+        start.elapsed().as_secs_f64()
+    });
+    runs.fold(f64::INFINITY, f64::min)
+}
+
+/// Times at two depths, the second twice the first, and the exponent.
+fn measure(name: &str, steps: [u32; 2], run: impl Fn(u32)) {
+    let times = steps.map(|steps| seconds(|| run(steps)));
+    for (steps, time) in steps.iter().zip(times) {
+        println!("{name:28} n = {steps:4} {time:10.4} s");
+    }
+    let exponent = (times[1] / times[0]).log2();
+    let word = name.replace(' ', "_");
+    println!("ratio exponent_{word} {exponent:.2}");
 }
 
 /// All stackings under one sphere, and samples of twelve layers.
@@ -86,14 +89,17 @@ fn one_by_one(layers: i128, smoke: bool) {
     let (tally, seconds) = timed(|| all.run(&Choice::All, Shard::WHOLE).expect("a tally"));
     assert_eq!(tally.standing(By::Sloping), Some(BigUint::from(11_u32)));
     let what = format!("all {} stackings of {layers} layers", tally.stackings());
-    say(&what, seconds);
+    println!("{what:44} {seconds:10.4} s");
     let count = if smoke { 100 } else { 1_000_000 };
     let half = BigRational::new(1.into(), 2.into());
     let samples = Choice::Drawn(Samples::new(count, 1, half).expect("samples"));
     let twelve = under(12);
     let (tally, seconds) = timed(|| twelve.run(&samples, Shard::WHOLE).expect("a tally"));
     assert_eq!(tally.stackings(), count.into());
-    say(&format!("{count} samples of 12 layers"), seconds);
+    println!(
+        "{:44} {seconds:10.4} s",
+        format!("{count} samples of 12 layers")
+    );
 }
 
 fn timed<T>(run: impl FnOnce() -> T) -> (T, f64) {
@@ -102,6 +108,22 @@ fn timed<T>(run: impl FnOnce() -> T) -> (T, f64) {
     (answer, begun.elapsed().as_secs_f64())
 }
 
-fn say(what: &str, seconds: f64) {
-    println!("{seconds:7.3}  {what}");
+fn main() {
+    let smoke = env::args().any(|argument| argument == "--smoke");
+    let depth = |deep: u32| if smoke { [2, 4] } else { [deep / 2, deep] };
+    measure("floats plane", depth(160), |n| in_floats(&plane(n)));
+    measure("floats pile", depth(160), |n| in_floats(&pile(n)));
+    measure("by faults plane 64 bits", depth(24), |n| {
+        by_faults(&plane(n))
+    });
+    measure("by faults pile 64 bits", depth(24), |n| by_faults(&pile(n)));
+    measure("by faults plane 128 bits", depth(56), |n| {
+        by_faults(&plane(n))
+    });
+    measure("exactly plane", depth(80), |n| exactly(&plane(n)));
+    measure("squares plane", depth(80), |n| {
+        let squares = plane(n).mean_square(&0.5_f64).expect("a mean");
+        assert!(squares > 0.3 && squares < 0.4, "{squares}");
+    });
+    one_by_one(if smoke { 8 } else { 20 }, smoke);
 }

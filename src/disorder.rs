@@ -4,6 +4,7 @@ mod correlation;
 #[cfg(feature = "ensemble")]
 mod ensemble;
 mod faults;
+mod floor;
 mod frame;
 mod grid;
 mod mean;

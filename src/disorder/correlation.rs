@@ -162,7 +162,7 @@ impl<T: Algebra> Correlation<T> {
                 continue;
             }
             let mut planes = self.planes();
-            for (_, cells) in self.grid.window(reach) {
+            for cells in self.grid.window(reach)? {
                 for cell in cells {
                     let sum = self.combined(cell, straight, turned, goes_on)?;
                     for (plane, sum) in planes.iter_mut().flatten().zip(sum.into_iter().flatten()) {

@@ -7,12 +7,13 @@ use num_integer::binomial;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
+use super::floor::FLOOR_UNIT;
 use super::frame::{Frame, Load};
 use super::mean::{Mean, MeanForce};
 use super::number::{All, Number};
 use super::piles::RandomPiles;
 use super::place::Place;
-use super::transfer::{FLOOR_UNIT, Spot, Transfer};
+use super::transfer::{Spot, Transfer};
 use super::width::{Width, bits_of_counts, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
@@ -128,7 +129,7 @@ impl RandomPiles {
             words: Width::of(growth).words(growth),
         };
         let frame = Frame::new(self, rough)?;
-        let bits = growth + bits_of_sources(&frame, &denominator);
+        let bits = growth + bits_of_sources(&frame, &denominator)?;
         let width = Width::of(bits);
         let cells = frame.bottom()?.into_iter().enumerate();
         let places = cells.map(|(at, cell)| Ok((frame.place(cell)?, at)));

@@ -95,6 +95,8 @@ impl<'p> Frame<'p> {
         if matches!(piles.setting, Setting::On(_)) {
             per_cell *= 2 * steps.unsigned_abs() + 1;
         }
+        // As many numbers must fit even if each were a word; how long they are is estimated for what does.
+        size.check(QUANTITY, &per_cell, 1)?;
         size.check(QUANTITY, &per_cell, load.words)?;
         let first = match piles.setting {
             Setting::Plane => {
@@ -186,7 +188,7 @@ impl<'p> Frame<'p> {
     /// The cells of the bottom layer that are answered, in order: where some stacking has a sphere and, in the plane, some
     /// load can be felt.
     pub(super) fn bottom(&self) -> Result<Vec<usize>, Error> {
-        let cells = self.grid.window(self.steps).flat_map(|(_, cells)| cells);
+        let cells = self.grid.window(self.steps)?.flatten();
         if self.base().is_some() {
             return Ok(cells.collect());
         }
@@ -214,11 +216,15 @@ impl<'p> Frame<'p> {
 
     /// How many stackings, or with which probability, have a sphere of the bottom layer at a cell, by what they are by net
     /// number of steps.
-    pub(super) fn spheres<T: Number>(&self, cell: usize, counts: &[T]) -> T {
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn spheres<T: Number>(&self, cell: usize, counts: &[T]) -> Result<T, Error> {
         let steps = self.steps as i128;
         if self.base().is_some() {
             // No step is left, and the base is always there.
-            return counts.get(self.steps).map_or_else(T::zero, T::clone);
+            let none_left = counts.get(self.steps).cloned();
+            return none_left.ok_or_else(|| bug("a list has a place for no step"));
         }
         self.nets(self.steps, cell, -steps..=steps)
             .sum(counts, self.steps)

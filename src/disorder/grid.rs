@@ -150,19 +150,29 @@ impl Grid {
     }
 
     /// How many cells of a layer can be reached.
-    pub(super) fn reached(&self, layer: usize) -> usize {
-        self.window(layer).map(|(_, cells)| cells.len()).sum()
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn reached(&self, layer: usize) -> Result<usize, Error> {
+        Ok(self.window(layer)?.map(|cells| cells.len()).sum())
     }
 
-    /// The rows of a layer that have cells: the row and its range of cells, counted from the first cell of the plane.
-    pub(super) fn window(&self, layer: usize) -> impl Iterator<Item = (usize, Range<usize>)> + '_ {
-        let window = self.windows.get(layer).map_or(&[][..], |window| window);
+    /// The rows of a layer that have cells: their ranges, counted from the first cell of the plane.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] of a layer that is not there.
+    pub(super) fn window(
+        &self,
+        layer: usize,
+    ) -> Result<impl Iterator<Item = Range<usize>> + '_, Error> {
+        let window = self.windows.get(layer);
+        let window = window.ok_or_else(|| bug("there are as many windows as layers"))?;
         let rows = window.iter().enumerate();
-        rows.filter(|(_, cells)| !cells.is_empty())
-            .map(|(row, cells)| {
-                let start = row * self.stride;
-                (row, start + cells.start..start + cells.end)
-            })
+        let rows = rows.filter(|(_, cells)| !cells.is_empty());
+        Ok(rows.map(|(row, cells)| {
+            let start = row * self.stride;
+            start + cells.start..start + cells.end
+        }))
     }
 
     /// The coordinates of a cell.

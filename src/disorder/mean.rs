@@ -7,12 +7,13 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, pow};
 
+use super::floor::FLOOR_UNIT;
 use super::frame::{Frame, Load};
 use super::number::{Number, Part};
 use super::piles::RandomPiles;
 use super::place::Place;
 use super::stackings::FirstSign;
-use super::transfer::{FLOOR_UNIT, Spot, Transfer, shares};
+use super::transfer::{Spot, Transfer, shares};
 use super::width::{Width, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
@@ -292,7 +293,7 @@ impl RandomPiles {
             words: Width::of(growth).words(growth),
         };
         let frame = Frame::new(self, rough)?;
-        let bits = growth.saturating_add(bits_of_sources(&frame, &denominator));
+        let bits = growth.saturating_add(bits_of_sources(&frame, &denominator)?);
         let width = Width::of(bits);
         let choices = usize::try_from(choices).map_err(|_| bug("the size was checked"))?;
         let question = Question {

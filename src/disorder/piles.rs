@@ -29,7 +29,6 @@ use crate::lattice::{Dimension, Region, Site};
 ///
 /// let stackings = RandomStackings::new(3, FirstSign::Plus)?;
 /// let piles = RandomPiles::under(Region::SITE, stackings);
-/// // FCC bears 5/3 mg on each of 6 spheres, HCP 5/3 mg on six and 14/9 mg … in the mean of both:
 /// let mean = piles.exact(&BigRational::new(1.into(), 2.into()))?;
 /// let total: BigRational = mean.rows().iter().map(|row| row.normal.clone()).sum();
 /// // 10 spheres of FCC, 11 of HCP.

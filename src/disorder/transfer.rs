@@ -20,12 +20,9 @@
 //! recursion starts with every number at which the base carries a top layer.
 
 use alloc::vec::Vec;
-use core::num::NonZeroI64;
 use core::ops::Range;
 
-use num_bigint::BigInt;
-use num_traits::{One, ToPrimitive, Zero};
-
+use super::floor::{Floor, FloorFactors};
 use super::frame::Frame;
 use super::number::{Number, Share, add};
 use super::place::Place;
@@ -33,7 +30,6 @@ use super::walk::{SIGNS, Walk};
 use crate::Error;
 use crate::error::bug;
 use crate::formula;
-use crate::geometry::{Vector, directions};
 use crate::lattice::{Direction, Sign};
 use crate::scalar::Algebra;
 
@@ -66,14 +62,6 @@ pub(super) struct Spot<T> {
     pub(super) classes: Vec<(T, Floor<T>)>,
 }
 
-/// Normal force and shears on the floor: six times those in the units of the base, in the unit of the numerators.
-#[derive(Clone, Debug)]
-pub(super) struct Floor<T> {
-    pub(super) normal: T,
-    pub(super) shear_x: T,
-    pub(super) shear_y: T,
-}
-
 impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
     /// Returns what each place of the bottom layer bears.
     ///
@@ -93,7 +81,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
                 first
             },
             frame.starts(),
-        );
+        )?;
         let mut layer = self.empty();
         if frame.steps > 0 {
             self.load(&mut layer, &walk)?;
@@ -192,7 +180,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         let classes = layer
             .first_mut()
             .ok_or_else(|| bug("there is one number of net steps"))?;
-        for (_, cells) in frame.grid.window(k) {
+        for cells in frame.grid.window(k)? {
             let nets = cells
                 .clone()
                 .map(|cell| frame.nets(k, cell, within.clone()));
@@ -209,7 +197,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
                         if nets.is_empty() {
                             continue;
                         }
-                        let own = nets.sum(counts, frame.steps) * &self.weight;
+                        let own = nets.sum(counts, frame.steps)? * &self.weight;
                         add(a, &own);
                         add(b, &own);
                         add(c, &own);
@@ -311,7 +299,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         turned: Option<(Sign, &Planes<T>)>,
         k: usize,
     ) -> Result<(), Error> {
-        for (_, cells) in self.frame.grid.window(k) {
+        for cells in self.frame.grid.window(k)? {
             let [a, b, c] = rows_mut(planes, &cells)?;
             if let Some((sign, from)) = straight {
                 let [ga, gb, gc] = self.above(from, &cells, sign)?;
@@ -359,7 +347,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         for cell in frame.bottom()? {
             let mut classes = Vec::with_capacity(self.classes);
             for (class, counts) in counts.iter().enumerate() {
-                let spheres = frame.spheres(cell, counts);
+                let spheres = frame.spheres(cell, counts)?;
                 let own = spheres.clone() * &self.weight;
                 let mut force = floor.own(own);
                 for (at, sign) in SIGNS.into_iter().enumerate() {
@@ -437,86 +425,6 @@ fn turn<T: Number>([a, b, c]: [&mut [T]; 3], from: [&[T]; 3], change: &impl Shar
         add(c, &change.of(tc));
     }
 }
-
-/// What a force from above, and a weight, make of the force on the floor: six times it in the units of the base.
-struct FloorFactors<T> {
-    /// By sign and direction.
-    lines: [[[T; 3]; 3]; 2],
-    own: T,
-}
-
-impl<T: Number> FloorFactors<T> {
-    fn new() -> Result<Self, Error> {
-        // Directions over 2, and mg is three units of force along the lines.
-        let half = num_rational::BigRational::new(1.into(), 2.into());
-        let two = BigInt::from(2);
-        let numerator = |x: num_rational::BigRational| (x * &two).to_integer();
-        let straight = directions(&half).map(|direction| direction.map(numerator));
-        let turned = straight.clone().map(Vector::turned_about_z);
-        let [zero, one] = [BigInt::zero(), BigInt::one()];
-        let units = [0, 1, 2].map(|line| {
-            let mut unit = [zero.clone(), zero.clone(), zero.clone()];
-            unit[line].clone_from(&one);
-            unit
-        });
-        let small = |n: &BigInt| {
-            let n = n
-                .to_i8()
-                .ok_or_else(|| bug("factors of the floor are small"))?;
-            let magnitude = (0..n.unsigned_abs()).fold(T::zero(), |sum, _| sum + &T::one());
-            Ok(if n < 0 {
-                T::zero() - &magnitude
-            } else {
-                magnitude
-            })
-        };
-        let line = |unit: &[BigInt; 3], directions: &[Vector<BigInt>; 3]| {
-            let Vector { x, y, z } = formula::handed_on(unit, directions, &zero);
-            Ok::<_, Error>([small(&z)?, small(&x)?, small(&y)?])
-        };
-        let lines = |directions: &[Vector<BigInt>; 3]| {
-            let [a, b, c] = &units;
-            Ok::<_, Error>([
-                line(a, directions)?,
-                line(b, directions)?,
-                line(c, directions)?,
-            ])
-        };
-        let weight = formula::weight(&formula::increments(&half));
-        let own = formula::handed_on(
-            &[zero.clone(), zero.clone(), zero.clone()],
-            &straight,
-            &numerator(weight),
-        );
-        Ok(Self {
-            lines: [lines(&straight)?, lines(&turned)?],
-            own: small(&own.z)?,
-        })
-    }
-
-    /// A weight, in the unit of forces.
-    fn own(&self, weight: T) -> Floor<T> {
-        Floor {
-            normal: weight * &self.own,
-            shear_x: T::zero(),
-            shear_y: T::zero(),
-        }
-    }
-
-    /// Adds three forces from above, by the sign of the step above.
-    fn add(&self, forces: [&T; 3], sign: Sign, floor: &mut Floor<T>) {
-        let [plus, minus] = &self.lines;
-        let lines = if sign == Sign::Plus { plus } else { minus };
-        for (force, [normal, shear_x, shear_y]) in forces.into_iter().zip(lines) {
-            add(&mut floor.normal, &(force.clone() * normal));
-            add(&mut floor.shear_x, &(force.clone() * shear_x));
-            add(&mut floor.shear_y, &(force.clone() * shear_y));
-        }
-    }
-}
-
-/// Six times the base's unit over 2·3: what the numerators of the floor are divided by.
-pub(super) const FLOOR_UNIT: NonZeroI64 = NonZeroI64::new(6).unwrap();
 
 /// Returns the shares 1 − q and q/3 of a fault probability.
 pub(super) fn shares<T: Algebra>(q: &T) -> [T; 2] {

@@ -5,6 +5,8 @@ use core::ops::RangeInclusive;
 
 use super::number::{Number, Share, add, tripled};
 use super::place::Place;
+use crate::Error;
+use crate::error::bug;
 use crate::lattice::{Region, Sign};
 
 /// Both signs, in the order of every pair indexed by sign.
@@ -29,8 +31,8 @@ impl<T: Number> Walk<T> {
         steps: usize,
         plus: isize,
         first: &[Sign],
-        starts: impl Iterator<Item = isize> + Clone,
-    ) -> Self {
+        starts: impl Iterator<Item = isize>,
+    ) -> Result<Self, Error> {
         let mut walk = Self {
             counts: alloc::vec![[None, None]; classes],
             steps,
@@ -38,18 +40,17 @@ impl<T: Number> Walk<T> {
         };
         let mut row = walk.row();
         for start in starts {
-            if let Some(at) = walk.index(start).and_then(|at| row.get_mut(at)) {
-                *at = T::one();
+            let at = walk.index(start).and_then(|at| row.get_mut(at));
+            *at.ok_or_else(|| bug("no more steps are left than there are"))? = T::one();
+        }
+        let begun = walk.counts.first_mut();
+        let begun = begun.ok_or_else(|| bug("there is a class"))?;
+        for (sign, counts) in SIGNS.iter().zip(begun) {
+            if first.contains(sign) {
+                *counts = Some(row.clone());
             }
         }
-        if let Some(begun) = walk.counts.first_mut() {
-            for (sign, counts) in SIGNS.iter().zip(begun) {
-                if first.contains(sign) {
-                    *counts = Some(row.clone());
-                }
-            }
-        }
-        walk
+        Ok(walk)
     }
 
     fn row(&self) -> Vec<T> {
@@ -64,7 +65,8 @@ impl<T: Number> Walk<T> {
     pub(super) fn step(&mut self) {
         for class in &mut self.counts {
             for (sign, counts) in SIGNS.iter().zip(class) {
-                // Beyond n steps from 0 there is nothing, and nothing is lost.
+                // On a base a number beyond n leads on at the other end. There it is as far from 0 as here: farther than
+                // steps are left, so that no one looks at it.
                 match (counts, (*sign == Sign::Plus) == (self.plus > 0)) {
                     (Some(counts), true) => counts.rotate_right(1),
                     (Some(counts), false) => counts.rotate_left(1),
@@ -169,23 +171,24 @@ impl Nets {
     }
 
     /// The sum over these numbers of what is listed from s = −n on.
-    pub(super) fn sum<T: Number>(&self, counts: &[T], steps: usize) -> T {
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn sum<T: Number>(&self, counts: &[T], steps: usize) -> Result<T, Error> {
         let mut sum = T::zero();
         if self.is_empty() {
-            return sum;
+            return Ok(sum);
         }
         // Bounded by the number of steps, which is that of a list in memory.
         let index = |net: i128| usize::try_from(net + steps as i128).ok();
-        let (Some(least), Some(greatest)) = (index(self.least), index(self.greatest)) else {
-            return sum;
+        let listed = match (index(self.least), index(self.greatest)) {
+            (Some(least), Some(greatest)) => counts.get(least..=greatest),
+            _ => None,
         };
-        let listed = counts
-            .get(least..=greatest.max(least))
-            .into_iter()
-            .flatten();
-        for count in listed.step_by(6) {
+        let listed = listed.ok_or_else(|| bug("no layer has more net steps than steps"))?;
+        for count in listed.iter().step_by(6) {
             sum = sum + count;
         }
-        sum
+        Ok(sum)
     }
 }

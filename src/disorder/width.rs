@@ -13,6 +13,7 @@ use num_integer::binomial;
 use num_traits::{One, Signed};
 
 use super::frame::Frame;
+use crate::Error;
 
 /// The integers of a recursion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,12 +65,15 @@ pub(super) fn bits_of_counts(steps: i128) -> u64 {
 }
 
 /// The bits of B over a denominator, sixteenfold; of a frame, or before there is one as many steps as memory allows.
-pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> u64 {
+///
+/// # Errors
+/// [`Error::Bug`].
+pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> Result<u64, Error> {
     let mut sum = BigUint::one();
     if !frame.piles.is_weightless() {
         for layer in 0..=frame.steps {
             // No layer has more spheres than cells. ⌊√⌋ + 1 is above the root.
-            sum += BigUint::from(3 * frame.grid.reached(layer)).sqrt() + 1_u32;
+            sum += BigUint::from(3 * frame.grid.reached(layer)?).sqrt() + 1_u32;
         }
     }
     let loads = frame.piles.loads().values();
@@ -77,5 +81,5 @@ pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> u64 {
         // √3·3 < 6.
         sum += load.abs().ceil().to_integer().magnitude() * 6_u32;
     }
-    (sum * denominator.magnitude()).bits() + 4
+    Ok((sum * denominator.magnitude()).bits() + 4)
 }

@@ -5,6 +5,7 @@ mod console;
 mod ensemble;
 mod explain;
 mod export;
+mod mean;
 mod plot;
 mod scene;
 mod stackings;

@@ -15,8 +15,8 @@ use crate::progress::Progress;
 const HELP: &str = "\
 Of the L - 1 steps from layer to layer the first has the sign of --first; each later one differs from the one before with
 the fault probability q, independently: q = 0 is FCC, q = 1 is HCP, and at q = 1/2 all stackings are equally likely. The mean
-is over all of them, those included that cannot stand. So it is that of piles whose contacts can pull, because they
-are glued, or pressed together by more: wherever a normal is negative it says so of them alone.
+is over all of them, those included that cannot stand. So it is that of prestressed piles, whose contacts can pull because
+they are glued, or pressed together by more than these forces; a negative normal is of such piles alone.
 
 Columns, a row for each place of the bottom layer where some stacking has a sphere (in the plane: within reach of a load):
   a, b         the place a u_beta + b u_gamma, from that of the sphere (0,0) of the top layer (with --base: of the base); u_beta
@@ -113,8 +113,8 @@ impl Mean {
         }
         drop(progress);
         complain(
-            "note: this is over all stackings, those that cannot stand included: it is what piles bear that are glued or \
-             pressed together, and no others where normal forces are negative",
+            "note: this is over all stackings, those that cannot stand included; where a normal is negative it is that of \
+             prestressed piles alone, glued or pressed together",
         );
         Ok(true)
     }

@@ -45,6 +45,7 @@ console! {
     explain: 12;
     export: 36;
     help: 18;
+    mean: 45;
     merge: 13;
     plot: 38;
     prove: 5;
