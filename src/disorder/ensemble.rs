@@ -76,9 +76,9 @@ use crate::{Error, Pile};
 /// let stackings = RandomStackings::new(5, FirstSign::Plus)?;
 /// let ensemble = Ensemble::under(Region::hexagon(2, 2)?, stackings)?;
 /// let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
-/// assert_eq!(tally.standing(By::Sloping), Some(8_u32.into()));
+/// assert_eq!(tally.standing(By::Sloping), Some(6_u32.into()));
 /// let least = tally.faults[3].all.least.as_ref().unwrap();
-/// assert_eq!((least.stacking.to_string(), least.force.to_string()), ("+-+-".into(), "2/9".into()));
+/// assert_eq!((least.stacking.to_string(), least.force.to_string()), ("+-+-".into(), "-2/27".into()));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -41,7 +41,7 @@ const MOST_BYTES: u64 = 512 << 20;
 /// let mut of_whole = Vec::new();
 /// whole.write(&mut of_whole)?;
 /// assert_eq!(text, of_whole);
-/// assert!(String::from_utf8(text)?.contains("\n  \"standing_probability\": \"64/81\",\n"));
+/// assert!(String::from_utf8(text)?.contains("\n  \"standing_probability\": \"62/81\",\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -28,7 +28,7 @@ use crate::Error;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
 /// // Of six layers under one sphere the straight pile stands, three stackings with one fault, and so on.
 /// let standing = tally.faults.iter().map(|with| with.standing.stackings.to_string());
-/// assert_eq!(standing.collect::<Vec<_>>(), ["1", "4", "5", "1", "0"]);
+/// assert_eq!(standing.collect::<Vec<_>>(), ["1", "3", "4", "3", "0"]);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -25,7 +25,7 @@ use crate::table::rows::{Column, Row, Table};
 /// let mut csv = Vec::new();
 /// table::ensemble(&tally).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// let csv = String::from_utf8(csv)?;
-/// assert_eq!(csv.lines().nth(5), Some("4,1,0,-22/81,32/9,14/9,113/27,,,,,+-+-+"));
+/// assert_eq!(csv.lines().nth(5), Some("4,1,0,-22/81,341/81,454/243,247/81,,,,,+-+-+"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
