@@ -114,11 +114,11 @@ fn main() {
     measure("floats plane", depth(160), |n| in_floats(&plane(n)));
     measure("floats pile", depth(160), |n| in_floats(&pile(n)));
     measure("by faults plane 64 bits", depth(24), |n| {
-        by_faults(&plane(n))
+        by_faults(&plane(n));
     });
     measure("by faults pile 64 bits", depth(24), |n| by_faults(&pile(n)));
     measure("by faults plane 128 bits", depth(56), |n| {
-        by_faults(&plane(n))
+        by_faults(&plane(n));
     });
     measure("exactly plane", depth(80), |n| exactly(&plane(n)));
     measure("squares plane", depth(80), |n| {

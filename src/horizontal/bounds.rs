@@ -8,7 +8,7 @@ use num_traits::Zero;
 
 use super::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Aim, Closeness, Program, accepted, of_formulas};
-use super::straight::Straight;
+use super::straight::{End, Straight};
 use super::symmetry::Orbits;
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::error::bug;
@@ -62,13 +62,6 @@ pub struct NormalBound {
     /// The proof; none where it would have a number for each of more than 10⁵ spheres, and the bound is that of a formula
     /// for all L ([`paper`](crate::paper#arching)), and of [`base_bounds`](Pile::base_bounds) that are said of an image.
     pub certificate: Option<Certificate>,
-}
-
-/// Which of the two.
-#[derive(Clone, Copy)]
-pub(super) enum End {
-    Least,
-    Greatest,
 }
 
 impl Pile {
@@ -170,7 +163,11 @@ impl<'p> Solver<'p> {
         match (by_formula, network, self.straight) {
             (Some(bound), _, _) => Ok(bound),
             (None, Some(network), _) => self.by_program(end, network),
-            (None, None, Some(straight)) => Ok(straight.outer_bound()),
+            (None, None, Some(straight)) => Ok(NormalBound {
+                normal: straight.outer_bound(),
+                attained: false,
+                certificate: None,
+            }),
             (None, None, None) => Err(bug("a bound is that of a formula or of a program")),
         }
     }

@@ -5,9 +5,15 @@ use alloc::collections::BTreeMap;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::bounds::{End, NormalBound};
 use crate::lattice::{Axis, Dimension, Direction, HorizontalContact, Site, count};
 use crate::{Pile, formula};
+
+/// Which of the two bounds of a sphere.
+#[derive(Clone, Copy)]
+pub(super) enum End {
+    Least,
+    Greatest,
+}
 
 /// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), of − steps (k+i+j, −i, −j), and K =
 /// L−1.
@@ -49,7 +55,7 @@ impl Straight {
     }
 
     /// What no forces pass on an edge or inside, for any K; it may not be attained.
-    pub(super) fn outer_bound(self) -> NormalBound {
+    pub(super) fn outer_bound(self) -> BigRational {
         let n = self.sorted().map(|n| BigRational::from_integer(n.into()));
         let onto = match (self.sorted(), &n) {
             ([a, b, 0], [k, j, _]) => {
@@ -58,11 +64,7 @@ impl Straight {
             }
             _ => formula::greatest_inside(&n),
         };
-        NormalBound {
-            normal: normal_below(onto),
-            attained: false,
-            certificate: None,
-        }
+        normal_below(onto)
     }
 
     /// n_A ≥ n_B ≥ n_C.

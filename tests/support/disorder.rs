@@ -131,7 +131,8 @@ impl Piles {
         let mut bottom = one_by_one::bottom(&grown, &weight, &loads, signs).unwrap_or_default();
         if self.anchor == Anchor::Plane {
             // Every other sphere that the load could have come to bears nothing.
-            let (n, net) = (self.steps as i64, signs.iter().sum::<i64>());
+            let n = i64::try_from(self.steps).expect("few steps");
+            let net: i64 = signs.iter().sum();
             for [x, y] in loads.keys() {
                 for (a, b) in (-n..=n).flat_map(|a| (-n..=n).map(move |b| (a, b))) {
                     let reached = a.max(b).max(0) - a.min(b).min(0) <= n;
