@@ -2,11 +2,11 @@
 //!
 //! A step of a stacking is orthogonal: it leads each force to another place, and a [half-turn](crate::formula::half_turn)
 //! keeps the sum of squares. So the forces of one stacking, all of a layer, have a norm of at most
-//! B = Σ_j ‖w_j‖, with w_j what the spheres of layer j add: √(3 n_j) for n_j of them, and √3·3W for a load of W mg on one.
-//! By faults the forces over 3^d of a class are the sum over at most C(k,d) beginnings, so that none is
-//! greater than 3^d C(k,d) B; by probability, over N^k, they are a mean, and none is greater than N^k B. Within 3G g no term is greater than
-//! 2√3 ‖g‖, and what the floor feels is Σ ± (at most 2) g over two signs, and six times its own weight: less than 16 times
-//! these bounds.
+//! B = Σ_j ‖w_j‖, with w_j what the spheres of layer j add: √(3 n_j) for n_j of them, and √3·W for a load of W mg on one.
+//! By faults the numerators over 3^d are a sum over at most C(k,d) beginnings, so that none is greater than 3^d C(k,d) B; by
+//! probability, over N^k, they are a mean, and none is greater than N^k B. Within 3G g no term is greater than 2√3 ‖g‖, and
+//! what the floor feels is, for two signs, at most twice the sum of three forces each, and six times its own weight: all
+//! less than 16 times these bounds.
 
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
@@ -78,8 +78,8 @@ pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> Result
     }
     let loads = frame.piles.loads().values();
     for load in loads {
-        // √3·3 < 6.
-        sum += load.abs().ceil().to_integer().magnitude() * 6_u32;
+        // √3 < 2.
+        sum += load.abs().ceil().to_integer().magnitude() * 2_u32;
     }
     Ok((sum * denominator.magnitude()).bits() + 4)
 }
