@@ -199,8 +199,14 @@ fn what_is_no_part_is_refused_by_name() {
         "other.json",
     );
     assert!(refusal(&format!("merge {all} {other}")).contains("another fault probability"));
+}
 
-    let second = folder.part(scene, "2/3", "second.json");
+#[test]
+fn what_was_changed_is_refused() {
+    let folder = Folder::new("changed");
+    let scene = "--layers 6 --samples 90 --seed 7";
+    let [first, second, third] =
+        [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("part{i}.json")));
     let text = fs::read_to_string(&second).expect("a part");
     let changed = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
@@ -238,7 +244,7 @@ fn what_is_no_part_is_refused_by_name() {
     assert!(said.contains("1 part is missing, 2/3: "), "{said}");
     let said = refusal(&format!("merge {first} {second} {first} {third}"));
     assert!(
-        said.contains("first.json: the part 1/3 is there already"),
+        said.contains("part1.json: the part 1/3 is there already"),
         "{said}"
     );
     let said = refusal(&format!("merge {first} nothing.json"));

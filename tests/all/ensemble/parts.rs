@@ -129,12 +129,19 @@ fn what_is_no_part_is_refused() -> Result<(), Error> {
             (1, name, has, of_first)
         );
     }
-    let third = this()?.run(&choice, Shard::new(3, 3)?)?;
+    Ok(())
+}
+
+#[test]
+fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
+    let part = |index| ensemble("hexagon:2", 4)?.run(&Choice::All, Shard::new(index, 3)?);
+    let begin = part(1)?;
+    let third = part(3)?;
     let missing = Tally::merge(&[third.clone(), begin.clone()]).unwrap_err();
     assert_eq!(
         missing,
         Unmergeable::Missing {
-            shards: vec![second],
+            shards: vec![Shard::new(2, 3)?],
             count: 1
         }
     );
