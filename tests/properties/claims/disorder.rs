@@ -9,7 +9,7 @@ use num_traits::{One, Signed, Zero, pow};
 
 use super::{Checked, Failure, demand, one_line, same};
 use crate::generators::{disorder, number, region};
-use crate::support::disorder::{Anchor, Piles, agrees_at};
+use crate::support::disorder::{Piles, agrees_at};
 use crate::support::oracles::one_by_one::faults;
 
 /// Small piles: all that is said of them.
@@ -100,6 +100,7 @@ fn bears_its_loads(piles: &RandomPiles, mean: &Mean<BigRational>) -> Checked {
 #[cfg(test)]
 mod planted {
     use super::*;
+    use crate::support::disorder::Anchor;
 
     #[test]
     fn another_pile_is_caught() {
