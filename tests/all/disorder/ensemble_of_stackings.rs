@@ -21,7 +21,7 @@ fn counts_and_registries_of_all_stackings() {
             let all = Piles::response(steps, first).stackings();
             let total = BigUint::from(all.len());
             let choices = steps.saturating_sub(1);
-            let counts = (0..=choices as u32 + 2).map(|d| stackings.count_with(d));
+            let counts = (0..=u32::try_from(choices).unwrap() + 2).map(|d| stackings.count_with(d));
             let counts: Vec<_> = counts.collect();
             for (d, count) in counts.iter().enumerate() {
                 let with = all.iter().filter(|signs| faults(signs) == d).count();
@@ -89,7 +89,7 @@ fn a_place_is_a_site_of_one_registry() {
             let [x, y] = [3 * i - net, 3 * j - net];
             assert_eq!(3 * place.distance_squared().unwrap(), x * x + x * y + y * y);
             if net == 0 {
-                let [a, b] = of_site([i as i64, j as i64]);
+                let [a, b] = of_site([i, j].map(|x| i64::try_from(x).unwrap()));
                 assert_eq!(
                     place,
                     Place {

@@ -62,7 +62,7 @@ fn compositions(n: i64, runs: usize) -> Vec<Vec<i64>> {
     if runs == 1 {
         return vec![vec![n]];
     }
-    let first = 1..=n - runs as i64 + 1;
+    let first = 1..=n - i64::try_from(runs).unwrap() + 1;
     let cut = |first: i64| {
         compositions(n - first, runs - 1)
             .into_iter()
@@ -91,13 +91,13 @@ fn of_library(sums: &Sums, of: usize) -> Loads {
 
 #[test]
 fn sums_over_runs_and_their_directions() {
-    for n in 1..=8 {
+    for (n, steps) in (1..=8).zip(1..) {
         let piles = Piles::response(n, FirstSign::Plus).piles().unwrap();
         let sums = by_faults(&piles).unwrap();
         for faults in 0..n {
             assert_eq!(
                 of_library(&sums, faults),
-                closed(n as i64, faults),
+                closed(steps, faults),
                 "{n} {faults}"
             );
         }
@@ -172,8 +172,7 @@ fn the_slope_at_fcc() {
                 // Exact in the end: a difference quotient of polynomials, for smaller and smaller steps.
                 let step = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(40));
                 let quotient = (at(step.clone()) - at(ratio(0, 1))) / &step;
-                let nearest = (quotient * ratio(9, 1)).round() / ratio(9, 1);
-                nearest
+                (quotient * ratio(9, 1)).round() / ratio(9, 1)
             },
         );
         let expected = if n > 1 && n % 2 == 0 {

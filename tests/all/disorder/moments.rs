@@ -98,10 +98,7 @@ fn squares_by_faults() {
     for (steps, squares) in [(1, vec![3]), (2, vec![3, 33]), (3, vec![3, 54, 435])] {
         let piles = Piles::response(steps, FirstSign::Plus).piles().unwrap();
         let terms = squares.iter().enumerate().map(|(d, square)| {
-            let scale = BigRational::new(
-                (*square).into(),
-                num_bigint::BigInt::from(9).pow(d as u32 + 1),
-            );
+            let scale = BigRational::new((*square).into(), pow(num_bigint::BigInt::from(9), d + 1));
             let shares = Polynomial::constant(&scale) * &pow(q.clone(), d);
             shares * &pow(straight.clone(), steps - 1 - d)
         });
@@ -130,8 +127,11 @@ fn forces_keep_their_sum_of_squares() {
     let nowhere = Place { a: 99, b: 0 };
     let piles = Piles::response(3, FirstSign::Plus).piles().unwrap();
     assert_eq!(
-        piles.pair_moments(&0.5).unwrap().normals(nowhere, nowhere),
-        0.0
+        piles
+            .pair_moments(&ratio(1, 2))
+            .unwrap()
+            .normals(nowhere, nowhere),
+        ratio(0, 1)
     );
 }
 

@@ -48,7 +48,7 @@ fn moments(normals: &BTreeMap<Place, BigRational>) -> [BigRational; 6] {
 
 /// r³ cos 3φ and r⁴ of one stacking: which no one else sees.
 fn third_and_fourth(signs: &[i64]) -> [BigRational; 2] {
-    let n = signs.len() as i64;
+    let n = i64::try_from(signs.len()).unwrap();
     let mut third = 0;
     let mut fourth = whole(n * (2 * n * n * n + 2 * n * n - 2 * n + 1)) / whole(3);
     for (s, sign) in (1..).zip(signs) {
@@ -69,7 +69,7 @@ fn normals(sums: &Sums, of: usize) -> BTreeMap<Place, BigRational> {
 
 /// The library's response by faults has these moments.
 fn has_the_moments(steps: usize, sums: &Sums) -> Result<(), String> {
-    let n = steps as i64;
+    let n = i64::try_from(steps).unwrap();
     let stackings = Piles::response(steps, FirstSign::Plus).stackings();
     for d in 0..steps {
         let of_faults = stackings.iter().filter(|signs| faults(signs) == d);
@@ -125,7 +125,7 @@ fn a_load_moved_or_lost_changes_the_moments() {
 fn moments_of_the_mean() {
     for steps in 1..=14 {
         let piles = Piles::response(steps, FirstSign::Plus).piles().unwrap();
-        let n = whole(steps as i64);
+        let n = whole(i64::try_from(steps).unwrap());
         for q in [ratio(1, 3), ratio(1, 2), ratio(5, 7), ratio(1, 1)] {
             let mean = by_place(piles.exact(&q).unwrap());
             let normals = mean
@@ -289,7 +289,9 @@ fn hcp_is_a_polynomial_of_chebyshev() {
         }
         let sign = if steps % 2 == 0 { 1 } else { -1 };
         let mut next = mean_of_neighbours(&loads, sign);
-        next.values_mut().for_each(|load| *load *= whole(2));
+        for load in next.values_mut() {
+            *load *= whole(2);
+        }
         for (place, load) in &before {
             *next.entry(*place).or_default() -= load;
         }
