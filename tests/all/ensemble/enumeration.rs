@@ -237,6 +237,10 @@ fn of_loads() -> Result<(), Error> {
         case.weightless = true;
         case.width = ratio(1, 24);
         is_as_enumerated(&case, 5)?;
+        // No turn leads these two to their mirror image.
+        let mut case = Case::of("hexagon:2", first);
+        case.loads = [[1, 0], [0, 1]].map(|at| (at, ratio(1, 4))).into();
+        is_as_enumerated(&case, 4)?;
     }
     Ok(())
 }
