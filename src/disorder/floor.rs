@@ -13,7 +13,8 @@ use crate::formula;
 use crate::geometry::{Vector, directions};
 use crate::lattice::Sign;
 
-/// Six times the base's unit over 2·3: what the numerators of the floor are divided by.
+/// What the numerators of the floor are divided by: directions over 2, and three units of force to mg. Unwrapped by the
+/// compiler: zero would not build.
 pub(super) const FLOOR_UNIT: NonZeroI64 = NonZeroI64::new(6).unwrap();
 
 /// Normal force and shears on the floor: six times those in the units of the base, in the unit of the numerators.

@@ -4,6 +4,7 @@ use core::num::NonZeroI64;
 
 use crate::scalar::{Algebra, Ring, THREE};
 
+// Unwrapped by the compiler: zero would not build.
 const SIXTEEN: NonZeroI64 = NonZeroI64::new(16).unwrap();
 const SEVEN_HUNDRED_SIXTY_EIGHT: NonZeroI64 = NonZeroI64::new(768).unwrap();
 

@@ -53,7 +53,7 @@ pub fn mean<T: Algebra + Into<Cell> + 'static>(
     }
 }
 
-/// The same of polynomials in the fault probability, `q`.
+/// Means over random stackings as polynomials in the fault probability `q`, a place a row, with the columns of [`mean`].
 ///
 /// # Examples
 /// ```

@@ -146,6 +146,7 @@ pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
     steps
 }
 
+// Unwrapped by the compiler: zero would not build.
 const FOUR: NonZeroI64 = NonZeroI64::new(4).unwrap();
 const SIXTY_FOUR: NonZeroI64 = NonZeroI64::new(64).unwrap();
 
