@@ -30,4 +30,4 @@ pub use moments::{Moments, Wave};
 pub use pairs::PairMoments;
 pub use piles::RandomPiles;
 pub use place::Place;
-pub use stackings::{FirstSign, RandomStackings};
+pub use stackings::{FirstSign, RandomStackings, check_fault_probability};

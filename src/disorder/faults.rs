@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero, pow};
+use num_traits::{One, Zero, pow};
 
 use super::floor::FLOOR_UNIT;
 use super::frame::{Frame, Load};
@@ -13,6 +13,7 @@ use super::mean::{Mean, MeanForce};
 use super::number::{All, Number};
 use super::piles::RandomPiles;
 use super::place::Place;
+use super::stackings::check_fault_probability;
 use super::transfer::{Spot, Transfer};
 use super::width::{Width, bits_of_counts, bits_of_sources};
 use crate::Error;
@@ -296,9 +297,7 @@ impl ByFaults {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn at(&self, q: &BigRational) -> Result<Mean<BigRational>, Error> {
-        if q.is_negative() || q > &BigRational::one() {
-            return Err(Error::FaultProbability { given: q.clone() });
-        }
+        check_fault_probability(q)?;
         let (a, b) = (q.numer(), q.denom());
         let [faults, straight] = [a.clone(), (b - a) * 3];
         let most = self.most_faults();
@@ -307,24 +306,15 @@ impl ByFaults {
             (0..self.classes).map(|d| pow(faults.clone(), d) * pow(straight.clone(), most - d));
         let shares: Vec<_> = shares.collect();
         let scale = pow(b * 3, most) * &self.firsts;
-        let forces = &scale * &self.denominator * FLOOR_UNIT.get();
-        let of = |n: BigInt, scale: &BigInt| {
-            BigRational::from_ratio(n, scale).ok_or_else(|| bug("denominators are not zero"))
-        };
-        self.mean(|sums| {
+        let over = |n: BigInt, scale: &BigInt| BigRational::from_ratio(n, scale);
+        self.mean(&scale, over, |sums| {
             let mut totals = [(); 4].map(|()| BigInt::zero());
             for (share, sums) in shares.iter().zip(sums) {
                 for (total, sum) in totals.iter_mut().zip(sums) {
                     *total += share * sum;
                 }
             }
-            let [probability, normal, shear_x, shear_y] = totals;
-            Ok([
-                of(probability, &scale)?,
-                of(normal, &forces)?,
-                of(shear_x, &forces)?,
-                of(shear_y, &forces)?,
-            ])
+            totals
         })
     }
 
@@ -357,8 +347,10 @@ impl ByFaults {
         });
         let powers: Vec<_> = powers.collect();
         let scale = pow(BigInt::from(3), most) * &self.firsts;
-        let forces = &scale * &self.denominator * FLOOR_UNIT.get();
-        self.mean(|sums| {
+        let over = |terms: Vec<BigInt>, scale: &BigInt| {
+            Polynomial::in_powers(Symbol("q"), terms, scale.clone())
+        };
+        self.mean(&scale, over, |sums| {
             let mut totals = [(); 4].map(|()| alloc::vec![BigInt::zero(); self.classes]);
             for (d, (powers, sums)) in powers.iter().zip(sums).enumerate() {
                 for (total, sum) in totals.iter_mut().zip(sums) {
@@ -370,35 +362,31 @@ impl ByFaults {
                     }
                 }
             }
-            let of = |terms: Vec<BigInt>, scale: &BigInt| {
-                Polynomial::in_powers(Symbol("q"), terms, scale.clone())
-                    .ok_or_else(|| bug("denominators are not zero"))
-            };
-            let [probability, normal, shear_x, shear_y] = totals;
-            Ok([
-                of(probability, &scale)?,
-                of(normal, &forces)?,
-                of(shear_x, &forces)?,
-                of(shear_y, &forces)?,
-            ])
+            totals
         })
     }
 
-    /// The rows made of the sums of each place.
-    fn mean<T>(
+    /// The rows made of the totals of each place, over the denominator of probabilities.
+    fn mean<U, T>(
         &self,
-        of: impl Fn(&[[BigInt; 4]]) -> Result<[T; 4], Error>,
+        scale: &BigInt,
+        over: impl Fn(U, &BigInt) -> Option<T>,
+        totals: impl Fn(&[[BigInt; 4]]) -> [U; 4],
     ) -> Result<Mean<T>, Error> {
+        let forces = scale * &self.denominator * FLOOR_UNIT.get();
+        let over = |total: U, scale: &BigInt| {
+            over(total, scale).ok_or_else(|| bug("denominators are not zero"))
+        };
         let rows = self.places.iter().map(|(place, at)| {
             let sums = (0..self.classes).map(|d| self.sums.get(at * self.classes + d));
             let sums = sums.collect::<Option<Vec<_>>>().ok_or_else(|| bug(SUMS))?;
-            let [probability, normal, shear_x, shear_y] = of(&sums)?;
+            let [probability, normal, shear_x, shear_y] = totals(&sums);
             Ok(MeanForce {
                 place: *place,
-                probability,
-                normal,
-                shear_x,
-                shear_y,
+                probability: over(probability, scale)?,
+                normal: over(normal, &forces)?,
+                shear_x: over(shear_x, &forces)?,
+                shear_y: over(shear_y, &forces)?,
             })
         });
         Ok(Mean::of(rows.collect::<Result<_, Error>>()?))

@@ -5,21 +5,21 @@ use core::num::NonZeroI64;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, pow};
+use num_traits::pow;
 
 use super::floor::FLOOR_UNIT;
 use super::frame::{Frame, Load};
 use super::number::{Number, Part};
 use super::piles::RandomPiles;
 use super::place::Place;
-use super::stackings::FirstSign;
+use super::stackings::{FirstSign, check_fault_probability};
 use super::transfer::{Spot, Transfer, shares};
 use super::width::{Width, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
 use crate::scalar::{Algebra, Field, TWO};
 
-/// One, as a divisor.
+/// One, as a divisor. Unwrapped by the compiler: zero would not build.
 const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 
 /// What is at one place of the bottom layer, in the mean over all stackings.
@@ -278,9 +278,7 @@ impl RandomPiles {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn exact(&self, q: &BigRational) -> Result<Mean<BigRational>, Error> {
-        if q.is_negative() || q > &BigRational::one() {
-            return Err(Error::FaultProbability { given: q.clone() });
-        }
+        check_fault_probability(q)?;
         let denominator = self.denominator();
         let tripled: BigInt = q.denom() * 3;
         // Each step but the first and the last multiplies by 3b.

@@ -1,9 +1,9 @@
 //! How far a load spreads: moments in one stacking and in the mean, and the waves that the mean is made of.
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
-use super::stackings::{FirstSign, MOST_LAYERS, RandomStackings};
+use super::stackings::{FirstSign, MOST_LAYERS, RandomStackings, check_fault_probability};
 use crate::Error;
 use crate::formula::{
     fourth_moment, fourth_moment_of_pair, mean_fourth_moment_of_pairs, mean_third_moment,
@@ -92,7 +92,7 @@ impl RandomStackings {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn moments(&self, q: &BigRational) -> Result<Moments, Error> {
-        check(q)?;
+        check_fault_probability(q)?;
         let n = steps(self.layers())?;
         let one = BigRational::one();
         let mu = one.clone() - BigRational::from_i128(2) * q;
@@ -169,7 +169,7 @@ impl Wave {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn at(q: &BigRational) -> Result<Option<Self>, Error> {
-        check(q)?;
+        check_fault_probability(q)?;
         let [damping, dispersion] = wave(q);
         let over = || {
             Some(Self {
@@ -198,13 +198,6 @@ impl Wave {
     pub fn squared_width(&self, n: i128) -> BigRational {
         BigRational::from_i128(2) * &self.damping * BigRational::from_i128(n)
     }
-}
-
-fn check(q: &BigRational) -> Result<(), Error> {
-    if q.is_negative() || *q > BigRational::one() {
-        return Err(Error::FaultProbability { given: q.clone() });
-    }
-    Ok(())
 }
 
 /// The number of steps.

@@ -5,7 +5,8 @@ use core::str::FromStr;
 
 use num_bigint::BigUint;
 use num_integer::binomial;
-use num_traits::{One, Zero};
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 use crate::lattice::{MAX_LAYERS, Sign};
@@ -287,4 +288,26 @@ impl RandomStackings {
         }
         Ok(before.map(|deviation| deviation + &third))
     }
+}
+
+/// Refuses what is no probability, and so none of a change of sign: `q` outside of 0 ≤ q ≤ 1.
+///
+/// # Errors
+/// [`Error::FaultProbability`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::disorder::check_fault_probability;
+/// use num_rational::BigRational;
+///
+/// let ratio = |n: i32, d: i32| BigRational::new(n.into(), d.into());
+/// assert!(check_fault_probability(&ratio(1, 3)).is_ok());
+/// let refused = check_fault_probability(&ratio(4, 3)).unwrap_err();
+/// assert_eq!(refused.to_string(), "the fault probability must be at least 0 and at most 1, not 4/3");
+/// ```
+pub fn check_fault_probability(q: &BigRational) -> Result<(), Error> {
+    if q.is_negative() || *q > BigRational::one() {
+        return Err(Error::FaultProbability { given: q.clone() });
+    }
+    Ok(())
 }

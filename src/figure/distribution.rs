@@ -19,7 +19,7 @@ use crate::table::Binned;
 /// are drawn at one fault probability, it is that one.
 ///
 /// # Errors
-/// [`Error::Syntax`] unless 0 ≤ q ≤ 1; [`Error::TooManyMarks`] for more than 20 000 bins.
+/// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1; [`Error::TooManyMarks`] for more than 20 000 bins.
 ///
 /// # Examples
 /// ```

@@ -12,7 +12,9 @@ use super::page::{Bar, Figure};
 use super::panel::{BAR, Panel};
 use super::ticks::short;
 use crate::Error;
-use crate::disorder::{FirstSign, MeanForce, Place, RandomPiles, RandomStackings};
+use crate::disorder::{
+    FirstSign, MeanForce, Place, RandomPiles, RandomStackings, check_fault_probability,
+};
 use crate::error::bug;
 use crate::geometry::{directions, position};
 use crate::lattice::Site;
@@ -231,7 +233,7 @@ fn finite() -> Error {
 
 /// The mean at each place that the load can reach, and the probability that a sphere is there.
 fn means(stackings: RandomStackings, q: &BigRational) -> Result<Vec<MeanForce<f64>>, Error> {
-    crate::disorder::Wave::at(q)?;
+    check_fault_probability(q)?;
     let piles = RandomPiles::plane(stackings).weightless();
     let piles = piles.with_load(Site::APEX, BigRational::one())?;
     let q = q

@@ -16,7 +16,9 @@ pub(crate) mod spheres;
 pub(crate) mod summary;
 pub(crate) mod verify;
 
+use cannonpile::disorder::check_fault_probability;
 use cannonpile::geometry::Spacing;
+use cannonpile::scene::parse;
 use cannonpile::shape::Selection;
 use cannonpile::table::{Cell, Table};
 use cannonpile::{Error, Pile};
@@ -25,6 +27,13 @@ use num_traits::One;
 
 use crate::output::{Failure, complain};
 use crate::progress::Progress;
+
+/// Reads the probability of a change of sign.
+fn fault_probability(text: &str) -> Result<BigRational, Error> {
+    let q = parse::rational(text)?;
+    check_fault_probability(&q)?;
+    Ok(q)
+}
 
 /// Whether neighbours of a layer touch, at the spacing that is given for all stackings of some layers; or why nothing is said of
 /// which stand at it. A pile of them with a change of sign leaves the least room.

@@ -82,7 +82,7 @@ impl TallyRecord {
     /// Returns the record of a tally that was counted here; of samples `fault_probability` is that which they were drawn with.
     ///
     /// # Errors
-    /// [`Error::Syntax`] unless 0 ≤ q ≤ 1.
+    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
     ///
     /// # Examples
     /// See [`TallyRecord`].

@@ -6,9 +6,10 @@ use core::ops::Range;
 use core::str::FromStr;
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::ToPrimitive;
 
 use crate::Error;
+use crate::disorder::check_fault_probability;
 
 /// Which stackings are looked at: all of them, or some drawn at random.
 ///
@@ -60,7 +61,7 @@ impl Samples {
     /// Returns `count` samples with this seed, whose signs change with the probability `fault_probability`.
     ///
     /// # Errors
-    /// [`Error::Syntax`] for no sample at all, and for what is no probability, or has a denominator of 2⁶⁴ or more.
+    /// [`Error::Syntax`] for no sample at all, and for a denominator of 2⁶⁴ or more; [`Error::FaultProbability`].
     ///
     /// # Examples
     /// ```
@@ -76,7 +77,7 @@ impl Samples {
         if count == 0 {
             return Err(Error::syntax("0", "a number of samples, 1 at least"));
         }
-        check_probability(&fault_probability)?;
+        check_fault_probability(&fault_probability)?;
         if fault_probability.denom().to_u64().is_none() {
             return Err(Error::syntax(
                 &fault_probability.to_string(),
@@ -116,17 +117,6 @@ impl Samples {
     pub const fn fault_probability(&self) -> &BigRational {
         &self.fault_probability
     }
-}
-
-/// Errors unless 0 ≤ q ≤ 1.
-pub(super) fn check_probability(q: &BigRational) -> Result<(), Error> {
-    if q.is_negative() || *q > BigRational::one() {
-        return Err(Error::syntax(
-            &q.to_string(),
-            "a fault probability: a number from 0 to 1",
-        ));
-    }
-    Ok(())
 }
 
 /// A part I of N, counted from 1: what one of N machines looks at.

@@ -8,13 +8,13 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::choice::check_probability;
 use super::count::Counted;
 use super::distribution::Distribution;
 use super::layer::Numerator;
 use super::setup::Setup;
 use super::{Choice, Ensemble, Shard};
 use crate::Error;
+use crate::disorder::check_fault_probability;
 
 /// What was counted of an ensemble, or of a part of it: exact numbers only, so that it is the same however the work was
 /// cut up.
@@ -171,7 +171,7 @@ impl Tally {
     /// So the mean number of contacts of a bin in a pile is the sum over d of the weight times the count.
     ///
     /// # Errors
-    /// [`Error::Syntax`] unless 0 ≤ q ≤ 1.
+    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
     ///
     /// # Examples
     /// ```
@@ -186,7 +186,7 @@ impl Tally {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn weights(&self, q: &BigRational) -> Result<Option<Vec<BigRational>>, Error> {
-        check_probability(q)?;
+        check_fault_probability(q)?;
         if self.shard != Shard::WHOLE {
             return Ok(None);
         }
@@ -211,7 +211,7 @@ impl Tally {
     /// steps. `None` of samples, of a part, and with horizontal contacts where that was not asked.
     ///
     /// # Errors
-    /// [`Error::Syntax`] unless 0 ≤ q ≤ 1.
+    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
     ///
     /// # Examples
     /// ```

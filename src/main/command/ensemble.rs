@@ -14,9 +14,8 @@ use cannonpile::table::{self, Binned, WriteError};
 use cannonpile::{Culprit, Error, Pile};
 use clap::{ArgGroup, Args, ValueEnum};
 use num_rational::BigRational;
-use num_traits::{One, Signed};
 
-use super::has_horizontal_contacts;
+use super::{fault_probability, has_horizontal_contacts};
 use crate::args::{Format, Number, Output, SceneOptions};
 use crate::output::{Failure, Refused, reason, write_to};
 use crate::progress::Progress;
@@ -61,7 +60,7 @@ pub(crate) struct EnsembleOf {
     #[arg(long, value_name = "S", conflicts_with = "all", allow_hyphen_values = true, value_parser = natural)]
     seed: Option<u64>,
     /// The probability q that a sign differs from the one before
-    #[arg(long, value_name = "Q", default_value = "1/2", allow_hyphen_values = true, value_parser = probability)]
+    #[arg(long, value_name = "Q", default_value = "1/2", allow_hyphen_values = true, value_parser = fault_probability)]
     fault_probability: BigRational,
     /// The sign of the first step: +, - or random
     #[arg(long, value_name = "SIGN", default_value = "+", allow_hyphen_values = true, value_parser = str::parse::<FirstSign>)]
@@ -107,18 +106,6 @@ fn natural(text: &str) -> Result<u64, Error> {
         text: text.to_owned(),
         expected: "a number from 0 to 2^64 - 1",
     })
-}
-
-/// Reads a number from 0 to 1.
-pub(super) fn probability(text: &str) -> Result<BigRational, Error> {
-    let q = parse::rational(text)?;
-    if q.is_negative() || q > BigRational::one() {
-        return Err(Error::Syntax {
-            text: text.to_owned(),
-            expected: "a probability: a number from 0 to 1",
-        });
-    }
-    Ok(q)
 }
 
 /// Says which option is refused.

@@ -2,12 +2,11 @@
 
 use cannonpile::disorder::RandomPiles;
 use cannonpile::scalar::Algebra;
-use cannonpile::scene::parse;
 use cannonpile::table::{self, NumberFormat, Table};
 use clap::{Args, ValueEnum};
 use num_rational::BigRational;
-use num_traits::{One, Signed};
 
+use super::fault_probability;
 use crate::args::{Output, PilesOfStackings};
 use crate::output::{Failure, complain};
 use crate::progress::Progress;
@@ -46,7 +45,7 @@ pub(crate) struct Mean {
     #[command(flatten)]
     scene: PilesOfStackings,
     /// The probability q that the sign changes, between 0 and 1 [default: 1/2]
-    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational, conflicts_with_all = ["symbolic", "by"], help_heading = "Random stackings")]
+    #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability, conflicts_with_all = ["symbolic", "by"], help_heading = "Random stackings")]
     fault_probability: Option<BigRational>,
     /// Polynomials in q, for every fault probability
     #[arg(long, conflicts_with = "by", help_heading = "Random stackings")]
@@ -145,9 +144,6 @@ impl Mean {
                 table::mean(if given { mean.given_sphere() } else { mean }, given)
             }
             Number::F64 => {
-                if q.is_negative() || q > BigRational::one() {
-                    return Err(refused(cannonpile::Error::FaultProbability { given: q }));
-                }
                 let q = f64::from_rational(&q);
                 let mean = piles.mean(&q).map_err(refused)?;
                 table::mean(if given { mean.given_sphere() } else { mean }, given)

@@ -12,7 +12,8 @@ use clap::{Args, Subcommand};
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::ensemble::{Measured as Histogram, probability};
+use super::ensemble::Measured as Histogram;
+use super::fault_probability;
 use crate::args::{SceneOptions, UnitSystem, one};
 use crate::output::{Failure, Refused, complain, write_to};
 use crate::progress::Progress;
@@ -88,7 +89,7 @@ pub(crate) enum Plot {
         faults: Option<String>,
         /// Instead, the mean over random stackings below a wide top that begin with + and change with these probabilities,
         /// a map for each
-        #[arg(long, value_name = "Q,...", allow_hyphen_values = true, value_delimiter = ',', value_parser = probability, conflicts_with = "layer")]
+        #[arg(long, value_name = "Q,...", allow_hyphen_values = true, value_delimiter = ',', value_parser = fault_probability, conflicts_with = "layer")]
         fault_probability: Vec<BigRational>,
         /// Of these means the sum over rings, as curves over the distance from the load's line
         #[arg(long, requires = "fault_probability")]
@@ -103,7 +104,7 @@ pub(crate) enum Plot {
         #[arg(long, value_enum, default_value = "forces")]
         histogram: Histogram,
         /// The probability q that a sign differs from the one before [default: that of the record]
-        #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = probability)]
+        #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability)]
         fault_probability: Option<BigRational>,
         #[command(flatten)]
         output: ToFile,

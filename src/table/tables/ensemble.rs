@@ -79,7 +79,7 @@ fn force(extreme: Option<&Extreme>) -> Cell {
 /// with `held`, where it was asked how many stand with horizontal contacts.
 ///
 /// # Errors
-/// [`Error::Syntax`] unless 0 ≤ q ≤ 1.
+/// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
 ///
 /// # Examples
 /// ```
@@ -188,7 +188,7 @@ impl Binned {
 /// one of them. Of samples it is the mean over them, whatever q. `None` of a part.
 ///
 /// # Errors
-/// [`Error::Syntax`] unless 0 ≤ q ≤ 1.
+/// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
 ///
 /// # Examples
 /// ```
