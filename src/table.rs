@@ -68,7 +68,6 @@ pub use summary::Summary;
 #[cfg(feature = "horizontal")]
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use tables::horizontal_census;
-pub(crate) use tables::refuse_beyond;
 #[cfg(feature = "ensemble")]
 #[cfg_attr(docsrs, doc(cfg(feature = "ensemble")))]
 pub use tables::{Binned, ensemble, ensemble_summary, histogram};
@@ -76,6 +75,7 @@ pub use tables::{
     MAX_ROWS, base, by_faults, census, contacts, mean, mean_of_polynomials, spheres, theorems,
     touching_contacts,
 };
+pub(crate) use tables::{indices, places, refuse_beyond};
 pub use unfinished::remove_unfinished;
 pub(crate) use unfinished::{Pending, remove_leftovers};
 pub use units::Units;

@@ -56,6 +56,17 @@ pub(super) struct Touch {
     pub(super) direction: Direction,
 }
 
+/// A row of spheres above the floor.
+pub(crate) struct LinkedRow {
+    /// The first sphere, and its number.
+    first: Site,
+    pub(crate) upper: u64,
+    /// How many there are; their numbers follow each other.
+    pub(crate) spheres: u64,
+    /// The directions of the contacts, and the numbers of the spheres that the first one touches there.
+    pub(crate) below: Vec<(Direction, u64)>,
+}
+
 impl<'p> NumberedPile<'p> {
     /// Numbers the spheres of a packing.
     ///
@@ -133,7 +144,7 @@ impl<'p> NumberedPile<'p> {
     }
 
     /// The spheres with their centres as the nearest floats, in the order of their numbers.
-    pub(super) fn centres(
+    pub(crate) fn centres(
         &self,
     ) -> Result<impl Iterator<Item = Result<(Site, [f64; 3]), Error>> + use<'p>, Error> {
         let places = self.packing.places::<f64>();
@@ -165,7 +176,7 @@ impl<'p> NumberedPile<'p> {
     }
 
     /// The centres of both spheres of all contacts, in the order of [`contacts`](Self::contacts).
-    pub(super) fn links(
+    pub(crate) fn links(
         &self,
     ) -> Result<impl Iterator<Item = Result<[[f64; 3]; 2], Error>> + '_, Error> {
         let places = self.packing.places::<f64>();
@@ -268,7 +279,9 @@ impl<'p> NumberedPile<'p> {
     }
 
     /// The horizontal contacts with a force, in the order of tables.
-    fn horizontal(&self) -> impl Iterator<Item = Result<NumberedContact, Error>> + use<'_, 'p> {
+    pub(crate) fn horizontal(
+        &self,
+    ) -> impl Iterator<Item = Result<NumberedContact, Error>> + use<'_, 'p> {
         let pile = self.pile();
         pile.horizontal_forces().map(move |(contact, force)| {
             let neighbour = pile.shape().neighbour(contact)?;
@@ -291,8 +304,16 @@ impl<'p> NumberedPile<'p> {
         Ok(self.pile().rows(Selection::All)?.off_the_floor())
     }
 
-    /// The contacts of a row of spheres with those below: along it their numbers follow each other.
-    fn touches_of(&self, row: &Row) -> Result<impl Iterator<Item = Touch> + use<>, Error> {
+    /// The rows above the floor, with the numbers of their spheres and of those below.
+    pub(crate) fn linked_rows(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<LinkedRow, Error>> + '_, Error> {
+        let rows = self.rows_above_the_floor()?;
+        Ok(rows.map(|row| self.linked(&row)))
+    }
+
+    /// The numbers of a row of spheres, and of those below: along a row they follow each other.
+    fn linked(&self, row: &Row) -> Result<LinkedRow, Error> {
         let (shape, numbering) = (self.pile().shape(), &self.numbering);
         let at = |i| Site {
             i,
@@ -301,13 +322,27 @@ impl<'p> NumberedPile<'p> {
         };
         let first = at(row.i.start);
         let upper = numbering.id(first)?;
-        let spheres = numbering.id(at(row.i.end - 1))? - upper + 1;
         let below = shape.dimension().directions().iter().map(|direction| {
             let below = shape.below(first, *direction);
             let below = below.ok_or(Error::OnFloor { site: first })?;
             Ok((*direction, numbering.id(below)?))
         });
-        let below = below.collect::<Result<Vec<_>, Error>>()?;
+        Ok(LinkedRow {
+            first,
+            upper,
+            spheres: numbering.id(at(row.i.end - 1))? - upper + 1,
+            below: below.collect::<Result<_, Error>>()?,
+        })
+    }
+
+    /// The contacts of a row of spheres with those below.
+    fn touches_of(&self, row: &Row) -> Result<impl Iterator<Item = Touch> + use<>, Error> {
+        let LinkedRow {
+            first,
+            upper,
+            spheres,
+            below,
+        } = self.linked(row)?;
         let contacts = 0..spheres * below.len() as u64;
         Ok(contacts.filter_map(move |n| {
             let (done, direction) = (n / below.len() as u64, n % below.len() as u64);

@@ -2,6 +2,7 @@
 
 mod args;
 mod command;
+mod hashed;
 mod output;
 mod progress;
 mod signals;

@@ -91,7 +91,7 @@ fn greatest_place(packing: &Packing<'_>) -> BigRational {
 }
 
 /// The columns that say where a sphere is: those named first, then i, and j in space.
-pub(super) fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
+pub(crate) fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
     let places: &[_] = if pile.dimension() == Dimension::Two {
         &["i"]
     } else {
@@ -106,7 +106,7 @@ pub(super) fn indices(pile: &Pile, first: &[&'static str]) -> Vec<Column> {
 }
 
 /// i, and j in space.
-pub(super) fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
+pub(crate) fn places(pile: &Pile, site: Site) -> impl Iterator<Item = Cell> + use<> {
     let j = (pile.dimension() == Dimension::Three).then_some(site.j);
     core::iter::once(site.i).chain(j).map(Cell::from)
 }

@@ -3,12 +3,12 @@
 use core::fmt;
 
 use super::difference::{Difference, Extra};
+use super::finding::Finding;
+use super::ledger::Ledger;
 use super::measured::Measured;
-use super::pairs::{Pairs, Scope};
 use super::refusal::Refusal;
-use super::tally::{Judged, Tally};
-use crate::dem::NumberedPile;
-use crate::{Error, Packing};
+use super::tally::Judged;
+use crate::Packing;
 
 /// What was measured, compared with the exact forces of a pile: see [`verify`](super) for what that means.
 ///
@@ -67,26 +67,18 @@ impl Comparison {
         packing: &Packing<'_>,
         measured: impl IntoIterator<Item = Measured>,
     ) -> Result<Self, Refusal> {
-        let mut scope = Scope::new(packing)?;
-        let numbered = NumberedPile::new(packing)?;
-        let mut pairs = Pairs::default();
+        let mut ledger = Ledger::new(packing)?;
         for (entry, measured) in (1..).zip(measured) {
-            let admitted = scope.admit(&measured, entry);
+            let admitted = ledger.admit(&measured, entry);
             admitted.map_err(|fault| Refusal::Entry { entry, fault })?;
-            pairs.add(measured);
         }
-        drop(scope);
-        pairs.sort();
-        let mut tally = Tally::new(packing.pile().dimension(), pairs.has_vectors());
-        let out_of_range = |error| match error {
-            Error::Overflow { .. } => Refusal::OutOfRange,
-            error => error.into(),
-        };
-        for contact in numbered.contacts().map_err(out_of_range)? {
-            let contact = contact.map_err(out_of_range)?.in_order();
-            tally.add(&contact, pairs.meet(contact.ids));
-        }
-        Ok(Self(tally.close(&pairs, numbered.numbering())))
+        let (judged, _) = ledger.judge(false)?;
+        Ok(Self(judged))
+    }
+
+    /// What a ledger has judged.
+    pub(super) fn of(judged: Judged) -> Self {
+        Self(judged)
     }
 
     /// How many contacts the pile has.
@@ -331,7 +323,28 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn common_factor(&self, tolerance: f64) -> Option<f64> {
-        self.0.common_factor(tolerance)
+        self.0.symptoms.factor(tolerance)
+    }
+
+    /// What the differences have in common, where the data show it: see [`Finding`].
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile::verify::{Comparison, Finding, Measured};
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let weighed = [2, 3, 4].map(|id| Measured::new([1, id], 9.81 * 0.46225016352102427));
+    /// let comparison = Comparison::new(&packing, weighed)?;
+    /// let [Finding::Factor(factor)] = comparison.findings(1e-6)[..] else { panic!() };
+    /// assert!((factor - 9.81).abs() < 1e-12);
+    /// # Ok::<(), cannonpile::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn findings(&self, tolerance: f64) -> Vec<Finding> {
+        self.0.symptoms.findings(tolerance)
     }
 
     /// The root of the mean square of the relative errors of the contacts that were measured, to some 1e-8 of itself.

@@ -5,6 +5,8 @@ use std::io::{self, BufRead, Read};
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 
 use super::columns::Columns;
+use super::entry::Sink;
+use super::header::{Header, Identity};
 use super::lines::Lines;
 use super::reading::Reading;
 use super::refusal::{Fault, Refusal};
@@ -30,20 +32,32 @@ use super::refusal::{Fault, Refusal};
 /// # Ok::<(), cannonpile::verify::Refusal>(())
 /// ```
 pub fn read_csv(input: impl BufRead) -> Result<Reading, Refusal> {
-    read_rows(Lines::new(input), Reading::default())
+    let mut reading = Reading::default();
+    read_rows(Lines::new(input), &Format::default(), &mut reading)?;
+    Ok(reading)
 }
 
+/// Reads the rows of a table whose columns are separated by commas, semicolons, tabs or spaces.
 pub(super) fn read_rows(
-    lines: Lines<impl BufRead>,
-    mut reading: Reading,
-) -> Result<Reading, Refusal> {
-    let mut csv = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(Trim::All)
-        .from_reader(LineByLine::new(lines));
+    mut lines: Lines<impl BufRead>,
+    format: &Format,
+    sink: &mut impl Sink,
+) -> Result<(), Refusal> {
+    let Some(head) = find_head(&mut lines, format)? else {
+        return Err(Fault::Empty.at(lines.number()));
+    };
+    if head.separator == Separator::Spaces {
+        while let Some(line) = lines.next()? {
+            if !is_row(line.text) {
+                continue;
+            }
+            let fields: Vec<&str> = line.text.split_whitespace().collect();
+            take(&head.header, &fields, line.number, sink)?;
+        }
+        return Ok(());
+    }
+    let mut csv = records(LineByLine::new(lines), head.separator);
     let mut row = StringRecord::new();
-    let mut columns = None;
     loop {
         let read = csv.read_record(&mut row);
         let source = csv.get_mut();
@@ -53,23 +67,140 @@ pub(super) fn read_rows(
         // A row is a line: it has been read whole, and no more.
         let line = source.lines.number();
         if !read.map_err(io_error)? {
-            break;
+            return Ok(());
         }
         unquote(&mut row);
-        let Some(columns) = &columns else {
-            let header = Columns::new(&row).map_err(|fault| fault.at(line))?;
-            columns = Some(header);
-            continue;
+        let fields: Vec<&str> = row.iter().collect();
+        take(&head.header, &fields, line, sink)?;
+    }
+}
+
+/// How a table is read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Format {
+    pub(super) columns: Columns,
+    pub(super) identity: Identity,
+}
+
+/// Gives the row in the fields of a line to a sink.
+pub(super) fn take(
+    header: &Header,
+    fields: &[&str],
+    line: u64,
+    sink: &mut impl Sink,
+) -> Result<(), Refusal> {
+    let Some(entry) = header.read(fields).map_err(|fault| fault.at(line))? else {
+        sink.pass_over();
+        return Ok(());
+    };
+    sink.take(&entry, line)
+}
+
+/// What the first lines of a table say.
+struct Head {
+    header: Header,
+    separator: Separator,
+}
+
+/// What stands between two fields.
+#[derive(Clone, Copy, PartialEq)]
+enum Separator {
+    Byte(u8),
+    Spaces,
+}
+
+impl Separator {
+    /// The one of a line.
+    fn of(line: &str) -> Self {
+        let marks = [',', ';', '\t'];
+        let mark = marks.into_iter().find(|mark| line.contains(*mark));
+        match mark.and_then(|mark| u8::try_from(mark).ok()) {
+            Some(byte) => Self::Byte(byte),
+            None if line.trim().contains(char::is_whitespace) => Self::Spaces,
+            None => Self::Byte(b','),
+        }
+    }
+}
+
+/// Finds the header of a table, and leaves its first row to be read; none where there is nothing.
+///
+/// A header may stand in a comment, after #, the last of several.
+fn find_head(lines: &mut Lines<impl BufRead>, format: &Format) -> Result<Option<Head>, Refusal> {
+    let Format { columns, identity } = format;
+    let mut commented = None;
+    loop {
+        let Some(line) = lines.next()? else {
+            return Ok(commented);
         };
-        let pushed = columns
-            .read(&row)
-            .and_then(|measured| reading.push(measured, line));
-        pushed.map_err(|fault| fault.at(line))?;
+        let (number, text) = (line.number, line.text.trim());
+        if text.is_empty() {
+            continue;
+        }
+        let (text, is_comment) = match text.strip_prefix('#') {
+            Some(rest) => (rest.trim_start_matches('#').trim(), true),
+            None => (text, false),
+        };
+        let separator = Separator::of(text);
+        if columns.are_numbered() && !is_comment {
+            lines.put_back();
+            let header = Header::numbered(columns, *identity).map_err(|fault| fault.at(number))?;
+            return Ok(Some(Head { header, separator }));
+        }
+        if commented.is_some() && !is_comment {
+            lines.put_back();
+            // Values may be separated otherwise than the names in a comment.
+            return Ok(commented.map(|head| Head { separator, ..head }));
+        }
+        let header = names(text, separator, number).and_then(|names| {
+            let names = names.iter().map(String::as_str);
+            Header::find(names, columns, *identity).map_err(|fault| fault.at(number))
+        });
+        match header {
+            Ok(header) if is_comment => commented = Some(Head { header, separator }),
+            Ok(header) => return Ok(Some(Head { header, separator })),
+            Err(_) if is_comment => {}
+            Err(refusal) => return Err(refusal),
+        }
     }
-    match columns {
-        Some(_) => Ok(reading),
-        None => Err(Fault::Empty.at(csv.get_ref().lines.number())),
+}
+
+/// The names in a header.
+fn names(text: &str, separator: Separator, number: u64) -> Result<Vec<String>, Refusal> {
+    if separator == Separator::Spaces {
+        return Ok(text.split_whitespace().map(str::to_owned).collect());
     }
+    if has_open_quote(text) {
+        return Err(Fault::Quote.at(number));
+    }
+    let mut row = StringRecord::new();
+    let mut csv = records(text.as_bytes(), separator);
+    csv.read_record(&mut row).map_err(io_error)?;
+    unquote(&mut row);
+    Ok(row.iter().map(str::to_owned).collect())
+}
+
+fn records<R: Read>(source: R, separator: Separator) -> csv::Reader<R> {
+    let mark = match separator {
+        Separator::Byte(mark) => mark,
+        Separator::Spaces => b' ',
+    };
+    ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .delimiter(mark)
+        .trim(Trim::All)
+        .from_reader(source)
+}
+
+/// Whether a line is a row: neither empty nor a comment.
+fn is_row(line: &str) -> bool {
+    let line = line.trim_start();
+    !line.is_empty() && !line.starts_with('#')
+}
+
+/// Whether a quoted field would end on another line, and take what follows with it.
+fn has_open_quote(line: &str) -> bool {
+    line.bytes().filter(|byte| *byte == b'"').count() % 2 == 1
 }
 
 /// Takes the quotes off fields that have blanks before them, where a reader sees no quote.
@@ -109,11 +240,10 @@ impl<R: BufRead> LineByLine<R> {
     /// Goes to the next line that is not blank; false at the end.
     fn advance(&mut self) -> Result<bool, Refusal> {
         while let Some(line) = self.lines.next()? {
-            if line.text.trim().is_empty() {
+            if !is_row(line.text) {
                 continue;
             }
-            // A quoted field that ends on another line would take what follows with it.
-            if line.text.bytes().filter(|byte| *byte == b'"').count() % 2 == 1 {
+            if has_open_quote(line.text) {
                 return Err(Fault::Quote.at(line.number));
             }
             self.line.clear();

@@ -2,9 +2,10 @@
 
 use std::io::BufRead;
 
-use super::columns::Columns;
+use super::csv_file::{Format, take};
+use super::entry::Sink;
+use super::header::Header;
 use super::lines::{Line, Lines};
-use super::measured::Measured;
 use super::reading::Reading;
 use super::refusal::{Fault, Refusal};
 use crate::Error;
@@ -38,7 +39,9 @@ use crate::Error;
 /// # Ok::<(), cannonpile::verify::Refusal>(())
 /// ```
 pub fn read_dump(input: impl BufRead) -> Result<Reading, Refusal> {
-    read_snapshots(Lines::new(input), Reading::default())
+    let mut reading = Reading::default();
+    read_snapshots(Lines::new(input), &Format::default(), &mut reading)?;
+    Ok(reading)
 }
 
 /// What a line begins with that announces others.
@@ -46,9 +49,11 @@ pub(super) const ITEM: &str = "ITEM:";
 
 pub(super) fn read_snapshots(
     mut lines: Lines<impl BufRead>,
-    mut reading: Reading,
-) -> Result<Reading, Refusal> {
-    let mut header = Header::default();
+    format: &Format,
+    sink: &mut impl Sink,
+) -> Result<(), Refusal> {
+    let mut snapshots = 0_u64;
+    let mut header = Snapshot::default();
     while let Some((number, item)) = next_item(&mut lines, &header)? {
         match &*item {
             "TIMESTEP" => header.timestep = Some(integer(&mut lines, "a time step such as 500")?),
@@ -65,10 +70,12 @@ pub(super) fn read_snapshots(
                 }
                 (_, Some(names)) => {
                     let names = names.split_whitespace();
-                    let columns = Columns::new(names).map_err(|fault| fault.at(number))?;
-                    reading.begin_snapshot(header.timestep);
-                    entries(&mut lines, &columns, header.entries, &mut reading)?;
-                    header = Header::default();
+                    let columns = Header::find(names, &format.columns, format.identity);
+                    let columns = columns.map_err(|fault| fault.at(number))?;
+                    sink.begin_snapshot(header.timestep);
+                    entries(&mut lines, &columns, header.entries, sink)?;
+                    snapshots += 1;
+                    header = Snapshot::default();
                 }
                 (None, None) => {
                     let expected = "an item of a LAMMPS dump local file: TIMESTEP, NUMBER OF ENTRIES, BOX BOUNDS, ENTRIES";
@@ -77,22 +84,22 @@ pub(super) fn read_snapshots(
             },
         }
     }
-    if reading.snapshots() == 0 {
+    if snapshots == 0 {
         return Err(Fault::Empty.at(lines.number()));
     }
-    Ok(reading)
+    Ok(())
 }
 
 /// What is known of a snapshot before its entries.
 #[derive(Default)]
-struct Header {
+struct Snapshot {
     timestep: Option<i64>,
     /// `ENTRIES`, unless the user chose another word.
     label: Option<String>,
     entries: u64,
 }
 
-impl Header {
+impl Snapshot {
     /// The names of the columns, if this item is the one that has them.
     fn columns<'i>(&self, item: &'i str) -> Option<&'i str> {
         let names = item.strip_prefix(self.label.as_deref()?)?;
@@ -107,7 +114,7 @@ impl Header {
 /// The next item with its line; none at the end of a whole snapshot.
 fn next_item(
     lines: &mut Lines<impl BufRead>,
-    header: &Header,
+    header: &Snapshot,
 ) -> Result<Option<(u64, String)>, Refusal> {
     let Some(line) = lines.next()? else {
         return if header.is_begun() {
@@ -152,9 +159,9 @@ fn integer<T: core::str::FromStr>(
 
 fn entries(
     lines: &mut Lines<impl BufRead>,
-    columns: &Columns,
+    columns: &Header,
     announced: u64,
-    reading: &mut Reading,
+    sink: &mut impl Sink,
 ) -> Result<(), Refusal> {
     for found in 0..announced {
         let last = lines.number();
@@ -168,10 +175,8 @@ fn entries(
         if !line.ended {
             return Err(Fault::Cut.at(line.number));
         }
-        let fields = line.text.split_whitespace();
-        let measured: Result<Measured, Fault> = columns.read(fields);
-        let pushed = measured.and_then(|measured| reading.push(measured, line.number));
-        pushed.map_err(|fault| fault.at(line.number))?;
+        let fields: Vec<&str> = line.text.split_whitespace().collect();
+        take(columns, &fields, line.number, sink)?;
     }
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! What was read from a file, and from which lines.
 
 use super::comparison::Comparison;
+use super::entry::{Entry, Sink};
 use super::measured::{MAX_ENTRIES, Measured};
-use super::pairs::Scope;
 use super::refusal::{Fault, Refusal};
 use crate::Packing;
 
@@ -14,8 +14,6 @@ pub struct Reading {
     jumps: Vec<(usize, u64)>,
     snapshots: u64,
     timestep: Option<i64>,
-    /// What the scene admits, if it was known, while entries are read.
-    scope: Option<Scope>,
 }
 
 impl Reading {
@@ -121,53 +119,36 @@ impl Reading {
                 fault: Fault::Twice { ids, first },
             } => Fault::Twice {
                 ids,
-                first: line(first),
+                first: first.map(line),
             }
             .at(line(entry)),
             Refusal::Entry { entry, fault } => fault.at(line(entry)),
             other => other,
         })
     }
+}
 
-    /// Nothing yet, of a scene if it is known.
-    pub(super) fn begin(scope: Option<Scope>) -> Self {
-        Self {
-            scope,
-            ..Self::default()
-        }
-    }
-
-    /// Forgets what was needed while it was read.
-    pub(super) fn end(self) -> Self {
-        let scope = None;
-        Self { scope, ..self }
-    }
-
-    /// Forgets the entries of the snapshot before.
-    pub(super) fn begin_snapshot(&mut self, timestep: Option<i64>) {
+impl Sink for Reading {
+    fn begin_snapshot(&mut self, timestep: Option<i64>) {
         self.entries.clear();
         self.jumps.clear();
-        if let Some(scope) = &mut self.scope {
-            scope.clear();
-        }
         self.snapshots += 1;
         self.timestep = timestep;
     }
 
-    pub(super) fn push(&mut self, measured: Measured, line: u64) -> Result<(), Fault> {
-        let entry = self.entries.len();
-        match &mut self.scope {
-            Some(scope) => scope.admit(&measured, line)?,
-            None if entry as u64 >= MAX_ENTRIES => {
-                let limit = MAX_ENTRIES;
-                return Err(Fault::TooMany { limit });
-            }
-            None => {}
+    fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
+        let measured = entry.named().map_err(|fault| fault.at(line))?;
+        let place = self.entries.len();
+        if place as u64 >= MAX_ENTRIES {
+            let limit = MAX_ENTRIES;
+            return Err(Fault::TooMany { limit }.at(line));
         }
-        if entry == 0 || self.line(entry) != line {
-            self.jumps.push((entry, line));
+        if place == 0 || self.line(place) != line {
+            self.jumps.push((place, line));
         }
         self.entries.push(measured);
         Ok(())
     }
+
+    fn pass_over(&mut self) {}
 }

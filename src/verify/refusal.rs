@@ -35,6 +35,17 @@ pub enum Refusal {
     Scene(Error),
     /// Exact forces that no normal `f64` is near to.
     OutOfRange,
+    /// The places are not those of the pile, however the table is turned.
+    Elsewhere {
+        /// How many places of a sample are, in the best of frames.
+        found: usize,
+        /// How many the sample has.
+        sample: usize,
+    },
+    /// A share of the radius that cannot be one.
+    Within(f64),
+    /// A picture file that cannot be read as lines with data.
+    Vtk(String),
     /// The file could not be read.
     Io(io::Error),
 }
@@ -49,6 +60,15 @@ pub enum Fault {
     NoColumn {
         /// The column.
         column: &'static str,
+        /// Those that are.
+        found: String,
+    },
+    /// A column that was named is not there.
+    NoNamedColumn {
+        /// What it would hold.
+        column: &'static str,
+        /// Its name.
+        name: String,
         /// Those that are.
         found: String,
     },
@@ -98,8 +118,17 @@ pub enum Fault {
     Twice {
         /// The pair.
         ids: [u64; 2],
-        /// Where it was first: a line, or an entry.
-        first: u64,
+        /// Where it was first, if that is known: a line, or an entry.
+        first: Option<u64>,
+    },
+    /// A place where no sphere is.
+    NoSphereAt {
+        /// The place, in the axes of the scene, in m.
+        point: [f64; 3],
+        /// How far off it may be, in radii.
+        within: f64,
+        /// How far off the nearest one is, in radii.
+        nearest: f64,
     },
     /// A quote that does not end on its line, or has something after its end.
     Quote,
@@ -136,7 +165,10 @@ impl fmt::Display for Refusal {
         match self {
             Self::Line {
                 line,
-                fault: Fault::Twice { ids: [a, b], first },
+                fault: Fault::Twice {
+                    ids: [a, b],
+                    first: Some(first),
+                },
             } => write!(
                 f,
                 "line {line}: spheres {a} and {b} again, after line {first}: list each pair once"
@@ -147,6 +179,16 @@ impl fmt::Display for Refusal {
             Self::OutOfRange => f.write_str(
                 "a contact force of this scene does not fit in f64: measure mass or gravity in another unit",
             ),
+            Self::Elsewhere { found, sample } => write!(
+                f,
+                "no frame in which its places are those of the scene: {found} of {sample} are found in the best one; is it of \
+                 this scene, in m?"
+            ),
+            Self::Within(share) => write!(
+                f,
+                "{share} radii are no distance below half of one: 0.1 is usual"
+            ),
+            Self::Vtk(reason) => f.write_str(reason),
             Self::Io(error) => error.fmt(f),
         }
     }
@@ -162,6 +204,22 @@ impl fmt::Display for Fault {
                 f,
                 "no column {column}, only {found}: name the columns id1, id2, force, and fx, fy, fz if there are vectors \
                  (in LAMMPS with dump_modify colname)"
+            ),
+            Self::NoNamedColumn {
+                column,
+                name,
+                found,
+            } => write!(
+                f,
+                "no column {name} for {column}, only {found}: name one of these"
+            ),
+            Self::NoSphereAt {
+                point: [x, y, z],
+                within,
+                nearest,
+            } => write!(
+                f,
+                "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.2} R off, {within} R are allowed"
             ),
             Self::TwoColumns {
                 column,
@@ -186,10 +244,17 @@ impl fmt::Display for Fault {
             Self::OneSphere { id } => {
                 write!(f, "sphere {id} with itself: a contact is of two spheres")
             }
-            Self::Twice { ids: [a, b], first } => write!(
+            Self::Twice {
+                ids: [a, b],
+                first: Some(first),
+            } => write!(
                 f,
                 "spheres {a} and {b} again, after entry {first}: list each pair once"
             ),
+            Self::Twice {
+                ids: [a, b],
+                first: None,
+            } => write!(f, "spheres {a} and {b} again: list each pair once"),
             Self::Quote => f.write_str("a quoted field must end on its line, before a comma"),
             Self::Encoding => f.write_str("not a text: write it in UTF-8"),
             Self::LongLine { limit } => write!(

@@ -2,11 +2,12 @@
 
 use std::io::Write;
 
-use num_rational::BigRational;
 use serde_json::{Value, json};
 
 use super::comparison::Comparison;
 use super::difference::{Difference, Extra};
+use super::read::Compared;
+use super::unbalanced::float;
 use crate::lattice::{Dimension, Site};
 use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
 
@@ -16,7 +17,7 @@ const SHOWN: usize = 5;
 /// What a comparison says at an accepted error.
 ///
 /// As text and csv one row: `accepted, accept, contacts, matched, missing, extra, noise, fixed, largest_error, rms_error,
-/// worst, beyond, factor`; in the text what they count stands behind them, and it goes on with the first of the missing and the greatest of the extra contacts. As json an array of one
+/// worst, beyond, factor, walls, frame, unbalanced, findings`; in the text what they count stands behind them, and it goes on with the first of the missing and the greatest of the extra contacts. As json an array of one
 /// object with the same keys and `largest_force`; `worst` is an object, and up to a thousand of each are in the arrays
 /// `missing_contacts` and `extra_pairs`. An infinite error is `inf`, in json `null`.
 ///
@@ -26,8 +27,7 @@ const SHOWN: usize = 5;
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::verify::{Comparison, Measured, Report};
 /// use cannonpile::{Packing, Pile};
-/// use num_rational::BigRational;
-///
+/// ///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
 /// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 0.46225016352102427));
@@ -42,6 +42,21 @@ const SHOWN: usize = 5;
 pub struct Report<'c> {
     comparison: &'c Comparison,
     accept: f64,
+    file: Option<&'c Compared>,
+    source: Option<&'c Source>,
+}
+
+/// What was compared with what: for a record that is kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// The scene, as TOML.
+    pub scene: String,
+    /// The file's name.
+    pub file: String,
+    /// Its length.
+    pub bytes: u64,
+    /// Its SHA-256, in hexadecimal digits.
+    pub sha256: String,
 }
 
 impl<'c> Report<'c> {
@@ -53,8 +68,7 @@ impl<'c> Report<'c> {
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::verify::{Comparison, Measured, Report};
     /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
+    ///     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let comparison = Comparison::new(&packing, [2, 3, 4].map(|id| Measured::new([1, id], 0.462)))?;
@@ -67,7 +81,73 @@ impl<'c> Report<'c> {
     /// ```
     #[must_use]
     pub const fn new(comparison: &'c Comparison, accept: f64) -> Self {
-        Self { comparison, accept }
+        Self {
+            comparison,
+            accept,
+            file: None,
+            source: None,
+        }
+    }
+
+    /// The report of a file that was compared: with its contacts with walls, its frame, and what is unbalanced.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::table::FileFormat;
+    /// use cannonpile::verify::{Reader, Report};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let reader = Reader::new().with_columns("id1=id1,id2=id2,force=force,kind=kind:pair".parse()?);
+    /// let table = "id1,id2,force,kind\n1,2,0.46,pair\n1,3,0.46,pair\n1,4,0.46,pair\n4,0,1,wall\n";
+    /// let read = reader.compare(&packing, table.as_bytes())?;
+    /// let mut json = Vec::new();
+    /// Report::of_file(&read, 0.01).write(FileFormat::Json, &mut json)?;
+    /// assert!(String::from_utf8(json)?.contains("\"walls\": 1"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn of_file(file: &'c Compared, accept: f64) -> Self {
+        let report = Self::new(&file.comparison, accept);
+        Self {
+            file: Some(file),
+            ..report
+        }
+    }
+
+    /// Returns the report with what was compared with what, in json.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::table::FileFormat;
+    /// use cannonpile::verify::{Reader, Report, Source};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let read = Reader::new().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let source = Source {
+    ///     scene: "layers = 2\n".into(),
+    ///     file: "forces.csv".into(),
+    ///     bytes: 14,
+    ///     sha256: "23ae".into(),
+    /// };
+    /// let mut json = Vec::new();
+    /// Report::of_file(&read, 0.01).with_source(&source).write(FileFormat::Json, &mut json)?;
+    /// assert!(String::from_utf8(json)?.contains("\"scene\": \"layers = 2\\n\""));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn with_source(self, source: &'c Source) -> Self {
+        Self {
+            source: Some(source),
+            ..self
+        }
     }
 
     /// Writes it.
@@ -81,8 +161,7 @@ impl<'c> Report<'c> {
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::verify::{Comparison, Measured, Report};
     /// use cannonpile::{Packing, Pile};
-    /// use num_rational::BigRational;
-    ///
+    ///     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let comparison = Comparison::new(&packing, [Measured::new([1, 3], 0.46)])?;
@@ -112,7 +191,9 @@ impl<'c> Report<'c> {
     }
 
     fn table(self) -> Table<'static> {
-        let Self { comparison, accept } = self;
+        let Self {
+            comparison, accept, ..
+        } = self;
         let accepted = comparison.accepted(accept);
         let worst = comparison.worst().map(ToString::to_string);
         let worst = worst.map_or(Cell::Missing, |words| Cell::Word(words.into()));
@@ -128,6 +209,14 @@ impl<'c> Report<'c> {
         let times = "times the exact force is every one that was measured";
         let factor = comparison.common_factor(accept);
         let factor = factor.map_or(Cell::Missing, float);
+        let words = |words: Option<String>| match words {
+            Some(words) => Cell::Word(words.into()),
+            None => Cell::Missing,
+        };
+        let findings: Vec<_> = comparison.findings(accept);
+        let findings = findings.iter().map(ToString::to_string).collect::<Vec<_>>();
+        let findings = Some(findings.join("; ")).filter(|findings| !findings.is_empty());
+        let walls = self.file.map_or(0, |file| file.walls);
         Table::record(vec![
             (
                 Column::plain("accepted"),
@@ -145,13 +234,31 @@ impl<'c> Report<'c> {
             (Column::plain("worst"), worst),
             count("beyond", comparison.beyond(accept), beyond),
             (Column::measured("factor", times), factor),
+            count("walls", walls, "contacts with walls, which are not judged"),
+            (Column::plain("frame"), words(self.frame())),
+            (Column::plain("unbalanced"), words(self.unbalanced())),
+            (Column::plain("findings"), words(findings)),
         ])
     }
 
+    /// Where the table's origin and axes are, if not where the scene has them.
+    fn frame(self) -> Option<String> {
+        self.file?.frame.map(|frame| frame.to_string())
+    }
+
+    /// The greatest unbalanced force.
+    fn unbalanced(self) -> Option<String> {
+        let unbalanced = self.file?.unbalanced.as_ref()?;
+        Some(unbalanced.to_string())
+    }
+
     fn json(self) -> Value {
-        let Self { comparison, accept } = self;
+        let Self {
+            comparison, accept, ..
+        } = self;
         let missing = comparison.missing_contacts();
-        json!([{
+        let findings: Vec<_> = comparison.findings(accept);
+        let mut record = json!({
             "accepted": comparison.accepted(accept),
             "accept": accept,
             "contacts": comparison.contacts(),
@@ -166,9 +273,24 @@ impl<'c> Report<'c> {
             "worst": comparison.worst().map(contact),
             "beyond": comparison.beyond(accept),
             "factor": comparison.common_factor(accept),
+            "walls": self.file.map_or(0, |file| file.walls),
+            "frame": self.frame(),
+            "unbalanced": self.unbalanced(),
+            "findings": findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "missing_contacts": missing.iter().map(contact).collect::<Vec<_>>(),
             "extra_pairs": self.extra_pairs().iter().map(pair).collect::<Vec<_>>(),
-        }])
+        });
+        if let (Some(source), Value::Object(entries)) = (self.source, &mut record) {
+            let source = json!({
+                "version": env!("CARGO_PKG_VERSION"),
+                "file": source.file,
+                "bytes": source.bytes,
+                "sha256": source.sha256,
+                "scene": source.scene,
+            });
+            entries.insert("source".into(), source);
+        }
+        Value::Array(vec![record])
     }
 
     /// Those of the pairs without a contact that are no noise.
@@ -203,12 +325,6 @@ fn said(name: &'static str, meaning: &'static str) -> Column {
         quantity: false,
         ..Column::measured(name, meaning)
     }
-}
-
-/// A float as the exact number it is.
-fn float(x: f64) -> Cell {
-    let exact = BigRational::from_float(x);
-    exact.map_or(Cell::Word("inf".into()), Cell::from)
 }
 
 fn contact(difference: &Difference) -> Value {

@@ -2,8 +2,8 @@
 
 use super::difference::{Difference, Extra};
 use super::measured::{Measured, distance};
-use super::pairs::Pairs;
-use crate::dem::NumberedContact;
+use super::symptoms::Symptoms;
+use crate::dem::{NumberedContact, NumberedPile};
 use crate::lattice::Dimension;
 use crate::shape::Numbering;
 
@@ -35,13 +35,13 @@ pub(super) struct Judged {
     pub(super) greatest_strays: Vec<Extra>,
     pub(super) worst: Option<Difference>,
     /// The least and the greatest of measured over exact, and of how many contacts.
-    ratios: Option<([f64; 2], u64)>,
+    pub(super) symptoms: Symptoms,
 }
 
 impl Tally {
-    pub(super) fn new(dimension: Dimension, with_vectors: bool) -> Self {
+    pub(super) fn new(pile: &NumberedPile<'_>, with_vectors: bool) -> Self {
         Self {
-            dimension,
+            dimension: pile.packing().pile().dimension(),
             with_vectors,
             judged: Judged::default(),
             idle: Vec::new(),
@@ -50,7 +50,11 @@ impl Tally {
     }
 
     /// Adds a contact of the pile, with what was measured of it.
-    pub(super) fn add(&mut self, exact: &NumberedContact, measured: Option<Measured>) {
+    pub(super) fn add(
+        &mut self,
+        exact: &NumberedContact,
+        measured: Option<Measured>,
+    ) -> Option<f64> {
         let judged = &mut self.judged;
         judged.contacts += 1;
         judged.largest_force = judged.largest_force.max(exact.force.abs());
@@ -58,25 +62,24 @@ impl Tally {
         let loaded = exact.force != 0.0;
         let Some(measured) = measured.filter(|measured| !(loaded && measured.is_zero())) else {
             if loaded {
+                judged.symptoms.miss(exact);
                 judged.missing += 1;
                 if judged.first_missing.len() < KEPT {
                     judged.first_missing.push(difference());
                 }
             }
-            return;
+            return None;
         };
         let vector = measured.vector.map(|vector| distance(vector, exact.vector));
         let apart = vector
             .unwrap_or(0.0)
             .max((measured.force - exact.force).abs());
-        let (error, errors, worst) = if loaded {
-            judged.add_ratio(measured.force / exact.force);
-            let error = relative(apart, exact.force.abs());
-            (error, &mut judged.errors, &mut judged.worst)
+        let (error, worst) = if loaded {
+            judged.symptoms.see(exact, &measured);
+            (relative(apart, exact.force.abs()), &mut judged.worst)
         } else {
-            (apart, &mut self.idle, &mut self.worst_idle)
+            (apart, &mut self.worst_idle)
         };
-        errors.push(error);
         if worst.as_ref().is_none_or(|worst| worst.error < error) {
             *worst = Some(Difference {
                 error,
@@ -84,11 +87,22 @@ impl Tally {
                 ..difference()
             });
         }
+        if loaded {
+            return Some(error);
+        }
+        self.idle.push(error);
+        None
     }
 
     /// Judges what was seen, with all contacts seen, and the pairs that are none.
-    pub(super) fn close(self, pairs: &Pairs, numbering: &Numbering<'_>) -> Judged {
+    pub(super) fn close<'m>(
+        self,
+        errors: Vec<f64>,
+        pairs: impl Iterator<Item = &'m Measured>,
+        numbering: &Numbering<'_>,
+    ) -> Judged {
         let mut judged = self.judged;
+        judged.errors = errors;
         let largest = judged.largest_force;
         let idle = self.idle.into_iter();
         judged
@@ -106,7 +120,7 @@ impl Tally {
         let first_fixed = numbering.first_on_floor();
         let is_fixed = |stray: &Measured| stray.ids.iter().all(|id| *id >= first_fixed);
         let mut strays = Vec::new();
-        for stray in pairs.left() {
+        for stray in pairs {
             if is_fixed(stray) {
                 judged.fixed += 1;
             } else if !stray.is_zero() {
@@ -140,19 +154,6 @@ impl Judged {
 
     pub(super) fn matched(&self) -> u64 {
         self.errors.len() as u64
-    }
-
-    fn add_ratio(&mut self, ratio: f64) {
-        let ([least, greatest], count) = self.ratios.unwrap_or(([ratio; 2], 0));
-        self.ratios = Some(([least.min(ratio), greatest.max(ratio)], count + 1));
-    }
-
-    pub(super) fn common_factor(&self, tolerance: f64) -> Option<f64> {
-        let ([least, greatest], count) = self.ratios?;
-        let factor = least + (greatest - least) / 2.0;
-        let alike = factor.is_finite() && (greatest - least) / 2.0 <= tolerance * factor.abs();
-        let is_other = (factor - 1.0).abs() > tolerance;
-        (count > 1 && alike && is_other).then_some(factor)
     }
 
     /// The root of the mean square of the errors.

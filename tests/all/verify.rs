@@ -3,7 +3,11 @@
 #![expect(clippy::float_cmp, reason = "errors are exact where they are compared")]
 
 mod files;
+mod findings;
 mod lammps;
+mod places;
+mod tables;
+mod vtk;
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Region, Site};
@@ -430,7 +434,13 @@ fn entries_that_cannot_be_are_refused() {
     };
     for twice in [one, one.reversed(), Measured::new([2, 1], 0.0)] {
         let ids = [1, 2];
-        assert_eq!(refused(twice), Fault::Twice { ids, first: 1 });
+        assert_eq!(
+            refused(twice),
+            Fault::Twice {
+                ids,
+                first: Some(1)
+            }
+        );
     }
     for ids in [[0, 1], [1, 11], [u64::MAX, 1]] {
         assert!(matches!(

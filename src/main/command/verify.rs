@@ -1,33 +1,44 @@
 //! `verify`: measured forces against the exact ones.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use cannonpile::Packing;
 use cannonpile::scene::Scene;
-use cannonpile::verify::{self, Reading, Refusal, Report};
-use clap::Args;
+use cannonpile::table::{FileFormat, NumberFormat};
+use cannonpile::verify::{Columns, Compared, Fault, Preset, Reader, Refusal, Report, Source};
+use clap::{Args, ValueEnum};
 
 use super::note_if_it_falls;
-use crate::args::{Output, SceneOptions};
-use crate::output::{Failure, complain, reason};
+use crate::args::{Format, Output, SceneOptions};
+use crate::hashed::Hashed;
+use crate::output::{Failure, complain, reason, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
 Errors are relative to the exact force of the contact; where that is 0, to the largest exact force. Pairs that are no
 contact are extra, or noise if their force is below --accept times the largest; pairs of bottom spheres are fixed, and not
-judged.
+judged. Findings name what all differences have in common. As json the report is a record to keep: with the scene, the
+file's SHA-256 and this version.
+
+Columns are separated by commas, semicolons, tabs or blanks; a column is a name of the header, or #3 in a table without
+one, and may have a sign, a factor and others added: fx=-#10-#13, force=1e7*overlap. kind=contact_type:SS reads the rows
+with SS there; the others are contacts with walls. By place, fx,fy,fz without force are those on the first of two centres;
+at a contact point they push, unless force is negative.
 
 Examples:
   cannonpile verify pile/forces.dump --layers 10 --spacing 1.2
-  cannonpile verify measured.csv --scene pile.toml --accept 1e-3";
+  cannonpile verify measured.csv --scene pile.toml --accept 1e-3
+  cannonpile verify contacts.txt --columns id1=A,id2=B,force=Fn --first-id 0 --layers 10 --spacing 1.2
+  cannonpile verify Contact_pairs_0100.csv --preset dem-engine --scene pile.toml --accept 1e-3
+  cannonpile verify forces.csv --match place --columns x=cx,y=cy,z=cz --scene pile.toml --unbalanced rest.csv";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Verify {
-    /// A csv table with columns id1, id2, force, and fx, fy, fz if there are vectors; or a LAMMPS dump local file with these
-    /// columns, of which the last snapshot counts; - for stdin
+    /// A table with columns id1, id2, force, and fx, fy, fz if there are vectors; a LAMMPS dump local file with these columns,
+    /// of which the last snapshot counts; or VTK's XML, lines with data (.vtp, .vtu); - for stdin
     #[arg(value_name = "FILE")]
     measured: PathBuf,
     #[command(flatten)]
@@ -35,8 +46,40 @@ pub(crate) struct Verify {
     /// The greatest relative error accepted; 0 for forces that are the nearest floats
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
+    /// Which columns hold what: id1, id2, force, fx, fy, fz, x1 … z2 (the centres), x, y, z (the contact point), kind
+    #[arg(
+        long,
+        value_name = "QUANTITY=COLUMN,...",
+        allow_hyphen_values = true,
+        help_heading = "Table"
+    )]
+    columns: Option<Columns>,
+    /// The columns of a known code: lammps, yade, exadem, exadem-vtp, dem-engine, mddem, lethe; --columns names others
+    #[arg(long, value_name = "CODE", help_heading = "Table")]
+    preset: Option<Preset>,
+    /// How the table's contacts are found in the scene [default: numbers, or as the preset does]
+    #[arg(long = "match", value_enum, value_name = "BY", help_heading = "Table")]
+    matching: Option<Matching>,
+    /// How far from its exact place a sphere may be, in R, by place [default: 0.1]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Table")]
+    within: Option<f64>,
+    /// The number of the first sphere [default: 1, or that of the preset]
+    #[arg(long, value_name = "N", help_heading = "Table")]
+    first_id: Option<u64>,
+    /// Write the force that is left on each sphere above the floor, in N, to this file: csv, or json by its ending
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    unbalanced: Option<PathBuf>,
     #[command(flatten)]
     output: Output,
+}
+
+/// How contacts are found.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Matching {
+    /// By the numbers of the two spheres, in the order of the exports
+    Numbers,
+    /// By where they are: both centres, or the contact point; the frame is found
+    Place,
 }
 
 impl Verify {
@@ -50,30 +93,99 @@ impl Verify {
         let packing = scene.packing(&pile)?;
         let format = self.output.format()?;
         let refused = |refusal| self.refused(refusal, &scene);
-        let progress = Progress::begin("reading FILE");
-        let reading = self.read(&packing).map_err(refused)?;
-        drop(progress);
-        let progress = Progress::begin("comparing with the exact forces");
-        let comparison = reading.compare(&packing).map_err(refused)?;
-        let report = Report::new(&comparison, self.accept);
+        let reader = self.reader()?;
+        let progress = Progress::begin("reading FILE, and comparing it with the exact forces");
+        let (read, source) = self.compare(&reader, &packing).map_err(refused)?;
+        let source = Source {
+            scene: scene.to_toml(),
+            ..source
+        };
+        let report = Report::of_file(&read, self.accept);
+        let report = match format {
+            Format::Json => report.with_source(&source),
+            _ => report,
+        };
         self.output
             .write(&progress, |out| report.write(format.into(), out))?;
+        if let (Some(file), Some(unbalanced)) = (&self.unbalanced, &read.unbalanced) {
+            let table = unbalanced.table(&packing)?;
+            write_to("unbalanced", Some(file), |out| {
+                table.write(of_ending(file), NumberFormat::F64, out)
+            })?;
+        }
         drop(progress);
-        if reading.snapshots() > 1 {
-            complain(&format!("note: {}", self.judged(&reading)));
+        if read.snapshots > 1 {
+            complain(&format!("note: {}", self.judged(&read)));
         }
         note_if_it_falls(&pile);
-        Ok(comparison.accepted(self.accept))
+        Ok(read.comparison.accepted(self.accept))
     }
 }
 
 impl Verify {
-    fn read(&self, packing: &Packing<'_>) -> Result<Reading, Refusal> {
-        if self.measured == Path::new("-") {
-            verify::read_for(packing, io::stdin().lock())
-        } else {
-            verify::read_for(packing, BufReader::new(File::open(&self.measured)?))
+    /// Returns how the file is read.
+    fn reader(&self) -> Result<Reader, Failure> {
+        let mut columns = self.preset.map_or_else(Columns::default, Preset::columns);
+        if let Some(named) = &self.columns {
+            columns = columns.overridden(named);
         }
+        if let Some(first) = self.first_id {
+            columns = columns.with_first_id(first);
+        }
+        let by_place = match self.matching {
+            None => self.preset.is_some_and(Preset::is_by_place),
+            Some(matching) => matching == Matching::Place,
+        };
+        if !by_place && self.within.is_some() {
+            let reason = "--within is of --match place: leave it out, or name places";
+            return Err(Failure::Message(reason.into()));
+        }
+        if by_place && self.first_id.is_some() {
+            let reason = "--first-id is of --match numbers: by place no numbers are read";
+            return Err(Failure::Message(reason.into()));
+        }
+        let reader = Reader::new().with_columns(columns);
+        let reader = match &self.unbalanced {
+            Some(_) => reader.with_balance(),
+            None => reader,
+        };
+        if !by_place {
+            return Ok(reader);
+        }
+        let within = self.within.unwrap_or(Reader::WITHIN);
+        let blamed = |refusal| Failure::Message(format!("--within: {refusal}"));
+        reader.by_place(within).map_err(blamed)
+    }
+
+    fn compare(
+        &self,
+        reader: &Reader,
+        packing: &Packing<'_>,
+    ) -> Result<(Compared, Source), Refusal> {
+        if self.measured == Path::new("-") {
+            self.hashed(reader, packing, io::stdin().lock())
+        } else {
+            let file = BufReader::with_capacity(1 << 16, File::open(&self.measured)?);
+            self.hashed(reader, packing, file)
+        }
+    }
+
+    fn hashed(
+        &self,
+        reader: &Reader,
+        packing: &Packing<'_>,
+        input: impl BufRead,
+    ) -> Result<(Compared, Source), Refusal> {
+        let mut input = Hashed::new(input);
+        let read = reader.compare(packing, &mut input)?;
+        let (bytes, sha256) = input.finish();
+        let source = Source {
+            scene: String::new(),
+            file: self.name(),
+            bytes,
+            sha256,
+        };
+        Ok((read, source))
     }
 
     fn name(&self) -> String {
@@ -93,17 +205,33 @@ impl Verify {
                 "FILE: {name} cannot be read: {}; name a file that is there, or - for stdin",
                 reason(&error)
             ),
+            refusal @ Refusal::Line {
+                fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },
+                ..
+            } => {
+                format!("FILE: {name}, {refusal}; --columns says which they are")
+            }
             refusal => format!("FILE: {name}, {refusal}"),
         })
     }
 
-    fn judged(&self, reading: &Reading) -> String {
-        let (name, snapshots) = (self.name(), reading.snapshots());
-        let step = reading
-            .timestep()
+    fn judged(&self, read: &Compared) -> String {
+        let (name, snapshots) = (self.name(), read.snapshots);
+        let step = read
+            .timestep
             .map(|step| format!(", of time step {step},"))
             .unwrap_or_default();
         format!("{name} has {snapshots} snapshots; the last{step} is judged")
+    }
+}
+
+/// The format that a file's ending asks for.
+fn of_ending(file: &Path) -> FileFormat {
+    let is_json = file.extension().is_some_and(|ending| ending == "json");
+    if is_json {
+        FileFormat::Json
+    } else {
+        FileFormat::Csv
     }
 }
 

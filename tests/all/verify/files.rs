@@ -67,8 +67,8 @@ fn a_header_that_does_not_do_is_refused() {
             format!("line 1: no column id2, only 'id1', 'force': {columns}"),
         ),
         (
-            "id1;id2;force\n",
-            format!("line 1: no column id1, only 'id1;id2;force': {columns}"),
+            "id1|id2|force\n",
+            format!("line 1: no column id1, only 'id1|id2|force': {columns}"),
         ),
         (
             "1,2,0.5\n",
@@ -264,8 +264,8 @@ fn what_does_not_fit_the_pile_is_said_with_its_line() {
         let reading = verify::read(text.as_bytes()).unwrap();
         let compared = reading.compare(&packing).unwrap_err().to_string();
         // Where the scene is known, while it is read.
-        let read = verify::read_for(&packing, text.as_bytes()).unwrap_err();
-        assert_eq!(read.to_string(), compared);
+        let read = verify::Reader::new().compare(&packing, text.as_bytes());
+        assert_eq!(read.unwrap_err().to_string(), compared);
         compared
     };
     let spheres = "the spheres of this scene are numbered 1 to 4, from the top";

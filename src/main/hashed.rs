@@ -1,0 +1,57 @@
+//! A file that is hashed while it is read.
+
+use std::fmt::Write;
+use std::io::{self, BufRead, Read};
+
+use sha2::{Digest, Sha256};
+
+/// What is read, and the SHA-256 of what has been.
+pub(crate) struct Hashed<R> {
+    input: R,
+    digest: Sha256,
+    bytes: u64,
+}
+
+impl<R: BufRead> Hashed<R> {
+    pub(crate) fn new(input: R) -> Self {
+        Self {
+            input,
+            digest: Sha256::new(),
+            bytes: 0,
+        }
+    }
+
+    /// Returns how many bytes have been read, and their hash in hexadecimal digits.
+    pub(crate) fn finish(self) -> (u64, String) {
+        let mut digits = String::new();
+        for byte in self.digest.finalize() {
+            // Writing to a String does not fail.
+            let _ = write!(digits, "{byte:02x}");
+        }
+        (self.bytes, digits)
+    }
+}
+
+impl<R: BufRead> Read for Hashed<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let mut given = self.fill_buf()?;
+        let read = given.read(buffer)?;
+        self.consume(read);
+        Ok(read)
+    }
+}
+
+impl<R: BufRead> BufRead for Hashed<R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.input.fill_buf()
+    }
+
+    fn consume(&mut self, amount: usize) {
+        // What is buffered is given again, without another read.
+        if let Ok(given) = self.input.fill_buf() {
+            self.digest.update(given.get(..amount).unwrap_or(given));
+        }
+        self.bytes += amount as u64;
+        self.input.consume(amount);
+    }
+}

@@ -1,0 +1,136 @@
+//! Spheres found by where they are.
+
+use core::num::NonZero;
+
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+
+use super::entry::{Entry, Place};
+use super::measured::{Measured, norm};
+use super::refusal::{Fault, Refusal};
+use crate::dem::NumberedPile;
+
+/// The centres of all spheres of a pile, in a k-d tree.
+pub(super) struct Places {
+    tree: ImmutableKdTree<f64, 3>,
+    centres: Vec<[f64; 3]>,
+    radius: f64,
+}
+
+const TWO: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(1);
+
+impl Places {
+    pub(super) fn new(pile: &NumberedPile<'_>, radius: f64) -> Result<Self, Refusal> {
+        let mut centres = Vec::new();
+        for centre in pile.centres()? {
+            let (_, centre) = centre?;
+            centres.push(centre);
+        }
+        let tree = ImmutableKdTree::new_from_slice(&centres);
+        Ok(Self {
+            tree,
+            centres,
+            radius,
+        })
+    }
+
+    /// Returns the numbers of the two spheres that touch at a place, each within a distance of where it must be.
+    pub(super) fn find(&self, place: &Place, within: f64) -> Result<[u64; 2], Fault> {
+        let (ids, off) = self.nearest(place);
+        match ids {
+            Some(ids) if off <= within => Ok(ids),
+            _ => Err(Fault::NoSphereAt {
+                point: match place {
+                    Place::Centres(centres) => middle(centres),
+                    Place::Point(point) => *point,
+                },
+                within: within / self.radius,
+                nearest: off / self.radius,
+            }),
+        }
+    }
+
+    /// Returns the two spheres nearest to a place, and how far they are from where they must be.
+    pub(super) fn nearest(&self, place: &Place) -> (Option<[u64; 2]>, f64) {
+        match place {
+            Place::Centres(centres) => {
+                let nearest = centres.map(|centre| {
+                    let nearest = self.tree.nearest_one::<SquaredEuclidean>(&centre);
+                    (nearest.item + 1, nearest.distance.sqrt())
+                });
+                let [(one, off), (other, more)] = nearest;
+                (Some([one, other]), off.max(more))
+            }
+            Place::Point(point) => {
+                let two = self.tree.nearest_n::<SquaredEuclidean>(point, TWO);
+                // Each is a radius away.
+                let off = |distance: f64| (distance.sqrt() - self.radius).abs();
+                match two[..] {
+                    [one, other] => {
+                        let [a, b] = [one.item + 1, other.item + 1];
+                        let off = off(one.distance).max(off(other.distance));
+                        (Some([a.min(b), a.max(b)]), off)
+                    }
+                    _ => (None, f64::INFINITY),
+                }
+            }
+        }
+    }
+}
+
+impl Places {
+    /// Returns the force between two spheres that were found by where they are.
+    ///
+    /// A vector is that on the first of two centres. Of a point the first is not known: the vector is that on the sphere
+    /// that it pushes, or pulls if the force says so.
+    pub(super) fn between(&self, entry: &Entry, ids: [u64; 2], is_first_known: bool) -> Measured {
+        let apart = self.centres_of(ids).map(|[a, b]| minus(a, b));
+        let (Some(vector), Some(apart)) = (entry.vector, apart) else {
+            return entry.between(ids);
+        };
+        let along: f64 = vector.iter().zip(apart).map(|(f, n)| f * n).sum();
+        if is_first_known {
+            let force = entry.force.unwrap_or(norm(vector).copysign(along));
+            return Measured::new(ids, force).with_vector(vector);
+        }
+        let force = entry.force.unwrap_or(norm(vector));
+        let is_turned = (along < 0.0) != (force < 0.0);
+        let [first, second] = ids;
+        let ids = if is_turned { [second, first] } else { ids };
+        Measured::new(ids, force).with_vector(vector)
+    }
+
+    fn centres_of(&self, ids: [u64; 2]) -> Option<[[f64; 3]; 2]> {
+        let centre = |id: u64| self.centres.get(usize::try_from(id - 1).ok()?).copied();
+        let [one, other] = ids;
+        Some([centre(one)?, centre(other)?])
+    }
+
+    /// Returns the exact point between the two spheres that touch at a place.
+    pub(super) fn point_of(&self, place: &Place, within: f64) -> Option<[f64; 3]> {
+        let ids = self.find(place, within).ok()?;
+        self.centres_of(ids).as_ref().map(middle)
+    }
+}
+
+/// Where contacts with a force are, each between its two centres; and the magnitudes of all forces, contact by contact.
+pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, Vec<f64>), Refusal> {
+    let (mut points, mut forces) = (Vec::new(), Vec::new());
+    for (centres, contact) in pile.links()?.zip(pile.contacts()?) {
+        let force = contact?.force.abs();
+        if force > 0.0 {
+            points.push(middle(&centres?));
+        }
+        forces.push(force);
+    }
+    Ok((points, forces))
+}
+
+/// The point between two.
+pub(super) fn middle([[x, y, z], [u, v, w]]: &[[f64; 3]; 2]) -> [f64; 3] {
+    [x.midpoint(*u), y.midpoint(*v), z.midpoint(*w)]
+}
+
+/// a − b.
+pub(super) fn minus([x, y, z]: [f64; 3], [u, v, w]: [f64; 3]) -> [f64; 3] {
+    [x - u, y - v, z - w]
+}

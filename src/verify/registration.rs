@@ -1,0 +1,271 @@
+//! The frame in which a table's places are those of a pile.
+//!
+//! Contacts with a force are points, in the table and in the pile. Six axes can be the vertical, and the table may be a
+//! mirror image; for each, the points' middles give the shift, and the point farthest from the middle axis the angles
+//! that bring it onto one that is as far and as high. The frame in which most places of a sample are found is taken, of
+//! equals the one whose forces are shared out more as the exact ones are, then the one with the least change; it is fitted
+//! by least squares to what was found.
+
+use core::f64::consts::PI;
+
+use super::entry::Place;
+use super::finding::Axis;
+use super::frame::Frame;
+use super::places::{Places, middle, minus};
+
+/// How many places are looked up to judge a frame, and to fit one.
+const SAMPLE: usize = 200;
+const FITTED: usize = 5000;
+
+/// How many turns are tried for one vertical.
+const MOST_TURNS: usize = 24;
+
+/// Angles this near to a multiple of 30° are that multiple, and shifts this near to nothing, in R, are none: spheres give
+/// way by more.
+const EXACT: f64 = 1e-3;
+
+/// A frame, and the share of a sample that is found in it.
+pub(super) struct Fit {
+    pub(super) frame: Frame,
+    pub(super) found: usize,
+    pub(super) sample: usize,
+    /// How far off those that are found are, in the mean, in R.
+    off: f64,
+    /// How far the shares of their forces are from the exact ones, in all.
+    unlike: f64,
+}
+
+impl Fit {
+    /// Whether it is so much better that a greater change is worth it.
+    fn is_better_than(&self, other: &Self) -> bool {
+        if self.found != other.found {
+            return self.found > other.found;
+        }
+        let nearer = other.off - self.off;
+        nearer > NOTABLE || (nearer > -NOTABLE && self.unlike + NOTABLE < other.unlike)
+    }
+}
+
+/// A mean distance that tells one frame from another, in R, or a share of all forces.
+const NOTABLE: f64 = 0.01;
+
+/// A place of a table, and the magnitude of the force there.
+pub(super) type Loaded = (Place, f64);
+
+/// What a pile has: where contacts with a force are, and the exact magnitude between two spheres.
+pub(super) struct Exact<'e> {
+    pub(super) points: &'e [[f64; 3]],
+    pub(super) places: &'e Places,
+    pub(super) force: &'e dyn Fn([u64; 2]) -> f64,
+}
+
+/// Finds the frame of a table in which these places have a force.
+pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64) -> Fit {
+    let places = pile.places;
+    let sample = spread(table, SAMPLE);
+    let judge = |frame: Frame, within: f64| {
+        let (mut found, mut off, mut forces) = (0, 0.0, Vec::new());
+        for (place, force) in &sample {
+            let (ids, distance) = places.nearest(&moved(place, &frame));
+            if let Some(ids) = ids.filter(|_| distance <= within) {
+                found += 1;
+                off += distance;
+                forces.push((*force, (pile.force)(ids)));
+            }
+        }
+        Fit {
+            frame,
+            found,
+            sample: sample.len(),
+            off: off / radius / count(found),
+            unlike: unlike(&forces),
+        }
+    };
+    let own = judge(Frame::OWN, within);
+    if own.found == own.sample {
+        return own;
+    }
+    let points: Vec<[f64; 3]> = table.iter().map(|(place, _)| point(place)).collect();
+    // A shift by missing contacts is less than this.
+    let near = (radius / 2.0).max(within);
+    let mut best = judge(Frame::OWN, near);
+    for frame in candidates(&points, pile.points, radius) {
+        let fit = judge(frame, near);
+        if fit.is_better_than(&best) {
+            best = fit;
+        }
+    }
+    let mut frame = best.frame;
+    for _ in 0..3 {
+        frame = fitted(frame, table, |place| places.point_of(place, near), radius);
+    }
+    judge(frame, within)
+}
+
+/// Frames worth trying, those with the least change first.
+fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    let own = Axis::all().filter(|axes| {
+        // One of each vertical, and of its mirror images: the rest is a turn.
+        let [x, _, z] = *axes;
+        !x.is_reversed && x.index == (z.index + 1) % 3
+    });
+    let mut all: Vec<[Axis; 3]> = own.collect();
+    all.sort_by_key(|axes| (Axis::is_mirrored(*axes), *axes != Axis::OWN));
+    for axes in all {
+        let named: Vec<[f64; 3]> = points.iter().map(|p| Axis::turn(axes, *p)).collect();
+        let [from, to] = [&named[..], pile].map(mean);
+        // Where contacts are missing, the lowest may still be there.
+        let sunk = lowest(pile) - lowest(&named);
+        for angle in angles(&named, pile, radius) {
+            let turn = Frame {
+                axes: Axis::OWN,
+                angle,
+                shift: [0.0; 3],
+            };
+            let [x, y, z] = minus(to, turn.turned(from));
+            for z in [z, sunk] {
+                let shift = [x, y, z];
+                frames.push(Frame { axes, angle, shift });
+            }
+        }
+    }
+    frames
+}
+
+/// The angles that bring the point farthest from the middle axis onto one as far and as high, 0 first, the least next.
+fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<f64> {
+    let [from, to] = [points, pile].map(mean);
+    let around = |point: &[f64; 3], middle: [f64; 3]| {
+        let [x, y, z] = minus(*point, middle);
+        (x.hypot(y), z, y.atan2(x))
+    };
+    let all = points.iter().map(|point| around(point, from));
+    let Some((far, high, at)) = all.max_by(|(one, ..), (other, ..)| one.total_cmp(other)) else {
+        return Vec::new();
+    };
+    let near = radius / 2.0;
+    let mut angles: Vec<f64> = vec![0.0];
+    for point in pile {
+        let (distance, height, angle) = around(point, to);
+        if (distance - far).abs() > near || (height - high).abs() > near {
+            continue;
+        }
+        let turn = simple(wrapped(angle - at));
+        if angles
+            .iter()
+            .all(|known| wrapped(known - turn).abs() > EXACT)
+        {
+            angles.push(turn);
+        }
+        if angles.len() > MOST_TURNS {
+            break;
+        }
+    }
+    angles.sort_by(|one, other| one.abs().total_cmp(&other.abs()));
+    angles
+}
+
+/// Fits the turn and the shift of a frame to the places that are found in it.
+fn fitted(
+    frame: Frame,
+    table: &[Loaded],
+    found: impl Fn(&Place) -> Option<[f64; 3]>,
+    radius: f64,
+) -> Frame {
+    let upright = Frame {
+        angle: 0.0,
+        shift: [0.0; 3],
+        ..frame
+    };
+    let pairs = spread(table, FITTED).into_iter().filter_map(|(place, _)| {
+        let to = found(&moved(place, &frame))?;
+        Some((upright.turned(point(place)), to))
+    });
+    let (from, to): (Vec<_>, Vec<_>) = pairs.unzip();
+    if from.is_empty() {
+        return frame;
+    }
+    let [a, b] = [&from, &to].map(|points| mean(points));
+    let (mut across, mut along) = (0.0, 0.0);
+    for (p, q) in from.iter().zip(&to) {
+        let ([x, y, _], [u, v, _]) = (minus(*p, a), minus(*q, b));
+        across += x * v - y * u;
+        along += x * u + y * v;
+    }
+    let angle = simple(across.atan2(along));
+    let turned = Frame { angle, ..upright };
+    let to_own = |x: f64| if x.abs() < EXACT * radius { 0.0 } else { x };
+    // Turned already as far as its axes go.
+    let spun = Frame {
+        axes: Axis::OWN,
+        ..turned
+    };
+    let shift = minus(b, spun.turned(a)).map(to_own);
+    Frame { shift, ..turned }
+}
+
+/// How far the shares that measured forces have of their sum are from those that the exact ones have of theirs, in all.
+fn unlike(forces: &[(f64, f64)]) -> f64 {
+    let (sums, exact) = forces
+        .iter()
+        .fold((0.0, 0.0), |(a, b), (x, y)| (a + x, b + y));
+    let apart = forces.iter().map(|(x, y)| (x / sums - y / exact).abs());
+    apart.sum()
+}
+
+/// A place of the table in a frame.
+pub(super) fn moved(place: &Place, frame: &Frame) -> Place {
+    match place {
+        Place::Centres(centres) => Place::Centres(centres.map(|centre| frame.place(centre))),
+        Place::Point(point) => Place::Point(frame.place(*point)),
+    }
+}
+
+fn point(place: &Place) -> [f64; 3] {
+    match place {
+        Place::Centres(centres) => middle(centres),
+        Place::Point(point) => *point,
+    }
+}
+
+/// Some of many, evenly.
+fn spread(places: &[Loaded], most: usize) -> Vec<&Loaded> {
+    let step = places.len().div_ceil(most).max(1);
+    places.iter().step_by(step).collect()
+}
+
+/// An angle, or the multiple of 30° that it is near to.
+fn simple(angle: f64) -> f64 {
+    let step = PI / 6.0;
+    let multiple = (angle / step).round();
+    let round = multiple * step;
+    if (angle - round).abs() < EXACT {
+        round
+    } else {
+        angle
+    }
+}
+
+fn wrapped(angle: f64) -> f64 {
+    angle - (angle / (2.0 * PI)).round() * 2.0 * PI
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
+fn count(number: usize) -> f64 {
+    number.max(1) as f64
+}
+
+fn mean(points: &[[f64; 3]]) -> [f64; 3] {
+    let count = count(points.len());
+    let sum = points
+        .iter()
+        .fold([0.0; 3], |[x, y, z], [u, v, w]| [x + u, y + v, z + w]);
+    sum.map(|x: f64| x / count)
+}
+
+fn lowest(points: &[[f64; 3]]) -> f64 {
+    points
+        .iter()
+        .fold(f64::INFINITY, |least, [_, _, z]| least.min(*z))
+}

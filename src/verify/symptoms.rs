@@ -1,0 +1,139 @@
+//! What measured and exact forces show together, contact by contact.
+
+use super::finding::{Axis, Finding};
+use super::measured::{Measured, distance, norm};
+use crate::dem::NumberedContact;
+
+/// How far off a turn of the axes may be and still be followed.
+const FOLLOWED: f64 = 0.25;
+
+/// What the contacts with a force have shown so far.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Symptoms {
+    /// The least and the greatest ratio of a measured to an exact force, and how many there are.
+    ratios: Option<([f64; 2], u64)>,
+    /// How many have vectors.
+    vectors: u64,
+    /// The axes in which the vectors may be right, with the greatest error in each.
+    axes: Vec<([Axis; 3], f64)>,
+    /// The greatest share of a force along the surfaces.
+    tangential: f64,
+    /// For each layer how many contacts with a force it has, and how many are missing.
+    layers: Vec<[u64; 2]>,
+}
+
+impl Default for Symptoms {
+    fn default() -> Self {
+        Self {
+            ratios: None,
+            vectors: 0,
+            axes: Axis::all().map(|axes| (axes, 0.0)).collect(),
+            tangential: 0.0,
+            layers: Vec::new(),
+        }
+    }
+}
+
+impl Symptoms {
+    /// A contact with a force was not measured.
+    pub(super) fn miss(&mut self, exact: &NumberedContact) {
+        let [there, missing] = self.layer(exact);
+        *there += 1;
+        *missing += 1;
+    }
+
+    /// A contact with a force was measured.
+    pub(super) fn see(&mut self, exact: &NumberedContact, measured: &Measured) {
+        let [there, _] = self.layer(exact);
+        *there += 1;
+        let ratio = measured.force / exact.force;
+        let ([least, greatest], count) = self.ratios.unwrap_or(([ratio; 2], 0));
+        self.ratios = Some(([least.min(ratio), greatest.max(ratio)], count + 1));
+        let Some(vector) = measured.vector else {
+            return;
+        };
+        self.vectors += 1;
+        let magnitude = exact.force.abs();
+        self.axes.retain_mut(|(axes, greatest)| {
+            let apart = distance(Axis::turn(*axes, vector), exact.vector);
+            *greatest = greatest.max(apart / magnitude);
+            *greatest < FOLLOWED
+        });
+        let normal = exact.vector.map(|component| component / magnitude);
+        let along: f64 = vector.iter().zip(normal).map(|(f, n)| f * n).sum();
+        let across = [0, 1, 2].map(|axis: usize| match (vector.get(axis), normal.get(axis)) {
+            (Some(f), Some(n)) => f - along * n,
+            _ => 0.0,
+        });
+        self.tangential = self.tangential.max(norm(across) / magnitude);
+    }
+
+    /// How many contacts with a force a layer has, and how many are missing.
+    fn layer(&mut self, exact: &NumberedContact) -> &mut [u64; 2] {
+        // Contacts that are compared fit in memory, and so do their layers.
+        let k = usize::try_from(exact.site.k).unwrap_or(0);
+        if self.layers.len() <= k {
+            self.layers.resize(k + 1, [0; 2]);
+        }
+        &mut self.layers[k]
+    }
+
+    /// The one factor of all measured forces, if there is one other than 1.
+    pub(super) fn factor(&self, tolerance: f64) -> Option<f64> {
+        let ([least, greatest], count) = self.ratios?;
+        let factor = least + (greatest - least) / 2.0;
+        let alike = factor.is_finite() && (greatest - least) / 2.0 <= tolerance * factor.abs();
+        let is_other = (factor - 1.0).abs() > tolerance;
+        (count > 1 && alike && is_other).then_some(factor)
+    }
+
+    /// All that can be told at an accepted error.
+    pub(super) fn findings(&self, tolerance: f64) -> Vec<Finding> {
+        let factor = self.factor(tolerance);
+        let turned = self.turned(tolerance);
+        let turned = turned.map(|axes| {
+            if axes
+                == Axis::OWN.map(|axis| Axis {
+                    is_reversed: true,
+                    ..axis
+                })
+            {
+                Finding::SecondSphere
+            } else {
+                Finding::Axes(axes)
+            }
+        });
+        let is_straight = factor.is_none() && turned.is_none();
+        let tangential = self.tangential > tolerance && is_straight;
+        let tangential = tangential.then_some(Finding::Tangential(self.tangential));
+        let lowest = self.layers.len();
+        let missing = (0..).zip(&self.layers).filter_map(|(k, [there, missing])| {
+            (*missing > 0 && missing == there).then_some(Finding::Layer {
+                k,
+                contacts: *there,
+                is_lowest: usize::try_from(k + 1) == Ok(lowest),
+            })
+        });
+        // A list with nothing in it has not lost a layer.
+        let has_some = self.ratios.is_some();
+        factor
+            .map(Finding::Factor)
+            .into_iter()
+            .chain(turned)
+            .chain(tangential)
+            .chain(missing.filter(|_| has_some))
+            .collect()
+    }
+
+    /// The axes in which all vectors are right, if they are not so as they are.
+    fn turned(&self, tolerance: f64) -> Option<[Axis; 3]> {
+        let right = |axes: &&([Axis; 3], f64)| axes.1 <= tolerance;
+        let own = self.axes.iter().find(|(axes, _)| *axes == Axis::OWN);
+        if self.vectors < 3 || own.as_ref().is_some_and(right) {
+            return None;
+        }
+        let best = self.axes.iter().filter(right);
+        let (axes, _) = best.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+        Some(*axes)
+    }
+}

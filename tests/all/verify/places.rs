@@ -1,0 +1,227 @@
+//! Contacts are found by where they are, in any frame, in any order; another pile's are not.
+
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::verify::{Axis, Compared, Frame, Measured, Reader, Refusal};
+use cannonpile::{Packing, Pile};
+use num_rational::BigRational;
+
+use super::{packing, perfect, ratio};
+
+const AXES: [Axis; 3] = [axis(0), axis(1), axis(2)];
+
+const fn axis(index: usize) -> Axis {
+    Axis {
+        index,
+        is_reversed: false,
+    }
+}
+
+/// A table of both centres, or of contact points, seen from another frame; every `left_out`-th contact is missing.
+fn table(packing: &Packing<'_>, seen: &Frame, by_point: bool, left_out: usize) -> String {
+    let places = packing.positions(Selection::All).unwrap();
+    let centres: Vec<[f64; 3]> = places
+        .map(|place| place.unwrap().map(|x| x.nearest::<f64>().unwrap()))
+        .collect();
+    let mut rows: Vec<Measured> = perfect(packing);
+    // In some order, and told of either sphere.
+    rows.sort_by_key(|row| row.ids.map(|id| id * 7919 % 101));
+    let mut text = String::from(if by_point {
+        "x,y,z,fx,fy,fz,force\n"
+    } else {
+        "x1,y1,z1,x2,y2,z2,fx,fy,fz,force\n"
+    });
+    for (n, row) in rows.into_iter().enumerate() {
+        if left_out > 0 && n % left_out == 0 {
+            continue;
+        }
+        let row = if n % 3 == 0 { row.reversed() } else { row };
+        let [a, b] = row
+            .ids
+            .map(|id| seen.place(centres[usize::try_from(id - 1).unwrap()]));
+        let force = seen.turned(row.vector.unwrap());
+        let middle = [0, 1, 2].map(|x: usize| a[x].midpoint(b[x]));
+        let numbers = if by_point {
+            [&middle[..], &force, &[row.force]].concat()
+        } else {
+            [&a[..], &b, &force, &[row.force]].concat()
+        };
+        let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+        text += &texts.join(",");
+        text.push('\n');
+    }
+    text
+}
+
+fn read(packing: &Packing<'_>, table: &str) -> Result<Compared, Refusal> {
+    let reader = Reader::new().by_place(0.1).unwrap();
+    reader.compare(packing, table.as_bytes())
+}
+
+fn one(n: i64) -> BigRational {
+    BigRational::from_integer(n.into())
+}
+
+fn piles() -> Vec<Pile> {
+    let middle = Site { i: 1, j: 0, k: 1 };
+    vec![
+        Pile::triangular(6).unwrap(),
+        Pile::under(Region::hexagon(2, 2).unwrap(), Stacking::hcp(5).unwrap()).unwrap(),
+        Pile::triangular(5)
+            .unwrap()
+            .with_load(middle, one(3))
+            .unwrap(),
+        Pile::discs(6).unwrap(),
+    ]
+}
+
+#[test]
+fn a_table_in_any_frame_is_accepted_and_the_frame_is_told() {
+    let turned = |axes: [usize; 3], signs: [bool; 3]| {
+        let mut signs = signs.into_iter();
+        axes.map(|index| Axis {
+            index,
+            is_reversed: signs.next().unwrap(),
+        })
+    };
+    let [t, f] = [true, false];
+    let frames = [
+        (AXES, 0.0, [0.0; 3]),
+        (AXES, 0.0, [3.0, -20.0, 0.5]),
+        (AXES, 0.3, [0.0; 3]),
+        (AXES, -2.5, [1.0, 1.0, 1.0]),
+        (turned([1, 2, 0], [f; 3]), 0.0, [0.0; 3]),
+        (turned([0, 2, 1], [f, f, t]), 0.0, [5.0, 6.0, 7.0]),
+        (turned([2, 1, 0], [t, f, f]), 0.0, [-1.0, 0.0, 0.0]),
+        (turned([0, 1, 2], [f, t, t]), 0.0, [0.0, 0.0, 9.0]),
+    ];
+    for pile in piles() {
+        let packing = packing(&pile, ratio(11, 10));
+        for (axes, angle, shift) in frames {
+            let seen = Frame { axes, angle, shift };
+            for by_point in [false, true] {
+                let read = read(&packing, &table(&packing, &seen, by_point, 0)).unwrap();
+                assert!(
+                    read.comparison.accepted(1e-9),
+                    "{seen:?} {by_point} {:?}: {}",
+                    read.frame,
+                    read.comparison
+                );
+                assert_eq!(read.comparison.missing(), 0);
+                assert_eq!(
+                    read.frame.is_none(),
+                    seen == Frame {
+                        axes: AXES,
+                        angle: 0.0,
+                        shift: [0.0; 3]
+                    }
+                );
+                assert!(read.frame.is_none_or(|frame| !frame.is_mirrored()));
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_missing_is_missing_in_any_frame() {
+    let pile = Pile::triangular(7).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let (angle, shift) = (0.7, [4.0, 4.0, 4.0]);
+    let seen = Frame {
+        axes: AXES,
+        angle,
+        shift,
+    };
+    for left_out in [3, 10, 60] {
+        let read = read(&packing, &table(&packing, &seen, false, left_out)).unwrap();
+        let count = read.comparison.contacts();
+        assert_eq!(read.comparison.missing(), count.div_ceil(left_out as u64));
+        assert!(
+            read.comparison.largest_error() < 1e-9,
+            "{}",
+            read.comparison
+        );
+    }
+}
+
+#[test]
+fn a_mirror_image_is_named() {
+    // One load, off every plane of symmetry, and another: no turn does it.
+    let pile = Pile::triangular(5).unwrap();
+    let pile = pile.with_load(Site { i: 1, j: 0, k: 2 }, one(3)).unwrap();
+    let pile = pile.with_load(Site { i: 0, j: 1, k: 3 }, one(7)).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let [x, y, z] = AXES;
+    let seen = Frame {
+        axes: [y, x, z],
+        angle: 0.0,
+        shift: [0.0; 3],
+    };
+    let read = read(&packing, &table(&packing, &seen, false, 0)).unwrap();
+    // All places are found by a turn, too: the forces tell.
+    assert!(read.frame.unwrap().is_mirrored());
+    assert!(read.comparison.accepted(1e-9), "{}", read.comparison);
+    // Here no turn finds the places.
+    let stacking: Stacking = "+-++-".parse().unwrap();
+    let pile = Pile::under(Region::new(0..=3, 0..=2, 0..=4).unwrap(), stacking).unwrap();
+    let packing = packing_of(&pile);
+    let table = table(&packing, &seen, false, 0);
+    let read = Reader::new()
+        .by_place(0.1)
+        .unwrap()
+        .compare(&packing, table.as_bytes())
+        .unwrap();
+    assert!(read.frame.unwrap().is_mirrored());
+    assert!(read.frame.unwrap().to_string().contains("a mirror image"));
+    assert!(read.comparison.accepted(1e-9), "{}", read.comparison);
+}
+
+fn packing_of(pile: &Pile) -> Packing<'_> {
+    packing(pile, ratio(11, 10))
+}
+
+#[test]
+fn another_pile_is_refused() {
+    let (small, other) = (Pile::triangular(6).unwrap(), Pile::triangular(6).unwrap());
+    let (small, other) = (packing(&small, ratio(11, 10)), packing(&other, ratio(1, 1)));
+    let own = Frame {
+        axes: AXES,
+        angle: 0.0,
+        shift: [0.0; 3],
+    };
+    let text = table(&small, &own, false, 0);
+    let line = read(&other, &text).unwrap_err().to_string();
+    assert!(
+        line.starts_with("no frame in which its places are those of the scene"),
+        "{line}"
+    );
+    // One sphere that is not there.
+    let text = text + "9,9,9,9,9,11,0,0,1,1\n";
+    let line = read(&small, &text).unwrap_err().to_string();
+    assert!(
+        line.starts_with("line 107: no contact at (9.000000, 9.000000, 10.000000) m"),
+        "{line}"
+    );
+    // A row without a force is none.
+    let text = text.replace("9,9,9,9,9,11,0,0,1,1", "9,9,9,9,9,9,0,0,0,0");
+    assert!(read(&small, &text).unwrap().comparison.accepted(1e-9));
+}
+
+#[test]
+fn places_need_their_columns() {
+    let pile = Pile::triangular(2).unwrap();
+    let packing = packing(&pile, ratio(1, 1));
+    let line = read(&packing, "id1,id2,force\n1,2,0.4\n")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        line.starts_with("line 1: no column x, only 'id1', 'id2', 'force'"),
+        "{line}"
+    );
+    let line = read(&packing, "x1,z1,x2,force\n1,2,0.4,1\n")
+        .unwrap_err()
+        .to_string();
+    assert!(line.starts_with("line 1: no column z2, only"), "{line}");
+    assert!(Reader::new().by_place(0.0).is_err() && Reader::new().by_place(f64::NAN).is_err());
+}
