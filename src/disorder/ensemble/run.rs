@@ -88,7 +88,8 @@ impl Run<'_> {
         let after = end.div_ceil(length);
         (first..after).map(move |piece| {
             let from = piece * length;
-            from.max(start)..(from + length).min(end)
+            // The last piece of all 2⁶⁴ − 1 samples would end beyond the last number.
+            from.max(start)..from.saturating_add(length).min(end)
         })
     }
 

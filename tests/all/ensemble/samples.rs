@@ -134,6 +134,13 @@ fn samples_are_what_is_documented() -> Result<(), Error> {
             assert_eq!(drawn(&ensemble, &samples, n)?, expected, "{seed} {n}");
         }
     }
+    // The last sample that has a number.
+    let ensemble = Ensemble::under(Region::SITE, RandomStackings::new(6, FirstSign::Random)?)?;
+    let samples = Samples::new(u64::MAX, 3, big((1, 3)))?;
+    for n in [u64::MAX - 1, u64::MAX - 8193] {
+        let expected = sample(3, n, (1, 3), FirstSign::Random, 5);
+        assert_eq!(drawn(&ensemble, &samples, n)?, expected, "{n}");
+    }
     // Forty layers take more than one block of the stream.
     let ensemble = Ensemble::under(Region::SITE, RandomStackings::new(40, FirstSign::Random)?)?;
     let samples = Samples::new(9, 4, big((1, 2)))?;
