@@ -224,15 +224,19 @@ impl TallyRecord {
             ..
         } = parts;
         let tally = Tally::from_parts(ensemble, choice, shard, faults);
+        let refused = |said: String| io::Error::new(io::ErrorKind::InvalidData, said);
         let tally = tally.ok_or_else(|| {
-            let said = "its counts are not those of its stackings: run it again";
-            io::Error::new(io::ErrorKind::InvalidData, said)
+            refused("its counts are not those of its stackings: run it again".to_owned())
         })?;
-        Ok(Self {
-            version,
-            fault_probability,
-            tally,
-        })
+        let record = Self::new(tally, fault_probability.clone());
+        let record = record.map_err(|error| refused(error.to_string()))?;
+        if record.fault_probability != fault_probability {
+            return Err(refused(format!(
+                "its samples were drawn with another fault probability, {}: run it again",
+                record.fault_probability
+            )));
+        }
+        Ok(Self { version, ..record })
     }
 }
 

@@ -4,12 +4,13 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 
+use num_bigint::BigUint;
+use num_rational::BigRational;
 use num_traits::Zero;
 
-#[cfg(all(feature = "export", feature = "serde"))]
-use super::Ensemble;
 use super::setup::{MOST_BINS, stackings_of};
-use super::{Choice, Distribution, Histogram, Shard, Tally, WithFaults};
+use super::{Choice, Distribution, Ensemble, Extreme, Histogram, Shard, Tally, WithFaults};
+use crate::scalar::Ring;
 
 /// Why tallies do not make one.
 ///
@@ -252,12 +253,24 @@ impl Tally {
         }
         let has_held = self.ensemble.has_horizontal_contacts();
         let is_row = |(d, with): (usize, &WithFaults)| {
-            with.faults as usize == d
-                && with.held.is_some() == has_held
-                && with.standing.stackings <= with.all.stackings
-                && [&with.all, &with.standing]
+            let WithFaults {
+                faults,
+                all,
+                standing,
+                held,
+            } = with;
+            // What stands does so with horizontal contacts too.
+            let is_between =
+                |held: &BigUint| (&standing.stackings..=&all.stackings).contains(&held);
+            *faults as usize == d
+                && held.is_some() == has_held
+                && held.as_ref().is_none_or(is_between)
+                && standing.stackings <= all.stackings
+                && standing.contacts <= all.contacts
+                && (self.choice != Choice::All || all.stackings <= stackings.count_with(*faults))
+                && [all, standing]
                     .iter()
-                    .all(|of| of.is_possible(stackings.layers()))
+                    .all(|of| of.is_possible(&self.ensemble, d))
         };
         let expected = stackings_of(&self.ensemble, &self.choice, self.shard);
         expected == Ok(Some(self.stackings())) && self.faults.iter().enumerate().all(is_row)
@@ -265,30 +278,45 @@ impl Tally {
 }
 
 impl Distribution {
-    /// Whether piles of so many layers can have it.
-    fn is_possible(&self, layers: i128) -> bool {
-        let extremes = [
-            &self.least,
-            &self.greatest,
-            &self.least_normal,
-            &self.greatest_normal,
+    /// Whether piles of an ensemble with so many faults can have it.
+    fn is_possible(&self, ensemble: &Ensemble, faults: usize) -> bool {
+        let layers = ensemble.stackings().layers();
+        let ends = [
+            (&self.forces, [&self.least, &self.greatest]),
+            (&self.normals, [&self.least_normal, &self.greatest_normal]),
         ];
-        let mut extremes = extremes.into_iter().flatten();
+        let is_of_ensemble = |found: &Option<Extreme>| {
+            found.as_ref().is_none_or(|Extreme { stacking, .. }| {
+                stacking.layers() == layers && stacking.changes() == faults
+            })
+        };
+        let are_possible = |(histogram, ends): &(&Histogram, [&Option<Extreme>; 2])| {
+            histogram.is_possible(*ends, ensemble.bins())
+                && ends.iter().all(|end| is_of_ensemble(end))
+        };
         self.forces.total() == self.contacts
-            && self.forces.is_possible()
-            && self.normals.is_possible()
-            && extremes.all(|extreme| extreme.stacking.layers() == layers)
+            && self.stackings.is_zero() == self.normals.counts.is_empty()
+            && ends.iter().all(are_possible)
     }
 }
 
 impl Histogram {
-    /// Whether its bins are those of a run, and begin and end with a count.
-    fn is_possible(&self) -> bool {
-        let ends = [self.counts.first(), self.counts.last()];
-        let last = i128::from(self.first) + self.counts.len() as i128;
+    /// Whether its bins are those of a run: they begin and end with a count, that of the least and the greatest number.
+    fn is_possible(&self, [least, greatest]: [&Option<Extreme>; 2], width: &BigRational) -> bool {
+        let (Some(begin), Some(end)) = (self.counts.first(), self.counts.last()) else {
+            return self.first == 0 && least.is_none() && greatest.is_none();
+        };
+        let last = i128::from(self.first) + self.counts.len() as i128 - 1;
         let most = i128::from(MOST_BINS);
-        ends.into_iter().flatten().all(|count| !count.is_zero())
+        let is_in = |found: &Option<Extreme>, bin: i128| {
+            let force = found.as_ref().map(|found| &found.force);
+            force.is_some_and(|force| (force / width).floor() == BigRational::from_i128(bin))
+        };
+        !begin.is_zero()
+            && !end.is_zero()
             && i128::from(self.first) >= -most
-            && last <= most
+            && last < most
+            && is_in(least, self.first.into())
+            && is_in(greatest, last)
     }
 }

@@ -2,7 +2,7 @@
 
 use cannonpile::Error;
 use cannonpile::disorder::{
-    Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, Tally, Unmergeable,
+    Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, Tally, Unmergeable, WithFaults,
 };
 use num_rational::BigRational;
 
@@ -166,6 +166,103 @@ fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
         Tally::merge(&[third, cut]),
         Err(Unmergeable::Impossible { place: 1 })
     );
+    Ok(())
+}
+
+/// As a file would have it in which numbers were changed by hand.
+#[test]
+fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
+    let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
+    assert_eq!(Tally::merge(&[whole.clone()]).as_ref(), Ok(&whole));
+    let refused = |name: &str, changed: Tally| {
+        let found = Tally::merge(&[changed]);
+        assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }), "{name}");
+    };
+    let changes: [(&str, fn(&mut WithFaults)); 10] = [
+        ("another number of faults", |with| with.faults += 1),
+        ("more stand than there are", |with| {
+            with.standing.stackings = with.all.stackings.clone() + 1_u32;
+        }),
+        ("horizontal contacts", |with| with.held = Some(1_u32.into())),
+        ("a contact lost", |with| with.all.contacts -= 1_u32),
+        ("another least force", |with| {
+            with.all.least.as_mut().unwrap().force += ratio(1, 1);
+        }),
+        ("another greatest normal force", |with| {
+            with.standing.greatest_normal.as_mut().unwrap().force -= ratio(1, 1);
+        }),
+        ("a stacking with other faults", |with| {
+            with.all.greatest.as_mut().unwrap().stacking = "++++".parse().unwrap();
+        }),
+        ("a stacking of other layers", |with| {
+            with.all.greatest.as_mut().unwrap().stacking = "+-".parse().unwrap();
+        }),
+        ("no least force", |with| with.all.least = None),
+        ("a bin before the first", |with| {
+            with.all.normals.counts.insert(0, 0_u32.into());
+            with.all.normals.first -= 1;
+        }),
+    ];
+    for (name, change) in changes {
+        let mut changed = whole.clone();
+        change(&mut changed.faults[1]);
+        refused(name, changed);
+    }
+    // As many in all, but more of a number of faults than there are.
+    let mut changed = whole;
+    changed.faults[1].all.stackings += 1_u32;
+    changed.faults[2].all.stackings -= 1_u32;
+    refused("a stacking counted elsewhere", changed);
+    Ok(())
+}
+
+#[cfg(all(feature = "export", feature = "serde"))]
+#[test]
+fn a_file_of_another_fault_probability_is_refused() -> Result<(), Box<dyn std::error::Error>> {
+    use cannonpile::serde::TallyRecord;
+
+    let q = ratio(1, 3);
+    for (choice, wrong, said) in [
+        (Choice::All, "7/3", "at least 0 and at most 1, not 7/3"),
+        (
+            drawn(9, 1, q.clone())?,
+            "1/4",
+            "another fault probability, 1/3",
+        ),
+    ] {
+        let tally = ensemble("hexagon:1", 5)?.run(&choice, Shard::WHOLE)?;
+        let record = TallyRecord::new(tally, q.clone())?;
+        let mut text = Vec::new();
+        record.write(&mut text)?;
+        let text = String::from_utf8(text)?;
+        assert_eq!(TallyRecord::read(text.as_bytes())?, record);
+        let changed = text.replace(
+            "\n  \"fault_probability\": \"1/3\"",
+            &format!("\n  \"fault_probability\": \"{wrong}\""),
+        );
+        let refused = TallyRecord::read(changed.as_bytes()).unwrap_err();
+        assert_eq!(refused.kind(), std::io::ErrorKind::InvalidData);
+        assert!(refused.to_string().contains(said), "{refused}");
+    }
+    Ok(())
+}
+
+#[cfg(feature = "horizontal")]
+#[test]
+fn more_held_than_there_are_or_fewer_than_stand_is_refused() -> Result<(), Error> {
+    let touching = ensemble("hexagon:1", 6)?.with_horizontal_contacts()?;
+    let whole = touching.run(&Choice::All, Shard::WHOLE)?;
+    assert_eq!(Tally::merge(&[whole.clone()]).as_ref(), Ok(&whole));
+    let row = &whole.faults[2];
+    for held in [
+        row.all.stackings.clone() + 1_u32,
+        row.standing.stackings.clone() - 1_u32,
+    ] {
+        let mut changed = whole.clone();
+        changed.faults[2].held = Some(held);
+        let found = Tally::merge(&[changed]);
+        assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }));
+    }
     Ok(())
 }
 
