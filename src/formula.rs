@@ -39,7 +39,7 @@ mod turn;
 
 pub use disorder::{
     fourth_moment, fourth_moment_of_pair, mean_fourth_moment_of_pairs, mean_third_moment,
-    third_moment, wave,
+    registry_excess, third_moment, wave,
 };
 pub use horizontal::{
     arch, beside, compression, corner_field, elastic_field, greatest_inside, greatest_on_corner,

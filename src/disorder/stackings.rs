@@ -9,6 +9,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::Error;
+use crate::formula;
 use crate::lattice::{MAX_LAYERS, Sign};
 use crate::scalar::{Algebra, THREE, TWO};
 
@@ -236,10 +237,9 @@ impl RandomStackings {
     /// Returns the probabilities that the bottom layer has the registry 0, 1, 2 at the fault probability `q`: that s ≡ 0,
     /// 1, 2 (mod 3), with s the number of + steps less that of − steps.
     ///
-    /// p_n − ⅓, with n the number of steps, obeys x_(n+1) = −(1−q) x_n − (1−2q) x_(n−1) in each registry. *Proof.* With
-    /// ω = e^(2πi/3) let e_± = E ω^s over what ends in a ± step. A step more makes ω((1−q)e_+ + q e_−) and ω̄((1−q)e_− +
-    /// q e_+) of them: a matrix of trace −(1−q) and determinant 1−2q, which obeys its own characteristic equation, and so
-    /// does the conjugate one, of which p_n − ⅓ is made. ∎
+    /// p_n − ⅓, with n the number of steps, obeys x_(n+1) = −(1−q) x_n − (1−2q) x_(n−1) in each registry
+    /// ([`registry_excess`](formula::registry_excess)), by theorem `registry`. So it decays as the greater root λ of
+    /// λ² + (1−q)λ + 1−2q: as √(1−2q), and oscillating, for 0 < q < 2√3 − 3.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than 10⁴ layers.
@@ -278,11 +278,9 @@ impl RandomStackings {
             FirstSign::Minus => [none.clone(), none, all],
             FirstSign::Random => [none, half.clone(), half],
         };
-        let same = T::one() - q;
-        let memory = same.clone() - q;
         for _ in 0..self.steps() {
             let next = core::array::from_fn(|registry| {
-                -(after[registry].clone() * &same) - &(before[registry].clone() * &memory)
+                formula::registry_excess(&before[registry], &after[registry], q)
             });
             (before, after) = (after, next);
         }

@@ -134,6 +134,27 @@ pub fn wave<T: Algebra>(q: &T) -> [T; 2] {
     ]
 }
 
+/// Returns by how much the probability of a registry exceeds ⅓ one layer further down: −(1−q)y − (1−2q)x.
+///
+/// x is by how much it does two layers above, and y in the layer above; q is the probability that a sign differs from the one
+/// before. Theorem `registry`.
+///
+/// # Examples
+/// ```
+/// use cannonpile::formula::registry_excess;
+///
+/// // FCC: the registries follow each other, 0, 1, 2.
+/// let [here, elsewhere] = [2.0 / 3.0, -1.0 / 3.0];
+/// assert_eq!(registry_excess(&here, &elsewhere, &0.0), elsewhere);
+/// assert!((registry_excess(&elsewhere, &elsewhere, &0.0) - here).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn registry_excess<T: Ring>(x: &T, y: &T, q: &T) -> T {
+    let straight = T::one() - q;
+    let memory = straight.clone() - q;
+    -(straight * y) - &(memory * x)
+}
+
 fn integer<T: Ring>(n: i128) -> T {
     T::from_i128(n)
 }

@@ -2,6 +2,7 @@
 
 mod mean;
 mod moments;
+mod registry;
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -120,6 +121,19 @@ pub(super) const THEOREMS: &[Theorem] = &[
         method: ProofKind::Identity,
         symbols: "m, n",
         derive: one_fault,
+    },
+    Theorem {
+        name: "registry",
+        statement: "Registries: a + step leads from the registry r to r+1, a − step to r−1 (mod 3), and each sign differs from the one \
+                    before with probability q. So with p_r and m_r, the shares of the stackings that come to registry r by a + and by \
+                    a − step, a step more makes (1−q)p_{r−1} + q m_{r−1} and (1−q)m_{r+1} + q p_{r+1} of them. Of any six such \
+                    numbers x_r = p_r + m_r less a third of the sum of all six is −(1−q)x' − (1−2q)x'' with its values x' one step \
+                    and x'' two steps before; and so it is two steps below a top layer of registry 0, if the shares of the first \
+                    signs are u and v: it is how the probability of a registry exceeds 1/3 in every layer; by induction",
+        hypotheses: "any shares of first signs, any q; below a single layer and the next",
+        method: ProofKind::Induction,
+        symbols: "p_0, p_1, p_2, m_0, m_1, m_2, u, v, q",
+        derive: registry::registry,
     },
 ];
 

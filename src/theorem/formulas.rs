@@ -94,6 +94,8 @@ pub struct Formulas {
     pub mean_fourth_moment_of_pairs: fn(&P, &P, &P) -> P,
     /// [`formula::wave`].
     pub wave: fn(&P) -> [P; 2],
+    /// [`formula::registry_excess`].
+    pub registry_excess: fn(&P, &P, &P) -> P,
     /// [`formula::arch`].
     pub arch: fn(&Three) -> Three,
 }
@@ -140,5 +142,6 @@ impl Formulas {
         mean_third_moment: formula::mean_third_moment,
         mean_fourth_moment_of_pairs: formula::mean_fourth_moment_of_pairs,
         wave: formula::wave,
+        registry_excess: formula::registry_excess,
     };
 }

@@ -32,7 +32,7 @@ fn names_are_unique_and_found() {
 }
 
 /// What each statement must name.
-const SUBJECTS: [(&str, &str); 51] = [
+const SUBJECTS: [(&str, &str); 52] = [
     ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
     ("rotation", "rotation"),
     ("spheres", "L(L+1)(L+2)/6 spheres"),
@@ -87,6 +87,7 @@ const SUBJECTS: [(&str, &str); 51] = [
     ("wave", "HCP is a wave"),
     ("faults", "(5/3)^d"),
     ("one-fault", "six loads 2/9"),
+    ("registry", "from the registry r to r+1"),
 ];
 
 #[test]
@@ -161,6 +162,7 @@ fn every_formula_is_put_wrong() {
         pushed beside lowered compression elastic_field corner_field least_on_corner
         greatest_on_corner greatest_inside greatest_on_edge arch
         third_moment fourth_moment fourth_moment_of_pair mean_third_moment mean_fourth_moment_of_pairs wave
+        registry_excess
     };
     let wrong: BTreeSet<_> = faults::all().iter().map(|fault| fault.field).collect();
     assert_eq!(wrong, BTreeSet::from(fields));

@@ -2,7 +2,7 @@
 
 use num_traits::One;
 
-use super::{Fault, Formulas, P, RIGHT, faults};
+use super::{Fault, Formulas, P, RIGHT, faults, over};
 use cannonpile::scalar::Ring;
 
 fn int(n: i128) -> P {
@@ -36,6 +36,10 @@ pub(super) fn faults() -> Vec<Fault> {
             let [damping, _] = (RIGHT.wave)(q);
             [damping, int(0)]
         } => ["mean-spectrum"];
+        "a fault with 1 − q": registry_excess = |x, y, q| (RIGHT.registry_excess)(x, y, &(P::one() - q)) => ["registry"];
+        "the layers exchanged": registry_excess = |x, y, q| (RIGHT.registry_excess)(y, x, q) => ["registry"];
+        "as if a layer knew one above only": registry_excess = |_, y, q| (RIGHT.registry_excess)(&int(0), y, q) => ["registry"];
+        "the half of it, as at q = 1/2": registry_excess = |x, y, _| over((RIGHT.registry_excess)(x, y, &int(0)), 2) => ["registry"];
         "of −q": wave = |q| (RIGHT.wave)(&-q.clone()) => ["mean-spectrum"];
     }
 }
