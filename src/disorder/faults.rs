@@ -44,17 +44,19 @@ pub struct FaultForce {
     pub stackings: BigUint,
     /// The sum of the normal forces on the floor, in mg: an integer over 3^(d+1) times the denominator of the loads.
     pub normal: BigRational,
-    /// The sum of the shears along x, in mg·tanθ.
+    /// The sum of the shears along x, in mg·tanθ: as `normal` an integer, over twice that.
     pub shear_x: BigRational,
-    /// The sum of the shears along y, in √3·mg·tanθ.
+    /// The sum of the shears along y, in √3·mg·tanθ: over the same.
     pub shear_y: BigRational,
 }
 
 /// What the bottom layer bears, summed over the stackings with each number of faults: exactly, for every fault probability.
 ///
 /// The mean at the fault probability q is Σ_d S_d q^d (1−q)^(n−1−d), with S_d the sum over the C(n−1,d) stackings with d
-/// faults (half that if the first sign is random): a polynomial of degree n − 1 at most. Inside are integers, over 3^(d+1)
-/// and the denominator of the loads.
+/// faults (over twice as many if the first sign is random, and half of it): a polynomial of degree n − 1 at most. Inside are
+/// integers, over 2·3^(d+1) and the denominator of the loads. So the coefficient of q^j has a denominator that divides
+/// 2·3^(j+1) times that of the loads, and of a normal force 3^(j+1) times it: S_d goes into it times an integer for d ≤ j
+/// alone. (With a random first sign all that is doubled.)
 ///
 /// # Examples
 /// ```
@@ -209,7 +211,8 @@ impl ByFaults {
         self.classes - 1
     }
 
-    /// Returns the common denominator of the sums over stackings with this many faults: 3^(d+1), times that of the loads.
+    /// Returns the common denominator of the normal forces, summed over stackings with this many faults: 3^(d+1), times that
+    /// of the loads. That of the shears is twice it.
     ///
     /// # Examples
     /// ```

@@ -148,11 +148,13 @@ mod certificate;
 
 #[cfg(feature = "std")]
 mod disorder {
+    mod denominators;
     mod ensemble_of_stackings;
     mod enumeration;
     mod few_faults;
     mod moments;
     mod refused;
+    mod squares;
     mod sums;
     mod widths;
 }
