@@ -10,6 +10,7 @@
 //! | `pair` | two scalars in step, and the first operation at which they part |
 //! | `rounding` | the cases of which every float must be the nearest |
 //! | `stress` | piles at the limits of floats, and how far off each way to compute is there |
+//! | `tally` | ensembles of stackings, counted one by one (feature `ensemble`) |
 //! | `theorems` | what must hold of the answers about any straight pile |
 
 #![allow(dead_code, reason = "each of those who share it uses a part")]
@@ -23,4 +24,6 @@ pub(crate) mod oracles;
 pub(crate) mod pair;
 pub(crate) mod rounding;
 pub(crate) mod stress;
+#[cfg(feature = "ensemble")]
+pub(crate) mod tally;
 pub(crate) mod theorems;
