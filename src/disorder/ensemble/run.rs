@@ -86,11 +86,13 @@ impl Run<'_> {
         };
         let first = start / length;
         let after = end.div_ceil(length);
-        (first..after).map(move |piece| {
+        let pieces = (first..after).map(move |piece| {
             let from = piece * length;
             // The last piece of all 2⁶⁴ − 1 samples would end beyond the last number.
             from.max(start)..from.saturating_add(length).min(end)
-        })
+        });
+        // Of nothing, which is in the middle of a piece, there is no piece.
+        pieces.filter(|piece| !piece.is_empty())
     }
 
     /// Counts a piece.

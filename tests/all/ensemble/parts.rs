@@ -38,6 +38,26 @@ fn cut_up_in_any_way() -> Result<(), Error> {
     Ok(())
 }
 
+/// More parts than samples: some have none, of a single layer too.
+#[test]
+fn parts_of_nothing() -> Result<(), Error> {
+    for layers in [1, 2, 4] {
+        let ensemble = ensemble("hexagon:1", layers)?;
+        for choice in [Choice::All, drawn(2, 1, ratio(1, 3))?] {
+            let whole = ensemble.run(&choice, Shard::WHOLE)?;
+            let parts = (1..=33).map(|index| ensemble.run(&choice, Shard::new(index, 33)?));
+            let parts = parts.collect::<Result<Vec<_>, _>>()?;
+            let nothing = parts.iter().filter(|part| part.stackings() == 0_u32.into());
+            assert!(nothing.clone().count() >= 25);
+            for with in nothing.flat_map(|part| &part.faults) {
+                assert!(with.all.normals.counts.is_empty() && with.all.least_normal.is_none());
+            }
+            assert_eq!(Tally::merge(&parts), Ok(whole), "{layers}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn what_is_no_part_is_refused() -> Result<(), Error> {
     let load = |ensemble: Ensemble| ensemble.with_load([0, 0], ratio(1, 2));
