@@ -138,6 +138,21 @@ pub fn engine(bytes: &[u8]) -> Corpus {
     )
 }
 
+/// Tallies of ensembles are what plain enumeration counts, parts make the whole, and files of them are read or refused.
+#[cfg(feature = "ensemble")]
+#[must_use]
+pub fn ensemble(bytes: &[u8]) -> Corpus {
+    all_hold(
+        bytes,
+        &[
+            claims::ensemble::counts,
+            claims::ensemble::parts,
+            #[cfg(all(feature = "export", feature = "serde"))]
+            claims::ensemble::damaged,
+        ],
+    )
+}
+
 /// What a tiny pile with horizontal contacts can bear is proved, and is what an exact linear program says.
 #[cfg(feature = "horizontal")]
 #[must_use]

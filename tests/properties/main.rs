@@ -79,6 +79,17 @@ properties! {
     what_can_be_borne_is_what_an_exact_program_says: claims::horizontal::any_pile, 192;
 }
 
+#[cfg(feature = "ensemble")]
+properties! {
+    ensembles_are_counted_one_by_one: claims::ensemble::counts, 96;
+    parts_in_any_order_make_the_whole: claims::ensemble::parts, 96;
+}
+
+#[cfg(all(feature = "ensemble", feature = "export", feature = "serde"))]
+properties! {
+    damaged_tallies_are_refused_or_valid: claims::ensemble::damaged, 512;
+}
+
 #[cfg(feature = "export")]
 properties! {
     any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;

@@ -28,12 +28,15 @@
 //! | `measured` | measured forces are read as written, and a planted fault is found (feature `export`) |
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
 //! | `disorder` | the mean over random stackings is that of all stackings, one by one |
+//! | `ensemble` | tallies are what plain enumeration counts, and parts make the whole (feature `ensemble`) |
 //! | `horizontal` | what a pile with horizontal contacts can bear is what an exact program says, with proofs (feature `horizontal`) |
 //!
 //! `handed_on` has the oracle's forces of what a generator describes.
 
 pub(crate) mod disorder;
 pub(crate) mod engine;
+#[cfg(feature = "ensemble")]
+pub(crate) mod ensemble;
 pub(crate) mod equilibrium;
 pub(crate) mod fixed;
 pub(crate) mod floats;

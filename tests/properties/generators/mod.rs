@@ -8,6 +8,7 @@
 //! | file | what it makes |
 //! |---|---|
 //! | `disorder` | piles of random stackings |
+//! | `ensemble` | stackings under a top layer, all or samples (feature `ensemble`) |
 //! | `number` | integers, rationals, floats, sin φ, radii and masses, roots |
 //! | `pile` | layers, piles, sites, directions, spacings, packings |
 //! | `region` | regions and their bounds, sites about them, small piles with weights and loads |
@@ -16,6 +17,8 @@
 //! | `text` | numbers and sites as text: valid, with their values, and damaged |
 
 pub(crate) mod disorder;
+#[cfg(feature = "ensemble")]
+pub(crate) mod ensemble;
 pub(crate) mod number;
 pub(crate) mod pile;
 pub(crate) mod region;
