@@ -96,6 +96,28 @@ fn of_parts() -> Result<(), Error> {
     Ok(())
 }
 
+/// Of a response the greatest force is below the top layer, and no other is as great if the sign changes at once. So of parts that begin so it
+/// is the beginning that has it, and the first stacking that goes on from it is named.
+#[test]
+fn of_parts_of_a_response() -> Result<(), Error> {
+    let mut scene = Scene::of("hexagon:1", FirstSign::Plus);
+    scene.loads.push(([0, 0], ratio(1, 1)));
+    scene.weightless = true;
+    let steps = 6;
+    let all = all_signs(steps, scene.first);
+    for of in [2, 3, 5, 7] {
+        for index in 1..=of {
+            let shard = Shard::new(index, of)?;
+            let tally = scene.ensemble(steps)?.run(&Choice::All, shard)?;
+            let [from, to] = [index - 1, index].map(|part| all.len() as u64 * part / of);
+            let [from, to] = [from, to].map(|end| usize::try_from(end).unwrap());
+            let expected = scene.counted_of(steps, &all[from..to])?;
+            assert_eq!(counted(&tally), expected, "{index} of {of}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn as_many_stand_as_in_the_census() -> Result<(), Error> {
     for layers in 1..=12 {
