@@ -19,10 +19,13 @@
 //! On a base the spheres of a layer depend on the steps that are left. So the net number of these is kept too, and the
 //! recursion starts with every number at which the base carries a top layer.
 
+mod bottom;
+mod sources;
+
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::floor::{Floor, FloorFactors};
+use super::floor::Floor;
 use super::frame::Frame;
 use super::number::{Number, Share, add};
 use super::place::Place;
@@ -124,30 +127,6 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         [(); 3].map(|()| alloc::vec![T::zero(); self.frame.grid.cells()])
     }
 
-    /// The first layer, with its loads alone.
-    fn load(&self, layer: &mut Layer<T>, walk: &Walk<T>) -> Result<(), Error> {
-        for start in self.frame.starts() {
-            let begun = self
-                .of_net(start)
-                .and_then(|at| layer.get_mut(at)?.first_mut())
-                .ok_or_else(|| bug("a stacking begins with no fault"))?;
-            for (sign, planes) in begun.iter_mut().enumerate() {
-                if walk.of(0, sign).is_none() {
-                    continue;
-                }
-                let planes = planes.get_or_insert_with(|| self.planes());
-                for (site, load) in &self.loads {
-                    let cell = self.frame.top_cell(*site);
-                    for plane in planes.iter_mut() {
-                        let at = cell.and_then(|cell| plane.get_mut(cell));
-                        add(at.ok_or_else(|| bug("loads are on the top layer"))?, load);
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The index of a number of net steps that are left; 0 of what is not on a base.
     fn of_net(&self, net: isize) -> Option<usize> {
         if self.frame.base().is_some() {
@@ -155,93 +134,6 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         } else {
             Some(0)
         }
-    }
-
-    /// Adds what the spheres of layer `k` weigh.
-    fn add_weights(&self, layer: &mut Layer<T>, walk: &Walk<T>, k: usize) -> Result<(), Error> {
-        if self.weight.is_zero() {
-            return Ok(());
-        }
-        if self.frame.base().is_some() {
-            self.add_weights_on_base(layer, walk, k)
-        } else {
-            self.add_weights_below(layer, walk, k)
-        }
-    }
-
-    fn add_weights_below(
-        &self,
-        layer: &mut Layer<T>,
-        walk: &Walk<T>,
-        k: usize,
-    ) -> Result<(), Error> {
-        let frame = self.frame;
-        let within = -(k as i128)..=k as i128;
-        let classes = layer
-            .first_mut()
-            .ok_or_else(|| bug("there is one number of net steps"))?;
-        for cells in frame.grid.window(k)? {
-            let nets = cells
-                .clone()
-                .map(|cell| frame.nets(k, cell, within.clone()));
-            let nets: Vec<_> = nets.collect();
-            for (class, signs) in classes.iter_mut().enumerate() {
-                for (sign, planes) in signs.iter_mut().enumerate() {
-                    let Some(counts) = walk.of(class, sign) else {
-                        continue;
-                    };
-                    let planes = planes.get_or_insert_with(|| self.planes());
-                    let [a, b, c] = rows_mut(planes, &cells)?;
-                    let lines = a.iter_mut().zip(b).zip(c);
-                    for (((a, b), c), nets) in lines.zip(&nets) {
-                        if nets.is_empty() {
-                            continue;
-                        }
-                        let own = nets.sum(counts, frame.steps)? * &self.weight;
-                        add(a, &own);
-                        add(b, &own);
-                        add(c, &own);
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn add_weights_on_base(
-        &self,
-        layer: &mut Layer<T>,
-        walk: &Walk<T>,
-        k: usize,
-    ) -> Result<(), Error> {
-        for (net, classes) in self.nets().zip(layer) {
-            let Some(region) = self.frame.region(k, net) else {
-                continue;
-            };
-            let rows = self.frame.rows_of(&region)?;
-            for (class, signs) in classes.iter_mut().enumerate() {
-                for (sign, planes) in signs.iter_mut().enumerate() {
-                    let counts = walk.of(class, sign);
-                    let place = walk.place_of(net);
-                    let Some(count) = counts.and_then(|counts| counts.get(place?)) else {
-                        continue;
-                    };
-                    if count.is_zero() {
-                        continue;
-                    }
-                    let own = count.clone() * &self.weight;
-                    let planes = planes.get_or_insert_with(|| self.planes());
-                    for cells in &rows {
-                        for row in rows_mut(planes, cells)? {
-                            for force in row {
-                                add(force, &own);
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The net numbers of steps left, in the order of layers: −n to n on a base, else one.
@@ -336,55 +228,6 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
             along(b, Direction::Beta)?,
             along(c, Direction::Gamma)?,
         ])
-    }
-
-    /// The last step, and what the floor feels.
-    fn bottom(&self, layer: &Layer<T>, walk: &Walk<T>) -> Result<Vec<Spot<T>>, Error> {
-        let frame = self.frame;
-        let floor = FloorFactors::new()?;
-        let counts: Vec<_> = (0..self.classes).map(|class| walk.of_both(class)).collect();
-        let mut spots = Vec::new();
-        for cell in frame.bottom()? {
-            let mut classes = Vec::with_capacity(self.classes);
-            for (class, counts) in counts.iter().enumerate() {
-                let spheres = frame.spheres(cell, counts)?;
-                let own = spheres.clone() * &self.weight;
-                let mut force = floor.own(own);
-                for (at, sign) in SIGNS.into_iter().enumerate() {
-                    let net = self.left_before(0, sign);
-                    let planes = net.and_then(|net| layer.get(net)?.get(class)?.get(at)?.as_ref());
-                    if let Some(planes) = planes {
-                        let [a, b, c] = self.above(planes, &(cell..cell + 1), sign)?;
-                        let ([a], [b], [c]) = (a, b, c) else {
-                            return Err(bug(FREE));
-                        };
-                        floor.add([a, b, c], sign, &mut force);
-                    }
-                }
-                classes.push((spheres, force));
-            }
-            let place = frame.place(cell)?;
-            spots.push(Spot { place, classes });
-        }
-        if frame.steps == 0 {
-            self.load_floor(&mut spots, &floor)?;
-        }
-        Ok(spots)
-    }
-
-    /// Of a single layer the floor feels the loads at once.
-    fn load_floor(&self, spots: &mut [Spot<T>], floor: &FloorFactors<T>) -> Result<(), Error> {
-        for (site, load) in &self.loads {
-            let place = Place::of(*site, 0);
-            let spot = spots.iter_mut().find(|spot| Some(spot.place) == place);
-            let classes = spot.map(|spot| &mut spot.classes);
-            let (_, force) = classes
-                .and_then(|classes| classes.first_mut())
-                .ok_or_else(|| bug("loads are on the top layer"))?;
-            let own = floor.own(load.clone());
-            add(&mut force.normal, &own.normal);
-        }
-        Ok(())
     }
 }
 
