@@ -53,6 +53,7 @@ mod frame;
 mod gathering;
 mod header;
 mod ledger;
+mod ladder;
 mod lines;
 mod measured;
 mod places;
@@ -76,6 +77,10 @@ pub use difference::{Difference, Extra};
 pub use dump::read_dump;
 pub use finding::{Axis, Finding};
 pub use frame::Frame;
+pub use ladder::{
+    Fit, Ladder, LadderFile, LadderFiles, LadderReport, Limit, MAX_RUNGS, NoLadder, NoLadderFiles,
+    NoOrder, Norm, Refinement, Rung, RungPlace,
+};
 pub use measured::{MAX_ENTRIES, Measured};
 pub use preset::Preset;
 pub use read::{Compared, Reader, read};

@@ -4,6 +4,7 @@
 
 mod files;
 mod findings;
+mod ladder;
 mod lammps;
 mod places;
 mod tables;
