@@ -23,6 +23,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod compliance;
 mod csv;
 mod export;
 mod file;
@@ -36,6 +37,7 @@ mod vtp;
 mod weights;
 mod yade;
 
+pub use compliance::{Compliance, NoCompliance, SoftContact};
 pub use export::PileExport;
 pub use file::{PileFile, PileFormat, Written, files};
 pub use numbered::{NumberedContact, NumberedPile};
