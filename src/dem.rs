@@ -1,7 +1,8 @@
 //! A whole pile as files: for spreadsheets, LAMMPS, ParaView, YADE.
 //!
 //! A [`PileExport`] writes them; a [`NumberedPile`] is what they have in common: the numbers of the spheres, and the
-//! contacts between them with their forces as floats.
+//! contacts between them with their forces as floats. A [`Compliance`] says how far the forces of a code with springs are
+//! from these.
 //!
 //! # Units
 //! All files are in SI: lengths in m, masses in kg, forces in N, z up. `columns.csv`, written with the csv files, says

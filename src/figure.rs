@@ -1,7 +1,7 @@
 //! The paper's figures, and more, as SVG.
 //!
-//! A figure is drawn of a [`Subject`], a pile with a spacing and units, from exact answers that are rounded once. It is a
-//! [`Figure`], an SVG document that needs no fonts but the viewer's, and whose marks carry the numbers they stand for.
+//! Most are drawn of a [`Subject`], a pile with a spacing and units, from exact answers that are rounded once. A [`Figure`]
+//! is an SVG document that needs no fonts but the viewer's, and whose marks carry the numbers they stand for.
 //!
 //! | function | what it shows |
 //! |---|---|
@@ -14,6 +14,7 @@
 //! | `bounds`, with the feature `horizontal` | what bottom spheres can bear at a = R, at least and at most |
 //! | [`response()`] | what a layer feels of a load on the top |
 //! | `distribution`, with the feature `ensemble` | how often forces occur over random stackings |
+//! | [`ladder()`] | the errors of a code at several stiffnesses or time steps, and their order |
 //! | [`mean_response()`], [`mean_profile()`] | what the floor feels of it in the mean over random stackings: as maps, and by distance |
 //!
 //! Axes are those of the exported files: x and y the paper's, z **up**. What is seen from above therefore has x to the right
@@ -44,6 +45,7 @@ mod colour;
 #[cfg(feature = "ensemble")]
 mod distribution;
 mod indexing;
+mod ladder;
 mod layer;
 mod map;
 mod mark;
@@ -67,6 +69,7 @@ pub use bounds::bounds;
 #[cfg_attr(docsrs, doc(cfg(feature = "ensemble")))]
 pub use distribution::distribution;
 pub use indexing::indexing;
+pub use ladder::ladder;
 pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};
 pub use page::{Figure, Layout};

@@ -16,13 +16,14 @@
 //! An error falls until something else is greater: rounding, an iteration that stops early, a force that should not be
 //! there. Which rungs are above that floor is decided by one rule ([`RungPlace`]). It begins behind the first rung, from the
 //! coarsest on, from which no finer one falls with an order of ½ or more, nor, from the third rung on, of ⅔ or more of the
-//! order with which errors fell from the coarsest down to it. Rungs before it with less than three times the error of the
-//! first one on the floor are near enough to be on it too, as long as two are left. So a method of an order below ½ is
-//! taken for one that does not converge.
+//! order with which errors fell from the coarsest down to it. Of this rung and the next one the lesser error is the height
+//! of the floor: coarser rungs with less than three times that are near enough to be on it too, as long as two are left. So
+//! a method of an order below ½ is taken for one that does not converge.
 
 mod files;
 mod fit;
 mod limit;
+mod read;
 mod report;
 
 pub use files::{LadderFile, LadderFiles, NoLadderFiles};

@@ -2,6 +2,7 @@
 
 mod disorder;
 mod horizontal;
+mod ladder;
 mod shear;
 mod whole;
 

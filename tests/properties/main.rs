@@ -95,6 +95,9 @@ properties! {
     any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;
     measured_forces_are_read_as_written: claims::measured::a_file, 512;
     a_fault_among_measured_forces_is_found: claims::measured::planted, 256;
+    a_planted_order_of_accuracy_is_found: claims::ladder::planted, 1024;
+    any_ladder_comes_back_from_its_record: claims::ladder::any_rungs, 1024;
+    any_record_of_a_ladder_is_read_or_refused: claims::ladder::any_record, 1024;
 }
 
 #[cfg(feature = "serde")]

@@ -1,5 +1,6 @@
 //! `plot KIND`: the figures.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use cannonpile::figure::{self, Figure, Layout, Subject};
@@ -7,6 +8,7 @@ use cannonpile::lattice::{Dimension, Region};
 use cannonpile::scene::{Anchor, Scene, State, parse};
 use cannonpile::stacking::Pattern;
 use cannonpile::table::WriteError;
+use cannonpile::verify::Ladder;
 use cannonpile::{Culprit, Error, Pile};
 use clap::{Args, Subcommand};
 use num_rational::BigRational;
@@ -15,7 +17,7 @@ use num_traits::One;
 use super::ensemble::Measured as Histogram;
 use super::fault_probability;
 use crate::args::{SceneOptions, UnitSystem, one};
-use crate::output::{Failure, Refused, complain, write_to};
+use crate::output::{Failure, Refused, complain, reason, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -29,7 +31,8 @@ Examples:
   cannonpile plot response --faults 2,3 --output fault.svg
   cannonpile plot response --fault-probability 0,1/4,1/2,1 --layers 17 --output mean.svg
   cannonpile plot response --fault-probability 1/4,1/2,3/4 --layers 61 --profile --output wave.svg
-  cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg";
+  cannonpile ensemble --layers 12 --all --output all.json; cannonpile plot distribution all.json --output forces.svg
+  cannonpile verify --ladder 1e5=soft.csv,1e6=stiff.csv --format json --output ladder.json; cannonpile plot ladder ladder.json";
 
 /// A kind of figure.
 #[derive(Subcommand)]
@@ -106,6 +109,14 @@ pub(crate) enum Plot {
         /// The probability q that a sign differs from the one before [default: that of the record]
         #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability)]
         fault_probability: Option<BigRational>,
+        #[command(flatten)]
+        output: ToFile,
+    },
+    /// The errors of a code at several stiffnesses or time steps, and the order in which they vanish
+    Ladder {
+        /// A record of verify --ladder, in json
+        #[arg(value_name = "FILE")]
+        record: PathBuf,
         #[command(flatten)]
         output: ToFile,
     },
@@ -200,7 +211,9 @@ impl Plot {
     /// The scene that is drawn, if it is one, and where the figure goes.
     const fn parts(&self) -> (Option<&SceneOptions>, &ToFile) {
         let of = match self {
-            Self::Distribution { output, .. } => return (None, output),
+            Self::Distribution { output, .. } | Self::Ladder { output, .. } => {
+                return (None, output);
+            }
             Self::Pile(of) | Self::Indexing { of, .. } => of,
             Self::Shear(measured)
             | Self::Base(measured)
@@ -294,8 +307,25 @@ impl Plot {
                     ))
                 })
             }
+            Self::Ladder { record, .. } => Ok(figure::ladder(&read_ladder(record)?)),
         }
     }
+}
+
+/// The ladder of a record.
+fn read_ladder(path: &Path) -> Result<Ladder, Failure> {
+    let name = path.display();
+    let file = File::open(path).map_err(|error| {
+        let reason = reason(&error);
+        Failure::Message(format!(
+            "FILE: {name} cannot be read: {reason}; name a file that is there"
+        ))
+    })?;
+    Ladder::read(file).map_err(|error| {
+        Failure::Message(format!(
+            "FILE: {name} is no ladder: {error}; 'cannonpile verify --ladder K1=FILE1,K2=FILE2 --format json' writes one"
+        ))
+    })
 }
 
 /// Runs of + and − steps, + first.

@@ -240,10 +240,11 @@ fn above(points: &[Log]) -> usize {
         !finer.any(|finer| from.order_to(*finer) >= least)
     });
     let (above, floor) = points.split_at(last.map_or(0, |last| last + 1));
-    let Some(floor) = floor.first() else {
+    let (Some(last), Some(floor)) = (above.last(), floor.first()) else {
         return above.len();
     };
-    let is_near = |point: &&Log| point.e < floor.e + NEAR.ln();
+    let level = last.e.min(floor.e) + NEAR.ln();
+    let is_near = |point: &&Log| point.e < level;
     let near = above.iter().skip(2).rev().take_while(is_near).count();
     above.len() - near
 }

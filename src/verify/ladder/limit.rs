@@ -6,7 +6,8 @@ use super::{Ladder, NoOrder, Norm, Rung, RungPlace};
 /// The error at h → 0, by the model e = e∞ + C hᵖ with a given order p: Richardson's extrapolation, by least squares.
 ///
 /// It is of the whole rungs from the coarsest to the one with the least error; what is finer than that is where rounding
-/// rises, and left out. A floor that stays, as of a force that should not be there, is in it: that is what e∞ finds.
+/// rises, and left out. A floor that stays, of rounding or of a force that should not be there, is in it: that is what e∞
+/// finds.
 /// Each error counts by its share: the sum of ((e∞ + C hᵖ − e)/e)² is the least. Three rungs are the fewest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
@@ -166,12 +167,13 @@ impl Ladder {
             .sum();
         let free = count(rungs.len()) - 2.0;
         let spread = (squares / free * (bb / (aa * apart))).sqrt();
-        if !(rest.is_finite() && spread.is_finite()) {
+        let (error, standard_error) = (rest * least, spread * least);
+        if !(error.is_finite() && standard_error.is_finite()) {
             return Err(NoOrder::Alike);
         }
         Ok(Limit {
-            error: rest * least,
-            standard_error: spread * least,
+            error,
+            standard_error,
             order,
             rungs: rungs.len(),
         })

@@ -1,6 +1,8 @@
 //! `plot`: figures on stdout and in files, and what is refused.
 
 use super::{cannonpile, refusal, stdout};
+use ::cannonpile::table::FileFormat;
+use ::cannonpile::verify::{Ladder, LadderReport, Refinement, Rung};
 use std::fs;
 
 const KINDS: [&str; 7] = [
@@ -208,4 +210,32 @@ fn a_distribution_is_drawn_of_a_record() {
     assert!(normals.contains("q = 1/4") && normals.contains("on the floor"));
     assert!(refusal(&format!("plot distribution {part}")).contains("merge"));
     assert!(refusal("plot distribution nowhere.json").contains("nowhere.json"));
+}
+
+#[test]
+fn a_ladder_is_drawn_of_a_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.0 / k, 1.0 / k));
+    let ladder = Ladder::new(Refinement::Stiffness, rungs).unwrap();
+    let mut json = Vec::new();
+    LadderReport::new(&ladder)
+        .write(FileFormat::Json, &mut json)
+        .unwrap();
+    let (whole, cut) = (path("whole.json"), path("cut.json"));
+    fs::write(&whole, &json).unwrap();
+    fs::write(&cut, &json[..json.len() / 2]).unwrap();
+    let svg = stdout(&format!("plot ladder {whole}"));
+    assert_eq!(
+        svg,
+        ::cannonpile::figure::ladder(&ladder).to_string() + "\n"
+    );
+    for wrong in [&cut, "Cargo.toml"] {
+        let refused = refusal(&format!("plot ladder {wrong}"));
+        assert!(
+            refused.contains("is no ladder") && refused.contains("verify --ladder"),
+            "{refused}"
+        );
+    }
+    assert!(refusal("plot ladder nowhere.json").contains("nowhere.json cannot be read"));
 }

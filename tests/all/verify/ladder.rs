@@ -162,6 +162,21 @@ fn noise_is_told_by_the_standard_error() {
     }
 }
 
+/// Three rungs, the middle one off by a factor of 2: residuals of (−1, 2, −1) thirds of ln 2.
+#[test]
+fn the_standard_error_is_that_of_the_slope() {
+    let errors = [(0.1, 0.1), (0.01, 0.02), (0.001, 0.001)];
+    let fit = fit(&planted(Refinement::TimeStep, &errors));
+    let squares = 2.0 / 3.0 * 2.0_f64.ln().powi(2);
+    let expected = (squares / (2.0 * 10.0_f64.ln().powi(2))).sqrt();
+    assert!(
+        (fit.standard_error().unwrap() / expected - 1.0).abs() < 1e-12,
+        "{fit:?}"
+    );
+    assert!((fit.residual() / (squares / 3.0).sqrt() - 1.0).abs() < 1e-12);
+    assert!((fit.order() - 1.0).abs() < 1e-12);
+}
+
 #[test]
 fn what_remains_is_found() {
     for refinement in BOTH {

@@ -26,6 +26,7 @@
 //! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
 //! | `numbered` | the spheres of any pile are numbered without a gap |
 //! | `measured` | measured forces are read as written, and a planted fault is found (feature `export`) |
+//! | `ladder` | a planted order of accuracy is found, and any ladder comes back from its record (feature `export`) |
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
 //! | `disorder` | the mean over random stackings is that of all stackings, one by one |
 //! | `ensemble` | tallies are what plain enumeration counts, and parts make the whole (feature `ensemble`) |
@@ -46,6 +47,8 @@ pub(crate) mod handed_on;
 pub(crate) mod horizontal;
 #[cfg(feature = "serde")]
 pub(crate) mod json;
+#[cfg(feature = "export")]
+pub(crate) mod ladder;
 pub(crate) mod laws;
 #[cfg(feature = "export")]
 pub(crate) mod measured;
