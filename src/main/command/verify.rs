@@ -1,5 +1,7 @@
 //! `verify`: measured forces against the exact ones.
 
+mod ladder;
+
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -7,7 +9,9 @@ use std::path::{Path, PathBuf};
 use cannonpile::Packing;
 use cannonpile::scene::Scene;
 use cannonpile::table::{FileFormat, NumberFormat};
-use cannonpile::verify::{Columns, Compared, Fault, Preset, Reader, Refusal, Report, Source};
+use cannonpile::verify::{
+    Columns, Compared, Fault, LadderFiles, Preset, Reader, Refusal, Report, Source,
+};
 use clap::{Args, ValueEnum};
 
 use super::note_if_it_falls;
@@ -32,6 +36,7 @@ Examples:
   cannonpile verify measured.csv --scene pile.toml --accept 1e-3
   cannonpile verify contacts.txt --columns id1=A,id2=B,force=Fn --first-id 0 --layers 10 --spacing 1.2
   cannonpile verify Contact_pairs_0100.csv --preset dem-engine --scene pile.toml --accept 1e-3
+  cannonpile verify --ladder 1e5=soft.csv,1e6=firm.csv,1e7=stiff.csv --scene pile.toml
   cannonpile verify forces.csv --match place --columns x=cx,y=cy,z=cz --scene pile.toml --unbalanced rest.csv";
 
 #[derive(Args)]
@@ -39,8 +44,27 @@ Examples:
 pub(crate) struct Verify {
     /// A table with columns id1, id2, force, and fx, fy, fz if there are vectors; a LAMMPS dump local file with these columns,
     /// of which the last snapshot counts; or VTK's XML, lines with data (.vtp, .vtu); - for stdin
-    #[arg(value_name = "FILE")]
-    measured: PathBuf,
+    #[arg(value_name = "FILE", required_unless_present = "ladder")]
+    measured: Option<PathBuf>,
+    /// Instead, one file for each of several stiffnesses of the springs, or time steps: the errors, their observed order, and what
+    /// remains of them; exit 1 if there is no order
+    #[arg(
+        long,
+        value_name = "K1=FILE1,K2=FILE2,...",
+        conflicts_with_all = ["measured", "unbalanced"],
+        help_heading = "Ladder"
+    )]
+    ladder: Option<LadderFiles>,
+    /// What the numbers of --ladder are
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHAT",
+        default_value = "stiffness",
+        requires = "ladder",
+        help_heading = "Ladder"
+    )]
+    refine: Refine,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
     /// The greatest relative error accepted; 0 for forces that are the nearest floats
@@ -73,6 +97,15 @@ pub(crate) struct Verify {
     output: Output,
 }
 
+/// What is refined from rung to rung of a ladder.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Refine {
+    /// The stiffness of the springs, in N/m: errors fall as 1/k
+    Stiffness,
+    /// The time step, in s
+    TimeStep,
+}
+
 /// How contacts are found.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Matching {
@@ -83,19 +116,32 @@ enum Matching {
 }
 
 impl Verify {
-    /// Compares, and returns whether the file is accepted.
+    /// Compares, and returns whether the file is accepted, or the ladder has an order.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        if self.measured == Path::new("-") && self.scene.is_from_stdin() {
+        let is_stdin = |path: &PathBuf| path == Path::new("-");
+        if self.measured.as_ref().is_some_and(is_stdin) && self.scene.is_from_stdin() {
             let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
             return Err(Failure::Message(reason.into()));
         }
         let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
+        let verdict = match (&self.measured, &self.ladder) {
+            (Some(path), _) => self.one(path, &scene, &packing)?,
+            (None, Some(files)) => self.climb(files, &scene, &packing)?,
+            // One of the two is required.
+            (None, None) => false,
+        };
+        note_if_it_falls(&pile);
+        Ok(verdict)
+    }
+
+    /// Compares one file.
+    fn one(&self, path: &Path, scene: &Scene, packing: &Packing<'_>) -> Result<bool, Failure> {
         let format = self.output.format()?;
-        let refused = |refusal| self.refused(refusal, &scene);
         let reader = self.reader()?;
         let progress = Progress::begin("reading FILE, and comparing it with the exact forces");
-        let (read, source) = self.compare(&reader, &packing).map_err(refused)?;
+        let read = compare(&reader, packing, path);
+        let (read, source) = read.map_err(|refusal| self.refused(refusal, path, scene))?;
         let source = Source {
             scene: scene.to_toml(),
             ..source
@@ -108,16 +154,15 @@ impl Verify {
         self.output
             .write(&progress, |out| report.write(format.into(), out))?;
         if let (Some(file), Some(unbalanced)) = (&self.unbalanced, &read.unbalanced) {
-            let table = unbalanced.table(&packing)?;
+            let table = unbalanced.table(packing)?;
             write_to("unbalanced", Some(file), |out| {
                 table.write(of_ending(file), NumberFormat::F64, out)
             })?;
         }
         drop(progress);
         if read.snapshots > 1 {
-            complain(&format!("note: {}", self.judged(&read)));
+            complain(&format!("note: {}", judged(path, &read)));
         }
-        note_if_it_falls(&pile);
         Ok(read.comparison.accepted(self.accept))
     }
 }
@@ -157,47 +202,8 @@ impl Verify {
         reader.by_place(within).map_err(blamed)
     }
 
-    fn compare(
-        &self,
-        reader: &Reader,
-        packing: &Packing<'_>,
-    ) -> Result<(Compared, Source), Refusal> {
-        if self.measured == Path::new("-") {
-            self.hashed(reader, packing, io::stdin().lock())
-        } else {
-            let file = BufReader::with_capacity(1 << 16, File::open(&self.measured)?);
-            self.hashed(reader, packing, file)
-        }
-    }
-
-    fn hashed(
-        &self,
-        reader: &Reader,
-        packing: &Packing<'_>,
-        input: impl BufRead,
-    ) -> Result<(Compared, Source), Refusal> {
-        let mut input = Hashed::new(input);
-        let read = reader.compare(packing, &mut input)?;
-        let (bytes, sha256) = input.finish();
-        let source = Source {
-            scene: String::new(),
-            file: self.name(),
-            bytes,
-            sha256,
-        };
-        Ok((read, source))
-    }
-
-    fn name(&self) -> String {
-        if self.measured == Path::new("-") {
-            "stdin".into()
-        } else {
-            self.measured.display().to_string()
-        }
-    }
-
-    fn refused(&self, refusal: Refusal, scene: &Scene) -> Failure {
-        let name = self.name();
+    fn refused(&self, refusal: Refusal, path: &Path, scene: &Scene) -> Failure {
+        let name = name(path);
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
@@ -214,15 +220,55 @@ impl Verify {
             refusal => format!("FILE: {name}, {refusal}"),
         })
     }
+}
 
-    fn judged(&self, read: &Compared) -> String {
-        let (name, snapshots) = (self.name(), read.snapshots);
-        let step = read
-            .timestep
-            .map(|step| format!(", of time step {step},"))
-            .unwrap_or_default();
-        format!("{name} has {snapshots} snapshots; the last{step} is judged")
+/// Reads a file, or stdin, and compares it.
+fn compare(
+    reader: &Reader,
+    packing: &Packing<'_>,
+    path: &Path,
+) -> Result<(Compared, Source), Refusal> {
+    if path == Path::new("-") {
+        hashed(reader, packing, path, io::stdin().lock())
+    } else {
+        let file = BufReader::with_capacity(1 << 16, File::open(path)?);
+        hashed(reader, packing, path, file)
     }
+}
+
+fn hashed(
+    reader: &Reader,
+    packing: &Packing<'_>,
+    path: &Path,
+    input: impl BufRead,
+) -> Result<(Compared, Source), Refusal> {
+    let mut input = Hashed::new(input);
+    let read = reader.compare(packing, &mut input)?;
+    let (bytes, sha256) = input.finish();
+    let source = Source {
+        scene: String::new(),
+        file: name(path),
+        bytes,
+        sha256,
+    };
+    Ok((read, source))
+}
+
+fn name(path: &Path) -> String {
+    if path == Path::new("-") {
+        "stdin".into()
+    } else {
+        path.display().to_string()
+    }
+}
+
+fn judged(path: &Path, read: &Compared) -> String {
+    let (name, snapshots) = (name(path), read.snapshots);
+    let step = read
+        .timestep
+        .map(|step| format!(", of time step {step},"))
+        .unwrap_or_default();
+    format!("{name} has {snapshots} snapshots; the last{step} is judged")
 }
 
 /// The format that a file's ending asks for.
