@@ -1,4 +1,5 @@
-//! A whole pile as files: for spreadsheets, LAMMPS, ParaView, YADE.
+//! A whole pile as files: for spreadsheets, LAMMPS, ParaView, YADE; as a benchmark card, and as a test for the suites of LAMMPS and
+//! YADE.
 //!
 //! A [`PileExport`] writes them; a [`NumberedPile`] is what they have in common: the numbers of the spheres, and the
 //! contacts between them with their forces as floats. A [`Compliance`] says how far the forces of a code with springs are
@@ -25,20 +26,26 @@
 //! ```
 
 mod compliance;
+mod card;
 mod csv;
 mod export;
 mod file;
 mod folder;
 mod lammps;
+mod lammps_test;
 mod numbered;
 mod polydata;
 mod springs;
+mod suite;
+mod sunk;
 mod template;
 mod vtp;
 mod weights;
 mod yade;
+mod yade_check;
 
 pub use compliance::{Compliance, NoCompliance, SoftContact};
+pub use card::CardTitle;
 pub use export::PileExport;
 pub use file::{PileFile, PileFormat, Written, files};
 pub use numbered::{NumberedContact, NumberedPile};

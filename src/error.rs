@@ -243,6 +243,13 @@ pub enum Error {
         /// All that there are.
         known: &'static [&'static str],
     },
+    /// A name that no benchmark case has.
+    UnknownCase {
+        /// The name, shortened if it is long.
+        name: String,
+        /// The name that may have been meant.
+        nearest: Option<&'static str>,
+    },
     /// A value in a scene file that is refused.
     InFile {
         /// The line of its key, counted from 1.
@@ -293,6 +300,11 @@ pub enum Error {
     Weightless,
     /// A pile that no forces balance which only push, horizontal contacts included.
     CannotStand,
+    /// A test of a state at rest, of a pile of which contacts would have to pull.
+    MustPull {
+        /// What can be had instead.
+        remedy: &'static str,
+    },
     /// A fault probability that is not between 0 and 1.
     FaultProbability {
         /// The value asked for.

@@ -1,5 +1,8 @@
 //! A scene: the options that describe a pile and its spheres, the parsers of their values, and files of them.
 
+#[cfg(feature = "toml")]
+#[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
+mod cases;
 pub mod parse;
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
@@ -23,6 +26,9 @@ use crate::{Culprit, Error, Packing, Pile};
 use parse::At;
 
 pub use crate::shape::Anchor;
+#[cfg(feature = "toml")]
+#[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
+pub use cases::{Case, cases};
 #[cfg(feature = "toml")]
 #[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
 pub use toml::SceneFile;

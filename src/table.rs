@@ -65,6 +65,10 @@ pub(crate) use pieces::{columns, in_pieces, slices};
 pub(crate) use progress::Progress;
 pub use rows::{Column, Table};
 pub use summary::Summary;
+pub(crate) use summary::stacking;
+#[cfg(feature = "toml")]
+#[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
+pub use tables::cases;
 #[cfg(feature = "horizontal")]
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
 pub use tables::horizontal_census;

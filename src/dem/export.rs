@@ -5,9 +5,10 @@ use std::path::Path;
 
 use num_bigint::BigUint;
 
+use super::card::CardTitle;
 use super::file::{PileFile, PileFormat, Written};
 use super::numbered::NumberedPile;
-use super::{csv, folder, lammps, vtp, yade};
+use super::{card, csv, folder, lammps, lammps_test, vtp, yade, yade_check};
 use crate::shape::{Numbering, Selection};
 use crate::table::{Progress, WriteError};
 use crate::{Error, Packing};
@@ -35,6 +36,7 @@ use crate::{Error, Packing};
 pub struct PileExport<'p> {
     pile: NumberedPile<'p>,
     scene: Option<String>,
+    title: CardTitle,
 }
 
 impl<'p> PileExport<'p> {
@@ -64,6 +66,7 @@ impl<'p> PileExport<'p> {
         Ok(Self {
             pile: numbered,
             scene: None,
+            title: CardTitle::default(),
         })
     }
 
@@ -88,6 +91,29 @@ impl<'p> PileExport<'p> {
     pub fn with_scene(self, toml: String) -> Self {
         let scene = Some(toml);
         Self { scene, ..self }
+    }
+
+    /// The files with what a card says besides, and what tests are called.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::dem::{CardTitle, PileExport, PileFile};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let title = CardTitle { title: "Three layers".into(), ..CardTitle::default() };
+    /// let mut card = Vec::new();
+    /// let export = PileExport::new(&packing)?.with_title(title);
+    /// export.write_file(PileFile::CardMarkdown, &mut card, &mut |_| {})?;
+    /// assert!(card.starts_with(b"# Three layers\n"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_title(self, title: CardTitle) -> Self {
+        Self { title, ..self }
     }
 
     /// The pile with its sizes and weights.
@@ -161,6 +187,10 @@ impl<'p> PileExport<'p> {
             PileFile::ColumnsCsv
             | PileFile::LammpsInput
             | PileFile::YadeScript
+            | PileFile::CardMarkdown
+            | PileFile::CardJson
+            | PileFile::LammpsTest
+            | PileFile::YadeCheck
             | PileFile::Scene => None,
         }
     }
@@ -169,7 +199,8 @@ impl<'p> PileExport<'p> {
     /// more of them are done, all of them in the end.
     ///
     /// # Errors
-    /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit in an `f64`; [`WriteError::Io`] if the
+    /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit in an `f64`, with [`Error::TooLarge`] or
+    /// [`Error::MustPull`] if a test of a suite would be too large, or of no state at rest; [`WriteError::Io`] if the
     /// output refuses.
     ///
     /// # Examples
@@ -211,6 +242,14 @@ impl<'p> PileExport<'p> {
             PileFile::ContactsVtp => vtp::write_contacts(pile, out, row),
             PileFile::YadeSpheres => yade::write_spheres(pile, out, row),
             PileFile::YadeScript => yade::write_script(pile, out),
+            PileFile::CardMarkdown => {
+                card::write_markdown(pile, &self.title, self.scene.as_deref(), out)
+            }
+            PileFile::CardJson => card::write_json(pile, &self.title, self.scene.as_deref(), out),
+            PileFile::LammpsTest => {
+                lammps_test::write(pile, &card::heading(pile, &self.title), out)
+            }
+            PileFile::YadeCheck => yade_check::write(pile, &card::heading(pile, &self.title), out),
             PileFile::Scene => Ok(out.write_all(self.scene.as_deref().unwrap_or("").as_bytes())?),
         }
     }
@@ -236,7 +275,7 @@ impl<'p> PileExport<'p> {
     /// let folder = tempfile::tempdir()?;
     /// let new = folder.path().join("new/pile");
     /// let written = PileExport::new(&packing)?.write(&PileFormat::ALL, &new, &mut |_| {})?;
-    /// assert_eq!((written.len(), new.read_dir()?.count()), (10, 10));
+    /// assert_eq!((written.len(), new.read_dir()?.count()), (14, 14));
     /// for file in written {
     ///     assert_eq!(file.path.metadata()?.len(), file.bytes);
     /// }

@@ -24,11 +24,28 @@ pub enum PileFormat {
     Vtp,
     /// YADE: `spheres.txt`, and `pile.py`, which relaxes it and writes the forces, as LAMMPS does.
     Yade,
+    /// A benchmark card: `card.md` for people, `card.json` for machines. What the pile is, the exact answers, how exact they are,
+    /// what a code must satisfy, how to cite.
+    Card,
+    /// The suite of LAMMPS: `dem-pile.yaml`, a test in the style of `unittest/granular`, of up to 2000 spheres that come to rest,
+    /// on springs that are all alike.
+    LammpsTest,
+    /// The suite of YADE: `checkPile.py`, a check in the style of `scripts/checks-and-tests/checks`, of up to 2000 spheres; of a
+    /// pile that cannot stand it checks that contacts are lost.
+    YadeCheck,
 }
 
 impl PileFormat {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Csv, Self::Lammps, Self::Vtp, Self::Yade];
+    pub const ALL: [Self; 7] = [
+        Self::Csv,
+        Self::Lammps,
+        Self::Vtp,
+        Self::Yade,
+        Self::Card,
+        Self::LammpsTest,
+        Self::YadeCheck,
+    ];
 
     /// Its files, in the order in which they are written.
     ///
@@ -37,7 +54,7 @@ impl PileFormat {
     /// use cannonpile::dem::{PileFile, PileFormat};
     ///
     /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
-    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2]);
+    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2, 1, 1]);
     /// ```
     #[must_use]
     pub const fn files(self) -> &'static [PileFile] {
@@ -51,6 +68,9 @@ impl PileFormat {
             Self::Lammps => &[PileFile::LammpsData, PileFile::LammpsInput],
             Self::Vtp => &[PileFile::SpheresVtp, PileFile::ContactsVtp],
             Self::Yade => &[PileFile::YadeSpheres, PileFile::YadeScript],
+            Self::Card => &[PileFile::CardMarkdown, PileFile::CardJson],
+            Self::LammpsTest => &[PileFile::LammpsTest],
+            Self::YadeCheck => &[PileFile::YadeCheck],
         }
     }
 }
@@ -84,6 +104,15 @@ pub enum PileFile {
     YadeSpheres,
     /// `pile.py`: lets the pile relax, and writes the forces to `forces.csv`.
     YadeScript,
+    /// `card.md`: the benchmark in Markdown; lists of more than 130 rows are left to the csv files.
+    CardMarkdown,
+    /// `card.json`: the same for machines, each number as `{"exact": …, "float": …}`, the exact one as text; lists of more than
+    /// 10,000 rows are left to the csv files.
+    CardJson,
+    /// `dem-pile.yaml`: the pile, and where its spheres come to rest.
+    LammpsTest,
+    /// `checkPile.py`: the pile and its forces; raises `YadeCheckError` with the worst contact.
+    YadeCheck,
     /// `scene.toml`: the scene that the pile was made of, written with any format if it is
     /// [given](super::PileExport::with_scene).
     Scene,
@@ -111,6 +140,10 @@ impl PileFile {
             Self::ContactsVtp => "contacts.vtp",
             Self::YadeSpheres => "spheres.txt",
             Self::YadeScript => "pile.py",
+            Self::CardMarkdown => "card.md",
+            Self::CardJson => "card.json",
+            Self::LammpsTest => "dem-pile.yaml",
+            Self::YadeCheck => "checkPile.py",
             Self::Scene => "scene.toml",
         }
     }
@@ -123,7 +156,7 @@ pub struct Written {
     pub file: PileFile,
     /// Where it is.
     pub path: PathBuf,
-    /// Its spheres or contacts; none in a script, a scene, or a list of columns.
+    /// Its spheres or contacts; none in a script, a card, a scene, or a list of columns.
     pub rows: Option<u64>,
     /// Its size.
     pub bytes: u64,

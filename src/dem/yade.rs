@@ -5,7 +5,7 @@ use std::io::Write;
 use super::numbered::NumberedPile;
 use super::springs::{Springs, density};
 use super::template::fill;
-use super::weights::{burdens, inertias, normal};
+use super::weights::{inertias, normal};
 use crate::lattice::Dimension;
 use crate::table::WriteError;
 
@@ -31,11 +31,6 @@ pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resu
     for (site, mass) in inertias(pile)? {
         masses.push((pile.numbering().id(site)?, mass));
     }
-    // Rotations do nothing without friction.
-    let blocked = match pile.pile().dimension() {
-        Dimension::Two => "yXYZ",
-        Dimension::Three => "XYZ",
-    };
     let number = |x: f64| format!("{x:?}");
     let script = fill(
         include_str!("pile.py"),
@@ -45,10 +40,10 @@ pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resu
             ("radius", number(springs.radius)),
             ("rest", number(2.0 * springs.rest())),
             ("most_steps", springs.most_steps.to_string()),
-            ("loads", by_id(burdens(pile)?)),
+            ("loads", by_id(loads(pile)?)),
             ("masses", by_id(masses)),
             ("density", number(density(springs.mass, springs.radius)?)),
-            ("blocked", blocked.to_owned()),
+            ("blocked", blocked(pile).to_owned()),
             ("gravity", number(springs.gravity)),
             ("timestep", number(springs.timestep)),
         ],
@@ -56,8 +51,19 @@ pub(super) fn write_script(pile: &NumberedPile<'_>, out: &mut dyn Write) -> Resu
     Ok(out.write_all(script.as_bytes())?)
 }
 
+/// The ways in which no sphere moves; rotations do nothing without friction.
+pub(super) fn blocked(pile: &NumberedPile<'_>) -> &'static str {
+    match pile.pile().dimension() {
+        Dimension::Two => "yXYZ",
+        Dimension::Three => "XYZ",
+    }
+}
+
+/// Forces besides the weight, in N, downwards, by number.
+pub(super) use super::weights::burdens as loads;
+
 /// A dictionary of Python.
-fn by_id(numbers: Vec<(u64, f64)>) -> String {
+pub(super) fn by_id(numbers: Vec<(u64, f64)>) -> String {
     let entries = numbers
         .into_iter()
         .map(|(id, number)| format!("    {id}: {number:?},\n"));

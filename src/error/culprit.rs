@@ -160,6 +160,7 @@ impl Error {
             Self::InFile { error, .. } => error.culprit().unwrap_or(Culprit::File),
             Self::NotToml { .. } | Self::UnknownKey { .. } => Culprit::File,
             Self::CannotStand
+            | Self::MustPull { .. }
             | Self::NoSuchDirection { .. }
             | Self::EmptyRegion { .. }
             | Self::RegionSide { .. }
@@ -167,6 +168,7 @@ impl Error {
             | Self::Length { .. }
             | Self::NegativeRadicand { .. }
             | Self::Syntax { .. }
+            | Self::UnknownCase { .. }
             | Self::Bug { .. } => return None,
         })
     }

@@ -294,6 +294,17 @@ impl fmt::Display for Whole<'_> {
                     None => write!(f, ": the keys are {}", known.join(", ")),
                 }
             }
+            Error::MustPull { remedy } => write!(
+                f,
+                "a test is of a state at rest, and some contacts of this pile would have to pull: {remedy}"
+            ),
+            Error::UnknownCase { name, nearest } => {
+                write!(f, "there is no case '{name}'")?;
+                match nearest {
+                    Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
+                    None => f.write_str("; 'cannonpile cases' lists those there are"),
+                }
+            }
             Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
             Error::Bug { invariant } => write!(
                 f,

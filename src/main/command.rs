@@ -1,6 +1,7 @@
 //! The commands, one a file, and what they have in common.
 
 pub(crate) mod bounds;
+pub(crate) mod cases;
 pub(crate) mod census;
 pub(crate) mod check;
 pub(crate) mod completions;

@@ -16,7 +16,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
-    bounds, census, check, completions, ensemble, explain, export, mean, plot, prove, scene,
+    bounds, cases, census, check, completions, ensemble, explain, export, mean, plot, prove, scene,
     spheres, summary, verify,
 };
 use output::{Failure, complain};
@@ -65,6 +65,8 @@ enum Command {
     Explain(explain::Explain),
     /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
     Export(export::Export),
+    /// The benchmark cases, with names that others can quote
+    Cases(cases::Cases),
     /// The scene as a TOML file, which --scene reads
     Scene(scene::WriteScene),
     /// What is proved for every pile, with the proofs; exit status 1 if one fails
@@ -95,6 +97,7 @@ impl Command {
             Self::Merge(command) => command.run(),
             Self::Explain(command) => command.run(),
             Self::Export(command) => command.run(),
+            Self::Cases(command) => command.run(),
             Self::Scene(command) => command.run(),
             Self::Prove(command) => command.run(),
             Self::Verify(command) => command.run(),
@@ -118,7 +121,8 @@ impl Command {
             Self::Scene(command) => &command.scene,
             Self::Verify(command) => &command.scene,
             Self::Plot(command) => return command.scene(),
-            Self::Census(_)
+            Self::Cases(_)
+            | Self::Census(_)
             | Self::Mean(_)
             | Self::Merge(_)
             | Self::Prove(_)

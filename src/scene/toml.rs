@@ -17,7 +17,7 @@ use super::{Anchor, Scene};
 use crate::lattice::Dimension;
 use crate::{Culprit, Error};
 
-use nearest::nearest;
+pub(super) use nearest::nearest;
 use value::{Value, line_of};
 
 /// The keys of a scene file, in the order in which they are written.

@@ -274,7 +274,7 @@ fn unless_too_large<T>(answer: Result<T, Error>) -> Result<Result<T, Error>, Err
 }
 
 /// The name of a pile's stacking, or its steps.
-fn stacking(pile: &Pile) -> String {
+pub(crate) fn stacking(pile: &Pile) -> String {
     if pile.dimension() == Dimension::Two {
         return "discs".into();
     }

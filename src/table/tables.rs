@@ -1,6 +1,8 @@
-//! The tables there are: base, contacts, spheres, theorems, census, random stackings.
+//! The tables there are: base, contacts, spheres, theorems, census, random stackings, benchmark cases.
 
 mod base;
+#[cfg(feature = "toml")]
+mod cases;
 mod census;
 mod contacts;
 mod disorder;
@@ -10,6 +12,9 @@ mod spheres;
 mod theorems;
 
 pub use base::base;
+#[cfg(feature = "toml")]
+#[cfg_attr(docsrs, doc(cfg(feature = "toml")))]
+pub use cases::cases;
 pub use census::census;
 #[cfg(feature = "horizontal")]
 #[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]

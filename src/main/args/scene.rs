@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 
 use cannonpile::lattice::{Dimension, Region};
-use cannonpile::scene::{Anchor, Scene, SceneFile, State, parse};
+use cannonpile::scene::{Anchor, Case, Scene, SceneFile, State, parse};
 use cannonpile::stacking::Pattern;
 use cannonpile::{Culprit, Error, Pile};
 use clap::Args;
@@ -19,6 +19,17 @@ pub(crate) struct SceneOptions {
     /// Read these options from a TOML file, - for stdin; options on the command line win over it
     #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
     scene_file: Option<NamedFile>,
+    /// The scene of a benchmark case, C1, C2, …, which 'cannonpile cases' lists; beside it only --state
+    #[arg(
+        long,
+        value_name = "NAME",
+        value_parser = NamedFile::of_case,
+        conflicts_with_all = [
+            "scene_file", "layers", "stacking", "top", "base", "dimension", "sin_phi", "load", "weightless", "spacing", "radius",
+            "mass", "gravity", "stiffness_ratio",
+        ]
+    )]
+    case: Option<NamedFile>,
     /// Number of layers, 1 to 10^36 [default: 10; as many as a stacking that is spelled out has, or as a base carries]
     #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
     layers: Option<i128>,
@@ -107,9 +118,12 @@ impl SceneOptions {
             return Ok(scene);
         }
         let place = self.place(Culprit::State);
+        let remedy = match self.case {
+            Some(_) => "give --state isostatic beside it",
+            None => "leave it out, or use isostatic",
+        };
         Err(Failure::Message(format!(
-            "{place}: the elastic state is that of base, contacts, export, verify, plot network and plot base: leave it out, or \
-             use isostatic"
+            "{place}: the elastic state is that of base, contacts, export, verify, plot network and plot base: {remedy}"
         )))
     }
 
@@ -199,12 +213,20 @@ impl SceneOptions {
         Ok(checked(scene)?)
     }
 
+    /// The file or the case that options on the line win over.
+    fn file(&self) -> Option<&NamedFile> {
+        self.scene_file.as_ref().or(self.case.as_ref())
+    }
+
+    /// Returns the case that was asked for, if the scene is that of the case.
+    pub(crate) fn case(&self, scene: &Scene) -> Option<&'static Case> {
+        let named = self.case.as_ref()?;
+        named.case.filter(|_| named.content.scene() == scene)
+    }
+
     /// That of the file, with the options on the line in place of its own.
     fn scene(&self) -> Result<Scene, Refused> {
-        let file = self
-            .scene_file
-            .as_ref()
-            .map(|file| file.content.scene().clone());
+        let file = self.file().map(|file| file.content.scene().clone());
         let file = file.unwrap_or_default();
         let dimension = self.dimension.unwrap_or(file.dimension);
         let load = |text: &String| {
@@ -267,7 +289,7 @@ impl SceneOptions {
 
     /// Returns where the file gives an option that the line does not.
     pub(crate) fn line_of(&self, option: &str) -> Option<String> {
-        let file = self.scene_file.as_ref()?;
+        let file = self.file()?;
         file.place_of(option).filter(|_| !self.gives(option))
     }
 
@@ -336,11 +358,12 @@ fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
     Ok((scene, pile))
 }
 
-/// A scene file, and what it was called on the line.
+/// A scene file, and what it was called on the line; or a case.
 #[derive(Clone)]
 pub(super) struct NamedFile {
     name: String,
     content: SceneFile,
+    case: Option<&'static Case>,
 }
 
 impl NamedFile {
@@ -352,6 +375,9 @@ impl NamedFile {
     /// Returns where the file gives an option.
     pub(super) fn place_of(&self, option: &str) -> Option<String> {
         let line = self.content.line(option)?;
+        if let Some(case) = self.case {
+            return Some(format!("--case {}: {option}", case.name()));
+        }
         Some(format!("--scene {}: line {line}, {option}", self.name))
     }
 
@@ -367,6 +393,16 @@ impl NamedFile {
         Ok(Self {
             name: name.into(),
             content,
+            case: None,
+        })
+    }
+
+    fn of_case(name: &str) -> Result<Self, Error> {
+        let case = Case::named(name)?;
+        Ok(Self {
+            name: case.name().into(),
+            content: case.file()?,
+            case: Some(case),
         })
     }
 }

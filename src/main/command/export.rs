@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
-use cannonpile::dem::{self, PileExport, PileFile, PileFormat, Written};
+use cannonpile::dem::{self, CardTitle, PileExport, PileFile, PileFormat, Written};
 use cannonpile::scene::{Scene, State};
 use cannonpile::table::{NumberFormat, WriteError};
 use clap::{Args, ValueEnum};
@@ -69,7 +69,13 @@ enum Target {
     Vtp,
     /// For YADE: spheres.txt, and pile.py, which relaxes it and writes forces.csv
     Yade,
-    /// All of these
+    /// A benchmark card: card.md for people, card.json for machines, with the exact answers and what a code must satisfy
+    Card,
+    /// For the suite of LAMMPS: dem-pile.yaml, in the style of unittest/granular; up to 2000 spheres that come to rest
+    LammpsTest,
+    /// For the suite of YADE: checkPile.py, in the style of scripts/checks-and-tests/checks; up to 2000 spheres
+    YadeCheck,
+    /// csv, lammps, vtp, yade and card; not the tests of suites, which are of small piles
     All,
 }
 
@@ -80,7 +86,16 @@ impl Target {
             Self::Lammps => &[PileFormat::Lammps],
             Self::Vtp => &[PileFormat::Vtp],
             Self::Yade => &[PileFormat::Yade],
-            Self::All => &PileFormat::ALL,
+            Self::Card => &[PileFormat::Card],
+            Self::LammpsTest => &[PileFormat::LammpsTest],
+            Self::YadeCheck => &[PileFormat::YadeCheck],
+            Self::All => &[
+                PileFormat::Csv,
+                PileFormat::Lammps,
+                PileFormat::Vtp,
+                PileFormat::Yade,
+                PileFormat::Card,
+            ],
         }
     }
 }
@@ -93,7 +108,9 @@ impl Export {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
-        let files = PileExport::new(&packing)?.with_scene(scene.to_toml());
+        let files = PileExport::new(&packing)?
+            .with_scene(scene.to_toml())
+            .with_title(self.title(&scene));
         let formats = self.formats();
         check_springs(&scene, &formats)?;
         self.keep_apart(&formats)?;
@@ -118,6 +135,25 @@ impl Export {
         note_if_it_falls(&pile);
         tell_rate(&written, begun);
         Ok(true)
+    }
+
+    /// Returns what a card says of the scene.
+    fn title(&self, scene: &Scene) -> CardTitle {
+        let ratio = (scene.state == State::Elastic).then(|| scene.stiffness_ratio.clone());
+        let of_scene = CardTitle {
+            state: scene.state,
+            stiffness_ratio: ratio,
+            ..CardTitle::default()
+        };
+        match self.scene.case(scene) {
+            None => of_scene,
+            Some(case) => CardTitle {
+                case: case.name().into(),
+                title: case.title().into(),
+                purpose: case.purpose().into(),
+                ..of_scene
+            },
+        }
     }
 
     /// Returns the formats asked for, each once.
@@ -173,7 +209,12 @@ impl Export {
 
 /// Scripts have one stiffness for all springs.
 fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
-    let scripts = [PileFormat::Lammps, PileFormat::Yade];
+    let scripts = [
+        PileFormat::Lammps,
+        PileFormat::Yade,
+        PileFormat::LammpsTest,
+        PileFormat::YadeCheck,
+    ];
     let is_alike = scene.state == State::Isostatic || scene.stiffness_ratio == One::one();
     if is_alike || !formats.iter().any(|format| scripts.contains(format)) {
         return Ok(());

@@ -8,14 +8,17 @@ const LONGEST: usize = 32;
 /// The key that takes the fewest changes to reach, if they are few: one, or at most a third of the word.
 ///
 /// A change is a character more, less or replaced, or two neighbours swapped; capitals, `_` and spaces cost nothing.
-pub(super) fn nearest(given: &str, known: &[&'static str]) -> Option<&'static str> {
+pub(in crate::scene) fn nearest(given: &str, known: &[&'static str]) -> Option<&'static str> {
     if given.chars().nth(LONGEST).is_some() {
         return None;
     }
     let given: String = given.chars().map(plain).collect();
-    let distances = known
-        .iter()
-        .map(|key| (strsim::osa_distance(&given, key), *key));
+    let distances = known.iter().map(|key| {
+        (
+            strsim::osa_distance(&given, &key.to_ascii_lowercase()),
+            *key,
+        )
+    });
     let (changes, key) = distances.min_by_key(|(changes, _)| *changes)?;
     let few = (given.chars().count().max(key.len()) / 3).max(1);
     (changes <= few).then_some(key)

@@ -1,0 +1,112 @@
+# encoding: utf-8
+# cannonpile {version}: a check with a mathematical proof, in the style of scripts/checks-and-tests/checks of YADE.
+# {title}
+#
+# Frictionless spheres relax from their exact places on stiff springs, and the force of each contact is compared with the
+# exact one. A pile that cannot stand must lose contacts instead. Put this file beside the others for 'yade --check', or
+# run it alone: yade -n -x checkPile.py
+import sys
+
+try:
+	YadeCheckError
+except NameError:
+	# Outside of 'yade --check'.
+	class YadeCheckError(Exception):
+		pass
+
+
+MUST_FALL = {falls}
+TOLERANCE = {tolerance}  # of the greatest force; springs give way by less
+FIRST_ON_FLOOR = {first}  # ids count from 1, layer after layer from the top
+STIFFNESS = {stiffness}  # N/m; a contact of two spheres has E*R
+RADIUS = {radius}  # m
+REST = {rest}  # N, on a sphere: what the last digits of coordinates make of nothing
+MOST_STEPS = {most_steps}
+# Newtons downwards besides the weight, by id.
+LOADS = {loads}
+# Masses other than that of an ordinary sphere, by id.
+MASSES = {masses}
+# Centres of the spheres 1, 2, ..., in m.
+SPHERES = [
+{spheres}]
+# id1, id2, and the force between them in N, the float nearest to the exact one; positive is push.
+CONTACTS = [
+{contacts}]
+
+
+def buildPile():
+	material = FrictMat(young=STIFFNESS / RADIUS, poisson=0.3, frictionAngle=0.0, density={density})
+	O.materials.append(material)
+	ids = O.bodies.append([sphere(centre, RADIUS, material=material) for centre in SPHERES])
+	for number, bodyId in enumerate(ids, 1):
+		body = O.bodies[bodyId]
+		if number >= FIRST_ON_FLOOR:
+			body.state.blockedDOFs = 'xyzXYZ'
+		else:
+			body.state.blockedDOFs = '{blocked}'
+			if number in LOADS:
+				O.forces.setPermF(bodyId, (0, 0, -LOADS[number]))
+		if number in MASSES:
+			body.state.mass = MASSES[number]
+	O.engines = [
+	        ForceResetter(),
+	        InsertionSortCollider([Bo1_Sphere_Aabb()]),
+	        InteractionLoop(
+	                [Ig2_Sphere_Sphere_ScGeom()],
+	                [Ip2_FrictMat_FrictMat_FrictPhys()],
+	                [Law2_ScGeom_FrictPhys_CundallStrack()],
+	        ),
+	        NewtonIntegrator(gravity=(0, 0, -{gravity}), damping=0.3),
+	]
+	O.dt = {timestep}
+	return ids[0]
+
+
+def measuredForces(firstBody):
+	forces = {}
+	for contact in O.interactions:
+		pair = tuple(sorted((contact.id1 - firstBody + 1, contact.id2 - firstBody + 1)))
+		# Two spheres of the floor are held, and may press as they like.
+		if contact.isReal and pair[0] < FIRST_ON_FLOOR:
+			forces[pair] = contact.phys.normalForce.norm()
+	return forces
+
+
+def atRest():
+	# YADE gives the greatest force on a sphere in parts of the mean force of a contact.
+	forces = [contact.phys.normalForce.norm() for contact in O.interactions if contact.isReal]
+	return not forces or unbalancedForce(True) * sum(forces) / len(forces) < REST
+
+
+def checkPile():
+	firstBody = buildPile()
+	exact = {tuple(sorted(contact[:2])): contact[2] for contact in CONTACTS}
+	greatest = max([abs(force) for force in exact.values()] + [sys.float_info.min])
+	bearing = set(pair for pair, force in exact.items() if abs(force) > TOLERANCE * greatest)
+	rest = False
+	while O.iter < MOST_STEPS and not rest:
+		O.run(1000, True)
+		forces = measuredForces(firstBody)
+		lost = bearing.difference(forces)
+		if MUST_FALL and lost:
+			print('checkPile: %d of %d contacts were lost, as they must be' % (len(lost), len(bearing)))
+			return
+		rest = atRest()
+	if MUST_FALL:
+		raise YadeCheckError('checkPile: the pile stands after %d steps, but some of its contacts would have to pull' % O.iter)
+	if not rest:
+		raise YadeCheckError('checkPile: the pile is not at rest after %d steps' % O.iter)
+
+	def error(pair):
+		return abs(forces.get(pair, 0.0) - exact.get(pair, 0.0)) / greatest
+
+	worst = max(set(forces) | set(exact), key=error, default=None)
+	if worst is not None and error(worst) > TOLERANCE:
+		raise YadeCheckError(
+		        'checkPile: spheres %d and %d press with %.17g N, not %.17g N: off by %.3g of the greatest force, more than %.3g' %
+		        (worst + (forces.get(worst, 0.0), exact.get(worst, 0.0), error(worst), TOLERANCE))
+		)
+	print('checkPile: %d contacts agree, to %.3g of the greatest force' % (len(exact), error(worst) if worst else 0.0))
+
+
+checkPile()
