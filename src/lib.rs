@@ -68,6 +68,7 @@
 //! | what is proved for every pile | [`theorem`] |
 //! | how a question is answered, and what that takes | [`Pile::plan`], [`Counters`] |
 //! | a pile as a user describes it | [`scene::Scene`] |
+//! | benchmark cases with names that others can quote | `scene::cases` (feature `toml`) |
 //! | tables; files for LAMMPS, YADE, ParaView; a comparison with measured forces; figures | `table`, `dem`, `verify`, `figure` |
 //!
 //! No one has to choose a method: the plan does. A pile equal to another is the same pile.

@@ -3,6 +3,7 @@
 mod extremes;
 mod facts;
 mod json;
+mod lists;
 mod markdown;
 mod words;
 
@@ -15,6 +16,7 @@ use crate::scene::State;
 use crate::table::WriteError;
 
 use facts::Facts;
+use lists::Listed;
 
 /// What a card says of a pile beside what the pile itself tells.
 ///
@@ -61,7 +63,7 @@ pub(super) fn write_markdown(
     scene: Option<&str>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let facts = Facts::of(pile, facts::Listed::FOR_PEOPLE)?;
+    let facts = Facts::of(pile, Listed::FOR_PEOPLE)?;
     let text = markdown::text(&facts, title, scene);
     Ok(out.write_all(text.as_bytes())?)
 }
@@ -73,7 +75,7 @@ pub(super) fn write_json(
     scene: Option<&str>,
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
-    let facts = Facts::of(pile, facts::Listed::FOR_MACHINES)?;
+    let facts = Facts::of(pile, Listed::FOR_MACHINES)?;
     let text = json::text(&facts, title, scene)?;
     Ok(out.write_all(text.as_bytes())?)
 }

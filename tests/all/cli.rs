@@ -1,5 +1,6 @@
 //! The command line as a user meets it: what it prints, what it refuses, how it ends.
 
+mod cases;
 mod completions;
 mod console;
 mod ensemble;

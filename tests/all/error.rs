@@ -302,3 +302,60 @@ fn too_many_marks() {
         &["5000000", "bottom spheres", "20000", "use fewer layers"],
     );
 }
+
+#[cfg(feature = "toml")]
+#[test]
+fn cases() {
+    let error = cannonpile::scene::Case::named("C0").unwrap_err();
+    assert!(matches!(error, Error::UnknownCase { .. }));
+    says(&error, &["'C0'", "did you mean 'C1'?"]);
+    let long = "C".repeat(1000);
+    let error = cannonpile::scene::Case::named(&long).unwrap_err();
+    says(&error, &["'cannonpile cases' lists"]);
+    assert!(error.to_string().len() < 200, "{error}");
+}
+
+#[cfg(feature = "export")]
+#[test]
+fn tests_of_suites() {
+    use cannonpile::dem::{PileExport, PileFile};
+    use cannonpile::stacking::Pattern;
+    use cannonpile::table::WriteError;
+
+    let refused = |scene: &Scene, file| {
+        let pile = scene.pile().expect("a pile");
+        let packing = scene.packing(&pile).expect("room");
+        let export = PileExport::new(&packing).expect("files");
+        match export.write_file(file, &mut Vec::new(), &mut |_| {}) {
+            Err(WriteError::Answer(error)) => error,
+            written => panic!("{file:?}: {written:?}"),
+        }
+    };
+    let falls = Scene {
+        stacking: Some(Pattern::Hcp),
+        layers: Some(7),
+        ..Scene::default()
+    };
+    let error = refused(&falls, PileFile::LammpsTest);
+    assert!(matches!(error, Error::MustPull { .. }));
+    says(&error, &["would have to pull", "--to yade-check"]);
+    assert_eq!(error.culprit(), None);
+    // Without weight it is no pile that falls, and no state of rest either.
+    let response = Scene {
+        loads: vec![parse::load("0,0,0=1", Dimension::Three).expect("a load")],
+        weightless: true,
+        ..falls
+    };
+    let error = refused(&response, PileFile::YadeCheck);
+    says(&error, &["would have to pull", "--to yade"]);
+    let large = Scene {
+        layers: Some(22),
+        ..Scene::default()
+    };
+    for file in [PileFile::LammpsTest, PileFile::YadeCheck] {
+        let error = refused(&large, file);
+        assert!(matches!(error, Error::TooLarge { .. }));
+        says(&error, &["2024", "2000", "fewer layers"]);
+        assert_eq!(error.culprit(), Some(Culprit::Layers));
+    }
+}

@@ -164,6 +164,7 @@ mod theorem;
 
 #[cfg(feature = "toml")]
 mod scene {
+    mod cases;
     mod file;
 }
 

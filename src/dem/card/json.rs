@@ -3,7 +3,8 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::CardTitle;
-use super::facts::{Contact, Facts, OnFloor, Sphere, Stands, Value};
+use super::facts::{Facts, Stands, Value};
+use super::lists::{Contact, OnFloor, Sphere};
 use super::words;
 use crate::error::bug;
 use crate::lattice::{Dimension, Site};

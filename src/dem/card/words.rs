@@ -1,7 +1,8 @@
 //! What both cards say in words.
 
 use super::CardTitle;
-use super::facts::{Contact, Facts, Stands};
+use super::facts::{Facts, Stands};
+use super::lists::Contact;
 use crate::Verdict;
 use crate::dem::numbered::NumberedPile;
 use crate::lattice::Dimension;
@@ -49,6 +50,15 @@ pub(super) fn stands(facts: &Facts<'_, '_>) -> Option<&'static str> {
     match &facts.stands {
         Stands::Known(verdict) => Some(verdict.name()),
         Stands::NotAsked | Stands::TooLarge(_) => None,
+    }
+}
+
+/// The same for people.
+pub(super) fn verdict(facts: &Facts<'_, '_>) -> &'static str {
+    match &facts.stands {
+        Stands::Known(verdict) => verdict.name(),
+        Stands::NotAsked => "not asked of spheres without weight",
+        Stands::TooLarge(_) => "not known",
     }
 }
 
@@ -184,6 +194,17 @@ pub(super) fn criteria(facts: &Facts<'_, '_>, title: &CardTitle) -> Vec<Criterio
             format!("`{verify}` says `accepted yes`"),
         )];
     }
+    let floor = criterion(
+        "floor",
+        format!(
+            "The bottom spheres press on the floor with {} N together, and each as `base.csv` says.",
+            facts.weight.exact
+        ),
+        format!("passes if the sum is right to {accept} of itself"),
+    );
+    if facts.bearing == 0_u32.into() {
+        return vec![floor];
+    }
     let mut criteria = vec![
         criterion(
             "contacts",
@@ -202,14 +223,7 @@ pub(super) fn criteria(facts: &Facts<'_, '_>, title: &CardTitle) -> Vec<Criterio
             ),
             format!("`{verify}` says `accepted yes`, exit status 0"),
         ),
-        criterion(
-            "floor",
-            format!(
-                "The bottom spheres press on the floor with {} N together, and each as `base.csv` says.",
-                facts.weight.exact
-            ),
-            format!("passes if the sum is right to {accept} of itself"),
-        ),
+        floor,
         criterion(
             "order",
             "From springs with F/(kR) of 1e-5 to springs ten times as stiff the largest error falls to a tenth: order 1 in 1/k."

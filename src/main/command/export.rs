@@ -19,9 +19,15 @@ const HELP: &str = "\
 All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml describes it, for
 --scene. Files are written under other names, and renamed when all are complete.
 
+A card is a benchmark on a page: what the pile is, the exact answers, what springs may be off by, what a code must satisfy and
+how that is checked, how to cite. Long lists are left to the files of csv. lammps-test and yade-check are to be put among the
+tests of these codes: they hold the pile and its answers, and fail with the worst place.
+
 Examples:
   cannonpile export pile --to lammps --layers 10 --spacing 1.2
-  cannonpile export pile --to csv,vtp --layers 40 --list files.csv";
+  cannonpile export pile --to csv,vtp --layers 40 --list files.csv
+  cannonpile export C2 --case C2 --to csv,card
+  cannonpile export checks --case C4 --to yade-check,lammps-test";
 
 #[derive(Args)]
 #[command(after_help = HELP)]

@@ -37,6 +37,7 @@ macro_rules! console {
 console! {
     base: 89;
     bounds: 19;
+    cases: 25;
     census: 21;
     check: 12;
     completions: 2;

@@ -59,8 +59,8 @@ fn files_by_format() {
     let mut lines = list.lines();
     assert_eq!(lines.next(), Some("file,rows,bytes"));
     let listed: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-    assert_eq!(listed.len(), 11);
-    assert_eq!(names(&all).len(), 11);
+    assert_eq!(listed.len(), 13);
+    assert_eq!(names(&all).len(), 13);
     for file in &listed {
         let bytes = fs::metadata(file[0]).expect("a file").len();
         assert_eq!(file[2], bytes.to_string());
@@ -68,7 +68,9 @@ fn files_by_format() {
     let rows: Vec<&str> = listed.iter().map(|file| file[1]).collect();
     assert_eq!(
         rows,
-        ["10", "12", "6", "", "10", "", "10", "12", "10", "", ""]
+        [
+            "10", "12", "6", "", "10", "", "10", "12", "10", "", "", "", ""
+        ]
     );
 }
 
