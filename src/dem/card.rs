@@ -38,7 +38,7 @@ use lists::Listed;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CardTitle {
-    /// The name of a [benchmark case](crate::scene::Scene), such as `C2`; empty for any other pile.
+    /// The name of a benchmark case (`scene::cases`), such as `C2`; empty for any other pile.
     pub case: String,
     /// What the pile is, in a few words; if it is empty, the card has words of its own.
     pub title: String,
@@ -46,7 +46,7 @@ pub struct CardTitle {
     pub purpose: String,
     /// Which forces the pile was given.
     pub state: State,
-    /// κ′/κ of the elastic state; 1 if there is none.
+    /// κ′/κ of the elastic state; 1 if it is not given.
     pub stiffness_ratio: Option<BigRational>,
 }
 
