@@ -276,6 +276,9 @@ fn judge(card: &Value, oracle: &Oracle) -> Result<(), String> {
     Ok(())
 }
 
+/// A fault in a card.
+type Plant = fn(&mut Value);
+
 #[test]
 fn answers_are_those_of_an_oracle() {
     let mut judged = 0;
@@ -290,22 +293,24 @@ fn answers_are_those_of_an_oracle() {
     // The oracle of another pile is not agreed with, and neither is a card with one planted fault.
     let right = oracle("C2").expect("an oracle");
     assert!(judge(&card("C3"), &right).is_err());
-    let planted: [(&str, fn(&mut Value)); 6] = [
+    let planted: [(&str, Plant); 6] = [
         ("a contact", |card| {
-            card["answers"]["contacts"][3]["multiple"] = "8".into()
+            card["answers"]["contacts"][3]["multiple"] = "8".into();
         }),
         ("a force", |card| {
-            card["answers"]["contacts"][3]["force"]["exact"] = "5/39*sqrt(17)".into()
+            card["answers"]["contacts"][3]["force"]["exact"] = "5/39*sqrt(17)".into();
         }),
         ("a sign", |card| {
-            card["answers"]["base"][0]["shear_x"]["exact"] = "3/13*sqrt(39)".into()
+            card["answers"]["base"][0]["shear_x"]["exact"] = "3/13*sqrt(39)".into();
         }),
         ("the greatest", |card| {
-            card["answers"]["greatest"] = card["answers"]["least"].clone()
+            card["answers"]["greatest"] = card["answers"]["least"].clone();
         }),
-        ("a count", |card| card["answers"]["bearing"] = 494.into()),
+        ("a count", |card| {
+            card["answers"]["bearing"] = 494.into();
+        }),
         ("a normal force", |card| {
-            card["answers"]["normal_max"]["exact"] = "5".into()
+            card["answers"]["normal_max"]["exact"] = "5".into();
         }),
     ];
     for (what, plant) in planted {
@@ -318,9 +323,7 @@ fn answers_are_those_of_an_oracle() {
 
 #[test]
 fn elastic_states_are_those_of_the_pile() {
-    let scene = Case::named("C11")
-        .and_then(|case| case.scene())
-        .expect("a scene");
+    let scene = Case::named("C11").and_then(Case::scene).expect("a scene");
     let pile = scene
         .in_state(scene.pile().expect("a pile"))
         .expect("a state");
@@ -425,6 +428,9 @@ fn tables(page: &str) -> Result<Vec<Vec<Vec<String>>>, String> {
         .ok_or_else(|| "code without an end".into())
 }
 
+/// The numbers of a record that stand in its row.
+type Values = fn(&Value) -> Vec<&Value>;
+
 /// The card for people says what the one for machines does.
 #[test]
 fn pages_have_whole_tables_with_the_same_numbers() {
@@ -435,7 +441,7 @@ fn pages_have_whole_tables_with_the_same_numbers() {
         let tables = tables(&page).expect("whole tables");
         let code = |value: &Value| format!("`{}`", value["exact"].as_str().expect("exact"));
         let float = |value: &Value| format!("`{:?}`", value["float"].as_f64().expect("a float"));
-        let lists: [(&str, &Value, fn(&Value) -> Vec<&Value>); 3] = [
+        let lists: [(&str, &Value, Values); 3] = [
             ("direction", &card["answers"]["contacts"], |record| {
                 vec![&record["force"]]
             }),
