@@ -17,7 +17,7 @@ use crate::table::rows::{Column, Row, Table};
 /// let mut csv = Vec::new();
 /// table::cases().write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
 /// let csv = String::from_utf8(csv)?;
-/// assert!(csv.contains("\nC13,\"Discs in a plane, eight layers\",2,8,36,56,yes,cannonpile export C13 --case C13"));
+/// assert!(csv.contains("\nC13,\"Discs in a plane, eight layers\",2,8,36,56,yes,\"cannonpile export C13 --case C13"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
