@@ -25,8 +25,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod compliance;
 mod card;
+mod compliance;
 mod csv;
 mod export;
 mod file;
@@ -44,8 +44,8 @@ mod weights;
 mod yade;
 mod yade_check;
 
-pub use compliance::{Compliance, NoCompliance, SoftContact};
 pub use card::CardTitle;
+pub use compliance::{Compliance, NoCompliance, SoftContact};
 pub use export::PileExport;
 pub use file::{PileFile, PileFormat, Written, files};
 pub use numbered::{NumberedContact, NumberedPile};

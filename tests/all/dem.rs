@@ -1,7 +1,7 @@
 //! Piles as files: against the tables, against mechanics, and what is left behind when a file cannot be written.
 
-mod compliance;
 mod cards;
+mod compliance;
 mod files;
 mod physics;
 mod refusals;
