@@ -326,7 +326,7 @@ impl Comparison {
         self.0.symptoms.factor(tolerance)
     }
 
-    /// What the differences have in common, where the data show it: see [`Finding`].
+    /// What the differences have in common, where the data show it: see [`Finding`]; nothing if all is accepted.
     ///
     /// # Examples
     /// ```
@@ -344,6 +344,9 @@ impl Comparison {
     /// ```
     #[must_use]
     pub fn findings(&self, tolerance: f64) -> Vec<Finding> {
+        if self.accepted(tolerance) {
+            return Vec::new();
+        }
         self.0.symptoms.findings(tolerance)
     }
 

@@ -7,6 +7,9 @@ use crate::dem::NumberedContact;
 /// How far off a turn of the axes may be and still be followed.
 const FOLLOWED: f64 = 0.25;
 
+/// What rounding may leave of a force along the surfaces, as a share of it.
+const ROUNDED: f64 = 1e-14;
+
 /// What the contacts with a force have shown so far.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Symptoms {
@@ -104,7 +107,7 @@ impl Symptoms {
             }
         });
         let is_straight = factor.is_none() && turned.is_none();
-        let tangential = self.tangential > tolerance && is_straight;
+        let tangential = self.tangential > tolerance.max(ROUNDED) && is_straight;
         let tangential = tangential.then_some(Finding::Tangential(self.tangential));
         let lowest = self.layers.len();
         let missing = (0..).zip(&self.layers).filter_map(|(k, [there, missing])| {

@@ -10,6 +10,7 @@ mod mean;
 mod plot;
 mod scene;
 mod stackings;
+mod tables;
 mod verify;
 
 use std::fs;

@@ -111,7 +111,8 @@ fn a_simulation_is_accepted_as_far_as_its_springs_are_stiff() {
     } = cannonpile(&format!("verify {LAMMPS} --layers 4 --format csv"));
     assert_eq!(status.code(), Some(0));
     let csv = String::from_utf8(stdout).expect("text");
-    let header = "accepted,accept,contacts,matched,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor";
+    let header = "accepted,accept,contacts,matched,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor,walls,frame,\
+                  unbalanced,findings";
     assert_eq!(csv.lines().next(), Some(header));
     assert!(
         csv.lines()

@@ -1,0 +1,186 @@
+//! `verify` of other codes' tables: columns, presets, places, ladders; what it refuses, and the record that it keeps.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::{cannonpile, refusal, stdout};
+
+/// A folder with the exports of ten layers at a = 1.2 R.
+struct Exported(tempfile::TempDir);
+
+impl Exported {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().to_str().expect("text");
+        stdout(&format!(
+            "export {path}/pile --to csv,vtp --layers 10 --spacing 1.2"
+        ));
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().expect("text").to_owned()
+    }
+
+    /// Another file, of the lines of the contacts' table.
+    fn table(&self, name: &str, header: &str, line: impl Fn(&[&str]) -> String) -> String {
+        let contacts = fs::read_to_string(self.path("pile/contacts.csv")).expect("a table");
+        let rows = contacts.lines().skip(1).map(|row| {
+            let fields: Vec<&str> = row.split(',').collect();
+            line(&fields)
+        });
+        let lines: Vec<String> = std::iter::once(header.to_owned()).chain(rows).collect();
+        let path = self.path(name);
+        fs::write(&path, lines.join("\n") + "\n").expect("written");
+        path
+    }
+}
+
+const SCENE: &str = "--layers 10 --spacing 1.2";
+
+#[test]
+fn other_codes_tables_are_accepted() {
+    let exported = Exported::new();
+    let counted = exported.table("a.txt", "# A B Fn", |row| {
+        let less = |id: &str| id.parse::<u64>().expect("a number") - 1;
+        format!("{} {} -{}", less(row[0]), less(row[1]), row[2])
+    });
+    let columns = "--columns id1=A,id2=B,force=-Fn --first-id 0";
+    assert!(
+        stdout(&format!("verify {counted} {columns} {SCENE} --accept 0"))
+            .starts_with("accepted       yes")
+    );
+    let lines = exported.path("pile/contacts.vtp");
+    for matching in ["numbers", "place", "place --within 0.01"] {
+        let table = stdout(&format!(
+            "verify {lines} --match {matching} {SCENE} --accept 0"
+        ));
+        assert!(table.contains("\nframe          -\n"), "{table}");
+    }
+    assert!(stdout(&format!("verify {lines} --preset lethe {SCENE} --accept 0")).contains("yes"));
+}
+
+#[test]
+fn what_is_left_on_spheres_is_written_beside() {
+    let exported = Exported::new();
+    let contacts = exported.path("pile/contacts.csv");
+    for ending in ["csv", "json"] {
+        let rest = exported.path(&format!("rest.{ending}"));
+        let table = stdout(&format!("verify {contacts} {SCENE} --unbalanced {rest}"));
+        assert!(table.contains("\nunbalanced     "), "{table}");
+        let text = fs::read_to_string(&rest).expect("written");
+        let rows = match ending {
+            "csv" => text.lines().count() - 1,
+            _ => serde_json::from_str::<Vec<Value>>(&text)
+                .expect("json")
+                .len(),
+        };
+        // All but the bottom layer.
+        assert_eq!(rows, 165);
+    }
+}
+
+#[test]
+fn the_record_says_what_was_compared_with_what() {
+    let exported = Exported::new();
+    let contacts = exported.path("pile/contacts.csv");
+    let json = stdout(&format!("verify {contacts} {SCENE} --format json"));
+    let record: Value = serde_json::from_str(&json).expect("json");
+    let source = &record[0]["source"];
+    assert_eq!(source["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(source["file"], contacts);
+    let bytes = fs::read(&contacts).expect("a file");
+    assert_eq!(source["bytes"], bytes.len());
+    // The digest that sha256sum has of fourteen bytes.
+    let header = exported.path("header.csv");
+    fs::write(&header, "id1,id2,force\n").expect("written");
+    let json = cannonpile(&format!("verify {header} {SCENE} --format json")).stdout;
+    let other: Value = serde_json::from_slice(&json).expect("json");
+    assert_eq!(
+        other[0]["source"]["sha256"],
+        "f240a2d4d8d755751b83394f840fc2133d881f0e2afa14ad5f5b3ba3e1c3547c"
+    );
+    let scene = exported.path("again.toml");
+    fs::write(&scene, source["scene"].as_str().expect("text")).expect("written");
+    assert!(stdout(&format!("verify {contacts} --scene {scene} --accept 0")).contains("yes"));
+}
+
+#[test]
+fn a_ladder_has_its_order_and_is_drawn() {
+    let exported = Exported::new();
+    let mut files = Vec::new();
+    for stiffness in ["1e4", "1e5", "1e6", "1e7"] {
+        let k: f64 = stiffness.parse().expect("a number");
+        let name = exported.table(stiffness, "id1,id2,force", |row| {
+            let force: f64 = row[2].parse().expect("a number");
+            format!("{},{},{:?}", row[0], row[1], force * (1.0 + 4.0 / k))
+        });
+        files.push(format!("{stiffness}={name}"));
+    }
+    let (list, json) = (files.join(","), exported.path("ladder.json"));
+    let table = stdout(&format!("verify --ladder {list} {SCENE} --accept 1e-3"));
+    assert!(
+        table.contains("stiffness") && table.contains("order"),
+        "{table}"
+    );
+    stdout(&format!(
+        "verify --ladder {list} {SCENE} --format json --output {json}"
+    ));
+    let text = fs::read_to_string(&json).expect("written");
+    let record: Value = serde_json::from_str(&text).expect("json");
+    assert_eq!(record["files"].as_array().expect("an array").len(), 4);
+    assert_eq!(record["rungs"].as_array().expect("an array").len(), 4);
+    assert!(
+        record["scene"]
+            .as_str()
+            .expect("text")
+            .contains("layers = 10")
+    );
+    let svg = stdout(&format!("plot ladder {json}"));
+    assert!(svg.starts_with("<svg"));
+    // Time steps, and errors without an order: the answer is no.
+    let same = exported.path("1e4");
+    let flat = ["1e-3", "1e-4", "1e-5"].map(|step| format!("{step}={same}"));
+    let flat = flat.join(",");
+    let output = cannonpile(&format!(
+        "verify --ladder {flat} --refine time-step {SCENE}"
+    ));
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
+fn bad_use_of_tables_is_refused_in_one_line() {
+    let exported = Exported::new();
+    let contacts = exported.path("pile/contacts.csv");
+    for (options, said) in [
+        ("--columns mass=A", "'mass' is not one of id1"),
+        ("--columns id1=A", "no column 'A' for id1"),
+        ("--preset matlab", "'matlab' is not lammps, yade"),
+        ("--within 0.1", "--within is of --match place"),
+        ("--match place", "no column x, only"),
+        ("--match place --within 0.7", "--within: 0.7 radii"),
+        (
+            "--match place --first-id 0",
+            "--first-id is of --match numbers",
+        ),
+        ("--refine time-step", "--ladder"),
+        ("--ladder 1e5=a.csv", "cannot be used with"),
+    ] {
+        let line = refusal(&format!("verify {contacts} {options} {SCENE}"));
+        assert!(line.contains(said), "{options}: {line}");
+    }
+    for (list, said) in [
+        ("a.csv", "has no ="),
+        ("1e5=a.csv,1e5=b.csv", "1e5"),
+        ("0=a.csv", "0"),
+        ("1e5=,1e6=b.csv", "1e5="),
+    ] {
+        let line = refusal(&format!("verify --ladder {list} {SCENE}"));
+        assert!(line.contains(said), "{list}: {line}");
+    }
+    let line = refusal(&format!(
+        "verify --ladder 1e5={contacts},1e6=/not/there {SCENE}"
+    ));
+    assert!(line.contains("/not/there cannot be read"), "{line}");
+}
