@@ -176,6 +176,8 @@ pub fn measured(bytes: &[u8]) -> Corpus {
         bytes,
         &[
             claims::measured::any_file,
+            claims::measured::any_table,
+            claims::measured::by_place,
             claims::measured::a_file,
             claims::measured::planted,
         ],

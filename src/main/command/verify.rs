@@ -55,16 +55,15 @@ pub(crate) struct Verify {
         help_heading = "Ladder"
     )]
     ladder: Option<LadderFiles>,
-    /// What the numbers of --ladder are
+    /// What the numbers of --ladder are [default: stiffness]
     #[arg(
         long,
         value_enum,
         value_name = "WHAT",
-        default_value = "stiffness",
         requires = "ladder",
         help_heading = "Ladder"
     )]
-    refine: Refine,
+    refine: Option<Refine>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
     /// The greatest relative error accepted; 0 for forces that are the nearest floats

@@ -53,6 +53,7 @@ console! {
     scene: 11;
     spheres: 15;
     summary: 36;
+    tables: 8;
     verify: 14;
 }
 

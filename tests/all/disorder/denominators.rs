@@ -94,7 +94,7 @@ fn no_less_would_do() {
         assert_eq!(found[0][1], BigInt::from(6));
         let normals = found.into_iter().map(|[normal, _]| normal);
         let bounds = (0..steps).map(|j| match (steps, j) {
-            (6, 5) => BigInt::from(243),
+            (7, 5) => BigInt::from(243),
             _ => pow(BigInt::from(3), j + 1),
         });
         assert_eq!(normals.collect::<Vec<_>>(), bounds.collect::<Vec<_>>());

@@ -9,7 +9,7 @@ use arbitrary::Unstructured;
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
-use cannonpile::verify::{self, Comparison, Measured, Refusal};
+use cannonpile::verify::{self, Axis, Comparison, Frame, Measured, Preset, Reader, Refusal};
 use cannonpile::{Packing, Pile};
 use num_traits::{Signed, ToPrimitive};
 
@@ -44,8 +44,12 @@ pub(crate) fn any_file(u: &mut Unstructured<'_>) -> Checked {
             let entries = reading.entries();
             let lines = file.split(|byte| *byte == b'\n').count();
             let last = entries.len().checked_sub(1).map(|last| reading.line(last));
-            let within = last
-                .is_none_or(|line| line > 0 && line <= u64::try_from(lines).unwrap_or(u64::MAX));
+            // The rows of a picture are no lines.
+            let is_picture = file.first() == Some(&b'<');
+            let within = is_picture
+                || last.is_none_or(|line| {
+                    line > 0 && line <= u64::try_from(lines).unwrap_or(u64::MAX)
+                });
             demand(within, || format!("line {last:?} of {lines}"))?;
             for one in entries {
                 let [x, y, z] = one.vector.unwrap_or_default();
@@ -66,6 +70,116 @@ pub(crate) fn any_file(u: &mut Unstructured<'_>) -> Checked {
         }
     }
 }
+
+/// Any bytes are compared, as any code's table, or refused in one line.
+pub(crate) fn any_table(u: &mut Unstructured<'_>) -> Checked {
+    let pile = Pile::triangular(3)?;
+    let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
+    let preset = *u.choose(&Preset::ALL)?;
+    let mut file = match u.int_in_range(0..=2)? {
+        0 => u.arbitrary::<Vec<u8>>()?,
+        1 => PICTURE.to_vec(),
+        _ => placed(&packing, &own())?.into_bytes(),
+    };
+    for _ in 0..u.int_in_range(0..=4)? {
+        let Some(last) = file.len().checked_sub(1) else {
+            break;
+        };
+        let place = u.int_in_range(0..=last)?;
+        match u.int_in_range(0..=2)? {
+            0 => file.truncate(place),
+            1 => drop(file.remove(place)),
+            _ => {
+                if let Some(byte) = file.get_mut(place) {
+                    *byte = u.arbitrary()?;
+                }
+            }
+        }
+    }
+    match Reader::of(preset).with_balance().compare(&packing, &*file) {
+        Ok(read) => {
+            let counted = read.comparison.matched() + read.comparison.missing();
+            let contacts = read.comparison.contacts();
+            demand(counted <= contacts, || {
+                format!("{counted} of {contacts} contacts")
+            })
+        }
+        Err(refusal) => {
+            let message = refusal.to_string();
+            let printable = !message.is_empty() && !message.contains(char::is_control);
+            demand(printable && message.len() < 1000, || {
+                format!("not one line: {message:?}")
+            })
+        }
+    }
+}
+
+/// The exact forces of a small pile are accepted by place, in any order and in any frame.
+pub(crate) fn by_place(u: &mut Unstructured<'_>) -> Checked {
+    let pile = region::described(u)?.pile()?;
+    let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
+    let whole = |u: &mut Unstructured<'_>| u.int_in_range(-5000_i32..=5000).map(f64::from);
+    let frame = Frame {
+        angle: whole(u)? / 1700.0,
+        shift: [whole(u)? / 100.0, whole(u)? / 100.0, whole(u)? / 100.0],
+        ..own()
+    };
+    let table = placed(&packing, &frame)?;
+    let mut rows: Vec<&str> = table.lines().skip(1).collect();
+    if rows.is_empty() || rows.len() > 2000 {
+        return Ok(());
+    }
+    for place in (1..rows.len()).rev() {
+        rows.swap(place, u.int_in_range(0..=place)?);
+    }
+    let head = table.lines().next().unwrap_or_default();
+    let text = [&[head], &rows[..]].concat().join("\n");
+    let reader = Reader::new().by_place(0.1)?;
+    let read = match reader.compare(&packing, text.as_bytes()) {
+        Err(Refusal::OutOfRange) => return Ok(()),
+        read => read?,
+    };
+    // Forces alone: a turn may be told by a symmetry of the pile.
+    demand(read.comparison.accepted(1e-9), || {
+        format!("{frame:?} as {:?}: {}", read.frame, read.comparison)
+    })
+}
+
+/// The frame of the scene.
+fn own() -> Frame {
+    Frame {
+        axes: [0, 1, 2].map(|index| Axis {
+            index,
+            is_reversed: false,
+        }),
+        angle: 0.0,
+        shift: [0.0; 3],
+    }
+}
+
+/// A table of both centres and the force of each contact, seen from a frame.
+fn placed(packing: &Packing<'_>, frame: &Frame) -> Result<String, Failure> {
+    let mut table = String::from("x1,y1,z1,x2,y2,z2,force\n");
+    let shape = packing.pile().shape();
+    for contact in packing.contacts(Selection::All)? {
+        let contact = contact?;
+        let direction = contact.direction.direction();
+        let below = direction.and_then(|direction| shape.below(contact.site, direction));
+        let Some(below) = below else { continue };
+        for site in [contact.site, below] {
+            let centre = packing
+                .position(site)?
+                .map(|x: Surd| x.nearest().unwrap_or(0.0));
+            let [x, y, z] = frame.place(centre);
+            write!(table, "{x:?},{y:?},{z:?},").ok();
+        }
+        let force: f64 = contact.force.nearest().unwrap_or(0.0);
+        writeln!(table, "{force:?}").ok();
+    }
+    Ok(table)
+}
+
+const PICTURE: &[u8] = include_bytes!("../../all/verify/vtk/packed.vtp");
 
 /// What was written is read.
 pub(crate) fn a_file(u: &mut Unstructured<'_>) -> Checked {

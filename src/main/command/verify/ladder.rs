@@ -36,8 +36,8 @@ impl Verify {
             sources.push((file.parameter, source));
         }
         let refinement = match self.refine {
-            Refine::Stiffness => Refinement::Stiffness,
-            Refine::TimeStep => Refinement::TimeStep,
+            None | Some(Refine::Stiffness) => Refinement::Stiffness,
+            Some(Refine::TimeStep) => Refinement::TimeStep,
         };
         let blamed = |refusal: NoLadder| Failure::Message(format!("--ladder: {refusal}"));
         let mut ladder = Ladder::new(refinement, rungs).map_err(blamed)?;
