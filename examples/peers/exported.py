@@ -1,0 +1,68 @@
+"""The spheres of an exported pile and the pairs that touch, found by their places alone; and a table of forces for `verify`.
+
+What imports this has nothing else of cannonpile: no list of contacts, no force, no equation.
+"""
+
+import csv
+import math
+import tomllib
+from collections import namedtuple
+from fractions import Fraction
+from pathlib import Path
+
+# `place` in m, `down` in N: what pulls the sphere down, its weight and its load.
+Sphere = namedtuple("Sphere", "place radius mass down fixed")
+
+
+def gravity(folder):
+    """g in m/s², as scene.toml says."""
+    with open(Path(folder) / "scene.toml", "rb") as file:
+        return float(Fraction(tomllib.load(file)["gravity"]))
+
+
+def spheres(folder):
+    """The spheres of spheres.csv; the first has number 1 there, and 0 here."""
+    with open(Path(folder) / "spheres.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    pull, read = gravity(folder), []
+    for row in rows:
+        mass = float(row["mass"])
+        if mass == 0:
+            raise SystemExit("spheres without mass cannot move: export the pile without --weightless")
+        place = [float(row[axis]) for axis in "xyz"]
+        read.append(Sphere(place, float(row["radius"]), mass, mass * pull + float(row["load"]), row["fixed"] == "1"))
+    return read
+
+
+def touching(piled):
+    """The pairs that touch, one of them free, counted from 0; cells are a little wider than a diameter."""
+    diameter = 2 * piled[0].radius
+    cells = {}
+    for number, sphere in enumerate(piled):
+        cells.setdefault(tuple(math.floor(c / (1.1 * diameter)) for c in sphere.place), []).append(number)
+    near = [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]
+    found = []
+    for cell, members in cells.items():
+        others = [other for step in near for other in cells.get(tuple(map(sum, zip(cell, step))), [])]
+        for one in members:
+            for other in others:
+                apart = math.dist(piled[one].place, piled[other].place)
+                if one < other and apart < diameter * (1 + 1e-9) and not (piled[one].fixed and piled[other].fixed):
+                    found.append((one, other))
+    return sorted(found)
+
+
+def normal(piled, pair):
+    """The unit vector along which a contact pushes the first of the two."""
+    one, other = (piled[number].place for number in pair)
+    apart = math.dist(one, other)
+    return [(a - b) / apart for a, b in zip(one, other)]
+
+
+def write(path, rows):
+    """Writes the table that `verify` reads, of rows (pair, force on the first of the two)."""
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["id1", "id2", "fx", "fy", "fz"])
+        for (one, other), force in rows:
+            table.writerow([one + 1, other + 1, *(repr(float(f)) for f in force)])
