@@ -115,14 +115,21 @@ impl Places {
 /// Where contacts with a force are, each between its two centres; and the magnitudes of all forces, contact by contact.
 pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, Vec<f64>), Refusal> {
     let (mut points, mut forces) = (Vec::new(), Vec::new());
-    for (centres, contact) in pile.links()?.zip(pile.contacts()?) {
-        let force = contact?.force.abs();
-        if force > 0.0 {
+    for contact in pile.contacts()? {
+        forces.push(contact?.force.abs());
+    }
+    let greatest = forces.iter().copied().fold(0.0, f64::max);
+    for (centres, force) in pile.links()?.zip(&forces) {
+        if is_loaded(*force, greatest) {
             points.push(middle(&centres?));
         }
-        forces.push(force);
     }
     Ok((points, forces))
+}
+
+/// Whether a force, of several up to the greatest, tells where a contact is.
+pub(super) fn is_loaded(force: f64, greatest: f64) -> bool {
+    force > greatest * 1e-9
 }
 
 /// The point between two.

@@ -56,13 +56,7 @@ pub(crate) struct Verify {
     )]
     ladder: Option<LadderFiles>,
     /// What the numbers of --ladder are [default: stiffness]
-    #[arg(
-        long,
-        value_enum,
-        value_name = "WHAT",
-        requires = "ladder",
-        help_heading = "Ladder"
-    )]
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Ladder")]
     refine: Option<Refine>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
@@ -120,6 +114,10 @@ impl Verify {
         let is_stdin = |path: &PathBuf| path == Path::new("-");
         if self.measured.as_ref().is_some_and(is_stdin) && self.scene.is_from_stdin() {
             let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
+            return Err(Failure::Message(reason.into()));
+        }
+        if self.refine.is_some() && self.ladder.is_none() {
+            let reason = "--refine is of --ladder: name its files, or leave it out";
             return Err(Failure::Message(reason.into()));
         }
         let (scene, pile) = self.scene.read_state()?;

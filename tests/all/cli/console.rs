@@ -53,7 +53,7 @@ console! {
     scene: 11;
     spheres: 15;
     summary: 36;
-    tables: 8;
+    tables: 9;
     verify: 14;
 }
 
@@ -291,8 +291,8 @@ fn readme_shows_what_is_printed() {
 /// Commands that README only lists are run from the files.
 #[test]
 fn readme_lists_no_command_that_is_not_run() {
-    // What is read was written by LAMMPS or YADE; how long it took is printed.
-    let elsewhere = ["forces.dump", "forces.csv", "--layers 40"];
+    // What is read was written by LAMMPS, YADE or Siconos; how long it took is printed.
+    let elsewhere = ["forces.dump", "forces.csv", "siconos.csv", "--layers 40"];
     let mut run = String::new();
     for file in fs::read_dir(folder())
         .expect("commands")

@@ -193,12 +193,16 @@ fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
 #[test]
 fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
     let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
-    assert_eq!(Tally::merge(&[whole.clone()]).as_ref(), Ok(&whole));
+    assert_eq!(
+        Tally::merge(std::slice::from_ref(&whole)).as_ref(),
+        Ok(&whole)
+    );
     let refused = |name: &str, changed: Tally| {
         let found = Tally::merge(&[changed]);
         assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }), "{name}");
     };
-    let changes: [(&str, fn(&mut WithFaults)); 10] = [
+    type Change = fn(&mut WithFaults);
+    let changes: [(&str, Change); 10] = [
         ("another number of faults", |with| with.faults += 1),
         ("more stand than there are", |with| {
             with.standing.stackings = with.all.stackings.clone() + 1_u32;
@@ -272,7 +276,10 @@ fn a_file_of_another_fault_probability_is_refused() -> Result<(), Box<dyn std::e
 fn more_held_than_there_are_or_fewer_than_stand_is_refused() -> Result<(), Error> {
     let touching = ensemble("hexagon:1", 6)?.with_horizontal_contacts()?;
     let whole = touching.run(&Choice::All, Shard::WHOLE)?;
-    assert_eq!(Tally::merge(&[whole.clone()]).as_ref(), Ok(&whole));
+    assert_eq!(
+        Tally::merge(std::slice::from_ref(&whole)).as_ref(),
+        Ok(&whole)
+    );
     let row = &whole.faults[2];
     for held in [
         row.all.stackings.clone() + 1_u32,

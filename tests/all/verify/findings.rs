@@ -1,5 +1,7 @@
 //! What all differences have in common is named: a fault of each kind is planted.
 
+use std::fmt::Write;
+
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Stacking;
 use cannonpile::verify::{Finding, Measured, Reader};
@@ -157,7 +159,7 @@ fn what_is_left_on_a_sphere_is_added_up() {
         let mut table = String::from("id1,id2,force\n");
         for one in perfect(&packing) {
             let [a, b] = one.ids;
-            table += &format!("{a},{b},{:?}\n", one.force);
+            writeln!(table, "{a},{b},{:?}", one.force).unwrap();
         }
         let read = reader.compare(&packing, table.as_bytes()).unwrap();
         let unbalanced = read.unbalanced.unwrap();

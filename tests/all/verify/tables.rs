@@ -174,7 +174,7 @@ fn every_preset_reads_its_code() {
             let [a, b] = [centre(one), centre(other)];
             let point: Vec<f64> = a.iter().zip(b).map(|(x, y)| x.midpoint(y)).collect();
             let minus = vector.map(|x| -x);
-            table += &match preset {
+            let row = match preset {
                 Preset::Lammps => format!("{one},{other},{force:?},{}\n", joined(&vector, ",")),
                 Preset::Yade => format!("{},{},{force:?}\n", one - 1, other - 1),
                 Preset::DemEngine => {
@@ -203,6 +203,7 @@ fn every_preset_reads_its_code() {
                     joined(&b, ",")
                 ),
             };
+            table.push_str(&row);
         }
         let mut reader = Reader::of(preset);
         if preset == Preset::Mddem {
