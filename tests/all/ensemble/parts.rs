@@ -189,6 +189,9 @@ fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
     Ok(())
 }
 
+/// What is changed in the counts of a number of faults.
+type Change = fn(&mut WithFaults);
+
 /// As a file would have it in which numbers were changed by hand.
 #[test]
 fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
@@ -201,7 +204,6 @@ fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
         let found = Tally::merge(&[changed]);
         assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }), "{name}");
     };
-    type Change = fn(&mut WithFaults);
     let changes: [(&str, Change); 10] = [
         ("another number of faults", |with| with.faults += 1),
         ("more stand than there are", |with| {
