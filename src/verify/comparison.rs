@@ -45,7 +45,7 @@ impl Comparison {
     ///
     /// # Errors
     /// [`Refusal::Entry`] for a number that no sphere has, a sphere paired with itself, a pair that is there twice, and a
-    /// force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`] for more contacts than are kept;
+    /// force that is not finite. [`Refusal::Scene`] with [`Error::TooLarge`](crate::Error::TooLarge) for more contacts than are kept;
     /// [`Refusal::OutOfRange`] for exact forces beyond the normal `f64`.
     ///
     /// # Examples
