@@ -24,6 +24,11 @@
 //! * Where all measured forces are the exact ones times one factor, that factor is named: 9.81 for a simulation with
 //!   another gravity, −1 for forces with the other sign.
 //!
+//! # Other codes' tables
+//! A [`Reader`] compares a file while it reads it: columns of any names ([`Columns`]), of known codes ([`Preset`]), contacts by
+//! the numbers of the spheres or by where they are, in whatever [`Frame`]. [`Comparison::findings`] says what differences have
+//! in common, [`Unbalanced`] what is left on each sphere, a [`Ladder`] the observed order of accuracy of several runs.
+//!
 //! # Examples
 //! A test of a simulation in three lines:
 //! ```
@@ -40,6 +45,33 @@
 //! let comparison = Comparison::new(&packing, measured)?;
 //! assert!(comparison.accepted(1e-6), "{comparison}");
 //! # Ok::<(), cannonpile::verify::Refusal>(())
+//! ```
+//! A DEM in Rust tests itself with `cannonpile = { version = "0.1", features = ["export"] }` among its `[dev-dependencies]`:
+//! ```
+//! use cannonpile::verify::{Comparison, Measured};
+//! use cannonpile::{Packing, Pile};
+//! # /// One sphere on three that are fixed.
+//! # fn relax(centres: &[[f64; 3]]) -> Vec<(u64, u64, f64)> {
+//! #     let rise = (centres[0][2] - centres[1][2]) / 2.0;
+//! #     (2..=4).map(|below| (1, below, 1.0 / (3.0 * rise))).collect()
+//! # }
+//!
+//! # fn piles_bear_what_they_must() -> Result<(), Box<dyn std::error::Error>> {
+//! let pile = Pile::triangular(2)?;
+//! // R = 1 m, m = 1 kg, g = 1 m/s²; the bottom layer is fixed.
+//! let packing = Packing::new(&pile, &"1.2".parse()?)?;
+//! let exact = pile.shape().sites().map(|site| packing.position(site));
+//! let centres = exact.map(|centre| Ok(centre?.map(|x| x.nearest().unwrap_or(f64::NAN))));
+//! let centres = centres.collect::<Result<Vec<[f64; 3]>, cannonpile::Error>>()?;
+//!
+//! let contacts = relax(&centres); // your code
+//!
+//! let measured = contacts.into_iter().map(|(id1, id2, force)| Measured::new([id1, id2], force));
+//! let comparison = Comparison::new(&packing, measured)?;
+//! assert!(comparison.accepted(1e-6), "{comparison}");
+//! # Ok(())
+//! # }
+//! # piles_bear_what_they_must().unwrap();
 //! ```
 
 mod columns;

@@ -176,6 +176,9 @@ pub fn measured(bytes: &[u8]) -> Corpus {
         bytes,
         &[
             claims::measured::any_file,
+            claims::ladder::any_record,
+            claims::ladder::any_rungs,
+            claims::ladder::planted,
             claims::measured::any_table,
             claims::measured::by_place,
             claims::measured::a_file,

@@ -1,7 +1,8 @@
 //! Tables as codes write them: their separators, comments, columns, signs, kinds of contacts and first numbers.
 
 use cannonpile::Pile;
-use cannonpile::verify::{Columns, Compared, Preset, Reader, Refusal};
+use cannonpile::shape::Selection;
+use cannonpile::verify::{Columns, Compared, Measured, Preset, Reader, Refusal};
 
 use super::{packing, perfect, ratio};
 
@@ -141,88 +142,83 @@ fn what_is_not_a_table_is_refused_with_the_remedy() {
     }
 }
 
+fn joined(numbers: &[f64]) -> String {
+    let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+    texts.join(",")
+}
+
+/// A contact as a code writes it.
+fn row(preset: Preset, measured: &Measured, centres: &[[f64; 3]]) -> String {
+    let ([one, other], force) = (measured.ids, measured.force);
+    let vector = measured.vector.unwrap();
+    let [a, b] = [one, other].map(|id| centres[usize::try_from(id - 1).unwrap()]);
+    let point = joined(&[0, 1, 2].map(|x: usize| a[x].midpoint(b[x])));
+    // Numbers of its own.
+    let [n, m] = [50 - one, 50 - other];
+    match preset {
+        Preset::Lammps => format!("{one},{other},{force:?},{}\n", joined(&vector)),
+        Preset::Yade => format!("{},{},{force:?}\n", one - 1, other - 1),
+        Preset::DemEngine => format!("SS,{n},{m},{},{point}\n", joined(&vector)),
+        Preset::Mddem => format!("{one},{other},{:?},{point},0,0,1\n", force / 1024.0),
+        _ => {
+            let minus = joined(&vector.map(|x| -x));
+            let (a, b) = (joined(&a), joined(&b));
+            format!("{n},{m},0,0,0,-1e-6,{point},{minus},0,0,0,{a},{b}\n")
+        }
+    }
+}
+
+/// What stands before the contacts, a contact with a wall among it; none for a code that writes no tables.
+fn head(preset: Preset) -> Option<&'static str> {
+    Some(match preset {
+        Preset::Lammps => "patom1,patom2,force,fx,fy,fz\n",
+        Preset::Yade => "id1,id2,force\n",
+        Preset::DemEngine => "contact_type,A,B,f_x,f_y,f_z,X,Y,Z\nSM,1,2,0,0,1,0,0,9\n",
+        Preset::Mddem => "i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz\n",
+        Preset::ExaDem => "0,0,0,0,5,-1,0,0,9,1,0,0,0,0,0,0,0,8,0,0,0\n",
+        _ => return None,
+    })
+}
+
 #[test]
-fn every_preset_reads_its_code() {
+fn every_preset_reads_its_code_and_finds_a_fault_in_it() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(11, 10));
-    let centres: Vec<[f64; 3]> = packing
-        .positions(cannonpile::shape::Selection::All)
-        .unwrap()
+    let places = packing.positions(Selection::All).unwrap();
+    let centres: Vec<[f64; 3]> = places
         .map(|place| place.unwrap().map(|x| x.nearest::<f64>().unwrap()))
         .collect();
-    let centre = |id: u64| centres[usize::try_from(id - 1).unwrap()];
-    let joined = |numbers: &[f64], gap: &str| {
-        let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
-        texts.join(gap)
-    };
     for preset in Preset::ALL {
-        let mut table = match preset {
-            Preset::Lammps => "patom1,patom2,force,fx,fy,fz\n",
-            Preset::Yade => "id1,id2,force\n",
-            Preset::DemEngine => "contact_type,A,B,f_x,f_y,f_z,X,Y,Z\nSM,1,2,0,0,1,0,0,9\n",
-            Preset::Mddem => "i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz\n",
-            Preset::ExaDem => "0,0,0,0,5,-1,0,0,9,1,0,0,0,0,0,0,0,8,0,0,0\n",
-            _ => continue,
-        }
-        .to_owned();
-        let mut swap = false;
-        for measured in perfect(&packing) {
-            swap = !swap;
-            let measured = if swap { measured.reversed() } else { measured };
-            let ([one, other], force) = (measured.ids, measured.force);
-            let vector = measured.vector.unwrap();
-            let [a, b] = [centre(one), centre(other)];
-            let point: Vec<f64> = a.iter().zip(b).map(|(x, y)| x.midpoint(y)).collect();
-            let minus = vector.map(|x| -x);
-            let row = match preset {
-                Preset::Lammps => format!("{one},{other},{force:?},{}\n", joined(&vector, ",")),
-                Preset::Yade => format!("{},{},{force:?}\n", one - 1, other - 1),
-                Preset::DemEngine => {
-                    format!(
-                        "SS,{},{},{},{}\n",
-                        50 - one,
-                        50 - other,
-                        joined(&vector, ","),
-                        joined(&point, ",")
-                    )
-                }
-                Preset::Mddem => {
-                    format!(
-                        "{one},{other},{:?},{},0,0,1\n",
-                        force / 1024.0,
-                        joined(&point, ",")
-                    )
-                }
-                _ => format!(
-                    "{},{},0,0,0,-1e-6,{},{},0,0,0,{},{}\n",
-                    50 - one,
-                    50 - other,
-                    joined(&point, ","),
-                    joined(&minus, ","),
-                    joined(&a, ","),
-                    joined(&b, ",")
-                ),
-            };
-            table.push_str(&row);
-        }
+        let Some(head) = head(preset) else { continue };
         let mut reader = Reader::of(preset);
         if preset == Preset::Mddem {
-            reader =
-                reader.with_columns(preset.columns().overridden(&columns("force=1024*overlap")));
+            let spring = columns("force=1024*overlap");
+            reader = reader.with_columns(preset.columns().overridden(&spring));
         }
-        let read = reader.compare(&packing, table.as_bytes()).unwrap();
-        assert!(
-            read.comparison.accepted(1e-12),
-            "{preset}: {}",
-            read.comparison
-        );
-        assert_eq!(
-            read.comparison.matched(),
-            read.comparison.contacts(),
-            "{preset}"
-        );
+        let mut measured = perfect(&packing);
+        for swapped in measured.iter_mut().step_by(2) {
+            *swapped = swapped.reversed();
+        }
+        let compare = |measured: &[Measured]| {
+            let rows = measured.iter().map(|one| row(preset, one, &centres));
+            let table = head.to_owned() + &rows.collect::<String>();
+            reader.compare(&packing, table.as_bytes()).unwrap()
+        };
+        let read = compare(&measured);
+        let comparison = &read.comparison;
+        assert!(comparison.accepted(1e-12), "{preset}: {comparison}");
+        assert_eq!(comparison.matched(), comparison.contacts(), "{preset}");
         assert_eq!(read.frame, None, "{preset}");
         let walls = matches!(preset, Preset::DemEngine | Preset::ExaDem);
         assert_eq!(read.walls, u64::from(walls), "{preset}");
+        // One force is wrong.
+        let wrong = &mut measured[7];
+        wrong.force *= 1.001;
+        wrong.vector = wrong.vector.map(|vector| vector.map(|x| x * 1.001));
+        let [one, other] = wrong.ids;
+        let comparison = compare(&measured).comparison;
+        assert_eq!(comparison.beyond(1e-6), 1, "{preset}: {comparison}");
+        let worst = comparison.worst().unwrap();
+        assert_eq!(worst.ids, [one.min(other), one.max(other)], "{preset}");
     }
 }
