@@ -154,21 +154,17 @@ impl<'p> Ledger<'p> {
         mut self,
         with_balance: bool,
     ) -> Result<(Judged, Option<Unbalanced>), Refusal> {
-        let out_of_range = |error| match error {
-            Error::Overflow { .. } => Refusal::OutOfRange,
-            error => error.into(),
-        };
         let strays = self.strays.values();
         let with_vectors =
             !self.vectors.is_empty() || strays.clone().any(|(stray, _)| stray.vector.is_some());
         let mut tally = Tally::new(&self.numbered, with_vectors);
         let balance = with_balance.then(|| Balance::new(&self.numbered));
         let mut balance = balance.transpose()?;
-        let contacts = self.numbered.contacts().map_err(out_of_range)?;
+        let contacts = self.numbered.contacts().map_err(Refusal::of_forces)?;
         // Errors take the places of forces that have been read.
         let mut errors = 0;
         for (slot, contact) in contacts.enumerate() {
-            let contact = contact.map_err(out_of_range)?.in_order();
+            let contact = contact.map_err(Refusal::of_forces)?.in_order();
             let force = self.forces.get(slot).copied();
             let vector = self.vectors.get(slot).copied();
             let vector = vector.filter(|[x, ..]| !x.is_nan());

@@ -115,8 +115,8 @@ impl Places {
 /// Where contacts with a force are, each between its two centres; and the magnitudes of all forces, contact by contact.
 pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, Vec<f64>), Refusal> {
     let (mut points, mut forces) = (Vec::new(), Vec::new());
-    for contact in pile.contacts()? {
-        forces.push(contact?.force.abs());
+    for contact in pile.contacts().map_err(Refusal::of_forces)? {
+        forces.push(contact.map_err(Refusal::of_forces)?.force.abs());
     }
     let greatest = forces.iter().copied().fold(0.0, f64::max);
     for (centres, force) in pile.links()?.zip(&forces) {

@@ -289,6 +289,16 @@ impl From<io::Error> for Refusal {
     }
 }
 
+impl Refusal {
+    /// Why there are no exact forces to compare with.
+    pub(super) fn of_forces(error: Error) -> Self {
+        match error {
+            Error::Overflow { .. } => Self::OutOfRange,
+            error => error.into(),
+        }
+    }
+}
+
 impl Fault {
     /// At a line.
     pub(super) fn at(self, line: u64) -> Refusal {
