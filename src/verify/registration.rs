@@ -42,12 +42,15 @@ impl Fit {
             return self.found > other.found;
         }
         let nearer = other.off - self.off;
-        nearer > NOTABLE || (nearer > -NOTABLE && self.unlike + NOTABLE < other.unlike)
+        nearer > NOTABLE || (nearer > -NOTABLE && self.unlike + ROUNDED < other.unlike / 2.0)
     }
 }
 
-/// A mean distance that tells one frame from another, in R, or a share of all forces.
+/// A mean distance that tells one frame from another, in R.
 const NOTABLE: f64 = 0.01;
+
+/// What rounding may change in the shares of forces.
+const ROUNDED: f64 = 1e-9;
 
 /// A place of a table, and the magnitude of the force there.
 pub(super) type Loaded = (Place, f64);
