@@ -144,7 +144,7 @@ pub fn wave<T: Algebra>(q: &T) -> [T; 2] {
 /// use cannonpile::formula::registry_excess;
 ///
 /// // FCC: the registries follow each other, 0, 1, 2.
-/// let [here, elsewhere] = [2.0 / 3.0, -1.0 / 3.0];
+/// let [here, elsewhere] = [2.0_f64 / 3.0, -1.0 / 3.0];
 /// assert_eq!(registry_excess(&here, &elsewhere, &0.0), elsewhere);
 /// assert!((registry_excess(&elsewhere, &elsewhere, &0.0) - here).abs() < 1e-15);
 /// ```

@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 use super::entry::{Entry, Place, Sink};
 use super::frame::Frame;
 use super::ledger::Ledger;
-use super::places::{Places, is_loaded, loaded_points};
+use super::places::{Places, loaded_points};
 use super::refusal::Refusal;
 use super::registration::{self, Exact, moved};
 
@@ -59,13 +59,10 @@ impl<'p> Gathering<'p> {
     }
 
     fn frame(&self, kept: &[Row]) -> Result<Frame, Refusal> {
-        let greatest = kept
+        let table: Vec<_> = kept
             .iter()
-            .fold(0.0_f64, |most, row| most.max(row.magnitude()));
-        let loaded = kept
-            .iter()
-            .filter(|row| is_loaded(row.magnitude(), greatest));
-        let table: Vec<_> = loaded.map(|row| (row.place, row.magnitude())).collect();
+            .map(|row| (row.place, row.magnitude()))
+            .collect();
         let (points, forces) = loaded_points(self.ledger.numbered())?;
         let exact = Exact {
             points: &points,

@@ -127,9 +127,9 @@ pub(super) fn loaded_points(pile: &NumberedPile<'_>) -> Result<(Vec<[f64; 3]>, V
     Ok((points, forces))
 }
 
-/// Whether a force, of several up to the greatest, tells where a contact is.
+/// Whether a force, of several up to the greatest, tells where a contact is; each does where there is none.
 pub(super) fn is_loaded(force: f64, greatest: f64) -> bool {
-    force > greatest * 1e-9
+    force >= greatest * 1e-9
 }
 
 /// The point between two.

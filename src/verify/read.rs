@@ -218,7 +218,7 @@ impl Reader {
     ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let table = "id1,id2,fx,fy,fz\n1,2,0,0,0.3\n1,3,0,0,0.3\n1,4,0,0,0.4\n";
+    /// let table = "id1,id2,fx,fy,fz\n1,2,0,0,0.25\n1,3,0,0,0.25\n1,4,0,0,0.5\n";
     /// let read = Reader::new().with_balance().compare(&packing, table.as_bytes())?;
     /// assert_eq!(read.unbalanced.unwrap().to_string(), "0.0 N at sphere 1");
     /// # Ok::<(), cannonpile::verify::Refusal>(())
@@ -236,7 +236,7 @@ impl Reader {
     /// semicolons, tabs or blanks.
     ///
     /// Memory does not grow with the file: it is eight bytes a contact of the pile, 24 more where there are vectors. By place
-    /// it is 24 a sphere more for the search, and where the frame is another one, 96 a row.
+    /// it is some 60 a sphere more for the search, and where the frame is another one, 250 a row.
     ///
     /// # Errors
     /// [`Refusal::Line`] for what cannot be read, the number of a sphere that the pile has not got, a pair that is there

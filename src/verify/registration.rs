@@ -11,14 +11,14 @@ use core::f64::consts::PI;
 use super::entry::Place;
 use super::finding::Axis;
 use super::frame::Frame;
-use super::places::{Places, middle, minus};
+use super::places::{Places, is_loaded, middle, minus};
 
 /// How many places are looked up to judge a frame, and to fit one.
 const SAMPLE: usize = 200;
 const FITTED: usize = 5000;
 
 /// How many turns are tried for one vertical.
-const MOST_TURNS: usize = 24;
+const MOST_TURNS: usize = 200;
 
 /// Angles this near to a multiple of 30° are that multiple, and shifts this near to nothing, in R, are none: spheres give
 /// way by more.
@@ -62,7 +62,7 @@ pub(super) struct Exact<'e> {
     pub(super) force: &'e dyn Fn([u64; 2]) -> f64,
 }
 
-/// Finds the frame of a table in which these places have a force.
+/// Finds the frame of a table with these places.
 pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64) -> Fit {
     let places = pile.places;
     let sample = spread(table, SAMPLE);
@@ -88,7 +88,13 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
     if own.found == own.sample {
         return own;
     }
-    let points: Vec<[f64; 3]> = table.iter().map(|(place, _)| point(place)).collect();
+    let greatest = table
+        .iter()
+        .fold(0.0_f64, |most, (_, force)| most.max(*force));
+    let loaded = table
+        .iter()
+        .filter(|(_, force)| is_loaded(*force, greatest));
+    let points: Vec<[f64; 3]> = loaded.map(|(place, _)| point(place)).collect();
     // A shift by missing contacts is less than this.
     let near = (radius / 2.0).max(within);
     let mut best = judge(Frame::OWN, near);

@@ -27,7 +27,8 @@ const SHOWN: usize = 5;
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::verify::{Comparison, Measured, Report};
 /// use cannonpile::{Packing, Pile};
-/// ///
+/// use num_rational::BigRational;
+///
 /// let pile = Pile::triangular(2)?;
 /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
 /// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 0.46225016352102427));
@@ -68,7 +69,8 @@ impl<'c> Report<'c> {
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::verify::{Comparison, Measured, Report};
     /// use cannonpile::{Packing, Pile};
-    ///     ///
+    /// use num_rational::BigRational;
+    ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let comparison = Comparison::new(&packing, [2, 3, 4].map(|id| Measured::new([1, id], 0.462)))?;
@@ -161,7 +163,8 @@ impl<'c> Report<'c> {
     /// use cannonpile::geometry::Spacing;
     /// use cannonpile::verify::{Comparison, Measured, Report};
     /// use cannonpile::{Packing, Pile};
-    ///     ///
+    /// use num_rational::BigRational;
+    ///
     /// let pile = Pile::triangular(2)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let comparison = Comparison::new(&packing, [Measured::new([1, 3], 0.46)])?;
