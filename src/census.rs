@@ -37,6 +37,7 @@ use core::marker::PhantomData;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 
+use crate::engine::check_interrupt;
 use crate::lattice::{Region, Sign};
 use crate::stacking::{Run, Stacking};
 use crate::{Error, Pile, Standing};
@@ -206,6 +207,7 @@ impl<E: Judged> Search<E> {
     /// The entry of a beginning: itself carried to all layers, if its last change of sign stands, with the longer
     /// beginnings put in line; or its failure.
     fn visit(&mut self, beginning: Beginning) -> Result<Option<E>, Error> {
+        check_interrupt()?;
         if !beginning.0.is_empty() {
             let first_step = E::judge(beginning.pile(1)?)?;
             if !first_step.stands() {

@@ -1,7 +1,7 @@
-//! A whole pile as files: for spreadsheets, LAMMPS, ParaView, YADE; as a benchmark card, and as a test for the suites of LAMMPS and
-//! YADE.
+//! A whole pile as files: for spreadsheets, LAMMPS, ParaView, YADE; as a benchmark card, as a test for the suites of LAMMPS and
+//! YADE, and as a page for a browser.
 //!
-//! A [`PileExport`] writes them; a [`NumberedPile`] is what they have in common: the numbers of the spheres, and the
+//! A [`PileExport`] writes them, a [`Page`] the last alone; a [`NumberedPile`] is what they have in common: the numbers of the spheres, and the
 //! contacts between them with their forces as floats. A [`Compliance`] says how far the forces of a code with springs are
 //! from these.
 //!
@@ -25,15 +25,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrays;
 mod card;
 mod compliance;
 mod csv;
 mod export;
 mod file;
-mod folder;
+mod grown;
 mod lammps;
 mod lammps_test;
 mod numbered;
+mod page;
 mod polydata;
 mod springs;
 mod suite;
@@ -44,8 +46,12 @@ mod weights;
 mod yade;
 mod yade_check;
 
+pub use arrays::PileArrays;
 pub use card::CardTitle;
 pub use compliance::{Compliance, NoCompliance, SoftContact};
 pub use export::PileExport;
 pub use file::{PileFile, PileFormat, Written, files};
+#[cfg(feature = "plot")]
+pub(crate) use grown::{anchor, brief, stacking};
 pub use numbered::{NumberedContact, NumberedPile};
+pub use page::Page;

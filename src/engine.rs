@@ -13,6 +13,7 @@
 mod cells;
 mod ends;
 mod grid;
+mod interrupt;
 mod limbs;
 mod lines;
 mod meter;
@@ -29,12 +30,17 @@ mod tree;
 
 pub(crate) use cells::Cells;
 pub(crate) use grid::{Grid, MAX_NUMBERS};
+#[cfg(feature = "std")]
+pub use interrupt::Interrupt;
+pub(crate) use interrupt::check as check_interrupt;
 pub(crate) use limbs::Planes;
 pub(crate) use lines::{Lines, Received};
 pub use meter::{Counters, Meter};
 pub(crate) use nearest::{Readout, Unit};
 #[cfg(feature = "ensemble")]
 pub(crate) use parallel::try_for_each;
+#[cfg(feature = "horizontal")]
+pub(crate) use parallel::{map, threads};
 pub use plan::Plan;
 pub(crate) use plan::{Keeping, trees_are_cheaper};
 pub use question::{Method, Quantity, Question};

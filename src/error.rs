@@ -338,6 +338,8 @@ pub enum Error {
         /// The equations of balance that it has.
         equations: usize,
     },
+    /// Work that was asked to end, by an `Interrupt`.
+    Interrupted,
     /// Something that cannot be, by the named invariant: a fault of this library and of no input.
     Bug {
         /// What was to hold, and does not.

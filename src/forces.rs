@@ -486,9 +486,10 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn contact_direction(&self, site: Site, direction: Direction) -> Result<Vector<T>, Error> {
-        self.check_contact(site, direction)?;
-        let along = of_direction(self.terms.directions_below(site.k), direction).into_array();
-        let [x, y, z] = edge_all("a direction", along, &self.terms.direction_scale)?;
+        let along = self
+            .contact_direction_numerators(site, direction)?
+            .into_array();
+        let [x, y, z] = edge_all("a direction", along, self.direction_scale())?;
         Ok(Vector { x, y, z })
     }
 
@@ -610,21 +611,36 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn position(&self, site: Site) -> Result<Vector<T>, Error> {
+        let r = self.position_numerators(site)?.into_array();
+        let [x, y, z] = edge_all("a position", r, self.direction_scale())?;
+        Ok(Vector { x, y, z })
+    }
+
+    /// As [`position`](Self::position), over the scale of directions.
+    pub(crate) fn position_numerators(&self, site: Site) -> Result<Vector<T::Numerator>, Error> {
         let Site { i, j, k } = self.pile.shape().check(site)?;
         let across = self.pile.shape().shift_from_origin(k);
         let counts = count::above(&i, &j, &across).map(T::Numerator::from_i128);
-        let Terms {
-            directions,
-            direction_scale: scale,
-            ..
-        } = &self.terms;
-        let z = T::Numerator::from_i128(k) * scale;
-        let r = Vector {
+        let z = T::Numerator::from_i128(k) * self.direction_scale();
+        Ok(Vector {
             z,
-            ..position(&counts, directions)
-        };
-        let [x, y, z] = edge_all("a position", r.into_array(), scale)?;
-        Ok(Vector { x, y, z })
+            ..position(&counts, &self.terms.directions)
+        })
+    }
+
+    /// As [`contact_direction`](Self::contact_direction), over the scale of directions.
+    pub(crate) fn contact_direction_numerators(
+        &self,
+        site: Site,
+        direction: Direction,
+    ) -> Result<Vector<T::Numerator>, Error> {
+        self.check_contact(site, direction)?;
+        Ok(of_direction(self.terms.directions_below(site.k), direction))
+    }
+
+    /// What the numerators of directions and positions are over.
+    pub(crate) fn direction_scale(&self) -> &T::Numerator {
+        &self.terms.direction_scale
     }
 
     /// What is left over of all forces on a sphere, in f₀: the zero vector in an exact scalar. A bottom

@@ -22,6 +22,7 @@
 mod base;
 mod bounds;
 pub mod census;
+mod edge;
 mod elastic;
 mod exact;
 mod network;

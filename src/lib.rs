@@ -65,11 +65,12 @@
 //! | what the piles of all stackings bear in the mean, at any fault probability | [`disorder`] |
 //! | whether a pile stands with horizontal contacts (a = R), and which do | `Pile::equilibrium`, `horizontal::census` |
 //! | whether forces with horizontal contacts (a = R) are what somebody says, checked anew | [`certificate`] |
-//! | what is proved for every pile | [`theorem`] |
+//! | what is proved for every pile | [`theorem`]; for Coq to check, `proof` |
+//! | to end what takes too long | `Interrupt` |
 //! | how a question is answered, and what that takes | [`Pile::plan`], [`Counters`] |
 //! | a pile as a user describes it | [`scene::Scene`] |
 //! | benchmark cases with names that others can quote | `scene::cases` (feature `toml`) |
-//! | tables; files for LAMMPS, YADE, ParaView; a comparison with measured forces; figures | `table`, `dem`, `verify`, `figure` |
+//! | tables; files for LAMMPS, YADE, ParaView, a page for a browser; a comparison with measured forces; figures | `table`, `dem`, `verify`, `figure` |
 //!
 //! No one has to choose a method: the plan does. A pile equal to another is the same pile.
 //!
@@ -91,7 +92,7 @@
 //! | | [`certificate`] | what is claimed of horizontal contacts, and its checker |
 //! | | [`disorder`] | random stackings |
 //! | | [`theorem`] | what is proved for every pile: of [`formula`], and of nothing else |
-//! | tools | [`scene`], `serde`, `table`, `dem`, `verify`, `figure` | files in and out, pictures; each behind a feature |
+//! | tools | [`scene`], `serde`, `table`, `dem`, `verify`, `figure`, `proof` | files in and out, pictures; each behind a feature |
 //! | roof | [`Error`] | what can be wrong with a question, and [which input](Culprit) is to blame |
 //!
 //! From the paper to the code: [`paper`] lists its equations by their printed numbers, and the mathematics that goes beyond.
@@ -145,6 +146,9 @@ mod packing;
 #[doc = include_str!("paper.md")]
 pub mod paper {}
 mod pile;
+#[cfg(feature = "export")]
+#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
+pub mod proof;
 pub mod scalar;
 pub mod scene;
 #[cfg(feature = "serde")]
@@ -161,6 +165,9 @@ pub mod theorem;
 #[cfg_attr(docsrs, doc(cfg(feature = "export")))]
 pub mod verify;
 
+#[cfg(feature = "std")]
+#[cfg_attr(docsrs, doc(cfg(feature = "std")))]
+pub use engine::Interrupt;
 pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
 pub use error::{Culprit, Error};
 pub use forces::{

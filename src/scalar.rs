@@ -20,6 +20,7 @@
 //! | [`DoubleDouble`] | [`Rounded`](Exactness::Rounded) | twice the digits of `f64` |
 //! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | bounds that hold the true value |
 //! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proof for every pile at once |
+//! | [`Expression`] | [`ExactOrFault`](Exactness::ExactOrFault) | formulas written down as they run, for other programs to check |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
 //!
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
@@ -48,6 +49,7 @@ macro_rules! by_value {
 
 mod double_double;
 mod error_free;
+mod expression;
 mod fixed;
 mod float;
 mod interval;
@@ -62,6 +64,7 @@ pub(crate) mod serde;
 mod surd;
 
 pub use double_double::DoubleDouble;
+pub use expression::{Expression, Operation};
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
 pub use nearest::NearestFloat;

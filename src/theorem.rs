@@ -144,7 +144,7 @@ impl Theorem {
     /// use cannonpile::theorem::{self, Formulas};
     ///
     /// // Sphere counts that leave out the floor.
-    /// let wrong = Formulas {
+    /// let wrong: Formulas = Formulas {
     ///     spheres: |layers, d| (Formulas::LIBRARY.spheres)(&(layers.clone() - &num_traits::one()), d),
     ///     ..Formulas::LIBRARY
     /// };

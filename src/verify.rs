@@ -74,6 +74,7 @@
 //! # piles_bear_what_they_must().unwrap();
 //! ```
 
+mod axes;
 mod columns;
 mod comparison;
 mod csv_file;
@@ -88,6 +89,7 @@ mod ladder;
 mod ledger;
 mod lines;
 mod measured;
+mod placed;
 mod places;
 mod preset;
 mod read;
@@ -102,18 +104,21 @@ mod unbalanced;
 mod vtk_array;
 mod vtk_file;
 
+pub use axes::{Axes, Coordinate, TableAxis};
 pub use columns::Columns;
 pub use comparison::Comparison;
 pub use csv_file::read_csv;
 pub use difference::{Difference, Extra};
 pub use dump::read_dump;
-pub use finding::{Axis, Finding};
+pub use entry::Force;
+pub use finding::Finding;
 pub use frame::Frame;
 pub use ladder::{
     Fit, Ladder, LadderFile, LadderFiles, LadderReport, Limit, MAX_RUNGS, NoLadder, NoLadderFiles,
     NoOrder, Norm, Refinement, Rung, RungPlace,
 };
 pub use measured::{MAX_ENTRIES, Measured};
+pub use placed::Placed;
 pub use preset::Preset;
 pub use read::{Compared, Reader, read};
 pub use reading::Reading;

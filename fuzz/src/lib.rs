@@ -169,7 +169,8 @@ pub fn mean(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Measured forces are read as they were written or refused, exact ones accepted, and a planted fault is found.
+/// Measured forces are read as they were written or refused, exact ones accepted, and a planted fault is found; ladders of
+/// runs have the order that they were made with, and records of them are read back or refused.
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {
     all_hold(
@@ -185,6 +186,12 @@ pub fn measured(bytes: &[u8]) -> Corpus {
             claims::measured::planted,
         ],
     )
+}
+
+/// What is written for Coq is what the formulas give in rationals.
+#[must_use]
+pub fn recorded(bytes: &[u8]) -> Corpus {
+    all_hold(bytes, &[claims::recorded::any_values])
 }
 
 /// Polynomials compute what their values compute.

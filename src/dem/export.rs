@@ -8,9 +8,9 @@ use num_bigint::BigUint;
 use super::card::CardTitle;
 use super::file::{PileFile, PileFormat, Written};
 use super::numbered::NumberedPile;
-use super::{card, csv, folder, lammps, lammps_test, vtp, yade, yade_check};
+use super::{card, csv, lammps, lammps_test, page, vtp, yade, yade_check};
 use crate::shape::{Numbering, Selection};
-use crate::table::{Progress, WriteError};
+use crate::table::{Progress, WriteError, write_all};
 use crate::{Error, Packing};
 
 /// A pile to be written as files.
@@ -191,6 +191,7 @@ impl<'p> PileExport<'p> {
             | PileFile::CardJson
             | PileFile::LammpsTest
             | PileFile::YadeCheck
+            | PileFile::Page
             | PileFile::Scene => None,
         }
     }
@@ -200,8 +201,8 @@ impl<'p> PileExport<'p> {
     ///
     /// # Errors
     /// [`WriteError::Answer`] with [`Error::Overflow`] if a number does not fit in an `f64`, with [`Error::TooLarge`] or
-    /// [`Error::MustPull`] if a test of a suite would be too large, or of no state at rest; [`WriteError::Io`] if the
-    /// output refuses.
+    /// [`Error::MustPull`] if a test of a suite would be too large, or of no state at rest, with [`Error::TooManyMarks`] if a
+    /// page would; [`WriteError::Io`] if the output refuses.
     ///
     /// # Examples
     /// ```
@@ -250,6 +251,7 @@ impl<'p> PileExport<'p> {
                 lammps_test::write(pile, &card::heading(pile, &self.title), out)
             }
             PileFile::YadeCheck => yade_check::write(pile, &card::heading(pile, &self.title), out),
+            PileFile::Page => page::write(pile, &self.title, self.scene.as_deref(), out),
             PileFile::Scene => Ok(out.write_all(self.scene.as_deref().unwrap_or("").as_bytes())?),
         }
     }
@@ -275,7 +277,7 @@ impl<'p> PileExport<'p> {
     /// let folder = tempfile::tempdir()?;
     /// let new = folder.path().join("new/pile");
     /// let written = PileExport::new(&packing)?.write(&PileFormat::ALL, &new, &mut |_| {})?;
-    /// assert_eq!((written.len(), new.read_dir()?.count()), (14, 14));
+    /// assert_eq!((written.len(), new.read_dir()?.count()), (15, 15));
     /// for file in written {
     ///     assert_eq!(file.path.metadata()?.len(), file.bytes);
     /// }
@@ -296,7 +298,7 @@ impl<'p> PileExport<'p> {
         let files: Vec<_> = files.map(|file| (file, folder.join(file.name()))).collect();
         let mut left = files.iter();
         let paths = files.iter().map(|(_, path)| path);
-        let bytes = folder::write_all(folder, paths, |out| match left.next() {
+        let bytes = write_all(folder, paths, |out| match left.next() {
             Some((file, _)) => self.write_file(*file, out, progress),
             None => Ok(()),
         })?;

@@ -33,11 +33,13 @@ pub enum PileFormat {
     /// The suite of YADE: `checkPile.py`, a check in the style of `scripts/checks-and-tests/checks`, of up to 2000 spheres; of a
     /// pile that cannot stand it checks that contacts are lost.
     YadeCheck,
+    /// A browser: `pile.html`, a [page](super::Page) to look into the pile, of up to 100 000 spheres.
+    Html,
 }
 
 impl PileFormat {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Csv,
         Self::Lammps,
         Self::Vtp,
@@ -45,6 +47,7 @@ impl PileFormat {
         Self::Card,
         Self::LammpsTest,
         Self::YadeCheck,
+        Self::Html,
     ];
 
     /// Its files, in the order in which they are written.
@@ -54,7 +57,7 @@ impl PileFormat {
     /// use cannonpile::dem::{PileFile, PileFormat};
     ///
     /// assert_eq!(PileFormat::Yade.files(), [PileFile::YadeSpheres, PileFile::YadeScript]);
-    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2, 1, 1]);
+    /// assert_eq!(PileFormat::ALL.map(|format| format.files().len()), [4, 2, 2, 2, 2, 1, 1, 1]);
     /// ```
     #[must_use]
     pub const fn files(self) -> &'static [PileFile] {
@@ -71,6 +74,7 @@ impl PileFormat {
             Self::Card => &[PileFile::CardMarkdown, PileFile::CardJson],
             Self::LammpsTest => &[PileFile::LammpsTest],
             Self::YadeCheck => &[PileFile::YadeCheck],
+            Self::Html => &[PileFile::Page],
         }
     }
 }
@@ -113,6 +117,8 @@ pub enum PileFile {
     LammpsTest,
     /// `checkPile.py`: the pile and its forces; raises `YadeCheckError` with the worst contact.
     YadeCheck,
+    /// `pile.html`: a [`Page`](super::Page).
+    Page,
     /// `scene.toml`: the scene that the pile was made of, written with any format if it is
     /// [given](super::PileExport::with_scene).
     Scene,
@@ -144,6 +150,7 @@ impl PileFile {
             Self::CardJson => "card.json",
             Self::LammpsTest => "dem-pile.yaml",
             Self::YadeCheck => "checkPile.py",
+            Self::Page => "pile.html",
             Self::Scene => "scene.toml",
         }
     }
@@ -156,7 +163,7 @@ pub struct Written {
     pub file: PileFile,
     /// Where it is.
     pub path: PathBuf,
-    /// Its spheres or contacts; none in a script, a card, a scene, or a list of columns.
+    /// Its spheres or contacts; none in a script, a card, a page, a scene, or a list of columns.
     pub rows: Option<u64>,
     /// Its size.
     pub bytes: u64,

@@ -312,27 +312,9 @@ impl<'p> NumberedPile<'p> {
         Ok(rows.map(|row| self.linked(&row)))
     }
 
-    /// The numbers of a row of spheres, and of those below: along a row they follow each other.
+    /// The numbers of a row of spheres, and of those below.
     fn linked(&self, row: &Row) -> Result<LinkedRow, Error> {
-        let (shape, numbering) = (self.pile().shape(), &self.numbering);
-        let at = |i| Site {
-            i,
-            j: row.j,
-            k: row.k,
-        };
-        let first = at(row.i.start);
-        let upper = numbering.id(first)?;
-        let below = shape.dimension().directions().iter().map(|direction| {
-            let below = shape.below(first, *direction);
-            let below = below.ok_or(Error::OnFloor { site: first })?;
-            Ok((*direction, numbering.id(below)?))
-        });
-        Ok(LinkedRow {
-            first,
-            upper,
-            spheres: numbering.id(at(row.i.end - 1))? - upper + 1,
-            below: below.collect::<Result<_, Error>>()?,
-        })
+        LinkedRow::of(&self.numbering, row)
     }
 
     /// The contacts of a row of spheres with those below.
@@ -397,6 +379,31 @@ impl<'p> NumberedPile<'p> {
     }
 }
 
+impl LinkedRow {
+    /// The numbers of a row of spheres, and of those below: along a row they follow each other.
+    pub(super) fn of(numbering: &Numbering<'_>, row: &Row) -> Result<Self, Error> {
+        let shape = numbering.shape();
+        let at = |i| Site {
+            i,
+            j: row.j,
+            k: row.k,
+        };
+        let first = at(row.i.start);
+        let upper = numbering.id(first)?;
+        let below = shape.dimension().directions().iter().map(|direction| {
+            let below = shape.below(first, *direction);
+            let below = below.ok_or(Error::OnFloor { site: first })?;
+            Ok((*direction, numbering.id(below)?))
+        });
+        Ok(Self {
+            first,
+            upper,
+            spheres: numbering.id(at(row.i.end - 1))? - upper + 1,
+            below: below.collect::<Result<_, Error>>()?,
+        })
+    }
+}
+
 impl NumberedContact {
     /// Returns it as seen from the sphere with the lesser number.
     pub(crate) fn in_order(self) -> Self {
@@ -425,7 +432,7 @@ impl NumberedContact {
 const FORCE: &str = "a contact force";
 
 /// The nearest floats.
-fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64; 3], Error> {
+pub(super) fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64; 3], Error> {
     let [x, y, z] = vector;
     Ok([
         nearest(x, quantity)?,

@@ -31,6 +31,7 @@ use super::number::{Number, Share, add};
 use super::place::Place;
 use super::walk::{SIGNS, Walk};
 use crate::Error;
+use crate::engine::check_interrupt;
 use crate::error::bug;
 use crate::formula;
 use crate::lattice::{Direction, Sign};
@@ -192,6 +193,7 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
         k: usize,
     ) -> Result<(), Error> {
         for cells in self.frame.grid.window(k)? {
+            check_interrupt()?;
             let [a, b, c] = rows_mut(planes, &cells)?;
             if let Some((sign, from)) = straight {
                 let [ga, gb, gc] = self.above(from, &cells, sign)?;

@@ -1,5 +1,8 @@
 //! Work on all cores, with the feature `rayon`; one after the other without it.
 
+#[cfg(feature = "rayon")]
+use super::interrupt;
+
 /// Whether there may be several.
 pub(crate) const HAS_THREADS: bool = cfg!(feature = "rayon");
 
@@ -14,7 +17,13 @@ pub(crate) fn threads() -> usize {
 /// Does two things, at once where there are threads.
 pub(crate) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     #[cfg(feature = "rayon")]
-    rayon::join(one, other);
+    {
+        let asked = interrupt::current();
+        rayon::join(
+            || interrupt::within(asked.as_ref(), one),
+            || interrupt::within(asked.as_ref(), other),
+        );
+    }
     #[cfg(not(feature = "rayon"))]
     {
         one();
@@ -30,7 +39,28 @@ pub(crate) fn try_for_each<I: Send, E: Send>(
     #[cfg(feature = "rayon")]
     if items.len() > 1 && threads() > 1 {
         use rayon::iter::{IntoParallelIterator, ParallelIterator};
-        return items.into_par_iter().try_for_each(work);
+        let asked = interrupt::current();
+        return items
+            .into_par_iter()
+            .try_for_each(|item| interrupt::within(asked.as_ref(), || work(item)));
     }
     items.into_iter().try_for_each(work)
+}
+
+/// Returns what comes of each item, in their order, worked out at once where there are threads.
+#[cfg(feature = "horizontal")]
+pub(crate) fn map<I: Send, O: Send>(
+    items: alloc::vec::Vec<I>,
+    work: impl Fn(I) -> O + Send + Sync,
+) -> alloc::vec::Vec<O> {
+    #[cfg(feature = "rayon")]
+    if items.len() > 1 && threads() > 1 {
+        use rayon::iter::{IntoParallelIterator, ParallelIterator};
+        let asked = interrupt::current();
+        return items
+            .into_par_iter()
+            .map(|item| interrupt::within(asked.as_ref(), || work(item)))
+            .collect();
+    }
+    items.into_iter().map(work).collect()
 }

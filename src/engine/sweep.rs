@@ -11,6 +11,7 @@ use num_traits::ToPrimitive;
 
 use super::cells::Cells;
 use super::grid::{Grid, Layer, Pass};
+use super::interrupt::check as check_interrupt;
 use super::limbs::{Least, Planes};
 use super::lines::{Lines, Received};
 use super::meter::Meter;
@@ -65,6 +66,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     /// [`Error::Bug`].
     pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) -> Result<(), Error> {
         while k > self.k {
+            check_interrupt()?;
             if self.k == self.grid.last {
                 self.layer.catch_up(&self.grid)?;
                 let (next, moves) = self.grid.next_window()?;

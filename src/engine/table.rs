@@ -11,6 +11,7 @@ use core::ops::Range;
 use num_bigint::BigUint;
 use num_traits::ToPrimitive;
 
+use super::interrupt::check as check_interrupt;
 use super::parallel;
 use crate::Error;
 use crate::error::bug;
@@ -116,6 +117,7 @@ impl<V: Clone + Send + Sync> Table<V> {
     /// Writes the forces below layer `k` into the front of the slices, which are left without it.
     fn fill_layer(&self, k: i128, rest: &mut [&mut [V]; 3]) -> Result<(), Error> {
         for row in self.shape.layer(k)?.rows(k) {
+            check_interrupt()?;
             let spheres = usize::try_from(row.i.end - row.i.start).map_err(|_| too_short())?;
             let slices = split_front(rest, spheres)?;
             if self.shape.is_pyramid() {

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 
+use super::interrupt::check as check_interrupt;
 use super::lines::{Line, Lines, start_of};
 use crate::Error;
 use crate::error::bug;
@@ -85,6 +86,7 @@ fn levels(
     let (mut k, mut sites, mut wanted) = (k, sites.to_vec(), wanted);
     let mut nodes = 0;
     while let (Some(stretch), false) = (shape.stretch_to(k), sites.is_empty()) {
+        check_interrupt()?;
         sites.sort_unstable();
         sites.dedup();
         nodes += sites.len();
@@ -205,6 +207,7 @@ impl<T: Algebra> Lines<'_, T> {
         let unit = self.scaled(T::Numerator::one(), run.index);
         let mut forces = Vec::with_capacity(level.sites.len());
         for site in &level.sites {
+            check_interrupt()?;
             let counts = self.shape.spheres_above(&run, k, *site);
             let mut force = core::array::from_fn(|_| T::Numerator::zero());
             for direction in Direction::ALL {

@@ -169,6 +169,7 @@ impl Error {
             | Self::NegativeRadicand { .. }
             | Self::Syntax { .. }
             | Self::UnknownCase { .. }
+            | Self::Interrupted
             | Self::Bug { .. } => return None,
         })
     }

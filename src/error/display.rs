@@ -306,6 +306,7 @@ impl fmt::Display for Whole<'_> {
                 }
             }
             Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Error::Interrupted => f.write_str("interrupted: ask again for an answer"),
             Error::Bug { invariant } => write!(
                 f,
                 "this is a bug of cannonpile: it does not hold that {invariant} (please report it)"

@@ -4,8 +4,8 @@ use num_bigint::{BigInt, BigUint};
 use num_traits::One;
 
 use super::subject::Subject;
-use crate::shape::Shape;
-use crate::{Error, Pile};
+use crate::Error;
+use crate::dem::{anchor, brief, stacking};
 
 /// Returns the line.
 pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
@@ -38,40 +38,6 @@ pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
     let spacing = subject.spacing()?.ratio().to_string();
     parts.push(format!("a/R = {}", brief(&spacing, 20)));
     Ok(parts.join(", "))
-}
-
-/// Returns how the layers follow each other, if there are two.
-fn stacking(pile: &Pile) -> Option<String> {
-    let stacking = pile.shape().stacking();
-    let name = || match stacking.name() {
-        Some(name) => name.to_uppercase(),
-        None => brief(&stacking.to_string(), 25),
-    };
-    (pile.layers() > 1).then(name)
-}
-
-/// Returns the layer that all others are grown from, unless it is the top and one sphere.
-fn anchor(shape: &Shape) -> Option<String> {
-    let base = shape.base();
-    let grown = Shape::on(base, shape.stacking().clone());
-    if grown.is_ok_and(|grown| grown == *shape) {
-        return Some(format!("base {}", brief(&format!("{base:#}"), 40)));
-    }
-    let top = shape
-        .layer(0)
-        .ok()
-        .filter(|top| !top.site_count().is_one())?;
-    Some(format!("top {}", brief(&format!("{top:#}"), 40)))
-}
-
-/// Returns a text without what exceeds some letters.
-fn brief(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.into();
-    }
-    let mut short: String = text.chars().take(most - 1).collect();
-    short.push('…');
-    short
 }
 
 /// Returns `1 layer`, `10 layers`.

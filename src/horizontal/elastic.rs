@@ -10,6 +10,7 @@ use super::exact::{Equation, near};
 use super::network::{Column, MOST_CERTIFIED, Network};
 use super::program::{Aim, Closeness, Program, accepted, of_formulas};
 use crate::certificate::{Certificate, Claim};
+use crate::engine::check_interrupt;
 use crate::lattice::{Site, count};
 use crate::{Culprit, Error, Pile, formula};
 
@@ -224,10 +225,15 @@ impl Springs<'_> {
                 field: self.network.field_of(drops),
             }
         });
-        let answers: Vec<Answer> = of_pushing.chain(of_open).collect();
+        let answers = of_pushing.chain(of_open).map(|answer| {
+            check_interrupt().ok()?;
+            Some(answer)
+        });
+        let answers: Vec<Answer> = answers.collect::<Option<_>>()?;
         let alone = self.answer(self.network.weights.clone());
         let mut system: Vec<Equation> = Vec::new();
         for (own, unknown) in pushing.horizontal.iter().enumerate() {
+            check_interrupt().ok()?;
             let coefficients = answers.iter().enumerate().map(|(number, answer)| {
                 let itself = BigRational::from_integer(i32::from(number == own).into());
                 (number, self.compression(*unknown, &answer.field) - itself)

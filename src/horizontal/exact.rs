@@ -6,6 +6,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
+use crate::engine::check_interrupt;
+
 /// The greatest denominators to which free numbers are rounded, one after the other.
 const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
 
@@ -46,6 +48,7 @@ impl Triangular {
         let mut queue: BTreeSet<(usize, usize)> = lengths.zip(0..).collect();
         let mut solved = Vec::new();
         while let Some((_, number)) = queue.pop_first() {
+            check_interrupt().ok()?;
             let (coefficients, sum) = core::mem::take(&mut equations[number]);
             for unknown in coefficients.keys() {
                 with.get_mut(unknown)?.remove(&number);
@@ -92,6 +95,7 @@ impl Triangular {
         let rounded = guess.iter().map(|guess| simple_fraction(*guess, most));
         let mut solution: Vec<BigRational> = rounded.collect::<Option<_>>()?;
         for (pivot, (coefficients, sum)) in self.0.iter().rev() {
+            check_interrupt().ok()?;
             let others = coefficients.iter().filter(|(unknown, _)| *unknown != pivot);
             let rest = others.fold(sum.clone(), |rest, (unknown, coefficient)| {
                 rest - coefficient * &solution[*unknown]

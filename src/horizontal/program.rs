@@ -14,6 +14,7 @@ use super::exact::{Equation, near};
 use super::network::{Column, MOST_EQUATIONS};
 use crate::Error;
 use crate::certificate::{Certificate, Refusal};
+use crate::engine::check_interrupt;
 use crate::error::bug;
 
 /// Minimise over x ≥ 0 with Σ column x = sums.
@@ -218,6 +219,7 @@ impl Closeness {
             settings.tol_feas = LOOSE;
         }
         let mut solver = DefaultSolver::new(p, q, a, b, cones, settings).ok()?;
+        solver.set_termination_callback(|_| check_interrupt().is_err());
         solver.solve();
         let found = solver.solution;
         let is_solved = matches!(

@@ -42,6 +42,13 @@ impl Straight {
         self.n.iter().position(|n| *n == self.k)
     }
 
+    /// n_A ≥ n_B ≥ n_C, and the directions A, B and C.
+    pub(super) fn sorted(self) -> ([i128; 3], [usize; 3]) {
+        let mut directions = [0, 1, 2];
+        directions.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
+        (directions.map(|l| self.n[l]), directions)
+    }
+
     /// The bound that is proved and attained for any K.
     pub(super) fn bound(self, end: End) -> Option<BigRational> {
         let k = BigRational::from_integer(self.k.into());
@@ -56,8 +63,9 @@ impl Straight {
 
     /// What no forces pass on an edge or inside, for any K; it may not be attained.
     pub(super) fn outer_bound(self) -> BigRational {
-        let n = self.sorted().map(|n| BigRational::from_integer(n.into()));
-        let onto = match (self.sorted(), &n) {
+        let (sorted, _) = self.sorted();
+        let n = sorted.map(|n| BigRational::from_integer(n.into()));
+        let onto = match (sorted, &n) {
             ([a, b, 0], [k, j, _]) => {
                 let c = BigRational::from_integer(a.min(b + 1).into());
                 formula::greatest_on_edge(k, j, &c)
@@ -65,13 +73,6 @@ impl Straight {
             _ => formula::greatest_inside(&n),
         };
         normal_below(onto)
-    }
-
-    /// n_A ≥ n_B ≥ n_C.
-    fn sorted(self) -> [i128; 3] {
-        let mut sorted = self.n;
-        sorted.sort_unstable_by(|one, other| other.cmp(one));
-        sorted
     }
 
     /// X that attains the bound.
@@ -104,10 +105,7 @@ impl Straight {
     /// n_C) push at (t+1, n_B−1, n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on
     /// n push at each other.
     fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
-        let mut order = [0, 1, 2];
-        order.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
-        let [a, b, c] = order;
-        let [n_a, n_b, n_c] = order.map(|l| self.n[l]);
+        let ([n_a, n_b, n_c], [a, b, c]) = self.sorted();
         let r = n_a.min(n_b + n_c);
         let flank = (0..n_a - r).filter_map(|t| {
             let mut one = self.n;
@@ -148,13 +146,13 @@ impl Straight {
         edge.collect()
     }
 
-    fn site(self, [a, i, j]: [i128; 3]) -> Site {
+    pub(super) fn site(self, [a, i, j]: [i128; 3]) -> Site {
         let [i, j, k] = [self.sigma * i, self.sigma * j, a + i + j];
         Site { i, j, k }
     }
 
     /// The horizontal contact of two neighbours.
-    fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
+    pub(super) fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
         let [one, other] = [one, other].map(|n| self.site(n));
         let both = [(one, other), (other, one)]
             .into_iter()

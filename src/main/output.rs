@@ -1,5 +1,7 @@
 //! What is printed: answers on stdout or into a file, refusals and notes on stderr.
 
+use core::fmt::Display;
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
@@ -94,6 +96,21 @@ pub(crate) const fn option_of(culprit: Culprit) -> Option<&'static str> {
         Culprit::File => None,
         culprit => Some(culprit.name()),
     }
+}
+
+/// What may be named instead of a file that cannot be read.
+pub(crate) const A_FILE: &str = "name a file that is there";
+pub(crate) const A_FILE_OR_STDIN: &str = "name a file that is there, or - for stdin";
+
+/// Returns why FILE is not read.
+pub(crate) fn unreadable(name: impl Display, error: &io::Error, remedy: &str) -> Failure {
+    let reason = reason(error);
+    Failure::Message(format!("FILE: {name} cannot be read: {reason}; {remedy}"))
+}
+
+/// Opens FILE, which is not stdin.
+pub(crate) fn open(path: &Path) -> Result<File, Failure> {
+    File::open(path).map_err(|error| unreadable(path.display(), &error, A_FILE))
 }
 
 /// Returns why a file could not be read or written, without the number that the system gives it.

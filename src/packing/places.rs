@@ -3,13 +3,11 @@
 use core::marker::PhantomData;
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{ToPrimitive, Zero};
 
 use super::upwards;
-use crate::engine::{Meter, Unit};
-use crate::error::bug;
+use crate::engine::{Meter, Unit, check_interrupt};
 use crate::forces::check_lengths;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Row, Site};
@@ -62,10 +60,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     #[must_use]
     pub fn places<F: NearestFloat>(&self) -> Places<'p, F, M> {
         // Coordinates are sums of the directions, those of points of contact of halves of them.
-        let directions = self.pile().directions::<BigRational>();
-        let components = directions.into_iter().flat_map(Vector::into_array);
-        let denominator = components.fold(BigInt::one(), |lcm, x| lcm.lcm(x.denom()));
-        let halves: BigInt = denominator * 2;
+        let halves: BigInt = self.forces.direction_scale() * 2;
         let diameter = self.diameter();
         let unit = |root: &Surd| Unit::new(root.scaled(&diameter), halves.clone());
         Places {
@@ -99,7 +94,7 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn fill_row(&self, row: &Row, slices: [&mut [F]; 3]) -> Result<(), Error> {
-        self.fill(row, slices, |site| self.packing.centre(site))
+        self.fill(row, slices, |site| self.centre(site))
     }
 
     /// Writes where consecutive spheres of a row touch those below them in a direction into slices of x, y and z.
@@ -127,7 +122,7 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
         direction: Direction,
         slices: [&mut [F]; 3],
     ) -> Result<(), Error> {
-        self.fill(row, slices, |site| self.packing.point(site, direction))
+        self.fill(row, slices, |site| self.point(site, direction))
     }
 
     /// Writes coordinates that change evenly along a row.
@@ -135,8 +130,9 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
         &self,
         row: &Row,
         slices: [&mut [F]; 3],
-        at: impl Fn(Site) -> Result<Vector<BigRational>, Error>,
+        at: impl Fn(Site) -> Result<[BigInt; 3], Error>,
     ) -> Result<(), Error> {
+        check_interrupt()?;
         check_lengths(row.length()?, &slices)?;
         let mut sites = row.clone().into_iter();
         let Some(first) = sites.next() else {
@@ -147,9 +143,9 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
             i: row.i.end - 1,
             ..first
         })?;
-        let here = self.numbers(at(first)?)?;
+        let here = at(first)?;
         let next = match sites.next() {
-            Some(second) => self.numbers(at(second)?)?,
+            Some(second) => at(second)?,
             None => here.clone(),
         };
         let along = here.into_iter().zip(next);
@@ -172,13 +168,21 @@ impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
         Ok(())
     }
 
-    /// Returns coordinates in the symbolic basis as integers.
-    fn numbers(&self, place: Vector<BigRational>) -> Result<[BigInt; 3], Error> {
-        let [x, y, z] = place.into_array().map(|x| x * &self.halves);
-        if x.is_integer() && y.is_integer() && z.is_integer() {
-            return Ok([x, y, z].map(|x| x.to_integer()));
-        }
-        Err(bug("all coordinates have one denominator"))
+    /// The coordinates of a centre, over `halves`; z up from the bottom layer.
+    fn centre(&self, site: Site) -> Result<[BigInt; 3], Error> {
+        let forces = &self.packing.forces;
+        let Vector { x, y, z } = forces.position_numerators(site)?;
+        let bottom = &self.halves * (self.packing.pile().layers() - 1);
+        Ok([x * 2, y * 2, bottom - z * 2])
+    }
+
+    /// The coordinates of the point where a sphere touches that below it.
+    fn point(&self, site: Site, direction: Direction) -> Result<[BigInt; 3], Error> {
+        let forces = &self.packing.forces;
+        let lean = forces.contact_direction_numerators(site, direction)?;
+        let [x, y, z] = self.centre(site)?;
+        // Half of the lean back, with z up.
+        Ok([x - lean.x, y - lean.y, z + lean.z])
     }
 }
 

@@ -4,17 +4,18 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 use super::error::WriteError;
-use super::unfinished::{PREFIX, Pending, lock, remove_leftovers};
+use super::unfinished::{FRESH, PREFIX, Pending, lock, remove_leftovers};
+use crate::error::bug;
 
 /// Writes a file aside, and renames it into place when it is complete: a failure leaves what was there.
 ///
 /// What is not a regular file, such as a pipe or a device, is written directly. A link is followed, one to
 /// nowhere and a read-only file refused; a file that is replaced hands on its permissions. A process that is
 /// interrupted can [remove](super::remove_unfinished) what it has written aside. One that is killed leaves a hidden file
-/// `.cannonpile-…` in the folder, which the next call for that folder removes, if it is a minute old.
+/// `.cannonpile-…` in the folder, which the next call for that folder removes.
 ///
 /// # Errors
 /// Those of `write`, and [`WriteError::Io`].
@@ -86,9 +87,10 @@ impl Aside {
             // As any new file, not private as temporary files are; the umask still applies.
             aside.permissions(fs::Permissions::from_mode(0o666));
         }
-        let mut aside = aside.prefix(PREFIX).tempfile_in(folder)?;
-        let pending = Pending::new(aside.path())?;
-        lock(aside.as_file());
+        let fresh = aside.prefix(FRESH).tempfile_in(folder)?;
+        let pending = Pending::new(fresh.path())?;
+        lock(fresh.as_file());
+        let (mut aside, pending) = named_as_locked(fresh, pending, folder)?;
         let bytes = write_to(aside.as_file_mut(), write)?;
         if let Some(permissions) = permissions {
             aside.as_file().set_permissions(permissions)?;
@@ -114,6 +116,22 @@ impl Aside {
     pub(crate) fn target(&self) -> &Path {
         &self.target
     }
+}
+
+/// Gives a file that is locked the name of one that is.
+fn named_as_locked(
+    fresh: NamedTempFile,
+    pending: Pending,
+    folder: &Path,
+) -> io::Result<(NamedTempFile, Pending)> {
+    let name = fresh.path().file_name().and_then(|name| name.to_str());
+    let random = name.and_then(|name| name.strip_prefix(FRESH));
+    let random = random.ok_or_else(|| io::Error::other(bug("it has the name it was made with")))?;
+    let path = folder.join(format!("{PREFIX}{random}"));
+    let next = Pending::new(&path)?;
+    let file = pending.complete(|| fresh.persist_noclobber(&path).map_err(|error| error.error))?;
+    let file = NamedTempFile::from_parts(file, TempPath::try_from_path(path)?);
+    Ok((file, next))
 }
 
 fn write_to(

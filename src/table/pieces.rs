@@ -1,7 +1,7 @@
 //! Numbers of many spheres, a piece of a row at a time, in columns.
 
-use crate::Error;
 use crate::lattice::Row;
+use crate::{Error, Interrupt};
 
 /// The most spheres whose numbers are made at once.
 const PIECE: i128 = 1024;
@@ -12,10 +12,12 @@ pub(crate) fn in_pieces<T>(
     mut make: impl FnMut(&Row) -> Result<Vec<T>, Error>,
 ) -> impl Iterator<Item = Result<T, Error>> {
     let pieces = rows.flat_map(|row| row.pieces(PIECE));
-    pieces.flat_map(move |piece| match make(&piece) {
-        Ok(made) => made.into_iter().map(Ok).collect(),
-        Err(error) => vec![Err(error)],
-    })
+    pieces.flat_map(
+        move |piece| match Interrupt::check().and_then(|()| make(&piece)) {
+            Ok(made) => made.into_iter().map(Ok).collect(),
+            Err(error) => vec![Err(error)],
+        },
+    )
 }
 
 /// Returns three columns with a place for each sphere of a piece.

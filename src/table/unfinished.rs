@@ -7,10 +7,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// What the names of files begin with that are not complete yet; six letters or digits follow.
+/// What the names of files begin with that are not complete yet, and locked by who writes them; six letters or digits follow.
 pub(super) const PREFIX: &str = ".cannonpile-";
 
-/// Files that are not as old may be locked at any moment by who has just made them.
+/// What they begin with until they are locked.
+pub(super) const FRESH: &str = ".cannonpile-new-";
+
+/// Who has made a file has locked it within this time, if it lives.
 const NEW: Duration = Duration::from_secs(60);
 
 /// Files and folders of this process that are not complete.
@@ -115,8 +118,8 @@ pub(super) fn lock(file: &fs::File) -> bool {
     }
 }
 
-/// Removes what a process that was killed has left in a folder: files with our names, a minute old at least, that no
-/// process holds a lock on. Where there are no locks, none is removed.
+/// Removes what a process that was killed has left in a folder: files with our names that no process holds a lock on, those
+/// that were never locked if they are a minute old. Where there are no locks, none is removed.
 pub(crate) fn remove_leftovers(folder: &Path) {
     let folder = if folder == Path::new("") {
         Path::new(".")
@@ -128,22 +131,28 @@ pub(crate) fn remove_leftovers(folder: &Path) {
     };
     for entry in entries.flatten() {
         let name = entry.file_name();
-        let is_ours = name.to_str().and_then(|name| name.strip_prefix(PREFIX));
-        let is_ours = is_ours.is_some_and(|random| {
-            random.len() == 6 && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
-        });
-        if is_ours {
+        let age = [(PREFIX, Duration::ZERO), (FRESH, NEW)]
+            .into_iter()
+            .find(|(prefix, _)| name.to_str().is_some_and(|name| is_ours(name, prefix)));
+        if let Some((_, age)) = age {
             // What cannot be removed stays.
-            let _ = remove_leftover(&entry);
+            let _ = remove_leftover(&entry, age);
         }
     }
 }
 
-fn remove_leftover(entry: &fs::DirEntry) -> io::Result<()> {
+fn is_ours(name: &str, prefix: &str) -> bool {
+    let random = name.strip_prefix(prefix);
+    random.is_some_and(|random| {
+        random.len() == 6 && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
+    })
+}
+
+fn remove_leftover(entry: &fs::DirEntry, least: Duration) -> io::Result<()> {
     // Of the entry itself: a link is not followed.
     let metadata = entry.metadata()?;
     let age = metadata.modified()?.elapsed().unwrap_or(Duration::ZERO);
-    if metadata.is_file() && age >= NEW && lock(&fs::File::open(entry.path())?) {
+    if metadata.is_file() && age >= least && lock(&fs::File::open(entry.path())?) {
         fs::remove_file(entry.path())?;
     }
     Ok(())
@@ -164,7 +173,9 @@ mod tests {
             file
         };
         make(".cannonpile-left01", hour);
-        make(".cannonpile-new001", Duration::ZERO);
+        make(".cannonpile-left02", Duration::ZERO);
+        make(".cannonpile-new-left03", hour);
+        make(".cannonpile-new-fresh1", Duration::ZERO);
         make(".cannonpile-notours", hour);
         make(".cannonpile-0000.x", hour);
         make("left01", hour);
@@ -179,7 +190,7 @@ mod tests {
             [
                 ".cannonpile-0000.x",
                 ".cannonpile-locked",
-                ".cannonpile-new001",
+                ".cannonpile-new-fresh1",
                 ".cannonpile-notours",
                 "left01"
             ]

@@ -124,7 +124,7 @@ impl<'p> Units<'p> {
         })
     }
 
-    pub(super) fn force(&self) -> &'static str {
+    pub(crate) fn force(&self) -> &'static str {
         match self {
             Self::Si(_) => "N",
             Self::Pile(_) if self.pile().dimension() == Dimension::Two => "mg/(2cosθ)",
@@ -133,11 +133,11 @@ impl<'p> Units<'p> {
         }
     }
 
-    pub(super) fn normal(&self) -> &'static str {
+    pub(crate) fn normal(&self) -> &'static str {
         if let Self::Si(_) = self { "N" } else { "mg" }
     }
 
-    pub(super) fn shear_x(&self) -> &'static str {
+    pub(crate) fn shear_x(&self) -> &'static str {
         if let Self::Si(_) = self {
             "N"
         } else {
@@ -145,7 +145,7 @@ impl<'p> Units<'p> {
         }
     }
 
-    pub(super) fn shear_y(&self) -> &'static str {
+    pub(crate) fn shear_y(&self) -> &'static str {
         match self {
             Self::Si(_) => "N",
             Self::Pile(_) if self.pile().is_regular() => "√3·mg·tanθ",

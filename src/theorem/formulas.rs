@@ -3,25 +3,27 @@
 use crate::formula;
 use crate::geometry::{self, Vector};
 use crate::lattice::{Direction, Sign, count};
-use crate::scalar::Polynomial;
+use crate::scalar::{Algebra, Polynomial};
 
-type P = Polynomial;
 /// By direction α, β, γ; of bounds, those of i, j and i+j.
-type Three = [P; 3];
+type Three<P> = [P; 3];
 /// ê_a, ê_b, ê_c.
-type Directions = [Vector<P>; 3];
+type Directions<P> = [Vector<P>; 3];
 /// From i, j, lower and upper bounds, steps and their sign: four numbers for each line.
-type BoundsAbove = fn(&P, &P, &Three, &Three, &P, Sign) -> [[P; 4]; 3];
+type BoundsAbove<P> = fn(&P, &P, &Three<P>, &Three<P>, &P, Sign) -> [[P; 4]; 3];
+/// From forces and directions below, those above, and the weight.
+type Unbalanced<P> = fn(&Three<P>, &Directions<P>, &Three<P>, &Directions<P>, &P) -> Vector<P>;
 
-/// The formulas of the crate, run on polynomials: what each one means is said where it links to.
+/// The formulas of the crate, run on polynomials, which prove, or on any scalar `P` that is its own ring of numerators: what
+/// each one means is said where it links to.
 ///
 /// They are exactly the functions that engines and answers call: a test reads the sources for it.
-#[derive(Clone, Copy, Debug)]
-pub struct Formulas {
+#[derive(Debug)]
+pub struct Formulas<P = Polynomial> {
     /// [`count::above`].
-    pub above: fn(&P, &P, &P) -> Three,
+    pub above: fn(&P, &P, &P) -> Three<P>,
     /// [`count::bounds_above`].
-    pub bounds_above: BoundsAbove,
+    pub bounds_above: BoundsAbove<P>,
     /// [`Sign::descent`].
     pub descent: fn(Sign, Direction) -> [i128; 2],
     /// [`count::spheres`].
@@ -33,17 +35,17 @@ pub struct Formulas {
     /// [`count::contacts_of_strength`].
     pub contacts_of_strength: fn(&P, &P, u32) -> P,
     /// [`geometry::directions`].
-    pub directions: fn(&P) -> Directions,
+    pub directions: fn(&P) -> Directions<P>,
     /// [`geometry::disc_directions`].
-    pub disc_directions: fn() -> Directions,
+    pub disc_directions: fn() -> Directions<P>,
     /// [`Vector::turned_about_z`].
     pub turned_about_z: fn(Vector<P>) -> Vector<P>,
     /// [`geometry::position`].
-    pub position: fn(&Three, &Directions) -> Vector<P>,
+    pub position: fn(&Three<P>, &Directions<P>) -> Vector<P>,
     /// [`geometry::squared_distance`].
-    pub squared_distance: fn(&Three, &P, &P) -> P,
+    pub squared_distance: fn(&Three<P>, &P, &P) -> P,
     /// [`formula::increments`].
-    pub increments: fn(&P) -> Three,
+    pub increments: fn(&P) -> Three<P>,
     /// [`formula::weight`].
     pub weight: fn(&[P]) -> P,
     /// [`formula::force`].
@@ -51,35 +53,35 @@ pub struct Formulas {
     /// [`formula::passed_on`].
     pub passed_on: fn(P, &P) -> P,
     /// [`formula::resultant`].
-    pub resultant: fn(&Three, &Directions) -> Vector<P>,
+    pub resultant: fn(&Three<P>, &Directions<P>) -> Vector<P>,
     /// [`formula::handed_on`].
-    pub handed_on: fn(&Three, &Directions, &P) -> Vector<P>,
+    pub handed_on: fn(&Three<P>, &Directions<P>, &P) -> Vector<P>,
     /// [`formula::unbalanced`].
-    pub unbalanced: fn(&Three, &Directions, &Three, &Directions, &P) -> Vector<P>,
+    pub unbalanced: Unbalanced<P>,
     /// [`formula::half_turn`].
-    pub half_turn: fn(&Three) -> Three,
+    pub half_turn: fn(&Three<P>) -> Three<P>,
     /// [`formula::tripled_half_turn`].
-    pub tripled_half_turn: fn(&Three) -> Three,
+    pub tripled_half_turn: fn(&Three<P>) -> Three<P>,
     /// [`formula::tripled_apart`].
-    pub tripled_apart: fn(&Three) -> Three,
+    pub tripled_apart: fn(&Three<P>) -> Three<P>,
     /// [`formula::pushed`].
-    pub pushed: fn(&P, [Direction; 2], bool) -> Three,
+    pub pushed: fn(&P, [Direction; 2], bool) -> Three<P>,
     /// [`formula::beside`].
     pub beside: fn(P, &P, &P, Sign) -> P,
     /// [`formula::lowered`].
     pub lowered: fn(P, &P) -> P,
     /// [`formula::compression`].
-    pub compression: fn(&Three, &Three, [Direction; 2], Sign) -> P,
+    pub compression: fn(&Three<P>, &Three<P>, [Direction; 2], Sign) -> P,
     /// [`formula::elastic_field`].
     pub elastic_field: fn(&P, &P) -> P,
     /// [`formula::corner_field`].
-    pub corner_field: fn(Direction, bool) -> Three,
+    pub corner_field: fn(Direction, bool) -> Three<P>,
     /// [`formula::least_on_corner`].
     pub least_on_corner: fn(&P) -> P,
     /// [`formula::greatest_on_corner`].
     pub greatest_on_corner: fn(&P) -> P,
     /// [`formula::greatest_inside`].
-    pub greatest_inside: fn(&Three) -> P,
+    pub greatest_inside: fn(&Three<P>) -> P,
     /// [`formula::greatest_on_edge`].
     pub greatest_on_edge: fn(&P, &P, &P) -> P,
     /// [`formula::third_moment`].
@@ -97,10 +99,19 @@ pub struct Formulas {
     /// [`formula::registry_excess`].
     pub registry_excess: fn(&P, &P, &P) -> P,
     /// [`formula::arch`].
-    pub arch: fn(&Three) -> Three,
+    pub arch: fn(&Three<P>) -> Three<P>,
 }
 
-impl Formulas {
+// Derived, they would ask it of P.
+impl<P> Clone for Formulas<P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P> Copy for Formulas<P> {}
+
+impl<P: Algebra<Numerator = P>> Formulas<P> {
     /// The functions that engines and answers call.
     pub const LIBRARY: Self = Self {
         above: count::above,

@@ -70,6 +70,11 @@ impl Quantity {
         }
     }
 
+    /// Whether it is the number of a sphere, to which nothing can be added.
+    const fn is_number_of_sphere(self) -> bool {
+        matches!(self, Self::Id1 | Self::Id2)
+    }
+
     pub(super) const fn name(self) -> &'static str {
         // There is a name of each.
         match self.names() {
@@ -93,7 +98,7 @@ impl Quantity {
 /// | `kind` | what sort of contact it is: `kind=contact_type:SS` reads the rows with `SS` there, several are `SS\|SP`; others are contacts with walls, and counted |
 ///
 /// A column is a name of the header, or `#n`, the n-th column from 1 of a table without header. It may be a sum, with
-/// factors: `fx=-f_x` for a vector that is the force on the second sphere, `fx=#10+#13` for a normal and a tangential
+/// factors, unless it is the number of a sphere: `fx=-f_x` for a vector that is the force on the second sphere, `fx=#10+#13` for a normal and a tangential
 /// part, `force=1e7*overlap` for a linear spring of 10⁷ N/m. A quantity that is not named has the names above,
 /// or for LAMMPS `patom1`, `patom2`, `natom1`, `natom2`.
 ///
@@ -237,6 +242,9 @@ impl Columns {
         } else {
             terms(column)?
         };
+        if quantity.is_number_of_sphere() && !matches!(terms[..], [Term { factor: 1.0, .. }]) {
+            return Err(Error::syntax(assignment, ID));
+        }
         self.sums.push((quantity, terms));
         Ok(())
     }
@@ -245,6 +253,7 @@ impl Columns {
 const ASSIGNMENT: &str =
     "a column such as id1=A or fx=-#10 (QUANTITY=COLUMN, several separated by commas)";
 const QUANTITY: &str = "one of id1, id2, force, fx, fy, fz, x, y, z, x1, y1, z1, x2, y2, z2, kind";
+const ID: &str = "id1=COLUMN: the number of a sphere is one column, without a sign or a factor";
 const COLUMN: &str = "a column: its name, or #1 for the first of a table without header";
 
 impl FromStr for Columns {

@@ -8,7 +8,7 @@ use super::ledger::Ledger;
 use super::measured::Measured;
 use super::refusal::Refusal;
 use super::tally::Judged;
-use crate::Packing;
+use crate::{Interrupt, Packing};
 
 /// What was measured, compared with the exact forces of a pile: see [`verify`](super) for what that means.
 ///
@@ -69,6 +69,7 @@ impl Comparison {
     ) -> Result<Self, Refusal> {
         let mut ledger = Ledger::new(packing)?;
         for (entry, measured) in (1..).zip(measured) {
+            Interrupt::check()?;
             let admitted = ledger.admit(&measured, entry);
             admitted.map_err(|fault| Refusal::Entry { entry, fault })?;
         }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::finding::Axis;
+use super::axes::Axes;
 
 /// How places in a table become places of the scene: axes named anew, a turn about the vertical, a shift.
 ///
@@ -29,7 +29,7 @@ use super::finding::Axis;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Which axes of the table are x, y, z of the scene, before the turn.
-    pub axes: [Axis; 3],
+    pub axes: Axes,
     /// The angle φ of the turn about z, in radians from −π to π.
     pub angle: f64,
     /// The shift **s**, in m.
@@ -39,7 +39,7 @@ pub struct Frame {
 impl Frame {
     /// The frame of the scene itself.
     pub(super) const OWN: Self = Self {
-        axes: Axis::OWN,
+        axes: Axes::OWN,
         angle: 0.0,
         shift: [0.0; 3],
     };
@@ -48,15 +48,15 @@ impl Frame {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::verify::{Axis, Frame};
+    /// use cannonpile::verify::{Axes, Coordinate::{X, Y, Z}, Frame};
     ///
-    /// let [x, y, z] = [0, 1, 2].map(|index| Axis { index, is_reversed: false });
-    /// let frame = Frame { axes: [z, x, y], angle: 0.0, shift: [1.0, 0.0, 0.0] };
+    /// let axes = Axes::new([Z.into(), X.into(), Y.into()]).unwrap();
+    /// let frame = Frame { axes, angle: 0.0, shift: [1.0, 0.0, 0.0] };
     /// assert_eq!(frame.turned([0.0, 2.0, 3.0]), [3.0, 0.0, 2.0]);
     /// ```
     #[must_use]
     pub fn turned(&self, vector: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = Axis::turn(self.axes, vector);
+        let [x, y, z] = self.axes.turned(vector);
         // So that nothing is rounded where nothing is turned.
         if self.angle == 0.0 {
             return [x, y, z];
@@ -69,10 +69,10 @@ impl Frame {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::verify::{Axis, Frame};
+    /// use cannonpile::verify::{Axes, Coordinate::{X, Y, Z}, Frame};
     ///
-    /// let [x, y, z] = [0, 1, 2].map(|index| Axis { index, is_reversed: false });
-    /// let frame = Frame { axes: [z, x, y], angle: 0.0, shift: [1.0, 0.0, 0.0] };
+    /// let axes = Axes::new([Z.into(), X.into(), Y.into()]).unwrap();
+    /// let frame = Frame { axes, angle: 0.0, shift: [1.0, 0.0, 0.0] };
     /// assert_eq!(frame.place([0.0, 2.0, 3.0]), [4.0, 0.0, 2.0]);
     /// ```
     #[must_use]
@@ -86,30 +86,22 @@ impl Frame {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::verify::{Axis, Frame};
+    /// use cannonpile::verify::{Axes, Coordinate::{X, Y, Z}, Frame};
     ///
-    /// let [x, y, z] = [0, 1, 2].map(|index| Axis { index, is_reversed: false });
-    /// assert!(Frame { axes: [y, x, z], angle: 0.0, shift: [0.0; 3] }.is_mirrored());
+    /// let axes = Axes::new([Y.into(), X.into(), Z.into()]).unwrap();
+    /// assert!(Frame { axes, angle: 0.0, shift: [0.0; 3] }.is_mirrored());
     /// ```
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
-        Axis::is_mirrored(self.axes)
+        self.axes.is_mirrored()
     }
 }
 
 impl fmt::Display for Frame {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
-        if self.axes != Axis::OWN {
-            let [x, y, z] = self.axes;
-            let mirrored = if self.is_mirrored() {
-                ", a mirror image"
-            } else {
-                ""
-            };
-            parts.push(format!(
-                "x, y, z of the scene are {x}, {y}, {z} of the table{mirrored}"
-            ));
+        if self.axes != Axes::OWN {
+            parts.push(self.axes.to_string());
         }
         if self.angle != 0.0 {
             parts.push(format!(

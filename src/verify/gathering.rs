@@ -2,12 +2,13 @@
 
 use num_traits::ToPrimitive;
 
-use super::entry::{Entry, Place, Sink};
+use super::entry::{Entry, Force, Place, Sink};
 use super::frame::Frame;
 use super::ledger::Ledger;
 use super::places::{Places, loaded_points};
 use super::refusal::Refusal;
 use super::registration::{self, Exact, moved};
+use crate::Interrupt;
 
 /// After so many rows, all where the scene has contacts, the table is in the frame of the scene.
 const ENOUGH: usize = 1 << 17;
@@ -25,8 +26,7 @@ pub(super) struct Gathering<'p> {
 
 struct Row {
     place: Place,
-    force: Option<f64>,
-    vector: Option<[f64; 3]>,
+    force: Force,
     line: u64,
 }
 
@@ -53,6 +53,7 @@ impl<'p> Gathering<'p> {
         }
         let frame = self.frame(&kept)?;
         for row in &kept {
+            Interrupt::check()?;
             self.give(row, &frame)?;
         }
         Ok((self.ledger, frame))
@@ -61,7 +62,7 @@ impl<'p> Gathering<'p> {
     fn frame(&self, kept: &[Row]) -> Result<Frame, Refusal> {
         let table: Vec<_> = kept
             .iter()
-            .map(|row| (row.place, row.magnitude()))
+            .map(|row| (row.place, row.force.magnitude()))
             .collect();
         let (points, forces) = loaded_points(self.ledger.numbered())?;
         let exact = Exact {
@@ -86,18 +87,15 @@ impl<'p> Gathering<'p> {
         let ids = match self.places.find(&moved(&row.place, frame), self.within) {
             Ok([one, other]) if one != other => [one, other],
             // Nothing between two places that are none.
-            _ if row.magnitude() == 0.0 => return Ok(()),
+            _ if row.force.magnitude() == 0.0 => return Ok(()),
             Ok(ids) => ids,
             Err(fault) => return Err(fault.at(row.line)),
         };
-        let entry = Entry {
-            ids: None,
-            place: None,
-            force: row.force,
-            vector: row.vector.map(|vector| frame.turned(vector)),
+        let force = row.force.map(|vector| frame.turned(vector));
+        let measured = match row.place {
+            Place::Centres(_) => self.places.on_first(force, ids)?,
+            Place::Point(_) => self.places.on_either(force, ids)?,
         };
-        let is_first_known = matches!(row.place, Place::Centres(_));
-        let measured = self.places.between(&entry, ids, is_first_known);
         let admitted = self.ledger.admit(&measured, row.line);
         admitted.map_err(|fault| fault.at(row.line))
     }
@@ -105,14 +103,6 @@ impl<'p> Gathering<'p> {
     fn all_fit(&self) -> bool {
         let mut kept = self.kept.iter();
         kept.all(|row| self.places.find(&row.place, self.within).is_ok())
-    }
-}
-
-impl Row {
-    fn magnitude(&self) -> f64 {
-        let vector = self.vector.unwrap_or([0.0; 3]);
-        let all = self.force.into_iter().chain(vector);
-        all.fold(0.0, |most, x| most.max(x.abs()))
     }
 }
 
@@ -124,13 +114,9 @@ impl Sink for Gathering<'_> {
     }
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        let Some(place) = entry.place else {
-            return Ok(());
-        };
         let row = Row {
-            place,
+            place: entry.place()?,
             force: entry.force,
-            vector: entry.vector,
             line,
         };
         if self.is_own {

@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::columns::{Column, Columns, Quantity, Term};
-use super::entry::{Entry, Place};
+use super::entry::{Entry, Force, Place, Spheres};
 use super::refusal::Fault;
 use crate::Error;
 
@@ -134,40 +134,36 @@ impl Header {
         }
         let number = |quantity| self.number(quantity, fields);
         let vector = |[x, y, z]: [Quantity; 3]| Ok([number(x)?, number(y)?, number(z)?]);
-        let ids = match self.identity {
-            Identity::Numbers => Some([
+        let spheres = match self.identity {
+            Identity::Numbers => Spheres::Numbers([
                 self.id(Quantity::Id1, fields)?,
                 self.id(Quantity::Id2, fields)?,
             ]),
-            Identity::Places => None,
-        };
-        let place = match self.identity {
-            Identity::Numbers => None,
-            Identity::Places if self.has(Quantity::X1) => Some(Place::Centres([
+            Identity::Places if self.has(Quantity::X1) => Spheres::Places(Place::Centres([
                 vector([Quantity::X1, Quantity::Y1, Quantity::Z1])?,
                 vector([Quantity::X2, Quantity::Y2, Quantity::Z2])?,
             ])),
-            Identity::Places => Some(Place::Point(vector([
-                Quantity::X,
-                Quantity::Y,
-                Quantity::Z,
-            ])?)),
+            Identity::Places => {
+                let point = vector([Quantity::X, Quantity::Y, Quantity::Z])?;
+                Spheres::Places(Place::Point(point))
+            }
         };
-        let force = self.has(Quantity::Force).then(|| number(Quantity::Force));
         let components = [Quantity::Fx, Quantity::Fy, Quantity::Fz];
-        let vector = self.has_vector().then(|| vector(components));
-        Ok(Some(Entry {
-            ids,
-            place,
-            force: force.transpose()?,
-            vector: vector.transpose()?,
-        }))
+        let force = match (self.has(Quantity::Force), self.has_vector()) {
+            (true, true) => Force::Both(number(Quantity::Force)?, vector(components)?),
+            (false, true) => Force::Vector(vector(components)?),
+            // A header without either is refused.
+            (_, false) => Force::Along(number(Quantity::Force)?),
+        };
+        Ok(Some(Entry { spheres, force }))
     }
 
     /// The field of a quantity that is one column.
     fn field<'f>(&self, quantity: Quantity, fields: &[&'f str]) -> Result<&'f str, Fault> {
-        let (column, _) = self.sum_of(quantity).first().copied().unwrap_or((0, 1.0));
-        at(fields, column)
+        match self.sum_of(quantity) {
+            [(column, _)] => at(fields, *column),
+            _ => Err(Fault::of_bug("a header has one column for each sphere")),
+        }
     }
 
     /// A sum of columns, 0 for no column: discs have no y.

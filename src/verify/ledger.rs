@@ -112,9 +112,8 @@ impl<'p> Ledger<'p> {
     }
 
     fn fill(&mut self, slot: usize, measured: &Measured, line: u64) -> Result<(), Fault> {
-        let Some(force) = self.forces.get_mut(slot) else {
-            return Ok(());
-        };
+        let force = self.forces.get_mut(slot);
+        let force = force.ok_or_else(|| Fault::of_bug("every contact has a slot"))?;
         if force.to_bits() != 0 {
             let (ids, first) = (measured.ids, self.lines.of(slot));
             return Err(Fault::Twice { ids, first });
@@ -128,8 +127,9 @@ impl<'p> Ledger<'p> {
         if measured.vector.is_some() && self.vectors.is_empty() {
             self.vectors = vec![[f64::NAN; 3]; self.forces.len()];
         }
-        if let (Some(vector), Some(place)) = (measured.vector, self.vectors.get_mut(slot)) {
-            *place = vector;
+        if let Some(vector) = measured.vector {
+            let place = self.vectors.get_mut(slot);
+            *place.ok_or_else(|| Fault::of_bug("every contact has a slot"))? = vector;
         }
         Ok(())
     }
@@ -210,8 +210,8 @@ impl Sink for Ledger<'_> {
     }
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        let admitted = entry.named().and_then(|named| self.admit(&named, line));
-        admitted.map_err(|fault| fault.at(line))
+        self.admit(&entry.named()?, line)
+            .map_err(|fault| fault.at(line))
     }
 
     fn pass_over(&mut self) {

@@ -4,9 +4,10 @@ use core::num::NonZero;
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 
-use super::entry::{Entry, Place};
+use super::entry::{Force, Place};
 use super::measured::{Measured, norm};
 use super::refusal::{Fault, Refusal};
+use crate::Error;
 use crate::dem::NumberedPile;
 
 /// The centres of all spheres of a pile, in a k-d tree.
@@ -78,37 +79,54 @@ impl Places {
 }
 
 impl Places {
-    /// Returns the force between two spheres that were found by where they are.
+    /// Returns the force between two spheres that were found by where they are, its vector that on the first.
     ///
-    /// A vector is that on the first of two centres. Of a point the first is not known: the vector is that on the sphere
-    /// that it pushes, or pulls if the force says so.
-    pub(super) fn between(&self, entry: &Entry, ids: [u64; 2], is_first_known: bool) -> Measured {
-        let apart = self.centres_of(ids).map(|[a, b]| minus(a, b));
-        let (Some(vector), Some(apart)) = (entry.vector, apart) else {
-            return entry.between(ids);
-        };
-        let along: f64 = vector.iter().zip(apart).map(|(f, n)| f * n).sum();
-        if is_first_known {
-            let force = entry.force.unwrap_or(norm(vector).copysign(along));
-            return Measured::new(ids, force).with_vector(vector);
-        }
-        let force = entry.force.unwrap_or(norm(vector));
-        let is_turned = (along < 0.0) != (force < 0.0);
-        let [first, second] = ids;
-        let ids = if is_turned { [second, first] } else { ids };
-        Measured::new(ids, force).with_vector(vector)
+    /// It pushes where its vector points from the second to the first.
+    pub(super) fn on_first(&self, force: Force, ids: [u64; 2]) -> Result<Measured, Error> {
+        Ok(match force {
+            Force::Vector(vector) => {
+                let along = self.along(vector, ids)?;
+                Measured::new(ids, norm(vector).copysign(along)).with_vector(vector)
+            }
+            Force::Along(_) | Force::Both(..) => force.between(ids),
+        })
     }
 
-    fn centres_of(&self, ids: [u64; 2]) -> Option<[[f64; 3]; 2]> {
-        let centre = |id: u64| self.centres.get(usize::try_from(id - 1).ok()?).copied();
+    /// Returns the force between two spheres of whose contact the point is known, and not which is the first: the vector is
+    /// that on the sphere that it pushes, or pulls if the force says so.
+    pub(super) fn on_either(&self, force: Force, ids: [u64; 2]) -> Result<Measured, Error> {
+        let (force, vector) = match force {
+            Force::Along(_) => return Ok(force.between(ids)),
+            Force::Vector(vector) => (norm(vector), vector),
+            Force::Both(force, vector) => (force, vector),
+        };
+        let [first, second] = ids;
+        let is_turned = (self.along(vector, ids)? < 0.0) != (force < 0.0);
+        let ids = if is_turned { [second, first] } else { ids };
+        Ok(Measured::new(ids, force).with_vector(vector))
+    }
+
+    /// The part of a vector along the line from the second of two spheres to the first, times their distance.
+    fn along(&self, vector: [f64; 3], ids: [u64; 2]) -> Result<f64, Error> {
+        let [first, second] = self.centres_of(ids)?;
+        let apart = minus(first, second);
+        Ok(vector.iter().zip(apart).map(|(f, n)| f * n).sum())
+    }
+
+    fn centres_of(&self, ids: [u64; 2]) -> Result<[[f64; 3]; 2], Error> {
+        let centre = |id: u64| {
+            let place = id.checked_sub(1).and_then(|id| usize::try_from(id).ok());
+            let centre = place.and_then(|place| self.centres.get(place)).copied();
+            centre.ok_or_else(|| crate::error::bug("a sphere that was found is one of the pile"))
+        };
         let [one, other] = ids;
-        Some([centre(one)?, centre(other)?])
+        Ok([centre(one)?, centre(other)?])
     }
 
     /// Returns the exact point between the two spheres that touch at a place.
     pub(super) fn point_of(&self, place: &Place, within: f64) -> Option<[f64; 3]> {
         let ids = self.find(place, within).ok()?;
-        self.centres_of(ids).as_ref().map(middle)
+        self.centres_of(ids).as_ref().map(middle).ok()
     }
 }
 

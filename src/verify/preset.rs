@@ -21,12 +21,10 @@ use crate::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Preset {
-    /// LAMMPS (stable 29Aug2024, `doc/src/compute_property_local.rst`, `compute_pair_local.rst`): `dump local` of
-    /// `patom1 patom2` (or `natom1 natom2`) of `compute property/local` and `force fx fy fz` of `compute pair/local`, with
-    /// these names by `dump_modify colname`. By the numbers of the atoms.
+    /// LAMMPS (22 Jul 2025, its own `dump local` files): `patom1 patom2` (or `natom1 natom2`) of `compute property/local` and
+    /// `force fx fy fz` of `compute pair/local`, with these names by `dump_modify colname`. By the numbers of the atoms.
     Lammps,
-    /// YADE (2022.01a, `py/export.py`, `core/Interaction.hpp`): `id1,id2,force` of a script, bodies counted from 0 as
-    /// `Interaction.id1` does.
+    /// YADE (2023.02a, tables of scripts that it ran): `id1,id2,force`, bodies counted from 0 as `Interaction.id1` does.
     Yade,
     /// exaDEM (1.2.2, `src/interaction/include/exaDEM/itools/writer.hpp`): the csv without header of
     /// `write_interaction_data`, 21 columns. By place, both centres; the force on the second particle is its `fn + ft`; the

@@ -62,7 +62,8 @@ pub fn read(input: impl BufRead) -> Result<Reading, Refusal> {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reader {
-    format: Format,
+    columns: Columns,
+    /// How far off a sphere may be that is known by where it is, in radii; none if it is known by its number.
     within: Option<f64>,
     with_balance: bool,
 }
@@ -131,16 +132,8 @@ impl Reader {
     /// ```
     #[must_use]
     pub fn of(preset: Preset) -> Self {
-        let identity = if preset.is_by_place() {
-            Identity::Places
-        } else {
-            Identity::Numbers
-        };
         Self {
-            format: Format {
-                columns: preset.columns(),
-                identity,
-            },
+            columns: preset.columns(),
             within: preset.is_by_place().then_some(Self::WITHIN),
             with_balance: false,
         }
@@ -163,9 +156,8 @@ impl Reader {
     /// # Ok::<(), cannonpile::verify::Refusal>(())
     /// ```
     #[must_use]
-    pub fn with_columns(mut self, columns: Columns) -> Self {
-        self.format.columns = columns;
-        self
+    pub fn with_columns(self, columns: Columns) -> Self {
+        Self { columns, ..self }
     }
 
     /// Returns it for tables that say where contacts are: by both centres, or by the point where they touch. A sphere is
@@ -183,11 +175,7 @@ impl Reader {
     /// assert!(Reader::new().by_place(1.0).is_err());
     /// ```
     pub fn by_place(mut self, within: f64) -> Result<Self, Refusal> {
-        if !(within > 0.0 && within < 0.5) {
-            return Err(Refusal::Within(within));
-        }
-        self.format.identity = Identity::Places;
-        self.within = Some(within);
+        self.within = Some(checked_within(within)?);
         Ok(self)
     }
 
@@ -202,7 +190,6 @@ impl Reader {
     /// ```
     #[must_use]
     pub fn by_numbers(mut self) -> Self {
-        self.format.identity = Identity::Numbers;
         self.within = None;
         self
     }
@@ -235,8 +222,9 @@ impl Reader {
     /// `ITEM:`, lines with data in VTK's XML if it begins with `<`, else a table whose columns are separated by commas,
     /// semicolons, tabs or blanks.
     ///
-    /// Memory does not grow with the file: it is eight bytes a contact of the pile, 24 more where there are vectors. By place
-    /// it is some 60 a sphere more for the search, and where the frame is another one, 250 a row.
+    /// Memory is eight bytes a contact of the pile, 24 more where there are vectors. By place it is some 60 a sphere more for
+    /// the search, and where the frame is another one, 250 a row. VTK's XML is kept whole besides; a table is read line by
+    /// line, however long.
     ///
     /// # Errors
     /// [`Refusal::Line`] for what cannot be read, the number of a sphere that the pile has not got, a pair that is there
@@ -258,16 +246,23 @@ impl Reader {
     /// # Ok::<(), cannonpile::verify::Refusal>(())
     /// ```
     pub fn compare(&self, packing: &Packing<'_>, input: impl BufRead) -> Result<Compared, Refusal> {
+        let format = Format {
+            columns: self.columns.clone(),
+            identity: match self.within {
+                Some(_) => Identity::Places,
+                None => Identity::Numbers,
+            },
+        };
         let mut ledger = Ledger::new(packing)?;
         let mut frame = None;
         if let Some(within) = self.within {
             let mut gathering = Gathering::new(ledger, within)?;
-            read_any(input, &self.format, &mut gathering)?;
+            read_any(input, &format, &mut gathering)?;
             let (filled, found) = gathering.settle()?;
             frame = Some(found).filter(|frame| *frame != Frame::OWN);
             ledger = filled;
         } else {
-            read_any(input, &self.format, &mut ledger)?;
+            read_any(input, &format, &mut ledger)?;
         }
         let (snapshots, timestep) = (ledger.snapshots(), ledger.timestep());
         let walls = ledger.walls();
@@ -298,4 +293,12 @@ fn read_any(mut input: impl BufRead, format: &Format, sink: &mut impl Sink) -> R
     } else {
         read_rows(lines, format, sink)
     }
+}
+
+/// The distance, as a share of the radius, if spheres can be told apart by it.
+pub(super) fn checked_within(within: f64) -> Result<f64, Refusal> {
+    if within > 0.0 && within < 0.5 {
+        return Ok(within);
+    }
+    Err(Refusal::Within(within))
 }

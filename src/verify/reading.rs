@@ -137,7 +137,7 @@ impl Sink for Reading {
     }
 
     fn take(&mut self, entry: &Entry, line: u64) -> Result<(), Refusal> {
-        let measured = entry.named().map_err(|fault| fault.at(line))?;
+        let measured = entry.named()?;
         let place = self.entries.len();
         if place as u64 >= MAX_ENTRIES {
             let limit = MAX_ENTRIES;

@@ -158,6 +158,11 @@ pub enum Fault {
         /// The most that are.
         limit: u64,
     },
+    /// Something that cannot be: a fault of this library and of no table.
+    Bug {
+        /// [`Error::Bug`].
+        error: Box<Error>,
+    },
 }
 
 impl fmt::Display for Refusal {
@@ -235,7 +240,7 @@ impl fmt::Display for Fault {
             ),
             Self::Field { column, error } => write!(f, "{column} {error}"),
             Self::NotFinite { column, value } => {
-                write!(f, "{column} is {value}: a force must be finite")
+                write!(f, "{column} is {value}: forces and places must be finite")
             }
             Self::NoSuchSphere { id, spheres } => write!(
                 f,
@@ -261,7 +266,7 @@ impl fmt::Display for Fault {
                 f,
                 "longer than {limit} bytes: is this a table with one contact per line?"
             ),
-            Self::Dump { error } => error.fmt(f),
+            Self::Dump { error } | Self::Bug { error } => error.fmt(f),
             Self::Truncated { announced, found } => write!(
                 f,
                 "the snapshot ends after {found} of {announced} entries: it is not complete"
@@ -300,6 +305,13 @@ impl Refusal {
 }
 
 impl Fault {
+    /// A case that an invariant rules out.
+    pub(super) fn of_bug(invariant: &'static str) -> Self {
+        Self::Bug {
+            error: Box::new(crate::error::bug(invariant)),
+        }
+    }
+
     /// At a line.
     pub(super) fn at(self, line: u64) -> Refusal {
         Refusal::Line { line, fault: self }

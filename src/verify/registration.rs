@@ -8,8 +8,8 @@
 
 use core::f64::consts::PI;
 
+use super::axes::Axes;
 use super::entry::Place;
-use super::finding::Axis;
 use super::frame::Frame;
 use super::places::{Places, is_loaded, middle, minus};
 
@@ -114,21 +114,21 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
 /// Frames worth trying, those with the least change first.
 fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<Frame> {
     let mut frames = Vec::new();
-    let own = Axis::all().filter(|axes| {
+    let own = Axes::all().filter(|axes| {
         // One of each vertical, and of its mirror images: the rest is a turn.
-        let [x, _, z] = *axes;
-        !x.is_reversed && x.index == (z.index + 1) % 3
+        let [x, _, z] = axes.get();
+        !x.is_reversed && x.coordinate == z.coordinate.next()
     });
-    let mut all: Vec<[Axis; 3]> = own.collect();
-    all.sort_by_key(|axes| (Axis::is_mirrored(*axes), *axes != Axis::OWN));
+    let mut all: Vec<Axes> = own.collect();
+    all.sort_by_key(|axes| (axes.is_mirrored(), *axes != Axes::OWN));
     for axes in all {
-        let named: Vec<[f64; 3]> = points.iter().map(|p| Axis::turn(axes, *p)).collect();
+        let named: Vec<[f64; 3]> = points.iter().map(|p| axes.turned(*p)).collect();
         let [from, to] = [&named[..], pile].map(mean);
         // Where contacts are missing, the lowest may still be there.
         let sunk = lowest(pile) - lowest(&named);
         for angle in angles(&named, pile, radius) {
             let turn = Frame {
-                axes: Axis::OWN,
+                axes: Axes::OWN,
                 angle,
                 shift: [0.0; 3],
             };
@@ -207,7 +207,7 @@ fn fitted(
     let to_own = |x: f64| if x.abs() < EXACT * radius { 0.0 } else { x };
     // Turned already as far as its axes go.
     let spun = Frame {
-        axes: Axis::OWN,
+        axes: Axes::OWN,
         ..turned
     };
     let shift = minus(b, spun.turned(a)).map(to_own);

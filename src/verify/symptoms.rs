@@ -1,8 +1,12 @@
 //! What measured and exact forces show together, contact by contact.
 
-use super::finding::{Axis, Finding};
+use std::collections::BTreeMap;
+
+use super::axes::Axes;
+use super::finding::Finding;
 use super::measured::{Measured, distance, norm};
 use crate::dem::NumberedContact;
+use crate::lattice::Link;
 
 /// How far off a turn of the axes may be and still be followed.
 const FOLLOWED: f64 = 0.25;
@@ -18,11 +22,11 @@ pub(super) struct Symptoms {
     /// How many have vectors.
     vectors: u64,
     /// The axes in which the vectors may be right, with the greatest error in each.
-    axes: Vec<([Axis; 3], f64)>,
+    axes: Vec<(Axes, f64)>,
     /// The greatest share of a force along the surfaces.
     tangential: f64,
-    /// For each layer how many contacts with a force it has, and how many are missing.
-    layers: Vec<[u64; 2]>,
+    /// For each layer how many contacts with a force it has with the one below, and how many of them are missing.
+    layers: BTreeMap<i128, [u64; 2]>,
 }
 
 impl Default for Symptoms {
@@ -30,9 +34,9 @@ impl Default for Symptoms {
         Self {
             ratios: None,
             vectors: 0,
-            axes: Axis::all().map(|axes| (axes, 0.0)).collect(),
+            axes: Axes::all().map(|axes| (axes, 0.0)).collect(),
             tangential: 0.0,
-            layers: Vec::new(),
+            layers: BTreeMap::new(),
         }
     }
 }
@@ -40,15 +44,12 @@ impl Default for Symptoms {
 impl Symptoms {
     /// A contact with a force was not measured.
     pub(super) fn miss(&mut self, exact: &NumberedContact) {
-        let [there, missing] = self.layer(exact);
-        *there += 1;
-        *missing += 1;
+        self.count(exact, 1);
     }
 
     /// A contact with a force was measured.
     pub(super) fn see(&mut self, exact: &NumberedContact, measured: &Measured) {
-        let [there, _] = self.layer(exact);
-        *there += 1;
+        self.count(exact, 0);
         let ratio = measured.force / exact.force;
         let ([least, greatest], count) = self.ratios.unwrap_or(([ratio; 2], 0));
         self.ratios = Some(([least.min(ratio), greatest.max(ratio)], count + 1));
@@ -58,7 +59,7 @@ impl Symptoms {
         self.vectors += 1;
         let magnitude = exact.force.abs();
         self.axes.retain_mut(|(axes, greatest)| {
-            let apart = distance(Axis::turn(*axes, vector), exact.vector);
+            let apart = distance(axes.turned(vector), exact.vector);
             *greatest = greatest.max(apart / magnitude);
             *greatest < FOLLOWED
         });
@@ -71,14 +72,13 @@ impl Symptoms {
         self.tangential = self.tangential.max(norm(across) / magnitude);
     }
 
-    /// How many contacts with a force a layer has, and how many are missing.
-    fn layer(&mut self, exact: &NumberedContact) -> &mut [u64; 2] {
-        // Contacts that are compared fit in memory, and so do their layers.
-        let k = usize::try_from(exact.site.k).unwrap_or(0);
-        if self.layers.len() <= k {
-            self.layers.resize(k + 1, [0; 2]);
+    /// Counts a contact with a force of a layer and the one below, with how many of it are missing: 0 or 1.
+    fn count(&mut self, exact: &NumberedContact, missing: u64) {
+        if let Link::Sloping(_) = exact.direction {
+            let [there, lost] = self.layers.entry(exact.site.k).or_default();
+            *there += 1;
+            *lost += missing;
         }
-        &mut self.layers[k]
     }
 
     /// The one factor of all measured forces, if there is one other than 1.
@@ -95,12 +95,7 @@ impl Symptoms {
         let factor = self.factor(tolerance);
         let turned = self.turned(tolerance);
         let turned = turned.map(|axes| {
-            if axes
-                == Axis::OWN.map(|axis| Axis {
-                    is_reversed: true,
-                    ..axis
-                })
-            {
+            if axes == Axes::OWN.reversed() {
                 Finding::SecondSphere
             } else {
                 Finding::Axes(axes)
@@ -109,12 +104,12 @@ impl Symptoms {
         let is_straight = factor.is_none() && turned.is_none();
         let tangential = self.tangential > tolerance.max(ROUNDED) && is_straight;
         let tangential = tangential.then_some(Finding::Tangential(self.tangential));
-        let lowest = self.layers.len();
-        let missing = (0..).zip(&self.layers).filter_map(|(k, [there, missing])| {
-            (*missing > 0 && missing == there).then_some(Finding::Layer {
-                k,
+        let lowest = self.layers.keys().next_back();
+        let missing = self.layers.iter().filter_map(|(k, [there, missing])| {
+            (missing == there).then_some(Finding::Layer {
+                k: *k,
                 contacts: *there,
-                is_lowest: usize::try_from(k + 1) == Ok(lowest),
+                is_lowest: Some(k) == lowest,
             })
         });
         // A list with nothing in it has not lost a layer.
@@ -129,9 +124,9 @@ impl Symptoms {
     }
 
     /// The axes in which all vectors are right, if they are not so as they are.
-    fn turned(&self, tolerance: f64) -> Option<[Axis; 3]> {
-        let right = |axes: &&([Axis; 3], f64)| axes.1 <= tolerance;
-        let own = self.axes.iter().find(|(axes, _)| *axes == Axis::OWN);
+    fn turned(&self, tolerance: f64) -> Option<Axes> {
+        let right = |axes: &&(Axes, f64)| axes.1 <= tolerance;
+        let own = self.axes.iter().find(|(axes, _)| *axes == Axes::OWN);
         if self.vectors < 3 || own.as_ref().is_some_and(right) {
             return None;
         }

@@ -117,13 +117,13 @@ impl Piece {
                 )));
             }
             let mut fields = Vec::new();
-            let mut first = 0;
-            for place in [end - 1, begin] {
-                first = connectivity.values.index(place).ok_or_else(short)?;
-                for axis in (0..3).rev() {
-                    let at = first.checked_mul(3).and_then(|at| at.checked_add(axis));
-                    let text = at.and_then(|at| points.values.text(at)).ok_or_else(short)?;
-                    fields.insert(0, text);
+            let first = connectivity.values.index(begin).ok_or_else(short)?;
+            let second = connectivity.values.index(end - 1).ok_or_else(short)?;
+            for place in [first, second] {
+                for axis in 0..3 {
+                    let at = place.checked_mul(3).and_then(|at| at.checked_add(axis));
+                    let text = at.and_then(|at| points.values.text(at));
+                    fields.push(text.ok_or_else(short)?);
                 }
             }
             begin = end;

@@ -64,6 +64,8 @@ mod formula {
 #[cfg(feature = "std")]
 mod engine {
     mod high;
+    #[cfg(all(feature = "export", feature = "horizontal"))]
+    mod interrupt;
     mod methods;
     mod trees;
     mod widths;
@@ -161,6 +163,9 @@ mod disorder {
 
 #[cfg(feature = "std")]
 mod theorem;
+
+#[cfg(feature = "export")]
+mod proof;
 
 #[cfg(feature = "toml")]
 mod scene {

@@ -148,7 +148,7 @@ fn every_theorem_refuses_a_fault() {
 /// Fields by name; one that is missing does not compile.
 macro_rules! fields {
     ($($field:ident)*) => {{
-        let Formulas { $($field: _),* } = Formulas::LIBRARY;
+        let Formulas { $($field: _),* } = Formulas::<cannonpile::scalar::Polynomial>::LIBRARY;
         [$(stringify!($field)),*]
     }};
 }

@@ -30,6 +30,11 @@ fn id(pile: &Pile, site: Site) -> u64 {
     u64::try_from(pile.shape().before(site).unwrap()).unwrap() + 1
 }
 
+fn site(pile: &Pile, measured: &Measured) -> Site {
+    let [first, _] = measured.ids;
+    pile.numbering().unwrap().site(first).unwrap()
+}
+
 /// What a perfect simulation would measure: each force alone, the nearest float, told of the upper sphere.
 fn perfect(packing: &Packing<'_>) -> Vec<Measured> {
     let pile = packing.pile();
@@ -506,6 +511,23 @@ fn horizontal_contacts_are_compared_too() {
     let comparison = compare(&packing, &all);
     assert_eq!(comparison.matched(), 129);
     assert!(comparison.accepted(0.0), "{comparison}");
+    // Those of a layer with the one below are missing, and its horizontal ones are there.
+    for lost in horizontal.iter().map(|one| site(pile, one).k) {
+        let mut some = all.clone();
+        some.retain(|one| {
+            let [_, _, z] = one.vector.unwrap();
+            z == 0.0 || site(pile, one).k != lost
+        });
+        let findings = compare(&packing, &some).findings(1e-6);
+        let [finding] = &findings[..] else {
+            panic!("{lost}: {findings:?}");
+        };
+        let said = format!(
+            "contacts of layer {lost} with layer {} are missing",
+            lost + 1
+        );
+        assert!(finding.to_string().contains(&said), "{finding}");
+    }
     // Told by the other sphere.
     let reversed: Vec<Measured> = all.iter().map(|measured| measured.reversed()).collect();
     assert!(compare(&packing, &reversed).accepted(0.0));

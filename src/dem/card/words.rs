@@ -53,7 +53,7 @@ pub(super) fn stands(facts: &Facts<'_, '_>) -> Option<&'static str> {
     }
 }
 
-/// The same for people.
+/// The verdict in words for people, with the reason where there is none.
 pub(super) fn verdict(facts: &Facts<'_, '_>) -> &'static str {
     match &facts.stands {
         Stands::Known(verdict) => verdict.name(),

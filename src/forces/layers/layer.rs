@@ -8,7 +8,7 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::below::Below;
 use super::{Layers, Way, check_lengths, split_front};
-use crate::engine::{Cells, Descent, Meter, Table};
+use crate::engine::{Cells, Descent, Meter, Table, check_interrupt};
 use crate::error::bug;
 use crate::lattice::{Region, Site};
 use crate::scalar::{Algebra, Exactness};
@@ -40,6 +40,7 @@ impl<M: Meter> Layer<'_, '_, BigRational, M> {
         self.check_above_the_floor()?;
         let mut rest = slices;
         for row in self.region.rows(self.k) {
+            check_interrupt()?;
             let below = self.layers.passed_on_in(&row)?;
             let [a, b, c] = split_front(&mut rest, below.len())?;
             for (forces, ((a, b), c)) in below.into_iter().zip(a.iter_mut().zip(b).zip(c)) {
@@ -383,6 +384,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         let mut defined = true;
         let carried = sweep.carried_by_rows();
         for row in self.region.rows(self.k) {
+            check_interrupt()?;
             let row = carried(&row)?;
             let out = split_front(&mut rest, row[0].len())?;
             defined &= below.write(row, out);

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::Error;
-use crate::engine::{Meter, Readout, Table, Unit};
+use crate::engine::{Meter, Readout, Table, Unit, check_interrupt};
 use crate::error::bug;
 use crate::forces::layers::Layers;
 use crate::formula::tripled_half_turn;
@@ -131,6 +131,7 @@ impl<M: Meter> Layers<'_, BigRational, M> {
         row: &Row,
         [a, b, c]: [&mut [F]; 3],
     ) -> Result<(), Error> {
+        check_interrupt()?;
         let (units, readout) = match source {
             Source::Table(table) => return table.fill_row(row, [a, b, c]),
             Source::Lines { units, readout } => (units, readout),

@@ -8,7 +8,7 @@ use cannonpile::certificate::{Certificate, Refusal};
 use cannonpile::serde::read_certificates;
 use clap::Args;
 
-use crate::output::{Failure, reason, write_to};
+use crate::output::{A_FILE_OR_STDIN, Failure, unreadable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -107,10 +107,7 @@ impl Check {
                     "FILE: {name} is no certificate: {error}; 'cannonpile check --help' shows one"
                 )
             }
-            _ => format!(
-                "FILE: {name} cannot be read: {}; name a file that is there, or - for stdin",
-                reason(error)
-            ),
+            _ => return unreadable(name, error, A_FILE_OR_STDIN),
         })
     }
 

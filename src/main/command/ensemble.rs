@@ -1,6 +1,5 @@
 //! `ensemble` and `merge`: random stackings one by one, and in parts.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use cannonpile::disorder::{
@@ -17,7 +16,7 @@ use num_rational::BigRational;
 
 use super::{fault_probability, has_horizontal_contacts};
 use crate::args::{Format, Number, Output, SceneOptions};
-use crate::output::{Failure, Refused, reason, write_to};
+use crate::output::{Failure, Refused, open, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -269,13 +268,7 @@ impl Merge {
 
 pub(super) fn read(path: &Path) -> Result<TallyRecord, Failure> {
     let name = path.display();
-    let file = File::open(path).map_err(|error| {
-        let reason = reason(&error);
-        Failure::Message(format!(
-            "FILE: {name} cannot be read: {reason}; name a file that is there"
-        ))
-    })?;
-    TallyRecord::read(file).map_err(|error| {
+    TallyRecord::read(open(path)?).map_err(|error| {
         Failure::Message(format!(
             "FILE: {name} is no part of an ensemble: {error}; 'cannonpile ensemble --shard I/N --format json' writes one"
         ))

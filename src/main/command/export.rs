@@ -4,9 +4,9 @@ use std::io::{self, IsTerminal};
 use std::path::{self, Path, PathBuf};
 use std::time::Instant;
 
-use cannonpile::dem::{self, CardTitle, PileExport, PileFile, PileFormat, Written};
+use cannonpile::dem::{self, CardTitle, Page, PileExport, PileFile, PileFormat, Written};
 use cannonpile::scene::{Scene, State};
-use cannonpile::table::{NumberFormat, WriteError};
+use cannonpile::table::{self, NumberFormat, WriteError};
 use clap::{Args, ValueEnum};
 use num_traits::One;
 
@@ -23,16 +23,21 @@ A card is a benchmark on a page: what the pile is, the exact answers, what sprin
 how that is checked, how to cite. Long lists are left to the files of csv. lammps-test and yade-check are to be put among the
 tests of these codes: they hold the pile and its answers, and fail with the worst place.
 
+A page is one file, which a browser opens without a network: the pile to be turned, cut and asked for its forces. With a
+name that ends in .html it is written alone, and needs no folder; where neighbours of a layer touch, --state elastic shows
+both states beside each other.
+
 Examples:
   cannonpile export pile --to lammps --layers 10 --spacing 1.2
   cannonpile export pile --to csv,vtp --layers 40 --list files.csv
   cannonpile export C2 --case C2 --to csv,card
-  cannonpile export checks --case C4 --to yade-check,lammps-test";
+  cannonpile export checks --case C4 --to yade-check,lammps-test
+  cannonpile export pile.html --to html --top hexagon:3 --stacking hcp --layers 4";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Export {
-    /// The folder, created if it is missing; other files in it stay as they are
+    /// The folder, created if it is missing; other files in it stay as they are. Of --to html alone also a file, FILE.html
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// What the files are for; several separated by commas, or the option repeated
@@ -81,7 +86,9 @@ enum Target {
     LammpsTest,
     /// For the suite of YADE: checkPile.py, in the style of scripts/checks-and-tests/checks; up to 2000 spheres
     YadeCheck,
-    /// csv, lammps, vtp, yade and card; not the tests of suites, which are of small piles
+    /// For a browser: pile.html, a page to look into the pile, or FILE.html alone; up to 100000 spheres
+    Html,
+    /// csv, lammps, vtp, yade and card; not the tests of suites and the page, which are of small piles
     All,
 }
 
@@ -95,6 +102,7 @@ impl Target {
             Self::Card => &[PileFormat::Card],
             Self::LammpsTest => &[PileFormat::LammpsTest],
             Self::YadeCheck => &[PileFormat::YadeCheck],
+            Self::Html => &[PileFormat::Html],
             Self::All => &[
                 PileFormat::Csv,
                 PileFormat::Lammps,
@@ -119,6 +127,10 @@ impl Export {
             .with_title(self.title(&scene));
         let formats = self.formats();
         check_springs(&scene, &formats)?;
+        if formats.contains(&PileFormat::Html) {
+            // Before anything is written.
+            Page::new(&packing)?;
+        }
         self.keep_apart(&formats)?;
         let format = agreed(
             "list-format",
@@ -129,7 +141,11 @@ impl Export {
         self.check_room(&files, &formats)?;
         let begun = Instant::now();
         let progress = Progress::of_rows("files", Some(rows(&files, &formats)));
-        let written = files.write(&formats, &self.folder, &mut |rows| progress.advance(rows));
+        let written = if self.is_of_page(&formats) {
+            self.write_page(&files).map(|written| vec![written])
+        } else {
+            files.write(&formats, &self.folder, &mut |rows| progress.advance(rows))
+        };
         drop(progress);
         let written = written.map_err(|error| match error {
             WriteError::Answer(error) => self.scene.beyond_floats(error.into(), &scene),
@@ -141,6 +157,34 @@ impl Export {
         note_if_it_falls(&pile);
         tell_rate(&written, begun);
         Ok(true)
+    }
+
+    /// Returns whether the page is asked for alone, by the name of a file.
+    fn is_of_page(&self, formats: &[PileFormat]) -> bool {
+        let ending = self.folder.extension().and_then(|ending| ending.to_str());
+        let is_html = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
+        formats == [PileFormat::Html] && is_html && !self.folder.is_dir()
+    }
+
+    /// Writes the page where the folder would be.
+    fn write_page(&self, files: &PileExport<'_>) -> Result<Written, WriteError> {
+        let (path, mut bytes) = (self.folder.clone(), 0);
+        let written = table::write_aside(&path, |out| {
+            let mut page = Vec::new();
+            files.write_file(PileFile::Page, &mut page, &mut |_| {})?;
+            bytes = page.len() as u64;
+            Ok(out.write_all(&page)?)
+        });
+        match written {
+            Ok(()) => Ok(Written {
+                file: PileFile::Page,
+                path,
+                rows: None,
+                bytes,
+            }),
+            Err(WriteError::Io(error)) => Err(WriteError::File { path, error }),
+            Err(error) => Err(error),
+        }
     }
 
     /// Returns what a card says of the scene.
@@ -176,7 +220,13 @@ impl Export {
         };
         let place = |path: &Path| path::absolute(path).ok();
         let files = formats.iter().flat_map(|format| format.files());
-        let mut paths = files.map(|file| self.folder.join(file.name()));
+        let mut paths = files.map(|file| {
+            if self.is_of_page(formats) {
+                self.folder.clone()
+            } else {
+                self.folder.join(file.name())
+            }
+        });
         if paths.any(|path| place(&path) == place(list)) {
             let list = list.display();
             return Err(Failure::Message(format!(

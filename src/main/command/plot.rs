@@ -1,6 +1,5 @@
 //! `plot KIND`: the figures.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use cannonpile::figure::{self, Figure, Layout, Subject};
@@ -17,7 +16,7 @@ use num_traits::One;
 use super::ensemble::Measured as Histogram;
 use super::fault_probability;
 use crate::args::{SceneOptions, UnitSystem, one};
-use crate::output::{Failure, Refused, complain, reason, write_to};
+use crate::output::{Failure, Refused, complain, open, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -315,13 +314,7 @@ impl Plot {
 /// The ladder of a record.
 fn read_ladder(path: &Path) -> Result<Ladder, Failure> {
     let name = path.display();
-    let file = File::open(path).map_err(|error| {
-        let reason = reason(&error);
-        Failure::Message(format!(
-            "FILE: {name} cannot be read: {reason}; name a file that is there"
-        ))
-    })?;
-    Ladder::read(file).map_err(|error| {
+    Ladder::read(open(path)?).map_err(|error| {
         Failure::Message(format!(
             "FILE: {name} is no ladder: {error}; 'cannonpile verify --ladder K1=FILE1,K2=FILE2 --format json' writes one"
         ))

@@ -1,18 +1,29 @@
 //! `prove`: what is proved for every pile.
 
+use std::path::{Path, PathBuf};
+
+use cannonpile::proof::{self, Assistant};
 use cannonpile::table::{self, NumberFormat};
 use cannonpile::theorem::{self, Listing};
-use clap::Args;
 use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueEnum};
 
 use crate::args::{Format, Output};
 use crate::output::Failure;
 use crate::progress::Progress;
 
 const HELP: &str = "\
+--to writes the same formulas, as they run and unsimplified, as definitions that another program reads, and with them laws
+and proofs written by hand: files to check, and a table of which listed theorem is proved there under which name. Coq checks
+all of it, for every number of layers by induction where the statement says so, and coqchk finds no axiom. The file for
+Lean has definitions and identities, and was not checked. Files are written under other names, and renamed when
+all are complete; other files in the folder stay as they are.
+
 Examples:
   cannonpile prove
-  cannonpile prove --theorem uniform-base";
+  cannonpile prove --theorem uniform-base
+  cannonpile prove --to coq proofs
+  cannonpile prove --to lean proofs";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
@@ -20,13 +31,45 @@ pub(crate) struct Prove {
     /// One theorem only, with its whole derivation
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(theorem::all().map(|t| t.name)))]
     theorem: Option<String>,
+    /// Write formulas, laws and proofs for this program to check, into the folder DIR
+    #[arg(
+        long,
+        value_enum,
+        value_name = "PROGRAM",
+        requires = "folder",
+        conflicts_with = "theorem"
+    )]
+    to: Option<Target>,
+    /// The folder for --to, created if it is missing
+    #[arg(value_name = "DIR", requires = "to")]
+    folder: Option<PathBuf>,
     #[command(flatten)]
     output: Output,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Target {
+    /// Coq 8.16 or later
+    Coq,
+    /// Lean 4, not checked
+    Lean,
+}
+
+impl From<Target> for Assistant {
+    fn from(target: Target) -> Self {
+        match target {
+            Target::Coq => Self::Coq,
+            Target::Lean => Self::Lean,
+        }
+    }
 }
 
 impl Prove {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let format = self.output.format()?;
+        if let (Some(target), Some(folder)) = (self.to, self.folder.as_deref()) {
+            return self.write_for(target.into(), folder, format);
+        }
         let progress = Progress::begin("proving");
         let name = self.theorem.as_deref();
         let wanted = theorem::all().filter(|theorem| name.is_none_or(|name| theorem.name == name));
@@ -56,5 +99,27 @@ impl Prove {
             Ok(())
         })?;
         Ok(all_hold)
+    }
+
+    /// Writes the files, and then what they prove, and how they are checked.
+    fn write_for(
+        &self,
+        assistant: Assistant,
+        folder: &Path,
+        format: Format,
+    ) -> Result<bool, Failure> {
+        proof::write(assistant, folder)
+            .map_err(|error| Failure::of_writing(error, "to", Some(folder)))?;
+        let checks = proof::commands(assistant, folder)?;
+        let progress = Progress::begin("listing");
+        let (table, numbers) = (proof::listed(assistant), NumberFormat::Exact);
+        self.output.write(&progress, |out| {
+            table.write(format.into(), numbers, out)?;
+            if format == Format::Table {
+                writeln!(out, "\n{checks}")?;
+            }
+            Ok(())
+        })?;
+        Ok(true)
     }
 }

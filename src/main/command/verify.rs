@@ -17,7 +17,7 @@ use clap::{Args, ValueEnum};
 use super::note_if_it_falls;
 use crate::args::{Format, Output, SceneOptions};
 use crate::hashed::Hashed;
-use crate::output::{Failure, complain, reason, write_to};
+use crate::output::{A_FILE_OR_STDIN, Failure, complain, unreadable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
@@ -137,16 +137,16 @@ impl Verify {
         let format = self.output.format()?;
         let reader = self.reader()?;
         let progress = Progress::begin("reading FILE, and comparing it with the exact forces");
-        let read = compare(&reader, packing, path);
+        let read = compare(&reader, packing, path, format);
         let (read, source) = read.map_err(|refusal| self.refused(refusal, path, scene))?;
-        let source = Source {
+        let source = source.map(|source| Source {
             scene: scene.to_toml(),
             ..source
-        };
+        });
         let report = Report::of_file(&read, self.accept);
-        let report = match format {
-            Format::Json => report.with_source(&source),
-            _ => report,
+        let report = match &source {
+            Some(source) => report.with_source(source),
+            None => report,
         };
         self.output
             .write(&progress, |out| report.write(format.into(), out))?;
@@ -204,10 +204,7 @@ impl Verify {
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
-            Refusal::Io(error) => format!(
-                "FILE: {name} cannot be read: {}; name a file that is there, or - for stdin",
-                reason(&error)
-            ),
+            Refusal::Io(error) => return unreadable(name, &error, A_FILE_OR_STDIN),
             refusal @ Refusal::Line {
                 fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },
                 ..
@@ -219,26 +216,21 @@ impl Verify {
     }
 }
 
-/// Reads a file, or stdin, and compares it.
+/// Reads a file, or stdin, and compares it; says what was read where the answer is a record.
 fn compare(
     reader: &Reader,
     packing: &Packing<'_>,
     path: &Path,
-) -> Result<(Compared, Source), Refusal> {
-    if path == Path::new("-") {
-        hashed(reader, packing, path, io::stdin().lock())
+    format: Format,
+) -> Result<(Compared, Option<Source>), Refusal> {
+    let input: Box<dyn BufRead> = if path == Path::new("-") {
+        Box::new(io::stdin().lock())
     } else {
-        let file = BufReader::with_capacity(1 << 16, File::open(path)?);
-        hashed(reader, packing, path, file)
+        Box::new(BufReader::with_capacity(1 << 16, File::open(path)?))
+    };
+    if format != Format::Json {
+        return Ok((reader.compare(packing, input)?, None));
     }
-}
-
-fn hashed(
-    reader: &Reader,
-    packing: &Packing<'_>,
-    path: &Path,
-    input: impl BufRead,
-) -> Result<(Compared, Source), Refusal> {
     let mut input = Hashed::new(input);
     let read = reader.compare(packing, &mut input)?;
     let (bytes, sha256) = input.finish();
@@ -248,7 +240,7 @@ fn hashed(
         bytes,
         sha256,
     };
-    Ok((read, source))
+    Ok((read, Some(source)))
 }
 
 fn name(path: &Path) -> String {

@@ -44,12 +44,12 @@ console! {
     contacts: 51;
     ensemble: 35;
     explain: 12;
-    export: 36;
+    export: 43;
     help: 18;
     mean: 45;
     merge: 13;
     plot: 38;
-    prove: 5;
+    prove: 13;
     scene: 11;
     spheres: 15;
     summary: 36;

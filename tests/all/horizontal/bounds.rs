@@ -110,6 +110,20 @@ fn piles_of_minus_steps_are_those_of_plus_steps_turned() {
 }
 
 #[test]
+fn edges_too_long_for_a_program_attain_their_bound() {
+    let layers = 33;
+    let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
+    // On each of the three edges, and of both orders.
+    for [i, j] in [[1, 0], [0, 11], [k - 16, 16], [21, k - 21]] {
+        let site = Site { i, j, k };
+        let bounds = pile.bounds(site).unwrap();
+        is_proved(&bounds.greatest);
+        assert!(bounds.greatest.attained, "{site}");
+        assert_eq!(bounds.greatest.normal, formula(k, site), "{site}");
+    }
+}
+
+#[test]
 fn very_high_piles_have_them_too() {
     let layers = 10_i128.pow(30);
     let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);

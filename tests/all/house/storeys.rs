@@ -25,7 +25,9 @@ const STOREYS: &[(&str, &[&str])] = &[
     ),
     (
         "tools",
-        &["scene", "table", "dem", "verify", "figure", "serde", "main"],
+        &[
+            "scene", "table", "dem", "verify", "figure", "proof", "serde", "main",
+        ],
     ),
 ];
 

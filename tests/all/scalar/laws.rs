@@ -3,7 +3,7 @@
 use crate::support::answers::ratio;
 use crate::support::pair::Pair;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, FixedInteger, FixedRational, Interval, Polynomial,
+    Algebra, DoubleDouble, Expression, Field, FixedInteger, FixedRational, Interval, Polynomial,
     RealEmbeddable, Ring, Symbol, laws,
 };
 use num_bigint::BigInt;
@@ -311,6 +311,26 @@ fn polynomials() {
     ]);
     obeys_integers::<Polynomial>();
     keeps_numerators::<Polynomial>(&wide());
+}
+
+#[test]
+fn expressions() {
+    let [x, y] = ["x", "y"].map(|name| Expression::from(Symbol(name)));
+    let seventh = 7.try_into().expect("7");
+    obeys_algebra(&[
+        Expression::zero(),
+        Expression::from_i128(-1),
+        Expression::from_rational(&ratio(i64::MIN, i64::MAX)),
+        x.clone(),
+        -y.clone(),
+        x.clone() - &y,
+        (x.clone() * &x * &y).div_int(seventh) - &Expression::from_i128(5),
+        x.clone() + &y.div_int(i64::MIN.try_into().expect("not zero")),
+    ]);
+    obeys_integers::<Expression>();
+    keeps_numerators::<Expression>(&wide());
+    // A quotient by what has symbols is none.
+    assert!(Expression::from_ratio(x.clone() * &x, &x).is_none());
 }
 
 /// All laws; the embedding where the second scalar holds the operands at all.

@@ -100,7 +100,7 @@ fn what_is_wrong_with_a_csv_table_is_said_with_its_line() {
     let number = "not a number such as 0.46 or 1e-3";
     let id = "not the number of a sphere, such as 17, counted from 1 (LAMMPS writes all digits with dump_modify format \
               float %.17g)";
-    let finite = "a force must be finite";
+    let finite = "forces and places must be finite";
     for (text, want) in [
         (
             "id1,id2,force\n1,2\n",

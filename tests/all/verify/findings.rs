@@ -85,11 +85,11 @@ fn swapped_axes_and_mirror_images_are_named() {
         for (turn, said) in [
             (
                 (|[x, y, z]: [f64; 3]| [x, -y, z]) as fn([f64; 3]) -> [f64; 3],
-                "x, y, z of the scene are x, -y, z of the table: a mirror image",
+                "x, y, z of the scene are x, -y, z of the table, a mirror image",
             ),
             (
                 |[x, y, z]| [x, z, y],
-                "x, y, z of the scene are x, z, y of the table: a mirror image",
+                "x, y, z of the scene are x, z, y of the table, a mirror image",
             ),
             (
                 |[x, y, z]| [z, x, y],

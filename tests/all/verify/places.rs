@@ -1,21 +1,20 @@
 //! Contacts are found by where they are, in any frame, in any order; another pile's are not.
 
-use cannonpile::lattice::{Region, Site};
+use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::verify::{Axis, Compared, Frame, Measured, Reader, Refusal};
+use cannonpile::verify::Coordinate::{X, Y, Z};
+use cannonpile::verify::{
+    Axes, Compared, Comparison, Coordinate, Force, Frame, Measured, Placed, Reader, Refusal,
+    TableAxis,
+};
 use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
 
 use super::{packing, perfect, ratio};
 
-const AXES: [Axis; 3] = [axis(0), axis(1), axis(2)];
-
-const fn axis(index: usize) -> Axis {
-    Axis {
-        index,
-        is_reversed: false,
-    }
+fn own_axes() -> Axes {
+    Axes::new([X, Y, Z].map(TableAxis::from)).unwrap()
 }
 
 /// A table of both centres, or of contact points, seen from another frame; every `left_out`-th contact is missing.
@@ -78,23 +77,24 @@ fn piles() -> Vec<Pile> {
 
 #[test]
 fn a_table_in_any_frame_is_accepted_and_the_frame_is_told() {
-    let turned = |axes: [usize; 3], signs: [bool; 3]| {
+    let turned = |axes: [Coordinate; 3], signs: [bool; 3]| {
         let mut signs = signs.into_iter();
-        axes.map(|index| Axis {
-            index,
+        let axes = axes.map(|coordinate| TableAxis {
+            coordinate,
             is_reversed: signs.next().unwrap(),
-        })
+        });
+        Axes::new(axes).unwrap()
     };
     let [t, f] = [true, false];
     let frames = [
-        (AXES, 0.0, [0.0; 3]),
-        (AXES, 0.0, [3.0, -20.0, 0.5]),
-        (AXES, 0.3, [0.0; 3]),
-        (AXES, -2.5, [1.0, 1.0, 1.0]),
-        (turned([1, 2, 0], [f; 3]), 0.0, [0.0; 3]),
-        (turned([0, 2, 1], [f, f, t]), 0.0, [5.0, 6.0, 7.0]),
-        (turned([2, 1, 0], [t, f, f]), 0.0, [-1.0, 0.0, 0.0]),
-        (turned([0, 1, 2], [f, t, t]), 0.0, [0.0, 0.0, 9.0]),
+        (own_axes(), 0.0, [0.0; 3]),
+        (own_axes(), 0.0, [3.0, -20.0, 0.5]),
+        (own_axes(), 0.3, [0.0; 3]),
+        (own_axes(), -2.5, [1.0, 1.0, 1.0]),
+        (turned([Y, Z, X], [f; 3]), 0.0, [0.0; 3]),
+        (turned([X, Z, Y], [f, f, t]), 0.0, [5.0, 6.0, 7.0]),
+        (turned([Z, Y, X], [t, f, f]), 0.0, [-1.0, 0.0, 0.0]),
+        (turned([X, Y, Z], [f, t, t]), 0.0, [0.0, 0.0, 9.0]),
     ];
     for pile in piles() {
         let packing = packing(&pile, ratio(11, 10));
@@ -112,7 +112,7 @@ fn a_table_in_any_frame_is_accepted_and_the_frame_is_told() {
                 assert_eq!(
                     read.frame.is_none(),
                     seen == Frame {
-                        axes: AXES,
+                        axes: own_axes(),
                         angle: 0.0,
                         shift: [0.0; 3]
                     }
@@ -129,7 +129,7 @@ fn what_is_missing_is_missing_in_any_frame() {
     let packing = packing(&pile, ratio(11, 10));
     let (angle, shift) = (0.7, [4.0, 4.0, 4.0]);
     let seen = Frame {
-        axes: AXES,
+        axes: own_axes(),
         angle,
         shift,
     };
@@ -152,9 +152,8 @@ fn a_mirror_image_is_named() {
     let pile = pile.with_load(Site { i: 1, j: 0, k: 2 }, one(3)).unwrap();
     let pile = pile.with_load(Site { i: 0, j: 1, k: 3 }, one(7)).unwrap();
     let packing = packing(&pile, ratio(11, 10));
-    let [x, y, z] = AXES;
     let seen = Frame {
-        axes: [y, x, z],
+        axes: Axes::new([Y, X, Z].map(TableAxis::from)).unwrap(),
         angle: 0.0,
         shift: [0.0; 3],
     };
@@ -186,7 +185,7 @@ fn another_pile_is_refused() {
     let (small, other) = (Pile::triangular(6).unwrap(), Pile::triangular(6).unwrap());
     let (small, other) = (packing(&small, ratio(11, 10)), packing(&other, ratio(1, 1)));
     let own = Frame {
-        axes: AXES,
+        axes: own_axes(),
         angle: 0.0,
         shift: [0.0; 3],
     };
@@ -224,4 +223,118 @@ fn places_need_their_columns() {
         .to_string();
     assert!(line.starts_with("line 1: no column z2, only"), "{line}");
     assert!(Reader::new().by_place(0.0).is_err() && Reader::new().by_place(f64::NAN).is_err());
+}
+
+#[test]
+fn a_pile_of_one_sphere_has_no_place_for_a_contact() {
+    let pile = Pile::triangular(1).unwrap();
+    let packing = packing(&pile, ratio(1, 1));
+    let empty = read(&packing, "x,y,z,force\n").unwrap();
+    assert!(empty.comparison.accepted(0.0));
+    for row in ["0,0,0,0", "0,0,0,1"] {
+        let refused = read(&packing, &format!("x,y,z,force\n{row}\n")).unwrap_err();
+        assert!(matches!(
+            refused,
+            Refusal::Elsewhere {
+                found: 0,
+                sample: 1
+            }
+        ));
+    }
+}
+
+/// The rows of a table, without the file.
+fn placed(table: &str, by_point: bool) -> Vec<Placed> {
+    let lines = table.lines().skip(1);
+    let row = lines.map(|line| {
+        let x: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let point = |at: usize| [x[at], x[at + 1], x[at + 2]];
+        if by_point {
+            Placed::at(point(0), Force::Both(x[6], point(3)))
+        } else {
+            Placed::between([point(0), point(3)], Force::Both(x[9], point(6)))
+        }
+    });
+    row.collect()
+}
+
+#[test]
+fn rows_in_memory_are_compared_as_those_of_a_file() {
+    for pile in piles() {
+        let packing = packing(&pile, ratio(11, 10));
+        for (angle, shift) in [(0.0, [0.0; 3]), (-2.5, [1.0, 1.0, 1.0])] {
+            let axes = own_axes();
+            let seen = Frame { axes, angle, shift };
+            for (by_point, left_out) in [(false, 0), (true, 0), (true, 10)] {
+                let table = table(&packing, &seen, by_point, left_out);
+                let of_file = read(&packing, &table).unwrap();
+                let placed = placed(&table, by_point);
+                let of_memory = Comparison::of_places(&packing, placed, 0.1).unwrap();
+                assert_eq!(of_memory, (of_file.comparison, of_file.frame));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_magnitude_or_a_vector_alone_will_do() {
+    let pile = Pile::triangular(4).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let own = Frame {
+        axes: own_axes(),
+        angle: 0.0,
+        shift: [0.0; 3],
+    };
+    let table = table(&packing, &own, true, 0);
+    for row in table.lines().skip(1).map(|line| line.split(',')) {
+        let x: Vec<f64> = row.map(|x| x.parse().unwrap()).collect();
+        let (point, vector) = ([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
+        for force in [Force::Along(x[6]), Force::Vector(vector)] {
+            let measured = [Placed::at(point, force)];
+            let (comparison, _) = Comparison::of_places(&packing, measured, 0.1).unwrap();
+            assert_eq!(comparison.matched(), 1);
+            assert!(comparison.largest_error() < 1e-12, "{comparison}");
+        }
+        // The other way round it pulls.
+        let measured = [Placed::at(point, Force::Along(-x[6]))];
+        let (comparison, _) = Comparison::of_places(&packing, measured, 0.1).unwrap();
+        assert!((comparison.largest_error() - 2.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn rows_in_memory_that_cannot_be_are_refused_with_their_number() {
+    let pile = Pile::triangular(3).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let point = packing.contact_point(Site::APEX, Direction::Alpha).unwrap();
+    let point = point.map(|x| x.nearest::<f64>().unwrap());
+    let good = Placed::at(point, Force::Along(0.4));
+    let refused = |rows: &[Placed], within: f64| {
+        let refused = Comparison::of_places(&packing, rows.iter().copied(), within);
+        refused.unwrap_err().to_string()
+    };
+    for number in [f64::NAN, f64::INFINITY] {
+        for bad in [
+            Placed::at(point, Force::Along(number)),
+            Placed::at(point, Force::Vector([0.0, number, 1.0])),
+            Placed::at(point, Force::Both(1.0, [number; 3])),
+            Placed::at([0.0, 0.0, number], Force::Along(1.0)),
+            Placed::between([point, [0.0, number, 0.0]], Force::Along(0.0)),
+        ] {
+            let said = refused(&[good, bad], 0.1);
+            assert!(
+                said.starts_with("entry 2: ") && said.contains("finite"),
+                "{said}"
+            );
+        }
+    }
+    let said = refused(&[good, good], 0.1);
+    assert!(
+        said.starts_with("entry 2: ") && said.contains("list each pair once"),
+        "{said}"
+    );
+    assert!(refused(&[good], 0.5).contains("0.5 radii are no distance"));
+    let off = Placed::at([0.0, 0.0, 50.0], Force::Along(1.0));
+    let said = refused(&[good, good, off, off, off], 0.1);
+    assert!(said.contains("no contact at"), "{said}");
 }

@@ -9,7 +9,9 @@ use arbitrary::Unstructured;
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::Surd;
 use cannonpile::shape::Selection;
-use cannonpile::verify::{self, Axis, Comparison, Frame, Measured, Preset, Reader, Refusal};
+use cannonpile::verify::{
+    self, Axes, Comparison, Coordinate, Frame, Measured, Preset, Reader, Refusal,
+};
 use cannonpile::{Packing, Pile};
 use num_traits::{Signed, ToPrimitive};
 
@@ -153,10 +155,7 @@ pub(crate) fn by_place(u: &mut Unstructured<'_>) -> Checked {
 /// The frame of the scene.
 fn own() -> Frame {
     Frame {
-        axes: [0, 1, 2].map(|index| Axis {
-            index,
-            is_reversed: false,
-        }),
+        axes: Axes::new([Coordinate::X, Coordinate::Y, Coordinate::Z].map(Into::into)).unwrap(),
         angle: 0.0,
         shift: [0.0; 3],
     }

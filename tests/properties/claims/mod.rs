@@ -22,6 +22,7 @@
 //! | `json` | what is written as JSON is read back, and any JSON is valid or refused |
 //! | `laws` | every scalar passes the law suite |
 //! | `stackings` | a text is read as a stacking by the rules of its notation, and printed again |
+//! | `recorded` | formulas as they are written for Coq, read and evaluated again, are the formulas (feature `export`) |
 //! | `regions` | bounds are tightened completely, and small regions have their sites |
 //! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
 //! | `numbered` | the spheres of any pile are numbered without a gap |
@@ -58,6 +59,8 @@ pub(crate) mod order;
 pub(crate) mod overlap;
 pub(crate) mod packing;
 pub(crate) mod parsers;
+#[cfg(feature = "export")]
+pub(crate) mod recorded;
 pub(crate) mod regions;
 pub(crate) mod scene;
 #[cfg(feature = "toml")]

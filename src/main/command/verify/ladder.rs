@@ -27,13 +27,13 @@ impl Verify {
         let progress = Progress::begin("reading the files of --ladder");
         let (mut rungs, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
         for file in files {
-            let read = compare(&reader, packing, &file.path);
+            let read = compare(&reader, packing, &file.path, format);
             let (read, source) =
                 read.map_err(|refusal| self.refused(refusal, &file.path, scene))?;
             let worst = read.comparison.worst();
             with_vectors |= worst.is_some_and(|worst| worst.exact_vector.is_some());
             rungs.push(Rung::new(file.parameter, &read.comparison, self.accept));
-            sources.push((file.parameter, source));
+            sources.extend(source.map(|source| (file.parameter, source)));
         }
         let refinement = match self.refine {
             None | Some(Refine::Stiffness) => Refinement::Stiffness,

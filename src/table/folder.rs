@@ -4,12 +4,12 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::table::{Aside, Pending, WriteError, remove_leftovers};
+use super::{Aside, Pending, WriteError, remove_leftovers};
 
 /// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
 ///
 /// `write` is called once for each file, in their order.
-pub(super) fn write_all<'f>(
+pub(crate) fn write_all<'f>(
     folder: &Path,
     files: impl Iterator<Item = &'f PathBuf>,
     mut write: impl FnMut(&mut dyn Write) -> Result<(), WriteError>,

@@ -1,0 +1,375 @@
+//! Which of the theorems that are listed a checker proves, and under which names.
+
+use super::Assistant;
+use crate::table::{Cell, Column, Table};
+use crate::theorem::{self, Theorem};
+
+/// A theorem of [`theorem::all`], and what proves it for other programs.
+#[derive(Clone, Copy, Debug)]
+pub struct Checked {
+    /// The theorem.
+    pub theorem: &'static Theorem,
+    /// The names of what proves it in Coq, each with its file; none, if nothing does yet.
+    pub coq: &'static [&'static str],
+    /// The names of what proves it in Lean, which nobody has checked.
+    pub lean: &'static [&'static str],
+}
+
+impl Checked {
+    /// Returns the names of what proves it there.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::proof::{self, Assistant};
+    ///
+    /// let weight = proof::checked().find(|checked| checked.theorem.name == "weight").unwrap();
+    /// assert!(weight.names(Assistant::Coq).contains(&"Floor.the_weight_arrives"));
+    /// ```
+    #[must_use]
+    pub const fn names(&self, assistant: Assistant) -> &'static [&'static str] {
+        match assistant {
+            Assistant::Coq => self.coq,
+            Assistant::Lean => self.lean,
+        }
+    }
+}
+
+/// A listed theorem, and its names in Coq and in Lean.
+type Named = (
+    &'static str,
+    &'static [&'static str],
+    &'static [&'static str],
+);
+
+const NAMED: &[Named] = &[
+    ("counts", &["Straight.counts"], &[]),
+    ("rotation", &["Straight.rotation"], &[]),
+    (
+        "spheres",
+        &["Floor.spheres_in_a_layer", "Floor.spheres_of_a_pile"],
+        &[],
+    ),
+    (
+        "contacts",
+        &[
+            "Counts.contacts",
+            "Counts.contacts_from_below",
+            "Counts.contacts_are",
+        ],
+        &[],
+    ),
+    (
+        "strengths",
+        &[
+            "Counts.strengths",
+            "Counts.strengths_in_all",
+            "Counts.sum_of_strengths",
+        ],
+        &[],
+    ),
+    (
+        "paper-system",
+        &[
+            "Balance.paper_system",
+            "Balance.increments_solve",
+            "Balance.determinant",
+            "Balance.newton",
+        ],
+        &["increments_solve"],
+    ),
+    (
+        "unit-directions",
+        &["Balance.unit_directions", "Balance.gram_form"],
+        &[],
+    ),
+    (
+        "equilibrium",
+        &[
+            "Balance.every_sphere_is_in_balance_under",
+            "Balance.supports_push_back",
+            "Straight.closed_form_is_the_only_solution",
+            "Straight.straight_piles_stand",
+        ],
+        &["every_sphere_is_in_balance"],
+    ),
+    ("surface", &["Straight.surface"], &[]),
+    ("action-reaction", &["Straight.action_reaction"], &[]),
+    ("central-force", &["Floor.central_force"], &[]),
+    (
+        "half-turn",
+        &[
+            "Balance.half_turn_is",
+            "Balance.half_turn_keeps_lengths",
+            "Balance.half_turn_is_symmetric",
+            "Balance.half_turn_twice",
+            "Balance.half_turn_of_ones",
+        ],
+        &["half_turn_twice", "half_turn_keeps_lengths"],
+    ),
+    (
+        "base-normal",
+        &["Floor.base_normal", "Floor.base_normal_equilateral"],
+        &["base_normal"],
+    ),
+    (
+        "uniform-base",
+        &[
+            "Floor.difference_of_normals",
+            "Floor.uniform_if_and_only_if",
+        ],
+        &[],
+    ),
+    (
+        "weight",
+        &["Floor.on_floor_is_what_arrives", "Floor.the_weight_arrives"],
+        &[],
+    ),
+    ("shear", &["Floor.shear"], &[]),
+    ("total-shear", &["Floor.total_shear"], &[]),
+    (
+        "total-moment",
+        &["Floor.no_moment_about_the_axis", "Floor.total_moment"],
+        &[],
+    ),
+    ("second-moment", &["Floor.second_moment"], &[]),
+    (
+        "shear-on-axis",
+        &[
+            "Floor.shear_is_the_place",
+            "Floor.shear_vanishes_on_the_axis",
+        ],
+        &[],
+    ),
+    (
+        "shear-ratio",
+        &[
+            "Floor.shear_ratio",
+            "Floor.shear_is_greatest_in_the_corners",
+        ],
+        &[],
+    ),
+    (
+        "discs",
+        &[
+            "Counts.newton_of_discs",
+            "Counts.discs_are_in_balance",
+            "Counts.disc_base",
+            "Counts.discs_weigh",
+        ],
+        &[],
+    ),
+    (
+        "dimensions",
+        &[
+            "Counts.balance_in_any_dimension",
+            "Counts.weight_in_dimensions",
+            "Counts.normal_in_any_dimension",
+            "Counts.spheres_in_dimension_2",
+            "Counts.spheres_in_dimension_3",
+            "Counts.spheres_in_dimension_4",
+            "Counts.spheres_in_dimension_5",
+            "Counts.spheres_in_dimension_6",
+            "Counts.weight_arrives_in_dimensions",
+        ],
+        &[],
+    ),
+    (
+        "region-counts",
+        &["Regions.region_counts", "Regions.region_of_the_paper"],
+        &[],
+    ),
+    ("run", &["Regions.run", "Regions.run_in_any_order"], &[]),
+    (
+        "tripled-half-turn",
+        &["Balance.tripled", "Balance.tripled_integers"],
+        &[],
+    ),
+    (
+        "change-of-sign",
+        &[
+            "Balance.change_of_sign",
+            "Balance.newton_in_any_stacking",
+            "Stackings.recursion_is_the_only_solution",
+        ],
+        &["change_of_sign"],
+    ),
+    (
+        "edge",
+        &[
+            "Regions.edges",
+            "Stackings.the_end_of_a_run_pulls",
+            "Stackings.no_run_of_five_can_end",
+            "Census.census",
+        ],
+        &[],
+    ),
+    (
+        "point-load",
+        &[
+            "Response.load_is_kept",
+            "Response.response_is_centred",
+            "Response.second_moment_of_response",
+            "Response.sums_and_squares",
+        ],
+        &[],
+    ),
+    (
+        "horizontal-balance",
+        &[
+            "Horizontal.neighbours_touch",
+            "Horizontal.horizontal_balance",
+        ],
+        &[],
+    ),
+    (
+        "virtual-work",
+        &[
+            "Horizontal.work_of_a_sphere",
+            "Horizontal.work_of_a_sloping_contact",
+            "Horizontal.work_of_a_horizontal_contact",
+        ],
+        &[],
+    ),
+    (
+        "elastic-straight",
+        &[
+            "Horizontal.field_on_the_floor",
+            "Horizontal.field_lowers_by_the_force",
+            "Horizontal.field_opens",
+            "Horizontal.field_of_discs",
+        ],
+        &[],
+    ),
+    (
+        "elastic-energy",
+        &["Horizontal.elastic_energy", "Horizontal.energy_is_work"],
+        &[],
+    ),
+    ("settlement", &["Horizontal.settlement"], &[]),
+    ("elastic-monotone", &["Regions.monotone"], &[]),
+    ("no-dip", &["Regions.no_dip"], &[]),
+    ("corner-least", &["Horizontal.corner_least"], &[]),
+    (
+        "corner-greatest",
+        &[
+            "Horizontal.corner_greatest",
+            "Horizontal.greatest_is_attained",
+            "Horizontal.neighbour_of_the_edge",
+        ],
+        &[],
+    ),
+    (
+        "arch",
+        &[
+            "Horizontal.arch_empties",
+            "Horizontal.flank",
+            "Horizontal.steep_arch",
+            "Horizontal.arch_pushes",
+        ],
+        &[],
+    ),
+    (
+        "inner-greatest",
+        &[
+            "Horizontal.inner_greatest",
+            "Horizontal.greatest_at_a_centre",
+        ],
+        &[],
+    ),
+    (
+        "edge-greatest",
+        &["Horizontal.edge_greatest", "Horizontal.edge_greatest_is"],
+        &[],
+    ),
+    (
+        "run-horizontal",
+        &[
+            "Horizontal.run_with_pushes",
+            "Horizontal.no_run_ends_with_pushes",
+        ],
+        &[],
+    ),
+    (
+        "resultant-form",
+        &["Response.resultant_form", "Balance.half_turn_twice"],
+        &[],
+    ),
+    ("squares", &["Response.sums_and_squares"], &[]),
+    (
+        "third-moment",
+        &[
+            "Response.third_moment_of_response",
+            "Mean.mean_of_third_moment",
+        ],
+        &[],
+    ),
+    (
+        "fourth-moment",
+        &[
+            "Response.fourth_moment_of_response",
+            "Mean.mean_of_fourth_moment",
+        ],
+        &[],
+    ),
+    (
+        "mean-modes",
+        &["Mean.modes_of_the_mean", "Mean.staggered_mode"],
+        &[],
+    ),
+    ("wave", &["Response.wave_of_hcp"], &[]),
+    ("faults", &["Response.fault", "Response.load_is_kept"], &[]),
+    ("one-fault", &["Response.one_fault"], &[]),
+    (
+        "registry",
+        &["Mean.registry", "Mean.registry_at_the_top"],
+        &[],
+    ),
+];
+
+/// Returns every theorem that is listed, with what proves it for other programs.
+///
+/// # Examples
+/// ```
+/// use cannonpile::{proof, theorem};
+///
+/// assert_eq!(proof::checked().count(), theorem::all().count());
+/// ```
+pub fn checked() -> impl Iterator<Item = Checked> {
+    theorem::all().map(|theorem| {
+        let found = NAMED.iter().find(|(name, ..)| *name == theorem.name);
+        // Not a default: what is not in the list is proved nowhere else.
+        let (coq, lean) = found.map_or((&[][..], &[][..]), |(_, coq, lean)| (*coq, *lean));
+        Checked { theorem, coq, lean }
+    })
+}
+
+/// Returns which listed theorem is proved for a program under which names, a theorem a row: `name`, and `coq` or `lean`.
+///
+/// # Examples
+/// ```
+/// use cannonpile::proof::{self, Assistant};
+/// use cannonpile::table::{FileFormat, NumberFormat};
+///
+/// let mut csv = Vec::new();
+/// proof::listed(Assistant::Coq).write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+/// assert!(String::from_utf8(csv)?.contains("\nrotation,Straight.rotation\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn listed(assistant: Assistant) -> Table<'static> {
+    let program = match assistant {
+        Assistant::Coq => "coq",
+        Assistant::Lean => "lean",
+    };
+    let columns = ["name", program].map(Column::plain);
+    let row = move |checked: Checked| {
+        let names = checked.names(assistant).join(" ");
+        let names = if names.is_empty() {
+            format!("not in {} yet", assistant.name())
+        } else {
+            names
+        };
+        Ok(vec![checked.theorem.name.into(), Cell::Word(names.into())])
+    };
+    Table::of_rows(columns.into(), "theorems", checked().map(row))
+}

@@ -1,0 +1,179 @@
+//! What takes long ends when it is asked to, in all its rooms, and nothing else does.
+
+use std::thread;
+use std::time::Duration;
+
+use cannonpile::dem::{NumberedPile, PileArrays};
+use cannonpile::disorder::{FirstSign, RandomPiles, RandomStackings};
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::verify::{Comparison, Measured};
+use cannonpile::{Error, Interrupt, Packing, Pile, census, horizontal};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+fn half() -> BigRational {
+    BigRational::new(1.into(), 2.into())
+}
+
+fn one() -> BigRational {
+    BigRational::from_integer(1.into())
+}
+
+fn hcp(layers: i128) -> Pile {
+    let stacking = Stacking::hcp(layers).expect("a stacking");
+    Pile::under(Region::SITE, stacking).expect("a pile")
+}
+
+/// All that takes long, of a small pile.
+fn work(pile: &Pile, name: &str) -> Result<(), Error> {
+    let part = Selection::All;
+    let packing = Packing::new(pile, &Spacing::new(one())?)?;
+    let arrays = PileArrays::of_packing(&packing)?;
+    let exact = pile.forces::<BigRational>();
+    let last = pile.layers() - 1;
+    let base = pile.shape().base();
+    let bottom = Site {
+        i: *base.x().start(),
+        j: *base.y().end(),
+        k: last,
+    };
+    let above = pile.rows(Selection::Layer(last - 1))?.flatten().last();
+    let above = above.expect("a sphere");
+    match name {
+        "a force" => exact.to_below(above).map(|_| ()),
+        "floats" => {
+            let layers = pile.forces::<f64>().layers(part)?;
+            let mut columns = [(); 3].map(|()| vec![0.0; layers.spheres().expect("a number")]);
+            layers.fill(columns.each_mut().map(Vec::as_mut_slice))
+        }
+        "forces" => arrays.fill_forces(&mut vec![0.0; arrays.contacts()]),
+        "vectors" => arrays.fill_vectors(&mut vec![[0.0; 3]; arrays.contacts()]),
+        "multiples" => {
+            let mut numerators = vec![BigInt::ZERO; arrays.contacts()];
+            arrays.fill_multiples(&mut numerators).map(|_| ())
+        }
+        "centres" => arrays.fill_centres(&mut vec![[0.0; 3]; arrays.spheres()]),
+        "points" => arrays.fill_points(&mut vec![[0.0; 3]; arrays.contacts()]),
+        "ids" => arrays.fill_ids(&mut vec![[0_u64; 2]; arrays.contacts()]),
+        "sites" => arrays.fill_sites(&mut vec![[0_i64; 3]; arrays.spheres()]),
+        "contacts" => NumberedPile::new(&packing)?
+            .contacts()?
+            .try_for_each(|c| c.map(|_| ())),
+        "standing" => pile.standing().map(|_| ()),
+        "extremes" => pile.base_extremes().map(|_| ()),
+        "elastic" => pile.elastic(&half()).map(|_| ()),
+        "bounds" => pile.bounds(bottom).map(|_| ()),
+        "census" => census::under_one_sphere(6, true)?.try_for_each(|entry| entry.map(|_| ())),
+        "horizontal census" => {
+            horizontal::census::under_one_sphere(6, true)?.try_for_each(|entry| entry.map(|_| ()))
+        }
+        "mean" => {
+            let stackings = RandomStackings::new(6, FirstSign::Plus)?;
+            RandomPiles::under(Region::SITE, stackings)
+                .exact(&half())
+                .map(|_| ())
+        }
+        "comparison" => {
+            let measured = [Measured::new([1, 2], 0.4)];
+            match Comparison::new(&packing, measured) {
+                Err(cannonpile::verify::Refusal::Scene(error)) => Err(error),
+                compared => compared.map(|_| ()).map_err(|_| Error::CannotStand),
+            }
+        }
+        _ => panic!("{name}"),
+    }
+}
+
+const NAMES: [&str; 18] = [
+    "a force",
+    "floats",
+    "forces",
+    "vectors",
+    "multiples",
+    "centres",
+    "points",
+    "ids",
+    "sites",
+    "contacts",
+    "standing",
+    "extremes",
+    "elastic",
+    "bounds",
+    "census",
+    "horizontal census",
+    "mean",
+    "comparison",
+];
+
+#[test]
+fn all_that_takes_long_ends_after_a_request_and_nothing_without() {
+    let pile = hcp(6);
+    for name in NAMES {
+        assert_eq!(work(&pile, name), Ok(()), "{name}");
+        let interrupt = Interrupt::new();
+        assert_eq!(interrupt.during(|| work(&pile, name)), Ok(()), "{name}");
+        interrupt.request();
+        let ended = interrupt.during(|| work(&pile, name));
+        assert_eq!(ended, Err(Error::Interrupted), "{name}");
+        // The thread is as it was.
+        assert_eq!(work(&pile, name), Ok(()), "{name}");
+    }
+}
+
+#[test]
+fn straight_piles_end_too() {
+    let pile = Pile::triangular(6).expect("a pile");
+    for name in ["floats", "forces", "vectors", "multiples"] {
+        let interrupt = Interrupt::new();
+        interrupt.request();
+        let ended = interrupt.during(|| work(&pile, name));
+        assert_eq!(ended, Err(Error::Interrupted), "{name}");
+    }
+}
+
+#[test]
+fn long_work_in_several_threads_ends() {
+    // Each of these takes minutes, and so would this test if a request were not seen.
+    let wide = Region::hexagon(40, 40).expect("a region");
+    let tall = Pile::under(wide, Stacking::hcp(300).expect("a stacking")).expect("a pile");
+    let elastic = hcp(12);
+    let stackings = RandomStackings::new(200, FirstSign::Plus).expect("stackings");
+    let mean = RandomPiles::under(Region::SITE, stackings);
+    let works: [&(dyn Fn() -> Result<(), Error> + Sync); 3] = [
+        &|| tall.standing().map(|_| ()),
+        &|| {
+            elastic
+                .base_bounds(Selection::Base)?
+                .try_for_each(|bounds| bounds.map(|_| ()))
+        },
+        &|| mean.exact(&half()).map(|_| ()),
+    ];
+    for (number, work) in works.into_iter().enumerate() {
+        let interrupt = Interrupt::new();
+        thread::scope(|scope| {
+            let working = scope.spawn(|| interrupt.during(work));
+            thread::sleep(Duration::from_millis(200));
+            interrupt.request();
+            let ended = working.join().expect("no panic");
+            assert_eq!(ended, Err(Error::Interrupted), "{number}");
+        });
+    }
+}
+
+#[test]
+fn one_thread_is_not_ended_for_another() {
+    let (one, other) = (Interrupt::new(), Interrupt::new());
+    one.request();
+    // The inner one alone ends what is done during it.
+    let answer = one.during(|| other.during(|| work(&hcp(6), "forces")));
+    assert_eq!(answer, Ok(()));
+    let answer = thread::scope(|scope| {
+        let other = scope.spawn(|| work(&hcp(6), "forces"));
+        let ended = one.during(|| work(&hcp(6), "forces"));
+        (other.join().expect("no panic"), ended)
+    });
+    assert_eq!(answer, (Ok(()), Err(Error::Interrupted)));
+}

@@ -1,0 +1,91 @@
+//! What is written for other programs to check.
+
+use std::collections::BTreeSet;
+
+use cannonpile::proof::{self, Assistant, ProofFile};
+use cannonpile::theorem::Formulas;
+
+fn files(assistant: Assistant) -> Vec<ProofFile> {
+    proof::files(assistant).expect("files")
+}
+
+/// Theorems and lemmas of a file, as `File.name`.
+fn stated(file: &ProofFile) -> impl Iterator<Item = String> {
+    let module = file.name().strip_suffix(".v").unwrap_or_default();
+    let lines = file.text().lines();
+    lines.filter_map(move |line| {
+        let name = line.strip_prefix("Theorem ")?.split([' ', ':']).next()?;
+        Some(format!("{module}.{name}"))
+    })
+}
+
+#[test]
+fn what_is_listed_is_stated() {
+    let files = files(Assistant::Coq);
+    let stated: BTreeSet<_> = files.iter().flat_map(stated).collect();
+    assert!(stated.len() > 100, "{}", stated.len());
+    for checked in proof::checked() {
+        for name in checked.coq {
+            assert!(stated.contains(*name), "{}: {name}", checked.theorem.name);
+        }
+    }
+    let lean = self::files(Assistant::Lean);
+    for name in proof::checked().flat_map(|checked| checked.lean) {
+        let statement = format!("\ntheorem {name} ");
+        assert!(lean[0].text().contains(&statement), "{name}");
+    }
+    // What the paper says of its pile, and of runs, is in Coq.
+    let in_coq = proof::checked().filter(|checked| !checked.coq.is_empty());
+    assert!(in_coq.count() >= 50);
+}
+
+#[test]
+fn nothing_is_assumed() {
+    for file in files(Assistant::Coq) {
+        for word in ["Admitted", "admit", "Axiom", "Parameter", "Conjecture"] {
+            let mut words = file.text().split(|c: char| !c.is_alphanumeric());
+            assert!(words.all(|found| found != word), "{}: {word}", file.name());
+        }
+    }
+    assert!(files(Assistant::Lean)[0].text().contains("NOT CHECKED"));
+}
+
+/// Every formula is written, and one that runs otherwise is written otherwise.
+#[test]
+fn formulas_are_written_as_they_run() {
+    let written = |formulas: &Formulas<_>| {
+        let files = proof::files_of(Assistant::Coq, formulas).expect("files");
+        let file = files.into_iter().find(|file| file.name() == "Formulas.v");
+        file.expect("formulas").text().to_owned()
+    };
+    let text = written(&Formulas::LIBRARY);
+    for line in [
+        "Definition passed_on (received : Q) (own : Q) : Q :=\n  received + own.",
+        "Definition increments (s : Q) : three Q :=\n  Three 1 1 (s + s).",
+        "  | Plus, Gamma => (0, 1)%Z\n",
+        "  | Minus => received + own - (- pushed)\n",
+        "Module Integers.\nOpen Scope Z_scope.\n",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    // All that theorems are about.
+    let debug = format!("{:?}", Formulas::<cannonpile::scalar::Expression>::LIBRARY);
+    let names = debug
+        .split(": 0x")
+        .filter_map(|before| before.rsplit([' ', '{']).next());
+    let mut count = 0;
+    for name in names.filter(|name| !name.is_empty() && !name.ends_with('}')) {
+        let defined = [
+            format!("Definition {name} "),
+            format!("Definition {name}_2 "),
+        ];
+        assert!(defined.iter().any(|begin| text.contains(begin)), "{name}");
+        count += 1;
+    }
+    assert!(count >= 40, "{count}");
+    let wrong = Formulas {
+        passed_on: |received, own| received - own,
+        ..Formulas::LIBRARY
+    };
+    assert_ne!(written(&wrong), text);
+}
