@@ -1,0 +1,285 @@
+"""Measured forces, held against the exact ones."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ._records import Difference
+
+if TYPE_CHECKING:
+    from . import _cannonpile
+
+
+class Comparison:
+    """What was measured, compared with the exact forces of a pile; made by `Pile.compare`.
+
+    The exact force is rounded once, to the nearest float64. The error of a contact is |f - f0| / |f0|, with a vector the greater
+    of that and |F - F0| / |f0|. A contact whose exact force is 0 may be measured or not; the error there is relative to the
+    largest exact force. Contacts between two bottom spheres, which are fixed, are not judged.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> pile = Pile(2)
+    >>> comparison = pile.compare([[1, 2], [3, 1]], [0.46225016352102427, 0.5])
+    >>> print(str(comparison).split(";")[0])
+    2 of 3 contacts measured, 1 missing, 0 pairs besides them
+    """
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _cannonpile.Comparison) -> None:
+        self._native = native
+
+    @property
+    def contacts(self) -> int:
+        """How many contacts the pile has.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2]], [0.5]).contacts
+        3
+        """
+        return self._native.contacts
+
+    @property
+    def matched(self) -> int:
+        """How many of them were measured.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2]], [0.5]).matched
+        1
+        """
+        return self._native.matched
+
+    @property
+    def missing(self) -> int:
+        """How many of them have a force and were not measured.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2]], [0.5]).missing
+        2
+        """
+        return self._native.missing
+
+    @property
+    def fixed(self) -> int:
+        """How many pairs of bottom spheres, which are fixed, were left out.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2], [2, 3]], [0.5, 0.1]).fixed
+        1
+        """
+        return self._native.fixed
+
+    @property
+    def largest_force(self) -> float:
+        """The largest exact force by magnitude, in N.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(2).compare([[1, 2]], [0.5]).largest_force
+        0.46225016352102427
+        """
+        return self._native.largest_force
+
+    @property
+    def largest_error(self) -> float:
+        """The largest relative error of a contact that was measured; infinite for a force where the whole pile has none.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> round(Pile(2).compare([[1, 2]], [0.5]).largest_error, 4)
+        0.0817
+        """
+        return self._native.largest_error
+
+    @property
+    def rms_error(self) -> float:
+        """The root of the mean square of the relative errors of the contacts that were measured, to some 1e-8 of itself.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> exact = 0.46225016352102427
+        >>> round(Pile(2).compare([[1, 2], [1, 3]], [exact, 2 * exact]).rms_error, 6)
+        0.707107
+        """
+        return self._native.rms_error
+
+    @property
+    def worst(self) -> Difference | None:
+        """The contact with the largest relative error, the first of several; None if there was no contact measured.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> print(Pile(2).compare([[1, 2], [1, 3]], [0.4623, 0.5]).worst.text)
+        contact of sphere 1 (k=0, i=0, j=0) with sphere 3 along beta: measured 0.5 N, exact 0.46225016352102427 N
+        """
+        worst = self._native.worst
+        return None if worst is None else Difference(*worst)
+
+    def missing_contacts(self) -> list[Difference]:
+        """Return the first thousand of the missing contacts, from the top.
+
+        Returns
+        -------
+        list of Difference
+            Each with ``measured`` None.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> [contact.ids for contact in Pile(2).compare([[1, 3]], [0.46]).missing_contacts()]
+        [(1, 2), (1, 4)]
+        """
+        return [Difference(*contact) for contact in self._native.missing_contacts()]
+
+    def extra(self, rtol: float = 1e-6) -> int:
+        """Return how many pairs that are no contacts carry more than `rtol` times the largest exact force.
+
+        Parameters
+        ----------
+        rtol : float, default 1e-6
+            The share of the largest exact force below which a force is noise.
+
+        Returns
+        -------
+        int
+            Pairs of bottom spheres not counted.
+
+        Raises
+        ------
+        ValueError
+            For a tolerance that is negative, or no number.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(3).compare([[2, 3]], [0.1]).extra()
+        1
+        """
+        return self._native.extra(_tolerance(rtol))
+
+    def beyond(self, rtol: float = 1e-6) -> int:
+        """Return how many of the contacts that were measured have a relative error over `rtol`.
+
+        Parameters
+        ----------
+        rtol : float, default 1e-6
+            The relative error.
+
+        Returns
+        -------
+        int
+            Of `matched`.
+
+        Raises
+        ------
+        ValueError
+            For a tolerance that is negative, or no number.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> comparison = Pile(2).compare([[1, 2], [1, 3], [1, 4]], [0.46225, 0.462, 0.5])
+        >>> [comparison.beyond(rtol) for rtol in (1e-2, 1e-4, 0)]
+        [1, 2, 3]
+        """
+        return self._native.beyond(_tolerance(rtol))
+
+    def accepted(self, rtol: float = 1e-6) -> bool:
+        """Return whether nothing is missing, nothing extra, and no relative error over `rtol`.
+
+        Parameters
+        ----------
+        rtol : float, default 1e-6
+            The relative error that is accepted.
+
+        Returns
+        -------
+        bool
+            The verdict of `Pile.assert_close`.
+
+        Raises
+        ------
+        ValueError
+            For a tolerance that is negative, or no number.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> comparison = Pile(2).compare([[1, 2], [1, 3], [1, 4]], [0.462, 0.462, 0.462])
+        >>> comparison.accepted(1e-3), comparison.accepted(1e-4)
+        (True, False)
+        """
+        return self._native.accepted(_tolerance(rtol))
+
+    def findings(self, rtol: float = 1e-6) -> list[str]:
+        """Return what the differences have in common, where the numbers show it; nothing if all is accepted.
+
+        Parameters
+        ----------
+        rtol : float, default 1e-6
+            The relative error that is accepted.
+
+        Returns
+        -------
+        list of str
+            A line each: one factor for all forces, vectors of the other sphere, axes exchanged, a layer that is missing, ....
+
+        Raises
+        ------
+        ValueError
+            For a tolerance that is negative, or no number.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> pile = Pile(10)
+        >>> pile.compare(pile.contact_ids(), 9.81 * pile.forces()).findings()[0][:23]
+        'all forces are 9.81 tim'
+        """
+        return self._native.findings(_tolerance(rtol))
+
+    def __str__(self) -> str:
+        return str(self._native)
+
+    def __repr__(self) -> str:
+        return f"<Comparison: {self}>"
+
+    def _assert_accepted(self, rtol: float) -> None:
+        """Raise an AssertionError that names the worst contact, unless all is accepted."""
+        if self.accepted(rtol):
+            return
+        lines = [
+            f"{self.matched} of {self.contacts} contacts measured, {self.missing} missing, {self.extra(rtol)} pairs besides "
+            f"them, {self.beyond(rtol)} with an error over {rtol!r}"
+        ]
+        worst = self.worst
+        if worst is not None and worst.error > rtol:
+            lines.append(f"worst: {worst.text}; relative error {worst.error:.3e}")
+        if self.missing:
+            lines.append(f"missing: {self.missing_contacts()[0].text}")
+        extra = self._native.worst_extra()
+        if extra is not None and self.extra(rtol):
+            lines.append(f"extra: {extra}")
+        lines.extend(self.findings(rtol))
+        raise AssertionError("\n".join(lines))
+
+
+def _tolerance(rtol: float) -> float:
+    if not 0 <= rtol < math.inf:
+        raise ValueError(f"rtol: {rtol} is no tolerance: 0 or more, 1e-6 is usual")
+    return rtol

@@ -1,0 +1,91 @@
+"""Figures."""
+
+from __future__ import annotations
+
+import os
+
+
+class Figure:
+    """A figure as SVG, which Jupyter shows.
+
+    Parameters
+    ----------
+    svg : str
+        The document.
+    note : str, optional
+        What has to be said of it.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> figure = Pile(10).plot("network")
+    >>> figure.svg[:5]
+    '<svg '
+    """
+
+    __slots__ = ("_note", "_svg")
+
+    def __init__(self, svg: str, note: str | None = None) -> None:
+        self._svg = svg
+        self._note = note
+
+    @property
+    def svg(self) -> str:
+        """The document.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(3).plot("shear").svg.count('class="arrow"')
+        6
+        """
+        return self._svg
+
+    @property
+    def note(self) -> str | None:
+        """What has to be said of the pile: that it cannot stand, or that this is not known.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> Pile(7, "hcp").plot("network").note[:10]
+        'this pile '
+        >>> Pile(7).plot("network").note is None
+        True
+        """
+        return self._note
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the document to a file.
+
+        Parameters
+        ----------
+        path : str or path
+            Where to; an older file there is replaced.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> from cannonpile import Pile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "base.svg")
+        ...     Pile(4).plot("base").save(path)
+        ...     path.read_text(encoding="utf-8")[:5]
+        '<svg '
+        """
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self._svg)
+
+    def _repr_svg_(self) -> str:
+        return self._svg
+
+    def __str__(self) -> str:
+        return self._svg
+
+    def __repr__(self) -> str:
+        return f"<Figure: {len(self._svg)} characters of SVG>"

@@ -1,0 +1,83 @@
+"""What a simulation measured, as the arrays that the library compares."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+
+def arrays(
+    ids: ArrayLike | None,
+    forces: ArrayLike | None,
+    points: ArrayLike | None,
+    centres: ArrayLike | None,
+    vectors: ArrayLike | None,
+) -> dict[str, NDArray[Any] | None]:
+    """Return flat, contiguous arrays of int64 and float64, checked to be of as many contacts each.
+
+    Raises
+    ------
+    ValueError
+        For arrays of another shape, or not of one length.
+    TypeError
+        For ids that are no integers.
+
+    Examples
+    --------
+    >>> arrays([[1, 2], [1, 3]], [0.5, 0.5], None, None, None)["ids"]
+    array([1, 2, 1, 3])
+    """
+    given = {
+        "ids": _ids(ids),
+        "points": _floats("points", points, (3,)),
+        "centres": _floats("centres", centres, (2, 3)),
+        "forces": _floats("forces", forces, ()),
+        "vectors": _floats("vectors", vectors, (3,)),
+    }
+    lengths = {name: len(array) for name, array in given.items() if array is not None}
+    if len(set(lengths.values())) > 1:
+        found = ", ".join(f"{length} {name}" for name, length in lengths.items())
+        raise ValueError(f"{found}: give one of each for every contact")
+    return {name: None if array is None else array.ravel() for name, array in given.items()}
+
+
+def _ids(ids: ArrayLike | None) -> NDArray[np.int64] | None:
+    if ids is None:
+        return None
+    array = np.asarray(ids)
+    if array.size == 0:
+        array = array.reshape(-1, 2)
+    _check_shape("ids", array, (2,))
+    if array.dtype.kind == "f" and not np.array_equal(array, np.floor(array)):
+        raise TypeError("ids: the numbers of spheres are integers; these have fractions")
+    if array.dtype.kind not in "iuf" and array.size > 0:
+        raise TypeError(f"ids: the numbers of spheres are integers, not {array.dtype}")
+    if array.size > 0 and not (1 <= array.min() and array.max() <= 2**53):
+        raise ValueError("ids: spheres are numbered from 1, from the top; there is none below, and none beyond 2**53")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def _floats(name: str, values: ArrayLike | None, row: tuple[int, ...]) -> NDArray[np.float64] | None:
+    if values is None:
+        return None
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{name}: {error}") from None
+    if np.ndim(values) == 0:
+        array = array.reshape(())
+    if array.size == 0:
+        array = array.reshape(-1, *row)
+    _check_shape(name, array, row)
+    return array
+
+
+def _check_shape(name: str, array: NDArray[Any], row: tuple[int, ...]) -> None:
+    if array.ndim == 1 + len(row) and array.shape[1:] == row:
+        return
+    expected = ", ".join(["M", *map(str, row)]) + ("," if not row else "")
+    raise ValueError(f"{name}: an array of the shape ({expected}) is needed, not {array.shape}")

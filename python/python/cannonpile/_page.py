@@ -1,0 +1,81 @@
+"""Pages to look into a pile."""
+
+from __future__ import annotations
+
+import os
+
+
+class Page:
+    """A page to look into a pile, which Jupyter shows; made by `Pile.show`.
+
+    It is one HTML document with all that it needs, and opens in a browser without a network.
+
+    Parameters
+    ----------
+    html : str
+        The document.
+
+    Examples
+    --------
+    >>> from cannonpile import Pile
+    >>> Pile(4).show().html[:15]
+    '<!doctype html>'
+    """
+
+    __slots__ = ("_html",)
+
+    # Of the frame in Jupyter, in pixels.
+    _HEIGHT = 640
+
+    def __init__(self, html: str) -> None:
+        self._html = html
+
+    @property
+    def html(self) -> str:
+        """The document.
+
+        Examples
+        --------
+        >>> from cannonpile import Pile
+        >>> "http://" in Pile(4).show().html
+        False
+        """
+        return self._html
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the document to a file, to be opened in a browser.
+
+        Parameters
+        ----------
+        path : str or path
+            Where to; an older file there is replaced.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> from cannonpile import Pile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder, "pile.html")
+        ...     Pile(4).show().save(path)
+        ...     path.read_text(encoding="utf-8")[:15]
+        '<!doctype html>'
+        """
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self._html)
+
+    def _repr_html_(self) -> str:
+        # A frame of its own: its styles and scripts are not the notebook's.
+        document = self._html.replace("&", "&amp;").replace('"', "&quot;")
+        style = f"width: 100%; height: {self._HEIGHT}px; border: 0"
+        return f'<iframe title="A pile of spheres" sandbox="allow-scripts" style="{style}" srcdoc="{document}"></iframe>'
+
+    def __str__(self) -> str:
+        return self._html
+
+    def __repr__(self) -> str:
+        return f"<Page: {len(self._html)} characters of HTML>"

@@ -1,0 +1,62 @@
+//! Arrays of NumPy, written in place.
+
+use cannonpile::Error;
+use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+
+use crate::work::work;
+
+/// A number that arrays are of.
+pub(crate) trait Number: Element + Send {
+    /// Its name in NumPy.
+    const NAME: &'static str;
+}
+
+impl Number for f64 {
+    const NAME: &'static str = "float64";
+}
+
+impl Number for i64 {
+    const NAME: &'static str = "int64";
+}
+
+/// Memory of NumPy: its own MemoryError where there is too little.
+fn zeros<'py>(
+    py: Python<'py>,
+    shape: impl IntoPyObject<'py>,
+    name: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    static ZEROS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    ZEROS.import(py, "numpy", "zeros")?.call1((shape, name))
+}
+
+/// An array of numbers, filled while the interpreter is free.
+pub(crate) fn column<V: Number>(
+    py: Python<'_>,
+    length: usize,
+    fill: impl FnOnce(&mut [V]) -> Result<(), Error> + Send,
+) -> PyResult<Bound<'_, PyArray1<V>>> {
+    let array = zeros(py, length, V::NAME)?.cast_into::<PyArray1<V>>()?;
+    {
+        let mut memory = array.readwrite();
+        let numbers = memory.as_slice_mut()?;
+        work(py, || fill(numbers))?;
+    }
+    Ok(array)
+}
+
+/// An array of rows of so many numbers.
+pub(crate) fn rows<V: Number, const N: usize>(
+    py: Python<'_>,
+    length: usize,
+    fill: impl FnOnce(&mut [[V; N]]) -> Result<(), Error> + Send,
+) -> PyResult<Bound<'_, PyArray2<V>>> {
+    let array = zeros(py, (length, N), V::NAME)?.cast_into::<PyArray2<V>>()?;
+    {
+        let mut memory = array.readwrite();
+        let (numbers, _) = memory.as_slice_mut()?.as_chunks_mut::<N>();
+        work(py, || fill(numbers))?;
+    }
+    Ok(array)
+}

@@ -1,0 +1,36 @@
+//! What Python gives, as the library takes it.
+
+use cannonpile::Error;
+use cannonpile::lattice::Site;
+use num_bigint::BigInt;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::exception::of_argument;
+
+/// Reads an option's text by the library's own parser.
+pub(crate) fn read<T>(
+    name: &str,
+    text: &str,
+    parse: impl FnOnce(&str) -> Result<T, Error>,
+) -> PyResult<T> {
+    parse(text).map_err(|error| of_argument(name, &error))
+}
+
+/// A coordinate of a sphere, or a layer.
+pub(crate) fn coordinate(name: &str, number: &BigInt) -> PyResult<i128> {
+    i128::try_from(number).map_err(|_| {
+        PyValueError::new_err(format!(
+            "{name}: {number} is no place in a pile: all lie within ±10^36"
+        ))
+    })
+}
+
+/// A sphere.
+pub(crate) fn site(k: &BigInt, i: &BigInt, j: &BigInt) -> PyResult<Site> {
+    Ok(Site {
+        i: coordinate("i", i)?,
+        j: coordinate("j", j)?,
+        k: coordinate("k", k)?,
+    })
+}

@@ -1,0 +1,45 @@
+//! The compiled part of the Python package `cannonpile`: its class and functions, in the library's own words.
+//!
+//! It holds no mathematics, only the library's answers as Python's integers and fractions and as NumPy's arrays. The module
+//! `cannonpile`, in Python, is what users see.
+
+mod array;
+mod census;
+mod comparison;
+mod exception;
+mod figure;
+mod input;
+mod mean;
+mod pile;
+mod theorem;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled part of the package cannonpile.
+#[pymodule]
+mod _cannonpile {
+    /// The version of the package and of the library.
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "so it is called in Python")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    use crate::census::{Census, census};
+    #[pymodule_export]
+    use crate::comparison::Comparison;
+    #[pymodule_export]
+    use crate::mean::mean;
+    #[pymodule_export]
+    use crate::pile::answers::{bounds, force, on_floor, site, sphere_id, weakest};
+    #[pymodule_export]
+    use crate::pile::arrays::{
+        base, contact_ids, contact_points, forces, multiples, positions, sites, vectors,
+    };
+    #[pymodule_export]
+    use crate::pile::tools::{compare, export, page, plot};
+    #[pymodule_export]
+    use crate::pile::{Pile, cases};
+    #[pymodule_export]
+    use crate::theorem::prove;
+}

@@ -1,0 +1,265 @@
+//! The class `Pile`: a scene, and its pile.
+
+pub(crate) mod answers;
+pub(crate) mod arrays;
+mod options;
+pub(crate) mod tools;
+
+use std::sync::OnceLock;
+
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::Dimension;
+use cannonpile::scene::{self, Scene, State};
+use cannonpile::table::{Summary, Units};
+use cannonpile::{Error, Packing, Verdict};
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+
+use crate::exception::Raised;
+use crate::input::read;
+use crate::work::{work, work_of_long_steps};
+
+/// A pile and its sizes, as the library has them; the class `cannonpile.Pile` is made of one.
+#[pyclass(frozen, module = "cannonpile._cannonpile")]
+pub(crate) struct Pile {
+    scene: Scene,
+    /// In the state that is meant.
+    exact: cannonpile::Pile,
+    stands: OnceLock<Option<Verdict>>,
+}
+
+impl Pile {
+    /// The pile of a scene, checked.
+    fn of(py: Python<'_>, scene: Scene) -> PyResult<Self> {
+        let wanted = scene.clone();
+        let exact = work_of_long_steps(py, move || {
+            let scene = wanted;
+            scene.check_sizes()?;
+            // Of a scene no other sites are asked for than those of loads.
+            let pile = scene.pile().map_err(|error| match error {
+                Error::SiteOutside { .. } => Raised::Named("loads", error),
+                other => other.into(),
+            })?;
+            Ok::<_, Raised>(scene.in_state(pile)?)
+        })?;
+        Ok(Self {
+            scene,
+            exact,
+            stands: OnceLock::new(),
+        })
+    }
+
+    fn packing(&self) -> Result<Packing<'_>, Error> {
+        self.scene.packing(&self.exact)
+    }
+
+    fn verdict(&self) -> Result<Option<Verdict>, Error> {
+        if let Some(known) = self.stands.get() {
+            return Ok(*known);
+        }
+        let touching = self.exact.clearance().check(&self.scene.spacing()?).ok();
+        let summary = Summary::new(&Units::of_pile(&self.exact), touching)?;
+        Ok(*self.stands.get_or_init(|| summary.verdict()))
+    }
+}
+
+#[pymethods]
+impl Pile {
+    /// Make the pile of these options, by the names of scene files, and of loads, each with its place and its weight.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        options: Vec<(String, String)>,
+        loads: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        Self::of(py, options::scene(&options, &loads)?)
+    }
+
+    /// Make the pile of a scene file.
+    #[classmethod]
+    fn from_toml(class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
+        let scene = Scene::from_toml(text).map_err(|error| Raised::from(error).into_exception())?;
+        Self::of(class.py(), scene)
+    }
+
+    /// Return the scene file.
+    fn to_toml(&self) -> String {
+        self.scene.to_toml()
+    }
+
+    /// Return the pile in its elastic state.
+    fn elastic(&self, py: Python<'_>, stiffness_ratio: &str) -> PyResult<Self> {
+        let stiffness_ratio = read("stiffness_ratio", stiffness_ratio, scene::parse::rational)?;
+        let scene = Scene {
+            state: State::Elastic,
+            stiffness_ratio,
+            ..self.scene.clone()
+        };
+        Self::of(py, scene)
+    }
+
+    /// The number of layers.
+    #[getter]
+    fn layers(&self) -> BigInt {
+        self.exact.layers().into()
+    }
+
+    /// The name of the stacking, or its steps.
+    #[getter]
+    fn stacking(&self) -> String {
+        if self.exact.dimension() == Dimension::Two {
+            return "discs".into();
+        }
+        let shape = self.exact.shape();
+        let stacking = if shape.is_grown_from_base() {
+            shape.stacking().reversed()
+        } else {
+            shape.stacking().clone()
+        };
+        stacking
+            .name()
+            .map_or_else(|| stacking.to_string(), Into::into)
+    }
+
+    /// 2 for discs, 3 for spheres.
+    #[getter]
+    fn dimension(&self) -> u32 {
+        self.exact.dimension().number()
+    }
+
+    /// Which forces are meant.
+    #[getter]
+    fn state(&self) -> &'static str {
+        self.scene.state.name()
+    }
+
+    /// The radius of a sphere.
+    #[getter]
+    fn radius(&self) -> BigRational {
+        self.scene.radius.clone()
+    }
+
+    /// The mass of a sphere.
+    #[getter]
+    fn mass(&self) -> BigRational {
+        self.scene.mass.clone()
+    }
+
+    /// The gravity.
+    #[getter]
+    fn gravity(&self) -> BigRational {
+        self.scene.gravity.clone()
+    }
+
+    /// Half the distance of neighbours of a layer over the radius.
+    #[getter]
+    fn spacing(&self) -> PyResult<BigRational> {
+        let spacing = self
+            .scene
+            .spacing()
+            .map_err(|error| Raised::from(error).into_exception())?;
+        // Of a scene it is a rational: its root is of 1.
+        Ok(spacing.ratio().coefficient().clone())
+    }
+
+    /// The number of spheres.
+    #[getter]
+    fn sphere_count(&self) -> BigUint {
+        self.exact.sphere_count()
+    }
+
+    /// The number of contacts.
+    #[getter]
+    fn contact_count(&self) -> BigUint {
+        self.exact.contact_count() + self.exact.horizontal_forces().len()
+    }
+
+    /// The number of spheres on the floor.
+    #[getter]
+    fn base_count(&self) -> BigUint {
+        self.exact.base_spheres()
+    }
+
+    /// The weight of spheres and loads.
+    #[getter]
+    fn weight(&self) -> BigRational {
+        self.exact.weight()
+    }
+
+    /// Whether the pile stands; None where that is open, or not asked.
+    #[getter]
+    fn stands(&self, py: Python<'_>) -> PyResult<Option<bool>> {
+        Ok(match work(py, || self.verdict())? {
+            Some(Verdict::Yes) => Some(true),
+            Some(Verdict::No) => Some(false),
+            _ => None,
+        })
+    }
+
+    /// The unit of contact forces in N.
+    #[getter]
+    fn unit_force(&self) -> PyResult<f64> {
+        let unit = self.packing().map(|packing| packing.unit_force().nearest());
+        let unit = unit.and_then(|unit| {
+            unit.ok_or(Error::Overflow {
+                quantity: "the unit of contact forces",
+                scalar: "f64",
+            })
+        });
+        unit.map_err(|error| Raised::from(error).into_exception())
+    }
+
+    /// Whether two are the same pile with the same sizes.
+    fn equals(&self, other: &Self) -> bool {
+        let spacing = |pile: &Self| {
+            pile.scene
+                .spacing()
+                .ok()
+                .map(|s: Spacing| s.square().clone())
+        };
+        let sizes = |pile: &Self| {
+            let Scene {
+                radius,
+                mass,
+                gravity,
+                state,
+                ..
+            } = &pile.scene;
+            (radius.clone(), mass.clone(), gravity.clone(), *state)
+        };
+        self.exact == other.exact && sizes(self) == sizes(other) && spacing(self) == spacing(other)
+    }
+
+    /// The call that makes this pile.
+    fn __repr__(&self) -> String {
+        options::call(&self.scene)
+    }
+}
+
+/// A benchmark case: name, pile, title, purpose, and whether it stands.
+type Case = (&'static str, Pile, &'static str, &'static str, Option<bool>);
+
+/// Return the benchmark cases.
+#[pyfunction]
+pub(crate) fn cases(py: Python<'_>) -> PyResult<Vec<Case>> {
+    let case = |case: &scene::Case| {
+        let scene = case
+            .scene()
+            .map_err(|error| Raised::from(error).into_exception())?;
+        let stands = match case.stands() {
+            Some(Verdict::Yes) => Some(true),
+            Some(Verdict::No) => Some(false),
+            _ => None,
+        };
+        Ok((
+            case.name(),
+            Pile::of(py, scene)?,
+            case.title(),
+            case.purpose(),
+            stands,
+        ))
+    };
+    scene::cases().iter().map(case).collect()
+}

@@ -1,0 +1,132 @@
+//! Forces one by one, exact.
+
+use cannonpile::Error;
+use cannonpile::lattice::{HorizontalContact, Link, Site};
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use pyo3::prelude::*;
+
+use super::Pile;
+use crate::exception::Raised;
+use crate::input::{self, coordinate, read};
+use crate::work::{quickly, work, work_of_long_steps};
+
+/// A contact and its force: k, i, j, direction, force.
+type Weakest = (BigInt, BigInt, BigInt, &'static str, BigRational);
+
+/// The force of one contact, in f₀.
+#[pyfunction]
+pub(crate) fn force(
+    pile: &Pile,
+    py: Python<'_>,
+    k: BigInt,
+    i: BigInt,
+    j: BigInt,
+    direction: &str,
+) -> PyResult<BigRational> {
+    let site = input::site(&k, &i, &j)?;
+    let link = read("direction", direction, str::parse)?;
+    pile.ask(py, || match link {
+        Link::Sloping(direction) => pile.exact.forces().contact(site, direction),
+        Link::Horizontal(axis) => {
+            let contact = HorizontalContact { site, axis };
+            pile.exact.shape().neighbour(contact)?;
+            Ok(pile.exact.horizontal_force(contact))
+        }
+    })
+}
+
+/// The force of a bottom sphere on the floor: normal, shear along x and along y.
+#[pyfunction]
+pub(crate) fn on_floor(
+    pile: &Pile,
+    py: Python<'_>,
+    i: BigInt,
+    j: BigInt,
+) -> PyResult<[BigRational; 3]> {
+    let site = pile.bottom(&i, &j)?;
+    let force = pile.ask(py, || pile.exact.forces::<BigRational>().on_floor(site))?;
+    Ok([force.normal, force.shear_x, force.shear_y])
+}
+
+/// The number of a sphere.
+#[pyfunction]
+pub(crate) fn sphere_id(pile: &Pile, k: BigInt, i: BigInt, j: BigInt) -> PyResult<BigUint> {
+    let before = pile.exact.shape().before(input::site(&k, &i, &j)?);
+    let before = before.map_err(|error| Raised::from(error).into_exception())?;
+    Ok(before + 1_u32)
+}
+
+/// The sphere of a number: k, i, j.
+#[pyfunction]
+pub(crate) fn site(
+    pile: &Pile,
+    py: Python<'_>,
+    sphere_id: BigInt,
+) -> PyResult<Option<[BigInt; 3]>> {
+    let numbering = quickly(py, || pile.exact.numbering())?;
+    let site = sphere_id.to_u64().and_then(|id| numbering.site(id));
+    Ok(site.map(|Site { i, j, k }| [k.into(), i.into(), j.into()]))
+}
+
+/// The contact with the least force.
+#[pyfunction]
+pub(crate) fn weakest(pile: &Pile, py: Python<'_>) -> PyResult<Option<Weakest>> {
+    let standing = work(py, || pile.exact.standing())?;
+    Ok(standing.least.map(|contact| {
+        let Site { i, j, k } = contact.site;
+        (
+            k.into(),
+            i.into(),
+            j.into(),
+            contact.direction.name(),
+            contact.force,
+        )
+    }))
+}
+
+/// What a bottom sphere bears at least and at most at a = R, and whether both are attained.
+#[pyfunction]
+pub(crate) fn bounds(
+    pile: &Pile,
+    py: Python<'_>,
+    i: BigInt,
+    j: BigInt,
+) -> PyResult<(BigRational, BigRational, bool)> {
+    let site = pile.bottom(&i, &j)?;
+    let (scene, exact) = (pile.scene.clone(), pile.exact.clone());
+    let bounds = work_of_long_steps(py, move || {
+        scene.check_touching()?;
+        exact.bounds(site)
+    })?;
+    let (least, greatest) = (bounds.least, bounds.greatest);
+    Ok((
+        least.normal,
+        greatest.normal,
+        least.attained && greatest.attained,
+    ))
+}
+
+impl Pile {
+    /// Asks for one force: at once in a straight pile, and else where Ctrl-C ends it.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce() -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        if self.exact.shape().stacking().is_straight() {
+            quickly(py, question)
+        } else {
+            work(py, question)
+        }
+    }
+
+    /// A site of the bottom layer.
+    fn bottom(&self, i: &BigInt, j: &BigInt) -> PyResult<Site> {
+        let (i, j) = (coordinate("i", i)?, coordinate("j", j)?);
+        let k = self.exact.layers() - 1;
+        let checked: Result<Site, Error> = self.exact.shape().check(Site { i, j, k });
+        checked.map_err(|error| Raised::from(error).into_exception())
+    }
+}

@@ -1,0 +1,133 @@
+//! All spheres and contacts as arrays of NumPy.
+
+use cannonpile::Error;
+use cannonpile::dem::PileArrays;
+use num_bigint::BigInt;
+use numpy::{PyArray1, PyArray2};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+
+use super::Pile;
+use crate::array::{column, rows};
+use crate::exception::Raised;
+use crate::work::work;
+
+impl Pile {
+    /// Of the pile, or in SI.
+    fn numbers(&self, si: bool) -> PyResult<PileArrays<'_>> {
+        let numbers = if si {
+            self.packing()
+                .and_then(|packing| PileArrays::of_packing(&packing))
+        } else {
+            PileArrays::of_pile(&self.exact)
+        };
+        numbers.map_err(|error| Raised::from(error).into_exception())
+    }
+
+    /// How many spheres of the base there are places for.
+    fn base_places(&self) -> PyResult<usize> {
+        let count = self.exact.base_spheres();
+        usize::try_from(&count).map_err(|_| {
+            let error = Error::TooLarge {
+                quantity: "the forces of all bottom spheres",
+                needed: count,
+                limit: usize::MAX as u64,
+                remedy: "use fewer layers, or a smaller top or base",
+            };
+            Raised::from(error).into_exception()
+        })
+    }
+}
+
+/// The centres of all spheres.
+#[pyfunction]
+pub(crate) fn positions<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let numbers = pile.numbers(true)?;
+    rows(py, numbers.spheres(), |centres| {
+        numbers.fill_centres(centres)
+    })
+}
+
+/// The sites of all spheres.
+#[pyfunction]
+pub(crate) fn sites<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
+    let numbers = pile.numbers(false)?;
+    rows(py, numbers.spheres(), |sites| numbers.fill_sites(sites))
+}
+
+/// The numbers of the spheres of all contacts.
+#[pyfunction]
+pub(crate) fn contact_ids<'py>(
+    pile: &Pile,
+    py: Python<'py>,
+) -> PyResult<Bound<'py, PyArray2<i64>>> {
+    let numbers = pile.numbers(false)?;
+    rows(py, numbers.contacts(), |ids| numbers.fill_ids(ids))
+}
+
+/// The points of all contacts.
+#[pyfunction]
+pub(crate) fn contact_points<'py>(
+    pile: &Pile,
+    py: Python<'py>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let numbers = pile.numbers(true)?;
+    rows(py, numbers.contacts(), |points| numbers.fill_points(points))
+}
+
+/// The forces of all contacts.
+#[pyfunction]
+pub(crate) fn forces<'py>(
+    pile: &Pile,
+    py: Python<'py>,
+    si: bool,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let numbers = pile.numbers(si)?;
+    column(py, numbers.contacts(), |forces| numbers.fill_forces(forces))
+}
+
+/// The forces on the first spheres of all contacts.
+#[pyfunction]
+pub(crate) fn vectors<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let numbers = pile.numbers(true)?;
+    rows(py, numbers.contacts(), |vectors| {
+        numbers.fill_vectors(vectors)
+    })
+}
+
+/// The forces of the base on the floor.
+#[pyfunction]
+pub(crate) fn base<'py>(
+    pile: &Pile,
+    py: Python<'py>,
+    si: bool,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let numbers = pile.numbers(si)?;
+    rows(py, pile.base_places()?, |base| numbers.fill_base(base))
+}
+
+/// The numerators of the forces of all contacts, and their denominator.
+#[pyfunction]
+pub(crate) fn multiples<'py>(
+    pile: &Pile,
+    py: Python<'py>,
+) -> PyResult<(Bound<'py, PyAny>, BigInt)> {
+    let numbers = pile.numbers(false)?;
+    let mut denominator = BigInt::ZERO;
+    let narrow = column(py, numbers.contacts(), |numerators: &mut [i64]| {
+        denominator = numbers.fill_multiples(numerators)?;
+        Ok(())
+    });
+    match narrow {
+        Ok(numerators) => Ok((numerators.into_any(), denominator)),
+        Err(error) if error.is_instance_of::<pyo3::exceptions::PyOverflowError>(py) => {
+            let (numerators, denominator) = work(py, || {
+                let mut numerators = vec![BigInt::ZERO; numbers.contacts()];
+                let denominator = numbers.fill_multiples(&mut numerators)?;
+                Ok::<_, Error>((numerators, denominator))
+            })?;
+            Ok((numerators.into_bound_py_any(py)?, denominator))
+        }
+        Err(error) => Err(error),
+    }
+}

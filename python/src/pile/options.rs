@@ -1,0 +1,121 @@
+//! The options of a scene, as Python gives them and as it writes them.
+
+use std::fmt::Display;
+
+use cannonpile::Error;
+use cannonpile::lattice::Dimension;
+use cannonpile::scene::{Anchor, Scene, State, parse};
+use num_rational::BigRational;
+use num_traits::One;
+use pyo3::prelude::*;
+
+use crate::exception::of_argument;
+use crate::input::read;
+
+/// Returns the scene of these options, each a text of the command line's.
+pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) -> PyResult<Scene> {
+    let mut scene = Scene::default();
+    for (name, text) in options {
+        match name.as_str() {
+            "layers" => scene.layers = Some(read(name, text, parse::layers)?),
+            "stacking" => scene.stacking = Some(read(name, text, str::parse)?),
+            "top" => scene.anchor = Some(Anchor::Top(read(name, text, str::parse)?)),
+            "base" => scene.anchor = Some(Anchor::Base(read(name, text, str::parse)?)),
+            "dimension" => scene.dimension = read(name, text, str::parse)?,
+            "sin_phi" => scene.sin_phi = Some(read(name, text, parse::rational)?),
+            "weightless" => scene.weightless = true,
+            "spacing" => scene.spacing = Some(read(name, text, parse::rational)?),
+            "radius" => scene.radius = read(name, text, parse::rational)?,
+            "mass" => scene.mass = read(name, text, parse::rational)?,
+            "gravity" => scene.gravity = read(name, text, parse::rational)?,
+            "state" => scene.state = read(name, text, str::parse)?,
+            "stiffness_ratio" => scene.stiffness_ratio = read(name, text, parse::rational)?,
+            _ => {
+                return Err(of_argument(
+                    name,
+                    &Error::Bug {
+                        invariant: "an option of Pile is one of scenes",
+                    },
+                ));
+            }
+        }
+    }
+    for (at, weight) in loads {
+        let at = read("loads", at, |at| parse::at(at, scene.dimension))?;
+        scene
+            .loads
+            .push((at, read("loads", weight, parse::rational)?));
+    }
+    Ok(scene)
+}
+
+/// Returns the call that makes a scene's pile.
+pub(super) fn call(scene: &Scene) -> String {
+    let mut given = Vec::new();
+    let mut give = |name: &str, value: String| given.push(format!("{name}={value}"));
+    if let Some(layers) = scene.layers {
+        give("layers", layers.to_string());
+    }
+    if let Some(stacking) = &scene.stacking {
+        give("stacking", quoted(stacking));
+    }
+    if let Some(anchor) = &scene.anchor {
+        let (Anchor::Top(region) | Anchor::Base(region)) = anchor;
+        give(anchor.name(), quoted(format_args!("{region:#}")));
+    }
+    if scene.dimension == Dimension::Two {
+        give("dimension", "2".into());
+    }
+    if let Some(s) = &scene.sin_phi {
+        give("sin_phi", number(s));
+    }
+    if !scene.loads.is_empty() {
+        let loads = scene.loads.iter().map(|(at, weight)| {
+            let mut place: Vec<i128> = at.layer.into_iter().chain([at.i]).collect();
+            if scene.dimension == Dimension::Three {
+                place.push(at.j);
+            }
+            let place: Vec<String> = place.iter().map(ToString::to_string).collect();
+            let comma = if place.len() == 1 { "," } else { "" };
+            format!("({}{comma}): {}", place.join(", "), number(weight))
+        });
+        let loads: Vec<String> = loads.collect();
+        give("loads", format!("{{{}}}", loads.join(", ")));
+    }
+    if scene.weightless {
+        give("weightless", "True".into());
+    }
+    if let Some(spacing) = &scene.spacing {
+        give("spacing", number(spacing));
+    }
+    for (name, size) in [
+        ("radius", &scene.radius),
+        ("mass", &scene.mass),
+        ("gravity", &scene.gravity),
+    ] {
+        if !size.is_one() {
+            give(name, number(size));
+        }
+    }
+    if scene.state == State::Elastic {
+        give("state", quoted(scene.state));
+    }
+    if !scene.stiffness_ratio.is_one() {
+        give("stiffness_ratio", number(&scene.stiffness_ratio));
+    }
+    format!("Pile({})", given.join(", "))
+}
+
+/// A text of Python; none of these has a character to escape.
+fn quoted(text: impl Display) -> String {
+    format!("'{text}'")
+}
+
+/// An exact number of Python.
+fn number(number: &BigRational) -> String {
+    if number.is_integer() {
+        number.to_string()
+    } else {
+        quoted(number)
+    }
+}

@@ -1,0 +1,45 @@
+//! The theorems, and their proofs run.
+
+use cannonpile::Error;
+use cannonpile::theorem;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::work::work;
+
+/// A theorem: name, statement, hypotheses, symbols, how it is proved, whether the proof holds.
+type Row = (
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+    bool,
+);
+
+/// Run the proofs of all theorems, or of the one with this name.
+#[pyfunction]
+pub(crate) fn prove(py: Python<'_>, name: Option<&str>) -> PyResult<Vec<Row>> {
+    let wanted = |theorem: &&theorem::Theorem| name.is_none_or(|name| theorem.name == name);
+    let theorems: Vec<_> = theorem::all().filter(wanted).collect();
+    if theorems.is_empty() {
+        let names: Vec<_> = theorem::all().map(|theorem| theorem.name).collect();
+        return Err(PyValueError::new_err(format!(
+            "name: there is no such theorem; there are {}",
+            names.join(", ")
+        )));
+    }
+    let prove = |theorem: &theorem::Theorem| {
+        let holds = work(py, || Ok::<_, Error>(theorem.prove().holds()))?;
+        let theorem::Theorem {
+            name,
+            statement,
+            hypotheses,
+            symbols,
+            method,
+            ..
+        } = *theorem;
+        Ok((name, statement, hypotheses, symbols, method.name(), holds))
+    };
+    theorems.into_iter().map(prove).collect()
+}

@@ -1,0 +1,58 @@
+"""What the tests share: piles, and the command line."""
+
+import csv
+import io
+import os
+import subprocess
+
+import pytest
+from hypothesis import settings
+
+import cannonpile
+
+from piles import ALL, STACKED, command_line
+
+# No test depends on time; nothing is left in the folder; in CI the same piles each time.
+settings.register_profile("here", deadline=None, database=None, print_blob=True, derandomize="CI" in os.environ)
+settings.load_profile("here")
+
+
+@pytest.fixture(params=ALL, ids=str)
+def options(request):
+    """The arguments of a pile."""
+    return ALL[request.param]
+
+
+@pytest.fixture
+def pile(options):
+    """A pile of every kind."""
+    return cannonpile.Pile(**options)
+
+
+@pytest.fixture(params=STACKED, ids=str)
+def stacked(request):
+    """The arguments of a pile that the recursion knows."""
+    return STACKED[request.param]
+
+
+@pytest.fixture(scope="session")
+def table():
+    """A function that runs a command of the binary CANNONPILE on a pile, and returns the rows of its table."""
+    binary = os.environ.get("CANNONPILE")
+    if not binary:
+        pytest.skip("CANNONPILE names no binary: the command line is not compared")
+
+    def rows(command, options, *words):
+        call = [binary, command, *command_line(options), *words, "--format=csv"]
+        run = subprocess.run(call, capture_output=True, text=True, check=False)
+        # 1: the answer is no.
+        assert run.returncode in (0, 1), run.stderr
+        return list(csv.DictReader(io.StringIO(run.stdout)))
+
+    return rows
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Nobody overlooks what was left out."""
+    for skipped in terminalreporter.stats.get("skipped", []):
+        terminalreporter.write_line(f"*** NOT CHECKED: {skipped.nodeid}: {skipped.longrepr[2]}")

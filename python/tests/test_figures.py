@@ -1,0 +1,67 @@
+"""Figures and files."""
+
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+import cannonpile
+from cannonpile import Pile
+
+KINDS = ["pile", "indexing", "sphere", "shear", "base", "bounds", "network", "response"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("units", ["pile", "si"])
+def test_every_kind_is_svg(kind, units):
+    figure = Pile(4).plot(kind, units=units)
+    assert isinstance(figure, cannonpile.Figure)
+    root = ElementTree.fromstring(figure.svg)
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert len(list(root.iter())) > 10
+    assert figure._repr_svg_() == str(figure) == figure.svg
+
+
+def test_figures_differ():
+    assert len({Pile(4).plot(kind).svg for kind in KINDS}) == len(KINDS)
+    assert Pile(4).plot().svg == Pile(4).plot("network").svg
+    assert Pile(4).plot("base").svg != Pile(5).plot("base").svg
+    assert Pile(4).plot("base").svg != Pile(4).plot("base", units="si").svg
+    assert Pile(4).plot("base").svg != Pile(4).plot("base", title=False).svg
+
+
+def test_width():
+    for width in (300, 900):
+        root = ElementTree.fromstring(Pile(4).plot("network", width=width).svg)
+        assert str(width) in (root.get("width") or "") + " " + (root.get("viewBox") or "")
+
+
+def test_at_and_layer():
+    pile = Pile(5)
+    assert pile.plot("sphere", at=(2, 1, 0)).svg != pile.plot("sphere", at=(2, 0, 1)).svg
+    assert pile.plot("sphere", at=(4, 1, 1)).svg == pile.plot("sphere", at=(1, 1)).svg
+    assert pile.plot("network", layer=1).svg != pile.plot("network", layer=2).svg
+
+
+def test_note_says_that_a_pile_cannot_stand():
+    assert Pile(4).plot("network").note is None
+    note = Pile(8, "hcp").plot("network").note
+    assert note and "\n" not in note
+
+
+def test_save(tmp_path):
+    figure = Pile(4).plot("base")
+    assert figure.save(tmp_path / "base.svg") is None
+    assert (tmp_path / "base.svg").read_text(encoding="utf-8") == figure.svg
+    figure.save(str(tmp_path / "again.svg"))
+    assert (tmp_path / "again.svg").read_bytes() == (tmp_path / "base.svg").read_bytes()
+    with pytest.raises(OSError):
+        figure.save(tmp_path / "nowhere" / "base.svg")
+
+
+def test_export(tmp_path):
+    names = Pile(4, spacing="6/5").export(tmp_path / "pile", "csv", "lammps", "vtp", "yade", "card")
+    assert set(names) == {path.name for path in (tmp_path / "pile").iterdir()}
+    assert {"contacts.csv", "pile.in", "pile.py", "card.md", "scene.toml"} <= set(names)
+    assert all((tmp_path / "pile" / name).stat().st_size for name in names)
+    # Tables, where nothing else is asked for.
+    assert "contacts.csv" in Pile(4).export(str(tmp_path / "tables"))

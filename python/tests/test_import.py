@@ -1,0 +1,22 @@
+"""How long the import takes beyond NumPy: printed, not judged."""
+
+import re
+import subprocess
+import sys
+
+CALL = [sys.executable, "-X", "importtime", "-c", "import numpy, cannonpile"]
+
+
+def imported():
+    """Each module that is imported, and the milliseconds with all that it imports."""
+    run = subprocess.run(CALL, capture_output=True, text=True, check=True)
+    return {name: int(total) / 1000 for total, name in re.findall(r"\| +(\d+) \| +(\S+)$", run.stderr, re.MULTILINE)}
+
+
+def test_import_is_told(capsys):
+    runs = [imported() for _ in range(5)]
+    with capsys.disabled():
+        print(f"\nimport cannonpile, after NumPy: {min(run['cannonpile'] for run in runs):.1f} ms, the least of 5")
+    # What only figures, tests and notebooks need is not imported.
+    assert not {name.split(".")[0] for name in runs[0]} & {"IPython", "matplotlib", "mypy", "pytest", "hypothesis", "scipy"}
+    assert "cannonpile._cannonpile" in runs[0]
