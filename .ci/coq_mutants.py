@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Changes recorded definitions of Formulas.v in turn, and sees Coq refuse a proof: coq_mutants.py FOLDER few|one|all.
+
+FOLDER has the files of `cannonpile prove --to coq`, compiled. An operator, a number or a name is changed; `one` takes one of
+each definition, the one in its middle, `few` does so for every 27th definition, `all` takes all. Exit status 1 if a change
+survives, with its line. COQ_JOBS are run at once.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+# What is looked for, and what it becomes.
+CHANGES = [
+    (re.compile(r" \+ "), lambda m: " - "),
+    # Less nothing is more nothing.
+    (re.compile(r" - (?!0\b)"), lambda m: " + "),
+    (re.compile(r" \* "), lambda m: " + "),
+    (re.compile(r"\(- "), lambda m: "(2 * "),
+    (re.compile(r"(?<![\w.(#])\d+(?![\w]| #)"), lambda m: str(int(m[0]) + 1)),
+    (re.compile(r"\((-?)(\d+) # (\d+)\)"), lambda m: f"({m[1]}{m[2]} # {int(m[3]) + 1})"),
+    (re.compile(r"\((-\d+)\)"), lambda m: f"({int(m[1]) - 1})"),
+    (re.compile(r"(?<=\()(-?\d+), (-?\d+)(?=\)%Z)"), lambda m: f"{int(m[1]) + 1}, {m[2]}"),
+    (re.compile(r"\.\((alpha|beta|gamma|along_x|along_y|along_z)\)"), lambda m: f".({NEXT[m[1]]})"),
+]
+NEXT = dict(alpha="beta", beta="gamma", gamma="alpha", along_x="along_y", along_y="along_z", along_z="along_x")
+
+
+def definitions(text):
+    """Where each definition begins, its body begins, and it ends."""
+    for found in re.finditer(r"^Definition (\w+).*? :=\n(.*?\.)\n(?=\n|\Z)", text, re.M | re.S):
+        yield found[1], found.start(2), found.end(2)
+
+
+def variants(body):
+    """The body with one change, for each place that can be changed, in their order."""
+    places = sorted(
+        ((found.start(), found.end(), becomes(found)) for what, becomes in CHANGES for found in what.finditer(body)),
+    )
+    # A definition that only names a parameter.
+    if not places:
+        places = [(len(body) - 1, len(body) - 1, " + 1")]
+    return [body[:start] + new + body[end:] for start, end, new in places]
+
+
+def refused_by(folder, order, name):
+    """Which file Coq refuses first, if any: those that name the definition before all others, against mere statements."""
+
+    def coqc(file, *options):
+        run = ["coqc", "-q", *options, "-Q", ".", "Cannonpile", f"{file}.v"]
+        try:
+            return subprocess.run(run, cwd=folder, capture_output=True, timeout=600).returncode == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+    for file in order:
+        if not coqc(file, "-vos"):
+            return file
+    names = re.compile(rf"\b{name}\b")
+    near = [file for file in order if names.search((folder / f"{file}.v").read_text())]
+    for file in near + [file for file in order if file not in near]:
+        if not coqc(file, "-vok"):
+            return file
+    return None
+
+
+def main():
+    source, amount = Path(sys.argv[1]), sys.argv[2]
+    order = [line[:-2] for line in (source / "_CoqProject").read_text().split("\n") if line.endswith(".v")]
+    text = (source / "Formulas.v").read_text()
+    first = order.index("Formulas")
+    tasks = []
+    found = list(definitions(text))
+    for name, start, end in found[4::27] if amount == "few" else found:
+        body = text[start:end]
+        all_of_it = variants(body)
+        chosen = all_of_it if amount == "all" else [all_of_it[len(all_of_it) // 2]]
+        tasks += [(name, text[:start] + new + text[end:], new) for new in chosen]
+
+    def attempt(task):
+        name, mutant, new = task
+        with tempfile.TemporaryDirectory() as folder:
+            for path in source.glob("*"):
+                if path.suffix == ".v" or path.stem in order[:first]:
+                    shutil.copy(path, folder)
+            (Path(folder) / "Formulas.v").write_text(mutant)
+            return name, new, refused_by(Path(folder), order[first:], name)
+
+    survived, by_file = [], {}
+    with ThreadPoolExecutor(max_workers=int(os.environ.get("COQ_JOBS", "1"))) as pool:
+        for name, new, refused in pool.map(attempt, tasks):
+            by_file[refused] = by_file.get(refused, 0) + 1
+            if refused is None:
+                survived.append((name, new))
+                print(f"SURVIVES: {name} := {' '.join(new.split())}", flush=True)
+    print(f"{len(tasks)} changes: refused in", ", ".join(f"{file} {n}" for file, n in by_file.items() if file))
+    sys.exit(1 if survived else 0)
+
+
+main()

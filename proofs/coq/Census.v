@@ -1,0 +1,296 @@
+(** Which stackings stand under one sphere: a finite search, by computation. *)
+
+From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
+From Cannonpile Require Import Directions Sums Formulas Balance Stackings.
+
+Import ListNotations.
+Open Scope Q_scope.
+
+Definition site_eq_dec : forall p p' : Z * Z, {p = p'} + {p <> p'}.
+Proof. decide equality; apply Z.eq_dec. Defined.
+
+(** A layer as a table: each of its sites once, with what the sphere passes on. *)
+Definition table := list ((Z * Z) * three Q).
+
+Fixpoint found (t : table) (i j : Z) : option (three Q) :=
+  match t with
+  | [] => None
+  | ((a, b), f) :: t => if (a =? i)%Z && (b =? j)%Z then Some f else found t i j
+  end.
+
+Definition reduced_three (t : three Q) : three Q := map Qred t.
+
+(** What a sphere of the next layer, below a step [from] and above a step [to], receives and passes on. *)
+Definition from_table (from : sign) (t : table) (p : Z * Z) (d : direction) : Q :=
+  let (a, b) := above_in from d (fst p) (snd p) in
+  match found t a b with Some f => on d f | None => 0 end.
+
+Definition passes_on (from to : sign) (t : table) (p : Z * Z) : three Q :=
+  reduced_three (by_line passed_on
+    (transferred from to (Three (from_table from t p Alpha) (from_table from t p Beta) (from_table from t p Gamma)))
+    (each 1)).
+
+Definition sites_below (from : sign) (t : table) : list (Z * Z) :=
+  nodup site_eq_dec (flat_map (fun e =>
+    [support from (fst e) Alpha; support from (fst e) Beta; support from (fst e) Gamma]) t).
+
+Definition next_table (from to : sign) (t : table) : table :=
+  List.map (fun p => (p, passes_on from to t p)) (sites_below from t).
+
+Section Tables.
+Variable step : nat -> sign.
+Notation layer := (layer [(0, 0)%Z] step).
+Notation forces_of := (forces_of [(0, 0)%Z] step).
+
+Fixpoint tables (k : nat) : table :=
+  match k with
+  | O => [((0, 0)%Z, each 1)]
+  | S m => next_table (step m) (step (S m)) (tables m)
+  end.
+
+Definition right_table (k : nat) (t : table) : Prop :=
+  forall i j, match found t i j with
+              | Some f => In (i, j) (layer k) /\ f =3= forces_of k i j
+              | None => ~ In (i, j) (layer k)
+              end.
+
+Lemma found_of_map : forall (g : Z * Z -> three Q) l i j,
+  (In (i, j) l -> found (List.map (fun p => (p, g p)) l) i j = Some (g (i, j))) /\
+  (~ In (i, j) l -> found (List.map (fun p => (p, g p)) l) i j = None).
+Proof.
+  intros g l i j. induction l as [|[a b] l [IH1 IH2]]; [split; [intros [] | reflexivity]|]. cbn [List.map found].
+  destruct ((a =? i)%Z && (b =? j)%Z) eqn:E.
+  - apply andb_true_iff in E. rewrite !Z.eqb_eq in E. destruct E; subst. split; [reflexivity|].
+    intros N. destruct N. left. reflexivity.
+  - split.
+    + intros [H | H]; [|auto]. injection H; intros; subst. rewrite !Z.eqb_refl in E. discriminate E.
+    + intros N. apply IH2. intros H. apply N. right. exact H.
+Qed.
+
+Lemma found_in : forall t i j f, found t i j = Some f -> In ((i, j), f) t.
+Proof.
+  intros t i j f. induction t as [|[[a b] g] t IH]; simpl; [discriminate|].
+  destruct (a =? i)%Z eqn:A, (b =? j)%Z eqn:B; simpl; intros H; auto.
+  rewrite Z.eqb_eq in *. left. congruence.
+Qed.
+
+Lemma in_found : forall t i j f, In ((i, j), f) t -> found t i j <> None.
+Proof.
+  intros t i j f. induction t as [|[[a b] g] t IH]; simpl; [tauto|]. intros [E | H].
+  - injection E; intros; subst. rewrite !Z.eqb_refl. discriminate.
+  - destruct ((a =? i)%Z && (b =? j)%Z); [discriminate | auto].
+Qed.
+
+Lemma reduced_is : forall t, reduced_three t =3= t.
+Proof. intros []. repeat split; apply Qred_correct. Qed.
+
+Theorem tables_are_right : forall k, right_table k (tables k).
+Proof.
+  induction k as [|k IH]; intros i j.
+  - cbn [tables found]. destruct ((0 =? i)%Z && (0 =? j)%Z) eqn:E.
+    + apply andb_true_iff in E. rewrite !Z.eqb_eq in E. destruct E; subst. split; [left; reflexivity | reflexivity].
+    + intros [H | []]. injection H; intros; subst. discriminate E.
+  - cbn [tables]. unfold next_table.
+    assert (S : forall p, In p (sites_below (step k) (tables k)) <-> In p (layer (Datatypes.S k))).
+    { intros p. unfold sites_below. rewrite nodup_In. cbn [Stackings.layer]. rewrite !in_flat_map. split.
+      - intros ([[a b] f] & H & E). exists (a, b). split; [|exact E].
+        specialize (IH a b). assert (N := in_found _ _ _ _ H). destruct (found (tables k) a b); [tauto | congruence].
+      - intros ([a b] & H & E). specialize (IH a b). destruct (found (tables k) a b) as [f|] eqn:F; [|tauto].
+        exists ((a, b), f). split; [apply found_in; exact F | exact E]. }
+    destruct (found_of_map (passes_on (step k) (step (Datatypes.S k)) (tables k)) (sites_below (step k) (tables k)) i j)
+      as [F1 F2].
+    destruct (in_dec site_eq_dec (i, j) (sites_below (step k) (tables k))) as [H | H];
+      [rewrite (F1 H) | rewrite (F2 H)]; rewrite S in H; [|exact H].
+    split; [exact H|]. unfold passes_on. rewrite reduced_is. cbn [Stackings.forces_of].
+    apply passed_of_same. apply transferred_of_same.
+    assert (D : forall d, from_table (step k) (tables k) (i, j) d
+      == (let (a, b) := above_in (step k) d i j in if member (layer k) a b then on d (forces_of k a b) else 0)).
+    { intros d. unfold from_table. cbn [fst snd]. destruct (above_in (step k) d i j) as [a b]. specialize (IH a b).
+      destruct (found (tables k) a b) as [f|], (member (layer k) a b) eqn:M.
+      - destruct IH as [_ (x & y & z)]. destruct d; cbn [on]; assumption.
+      - destruct IH as [I _]. apply member_iff in I. congruence.
+      - apply member_iff in M. tauto.
+      - reflexivity. }
+    exact (conj (D Alpha) (conj (D Beta) (D Gamma))).
+Qed.
+
+Definition pushes (t : table) : bool :=
+  forallb (fun e => Qle_bool 0 (snd e).(alpha) && Qle_bool 0 (snd e).(beta) && Qle_bool 0 (snd e).(gamma)) t.
+
+(** A pile stands just if all its tables push. *)
+Theorem stands_if_tables_push : forall L,
+  stands [(0, 0)%Z] step L <-> forall k, (S k < L)%nat -> forall i j f, found (tables k) i j = Some f -> forall d, 0 <= on d f.
+Proof.
+  intros L. rewrite stands_if_the_recursion_pushes. split.
+  - intros H k HL i j f F d. assert (R := tables_are_right k i j). rewrite F in R. destruct R as [I (x & y & z)].
+    specialize (H k i j d HL I). destruct d; cbn [on] in *; lra.
+  - intros H k i j d HL I. assert (R := tables_are_right k i j).
+    destruct (found (tables k) i j) as [f|] eqn:F; [|tauto]. destruct R as [_ (x & y & z)].
+    specialize (H k HL i j f F d). destruct d; cbn [on] in *; lra.
+Qed.
+
+Lemma pushes_iff : forall t, pushes t = true <-> forall i j f, In ((i, j), f) t -> forall d, 0 <= on d f.
+Proof.
+  intros t. unfold pushes. rewrite forallb_forall. split.
+  - intros H i j f I d. specialize (H _ I). cbn [snd] in H. rewrite !andb_true_iff, !Qle_bool_iff in H.
+    destruct H as [[A B] C]. destruct d; cbn [on]; assumption.
+  - intros H [[i j] f] I. cbn [snd]. rewrite !andb_true_iff, !Qle_bool_iff.
+    exact (conj (conj (H i j f I Alpha) (H i j f I Beta)) (H i j f I Gamma)).
+Qed.
+
+(** The signs of the first n steps, the last one first. *)
+Fixpoint prefix (n : nat) : list sign := match n with O => [] | S m => step m :: prefix m end.
+
+End Tables.
+
+(** ** The search
+
+    The beginnings of n+1 steps, the first of which is +, whose n+1 upper layers push, each with the table of the last. *)
+Fixpoint survivors (n : nat) : list (list sign * table) :=
+  match n with
+  | O => [([Plus], [((0, 0)%Z, each 1)])]
+  | S m =>
+    filter (fun e => pushes (snd e))
+      (flat_map (fun e => List.map (fun to => (to :: fst e, next_table (hd Plus (fst e)) to (snd e))) [Plus; Minus])
+         (survivors m))
+  end.
+
+Lemma survivors_are : forall step n, step O = Plus ->
+  (In (prefix step (S n), tables step n) (survivors n) <-> forall k, (k <= n)%nat -> pushes (tables step k) = true) /\
+  (forall t, In (prefix step (S n), t) (survivors n) -> t = tables step n).
+Proof.
+  intros step n H0. induction n as [|n [IH1 IH2]].
+  - split; [split|].
+    + intros _ k Hk. assert (k = O) by lia. subst. reflexivity.
+    + intros _. cbn. rewrite H0. left. reflexivity.
+    + intros t [E | []]. injection E. intros. subst. reflexivity.
+  - assert (F : forall t, In (prefix step (S (S n)), t) (survivors (S n)) <->
+      exists u, In (prefix step (S n), u) (survivors n) /\ t = next_table (step n) (step (S n)) u /\ pushes t = true).
+    { intros t. cbn [survivors]. rewrite filter_In, in_flat_map. cbn [snd]. split.
+      - intros [([s u] & I & E) P]. exists u. apply in_map_iff in E. destruct E as (to & E & _).
+        cbn [fst snd] in E. cbn [prefix] in E. injection E. intros Et Es Eto. subst.
+        cbn [prefix hd] in *. split; [exact I | split; [reflexivity | exact P]].
+      - intros (u & I & E & P). split; [|exact P]. exists (prefix step (S n), u). split; [exact I|].
+        apply in_map_iff. exists (step (S n)). cbn [fst snd prefix hd]. subst. split; [reflexivity|].
+        destruct (step (S n)); [left | right; left]; reflexivity. }
+    split; [split|].
+    + intros I k Hk. apply F in I. destruct I as (u & I & E & P).
+      assert (U := IH2 u I). subst u. apply IH1 in I || (rewrite IH1 in I).
+      destruct (Nat.eq_dec k (S n)); [subst; cbn [tables] in *; exact P | apply I; lia].
+    + intros P. apply F. exists (tables step n). split; [apply IH1; intros; apply P; lia|].
+      split; [reflexivity|]. apply P. lia.
+    + intros t I. apply F in I. destruct I as (u & I & E & _). rewrite (IH2 u I) in E. exact E.
+Qed.
+
+Lemma table_pushes_iff : forall step k,
+  pushes (tables step k) = true <-> forall i j d, In (i, j) (layer [(0, 0)%Z] step k) -> 0 <= on d (forces_of [(0, 0)%Z] step k i j).
+Proof.
+  intros step k. rewrite pushes_iff. split.
+  - intros H i j d I. assert (R := tables_are_right step k i j).
+    destruct (found (tables step k) i j) as [f|] eqn:F; [|tauto].
+    destruct R as [_ (x & y & z)]. apply found_in in F. specialize (H i j f F d). destruct d; cbn [on] in *; lra.
+  - intros H i j f I d.
+    (* Each site stands once in a table. *)
+    assert (U : found (tables step k) i j = Some f).
+    { assert (ND : NoDup (List.map fst (tables step k))).
+      { destruct k as [|m]; [constructor; [intros [] | constructor]|]. cbn [tables]. unfold next_table.
+        rewrite map_map. cbn [fst]. rewrite map_id. apply NoDup_nodup. }
+      clear H. induction (tables step k) as [|[[a b] g] t IH]; [destruct I|]. cbn [found].
+      cbn [List.map fst] in ND. inversion ND as [|? ? N ND']; subst. destruct I as [E | I].
+      - injection E; intros; subst. rewrite !Z.eqb_refl. reflexivity.
+      - destruct ((a =? i)%Z && (b =? j)%Z) eqn:E; [|auto].
+        apply andb_true_iff in E. rewrite !Z.eqb_eq in E. destruct E; subst. destruct N.
+        apply in_map_iff. exists ((i, j), f). split; [reflexivity | exact I]. }
+    assert (R := tables_are_right step k i j). rewrite U in R. destruct R as [In' (x & y & z)].
+    specialize (H i j d In'). destruct d; cbn [on] in *; lra.
+Qed.
+
+Lemma stands_iff : forall step L,
+  stands [(0, 0)%Z] step L <-> forall k, (S k < L)%nat -> pushes (tables step k) = true.
+Proof.
+  intros step L. rewrite stands_if_the_recursion_pushes. split.
+  - intros H k HL. apply table_pushes_iff. intros i j d I. apply H; assumption.
+  - intros H k i j d HL I. specialize (H k HL). rewrite table_pushes_iff in H. apply H. exact I.
+Qed.
+
+(** A straight continuation stands: a sphere passes on what it receives, and its own. *)
+Lemma straight_continuation : forall step k, step (S k) = step k ->
+  pushes (tables step k) = true -> pushes (tables step (S k)) = true.
+Proof.
+  intros step k E H. rewrite table_pushes_iff in *. intros i j d I.
+  cbn [forces_of]. rewrite E.
+  assert (T : forall g, transferred (step k) (step k) g = g) by (intros; destruct (step k); reflexivity). rewrite T.
+  assert (P : forall d, 0 <= (let (a, b) := above_in (step k) d i j in
+    if member (layer [(0, 0)%Z] step k) a b then on d (forces_of [(0, 0)%Z] step k a b) else 0)).
+  { intros e. destruct (above_in (step k) e i j) as [a b]. destruct (member (layer [(0, 0)%Z] step k) a b) eqn:M; [|lra].
+    apply member_iff in M. apply H. exact M. }
+  specialize (P d). destruct d; cbn [on by_line alpha beta gamma] in *; unfold passed_on, each; cbn [alpha beta gamma]; lra.
+Qed.
+
+(** By computation: eleven beginnings of ten steps push, and in each of them the last five steps have one sign. *)
+Definition five_equal (s : list sign) : bool :=
+  match s with
+  | a :: b :: c :: d :: e :: _ =>
+    match a, b, c, d, e with
+    | Plus, Plus, Plus, Plus, Plus | Minus, Minus, Minus, Minus, Minus => true
+    | _, _, _, _, _ => false
+    end
+  | _ => false
+  end.
+
+Definition eleven : list (list sign) :=
+  let p := Plus in
+  let m := Minus in
+  [[p; p; p; p; p; p; p; p; p; p];
+   [p; p; p; p; p; p; m; p; p; p];
+   [m; m; m; m; m; m; m; p; p; p];
+   [p; p; p; p; p; p; p; m; p; p];
+   [m; m; m; m; m; m; p; m; p; p];
+   [m; m; m; m; m; m; m; m; p; p];
+   [p; p; p; p; p; p; p; p; m; p];
+   [m; m; m; m; m; m; m; p; m; p];
+   [p; p; p; p; p; p; p; m; m; p];
+   [m; m; m; m; m; m; p; m; m; p];
+   [m; m; m; m; m; m; m; m; m; p]].
+
+Theorem the_search : List.map fst (survivors 9) = eleven.
+Proof. vm_compute. reflexivity. Qed.
+
+Lemma all_end_in_five : forall s, In s eleven -> five_equal s = true.
+Proof. apply forallb_forall. reflexivity. Qed.
+
+#[local] Opaque survivors tables.
+
+(** Under one sphere eleven stackings that begin with + stand, at any height of 11 layers or more: these ten steps from the
+    top (the last one first), and straight on. *)
+Theorem census : forall step L, step O = Plus -> (11 <= L)%nat ->
+  (stands [(0, 0)%Z] step L <->
+   In (prefix step 10) eleven /\ forall k, (10 <= k)%nat -> (S k < L)%nat -> step k = step 9%nat).
+Proof.
+  intros step L H0 HL. destruct (survivors_are step 9 H0) as [S1 S2]. rewrite stands_iff.
+  assert (P : (forall k, (k <= 9)%nat -> pushes (tables step k) = true) <-> In (prefix step 10) eleven).
+  { rewrite <- S1, <- the_search, in_map_iff. split.
+    - intros I. exists (prefix step 10, tables step 9). split; [reflexivity | exact I].
+    - intros ([s t] & E & I). cbn [fst] in E. rewrite E in I. assert (T := S2 t I). rewrite T in I at 1. exact I. }
+  split.
+  - intros H. assert (E : In (prefix step 10) eleven) by (apply P; intros; apply H; lia).
+    split; [exact E|]. assert (F := all_end_in_five _ E). cbn [prefix five_equal] in F.
+    intros k. induction k as [k IH] using lt_wf_ind. intros Hk HkL.
+    assert (Five : forall r, (5 <= r <= 9)%nat -> step r = step 9%nat).
+    { intros r Hr. assert (r = 5 \/ r = 6 \/ r = 7 \/ r = 8 \/ r = 9)%nat as [-> | [-> | [-> | [-> | ->]]]] by lia;
+        destruct (step 9%nat), (step 8%nat), (step 7%nat), (step 6%nat), (step 5%nat); congruence. }
+    destruct (step k) eqn:E1, (step 9%nat) eqn:E2; try reflexivity; exfalso;
+      (apply (no_run_of_five_can_end [(0, 0)%Z] step (step 9%nat) 5 (k - 5) L);
+       [discriminate
+       | intros r Hr; destruct (le_lt_dec (5 + r) 9) as [A | A];
+         [rewrite ?E2; apply Five; lia | rewrite ?E2; apply IH; lia]
+       | replace (5 + (k - 5))%nat with k by lia; rewrite E1, ?E2; reflexivity
+       | left; lia
+       | lia
+       | apply stands_iff; exact H]).
+  - intros [E H] k. destruct (le_lt_dec k 9) as [A | A]; [intros _; apply P; assumption|].
+    induction k as [|k IH]; [lia|]. intros HkL.
+    apply straight_continuation.
+    + destruct (Nat.eq_dec k 9) as [-> | N]; [apply H; lia|]. rewrite (H (S k)), (H k) by lia. reflexivity.
+    + destruct (Nat.eq_dec k 9) as [-> | N]; [apply P; [exact E | lia] | apply IH; lia].
+Qed.

@@ -1,0 +1,163 @@
+(** The mean over random stackings: each sign differs from the one before with probability q. *)
+
+From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
+From Cannonpile Require Import Directions Sums Formulas Balance.
+
+Open Scope Q_scope.
+
+(** ** Modes *)
+
+(** The parts of the mean before a + and before a - step, and what a step makes of them where nothing moves. *)
+Definition stepped (q : Q) (f h : three Q) : three Q * three Q :=
+  let mixed same other := by_line Qplus (map (Qmult (1 - q)) same) (map (Qmult q) (half_turn other)) in
+  (mixed f h, mixed h f).
+
+(** (M - 1)(M - mu) = 0, mu = 1-2q: three numbers are kept, three shrink. *)
+Theorem modes_of_the_mean : forall q f h,
+  let mu := 1 - 2 * q in
+  let once := stepped q f h in
+  let twice := stepped q (fst once) (snd once) in
+  by_line Qminus (by_line Qplus (fst twice) (map (Qmult mu) f)) (map (Qmult (1 + mu)) (fst once)) =3= each 0 /\
+  by_line Qminus (by_line Qplus (snd twice) (map (Qmult mu) h)) (map (Qmult (1 + mu)) (snd once)) =3= each 0.
+Proof. intros q [] []. cbv zeta. unfold stepped. cbn [fst snd]. split; by_components. Qed.
+
+(** What changes its sign from site to site along alpha and beta, (1, -1, 0) and its negative, is turned into its
+    negative by every step: it never decays. *)
+Theorem staggered_mode : forall q x,
+  let psi := Three x (- x) 0 in
+  let moved := Three (- x) x 0 in
+  let after := stepped q moved (map Qopp moved) in
+  fst after =3= map Qopp psi /\ snd after =3= psi.
+Proof. intros q x. cbv zeta. unfold stepped. cbn [fst snd]. split; by_components. Qed.
+
+(** ** Registries *)
+
+(** Shares of the stackings that come to the registries 0, 1, 2 by a + step, p, and by a - step, m; and what one step more
+    makes of them: + leads from r to r+1, - to r-1. *)
+Record shares := Shares { p0 : Q; p1 : Q; p2 : Q; m0 : Q; m1 : Q; m2 : Q }.
+
+Definition further (q : Q) (s : shares) : shares :=
+  let mix same other := (1 - q) * same + q * other in
+  Shares (mix s.(p2) s.(m2)) (mix s.(p0) s.(m0)) (mix s.(p1) s.(m1))
+         (mix s.(m1) s.(p1)) (mix s.(m2) s.(p2)) (mix s.(m0) s.(p0)).
+
+(** By how much each registry exceeds a third of all. *)
+Definition excesses (s : shares) : three Q :=
+  let all := s.(p0) + s.(p1) + s.(p2) + s.(m0) + s.(m1) + s.(m2) in
+  Three (s.(p0) + s.(m0) - all * (1 # 3)) (s.(p1) + s.(m1) - all * (1 # 3)) (s.(p2) + s.(m2) - all * (1 # 3)).
+
+Ltac by_shares := cbv zeta; intros; unfold further, excesses, by_line; cbn [p0 p1 p2 m0 m1 m2]; repeat split; formulas; ring.
+
+(** The recursion of the library, from any shares. *)
+Theorem registry : forall q s,
+  let once := further q s in
+  by_line (fun x y => registry_excess x y q) (excesses s) (excesses once) =3= excesses (further q once).
+Proof. intros q []. by_shares. Qed.
+
+(** And two steps below a single layer, of registry 0, if the shares of the first signs are u and v. *)
+Theorem registry_at_the_top : forall q u v,
+  let first := Shares 0 u 0 0 0 v in
+  by_line (fun x y => registry_excess x y q) (excesses (Shares (u + v) 0 0 0 0 0)) (excesses first)
+  =3= excesses (further q first).
+Proof. by_shares. Qed.
+
+(** ** Moments
+
+    Of stackings that begin with + the mean of sigma_s is mu^(s-1), and of sigma_s sigma_t mu^(t-s). *)
+Fixpoint power (mu : Q) (n : nat) : Q := match n with O => 1 | S m => power mu m * mu end.
+
+(** What the mean signs make of the third moment, (1-mu)^3 times. *)
+Theorem mean_of_third_moment : forall mu n,
+  (1 - mu) * (1 - mu) * (1 - mu) * total n (fun s => power mu s * third_moment (n_of n) (n_of s + 1))
+  == mean_third_moment (n_of n) mu (power mu n).
+Proof.
+  intros mu n.
+  (* The sums of mu^s and of s mu^s. *)
+  assert (A : forall n, (1 - mu) * total n (fun s => power mu s) == 1 - power mu n).
+  { induction n0 as [|m IH]; simpl; [ring|]. rewrite Qmult_plus_distr_r, IH. ring. }
+  assert (B : forall n, (1 - mu) * (1 - mu) * total n (fun s => power mu s * n_of s)
+    == mu - n_of n * power mu n + (n_of n - 1) * power mu n * mu).
+  { induction n0 as [|m IH]; simpl; [rewrite n_of_0; ring|]. rewrite Qmult_plus_distr_r, IH, n_of_S. ring. }
+  assert (C : forall n, (1 - mu) * (1 - mu) * (1 - mu) * total n (fun s => power mu s * (n_of s * n_of s))
+    == mu * (1 + mu) - power mu n * (n_of n * n_of n - (2 * n_of n * n_of n - 2 * n_of n - 1) * mu
+       + (n_of n - 1) * (n_of n - 1) * mu * mu)).
+  { induction n0 as [|m IH]; simpl; [rewrite n_of_0; ring|]. rewrite Qmult_plus_distr_r, IH, n_of_S. ring. }
+  set (x := n_of n).
+  rewrite (total_of_same _ _ (fun s => (3 * x - 2) * power mu s
+    + ((6 * x - 6) * (power mu s * n_of s) + - (6) * (power mu s * (n_of s * n_of s))))).
+  - rewrite !total_of_sum, !total_of_multiple.
+    specialize (A n). specialize (B n). specialize (C n). fold x in A, B, C.
+    set (a := total n (fun s => power mu s)) in *.
+    set (b := total n (fun s => power mu s * n_of s)) in *.
+    set (c := total n (fun s => power mu s * (n_of s * n_of s))) in *.
+    transitivity ((3 * x - 2) * (1 - mu) * (1 - mu) * ((1 - mu) * a)
+      + (6 * x - 6) * (1 - mu) * ((1 - mu) * (1 - mu) * b) - 6 * ((1 - mu) * (1 - mu) * (1 - mu) * c)); [ring|].
+    rewrite A, B, C. formulas. ring.
+  - intros s _. formulas. ring.
+Qed.
+
+(** What pairs of mean signs make of the fourth, (1-mu)^4 times. *)
+Theorem mean_of_fourth_moment : forall mu n,
+  (1 - mu) * (1 - mu) * (1 - mu) * (1 - mu)
+    * total n (fun t => total t (fun s => power mu (t - s) * fourth_moment_of_pair (n_of n) (n_of s + 1) (n_of t + 1)))
+  == mean_fourth_moment_of_pairs (n_of n) mu (power mu n).
+Proof.
+  intros mu n.
+  assert (A : forall n, (1 - mu) * total n (fun s => power mu s) == 1 - power mu n).
+  { induction n0 as [|m IH]; simpl; [ring|]. rewrite Qmult_plus_distr_r, IH. ring. }
+  assert (B : forall n, (1 - mu) * (1 - mu) * total n (fun s => power mu s * n_of s)
+    == mu - n_of n * power mu n + (n_of n - 1) * power mu n * mu).
+  { induction n0 as [|m IH]; simpl; [rewrite n_of_0; ring|]. rewrite Qmult_plus_distr_r, IH, n_of_S. ring. }
+  (* The sum of mu^(t-s) (2s-1) over the steps before t. *)
+  assert (D : forall t, (1 - mu) * (1 - mu) * total t (fun s => power mu (t - s) * (2 * (n_of s + 1) - 1))
+    == 2 * mu * (1 - mu) * n_of t - mu * (1 + mu) * (1 - power mu t)).
+  { induction t as [|t IH]; [simpl; rewrite n_of_0; ring|].
+    change (total (S t) ?f) with (total t f + f t). cbv beta. replace (S t - t)%nat with 1%nat by lia.
+    rewrite (total_of_same t _ (fun s => mu * (power mu (t - s) * (2 * (n_of s + 1) - 1)))).
+    - rewrite total_of_multiple.
+      transitivity (mu * ((1 - mu) * (1 - mu) * total t (fun s => power mu (t - s) * (2 * (n_of s + 1) - 1)))
+        + (1 - mu) * (1 - mu) * mu * (2 * n_of t + 1)); [simpl; ring|].
+      rewrite IH, n_of_S. simpl. ring.
+    - intros s Hs. replace (S t - s)%nat with (S (t - s)) by lia. simpl. ring. }
+  assert (S1 : forall n, total n (fun t => n_of t) == n_of n * (n_of n - 1) * (1 # 2)).
+  { induction n0 as [|m IH]; [simpl; rewrite n_of_0; ring|]. change (total (S m) ?f) with (total m f + f m).
+    cbv beta. rewrite IH, n_of_S. ring. }
+  assert (S2 : forall n, total n (fun t => n_of t * n_of t) == n_of n * (n_of n - 1) * (2 * n_of n - 1) * (1 # 6)).
+  { induction n0 as [|m IH]; [simpl; rewrite n_of_0; ring|]. change (total (S m) ?f) with (total m f + f m).
+    cbv beta. rewrite IH, n_of_S. ring. }
+  assert (S0 : forall n, total n (fun _ => 1) == n_of n).
+  { induction n0 as [|m IH]; [reflexivity|]. change (total (S m) ?f) with (total m f + f m).
+    cbv beta. rewrite IH, n_of_S. ring. }
+  set (x := n_of n).
+  transitivity ((1 - mu) * (1 - mu) * total n (fun t => (1 - mu) * (1 - mu)
+    * total t (fun s => power mu (t - s) * fourth_moment_of_pair x (n_of s + 1) (n_of t + 1)))).
+  { rewrite total_of_multiple. ring. }
+  rewrite (total_of_same n _ (fun t =>
+    - (mu * (1 + mu) * (4 * x - 2)) * 1 + ((4 * mu * (1 - mu) * (2 * x - 1) + 4 * mu * (1 + mu)) * n_of t
+    + (- (8 * mu * (1 - mu)) * (n_of t * n_of t)
+    + (mu * (1 + mu) * (4 * x - 2) * power mu t + - (4 * mu * (1 + mu)) * (power mu t * n_of t)))))).
+  - rewrite !total_of_sum, !total_of_multiple, S0, S1, S2.
+    specialize (A n). specialize (B n). fold x in A, B |- *.
+    set (a := total n (fun s => power mu s)) in *.
+    set (b := total n (fun s => power mu s * n_of s)) in *.
+    transitivity ((1 - mu) * (1 - mu) * (- (mu * (1 + mu) * (4 * x - 2)) * x
+        + (4 * mu * (1 - mu) * (2 * x - 1) + 4 * mu * (1 + mu)) * (x * (x - 1) * (1 # 2))
+        - 8 * mu * (1 - mu) * (x * (x - 1) * (2 * x - 1) * (1 # 6)))
+      + mu * (1 + mu) * (4 * x - 2) * (1 - mu) * ((1 - mu) * a)
+      - 4 * mu * (1 + mu) * ((1 - mu) * (1 - mu) * b)); [ring|].
+    rewrite A, B. formulas. ring.
+  - intros t _. rewrite (total_of_same t _ (fun s => (4 * x - 4 * n_of t - 2) * (power mu (t - s) * (2 * (n_of s + 1) - 1)))).
+    + rewrite total_of_multiple.
+      transitivity ((4 * x - 4 * n_of t - 2)
+        * ((1 - mu) * (1 - mu) * total t (fun s => power mu (t - s) * (2 * (n_of s + 1) - 1)))); [ring|].
+      rewrite D. ring.
+    + intros s _. formulas. ring.
+Qed.
+
+(** ** Waves
+
+    What the library calls the damping and the dispersion of the waves that the mean is made of, times q and q^2; at q = 1,
+    HCP, nothing is damped. That they are those of the spectrum is not proved here. *)
+Theorem damping_and_dispersion : forall q,
+  16 * fst (wave q) == 1 - q /\ 768 * snd (wave q) == 13 * q * q - 42 * q + 21.
+Proof. intros q. unfold wave. cbn [fst snd]. split; ring. Qed.
