@@ -49,12 +49,12 @@ mod with_threads {
     /// use cannonpile::stacking::Stacking;
     /// use cannonpile::{Error, Interrupt, Pile};
     ///
-    /// // Some hundred layers of long numbers: minutes of work.
-    /// let pile = Pile::under(Region::hexagon(40, 40)?, Stacking::hcp(300)?)?;
+    /// // A thousand layers of long numbers: seconds of work.
+    /// let pile = Pile::under(Region::hexagon(40, 40)?, Stacking::hcp(1000)?)?;
     /// let interrupt = Interrupt::new();
     /// let other = interrupt.clone();
     /// thread::spawn(move || other.request());
-    /// assert_eq!(interrupt.during(|| pile.standing()), Err(Error::Interrupted));
+    /// assert_eq!(interrupt.during(|| pile.base_extremes()), Err(Error::Interrupted));
     /// # Ok::<(), Error>(())
     /// ```
     #[derive(Clone, Debug, Default)]

@@ -1,45 +1,92 @@
 //! Exact solutions of sparse equations, near a guess.
 
+use core::mem;
+use core::num::NonZeroI64;
 use std::collections::{BTreeMap, BTreeSet};
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::ToPrimitive;
 
 use crate::engine::check_interrupt;
+use crate::scalar::{Algebra, Field, FixedRational};
 
 /// The greatest denominators to which free numbers are rounded, one after the other.
 const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
 
 /// An equation: coefficients by unknown, and what they sum to.
-pub(super) type Equation = (BTreeMap<usize, BigRational>, BigRational);
+pub(super) type Equation<T = BigRational> = (BTreeMap<usize, T>, T);
 
 /// Equations in triangular form: each gives one unknown by those that are given after it, or by none.
-struct Triangular(Vec<(usize, Equation)>);
+struct Triangular<T>(Vec<(usize, Equation<T>)>);
+
+/// Why equations have no triangular form.
+enum Failure {
+    /// They contradict each other.
+    Contradiction,
+    /// A number of it is a fault.
+    Fault,
+    /// An end was asked for.
+    Interrupted,
+}
 
 /// Returns exact numbers that solve the equations and are accepted, close to the guess; `None` if there are none, or none
 /// was found.
 ///
 /// What the equations leave free is rounded to fractions, at first of small denominators, so that the exact numbers are
 /// short. Unknowns that are in no equation are rounded too.
+///
+/// Most coefficients are ±1 and stay short: where they fit into machine words, no others are computed.
 pub(super) fn near(
     equations: Vec<Equation>,
     guess: &[f64],
     accepted: impl Fn(&[BigRational]) -> bool,
 ) -> Option<Vec<BigRational>> {
-    let triangular = Triangular::of(equations)?;
-    DENOMINATORS.into_iter().find_map(|most| {
-        let solution = triangular.solution(guess, most)?;
-        accepted(&solution).then_some(solution)
-    })
+    let in_words = match Triangular::of(equations.iter().map(in_words).collect()) {
+        Ok(triangular) => Some(triangular),
+        Err(Failure::Fault) => None,
+        Err(Failure::Contradiction | Failure::Interrupted) => return None,
+    };
+    let mut equations = Some(equations);
+    let mut of_any_length = None;
+    for most in DENOMINATORS {
+        let rounded = guess.iter().map(|guess| simple_fraction(*guess, most));
+        let rounded: Vec<(i64, NonZeroI64)> = rounded.collect::<Option<_>>()?;
+        let short = in_words.as_ref().and_then(|t| t.solution(&rounded));
+        let short = short.and_then(|solution| {
+            let solution = solution.iter().map(FixedRational::to_rational);
+            solution.collect::<Option<Vec<_>>>()
+        });
+        let solution = if let Some(solution) = short {
+            solution
+        } else {
+            if let Some(equations) = equations.take() {
+                of_any_length = Triangular::of(equations).ok();
+            }
+            of_any_length.as_ref()?.solution(&rounded)?
+        };
+        if accepted(&solution) {
+            return Some(solution);
+        }
+    }
+    None
 }
 
-impl Triangular {
-    /// By elimination: always the shortest equation is solved for the unknown that stands in fewest others. `None` if they
-    /// contradict each other.
-    fn of(mut equations: Vec<Equation>) -> Option<Self> {
+/// An equation in machine words.
+fn in_words((coefficients, sum): &Equation) -> Equation<FixedRational<i64>> {
+    let coefficients = coefficients
+        .iter()
+        .map(|(unknown, coefficient)| (*unknown, FixedRational::from_rational(coefficient)));
+    (coefficients.collect(), FixedRational::from_rational(sum))
+}
+
+impl<T: Field> Triangular<T> {
+    /// By elimination: always the shortest equation is solved for the unknown that stands in fewest others.
+    fn of(mut equations: Vec<Equation<T>>) -> Result<Self, Failure> {
         let mut with: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
-        for (number, (coefficients, _)) in equations.iter().enumerate() {
+        for (number, (coefficients, sum)) in equations.iter().enumerate() {
+            if !coefficients.values().chain([sum]).all(T::is_defined) {
+                return Err(Failure::Fault);
+            }
             for unknown in coefficients.keys() {
                 with.entry(*unknown).or_default().insert(number);
             }
@@ -48,10 +95,10 @@ impl Triangular {
         let mut queue: BTreeSet<(usize, usize)> = lengths.zip(0..).collect();
         let mut solved = Vec::new();
         while let Some((_, number)) = queue.pop_first() {
-            check_interrupt().ok()?;
-            let (coefficients, sum) = core::mem::take(&mut equations[number]);
+            check_interrupt().map_err(|_| Failure::Interrupted)?;
+            let (coefficients, sum) = mem::replace(&mut equations[number], none());
             for unknown in coefficients.keys() {
-                with.get_mut(unknown)?.remove(&number);
+                with.entry(*unknown).or_default().remove(&number);
             }
             let Some(pivot) = coefficients
                 .keys()
@@ -61,54 +108,69 @@ impl Triangular {
                 if sum.is_zero() {
                     continue;
                 }
-                return None;
+                return Err(Failure::Contradiction);
             };
-            for other in core::mem::take(with.get_mut(&pivot)?) {
+            for other in mem::take(with.entry(pivot).or_default()) {
                 let (coefficients_of_other, sum_of_other) = &mut equations[other];
                 queue.remove(&(coefficients_of_other.len(), other));
-                let factor = coefficients_of_other.remove(&pivot)? / &coefficients[&pivot];
-                for (unknown, coefficient) in coefficients
+                let of_pivot = coefficients_of_other.remove(&pivot);
+                let factor = of_pivot.and_then(|c| c.checked_div(&coefficients[&pivot]));
+                let factor = factor.ok_or(Failure::Fault)?;
+                let rest = coefficients
                     .iter()
-                    .filter(|(unknown, _)| **unknown != pivot)
-                {
+                    .filter(|(unknown, _)| **unknown != pivot);
+                for (unknown, coefficient) in rest {
                     let entry = coefficients_of_other
                         .entry(*unknown)
-                        .or_insert_with(BigRational::zero);
-                    *entry -= coefficient * &factor;
+                        .or_insert_with(T::zero);
+                    subtract(entry, coefficient.clone() * &factor)?;
+                    let with = with.entry(*unknown).or_default();
                     if entry.is_zero() {
                         coefficients_of_other.remove(unknown);
-                        with.get_mut(unknown)?.remove(&other);
+                        with.remove(&other);
                     } else {
-                        with.get_mut(unknown)?.insert(other);
+                        with.insert(other);
                     }
                 }
-                *sum_of_other -= &factor * &sum;
+                subtract(sum_of_other, sum.clone() * &factor)?;
                 queue.insert((coefficients_of_other.len(), other));
             }
             solved.push((pivot, (coefficients, sum)));
         }
-        Some(Self(solved))
+        Ok(Self(solved))
     }
 
-    /// With what is free rounded to fractions of denominators up to `most`. `None` if the guess is not finite.
-    fn solution(&self, guess: &[f64], most: i64) -> Option<Vec<BigRational>> {
-        let rounded = guess.iter().map(|guess| simple_fraction(*guess, most));
-        let mut solution: Vec<BigRational> = rounded.collect::<Option<_>>()?;
+    /// With what is free as it is given: numerators and denominators. `None` if a number of it is a fault.
+    fn solution(&self, free: &[(i64, NonZeroI64)]) -> Option<Vec<T>> {
+        let fraction = |(n, d): &(i64, NonZeroI64)| T::from_i128((*n).into()).div_int(*d);
+        let mut solution: Vec<T> = free.iter().map(fraction).collect();
         for (pivot, (coefficients, sum)) in self.0.iter().rev() {
             check_interrupt().ok()?;
             let others = coefficients.iter().filter(|(unknown, _)| *unknown != pivot);
             let rest = others.fold(sum.clone(), |rest, (unknown, coefficient)| {
-                rest - coefficient * &solution[*unknown]
+                rest - &(coefficient.clone() * &solution[*unknown])
             });
-            solution[*pivot] = rest / &coefficients[pivot];
+            solution[*pivot] = rest.checked_div(&coefficients[pivot])?;
         }
         Some(solution)
     }
 }
 
-/// Returns the first convergent of the continued fraction of a number that is as good as floats, or else the last with
-/// a denominator up to `most`; with `most` = 1 the nearest integer. `None` if it is not finite, or too great for this.
-fn simple_fraction(number: f64, most: i64) -> Option<BigRational> {
+/// 0 = 0.
+fn none<T: Field>() -> Equation<T> {
+    (BTreeMap::new(), T::zero())
+}
+
+fn subtract<T: Field>(from: &mut T, number: T) -> Result<(), Failure> {
+    let difference = mem::replace(from, T::zero()) - &number;
+    *from = difference;
+    from.is_defined().then_some(()).ok_or(Failure::Fault)
+}
+
+/// Returns numerator and denominator of the first convergent of the continued fraction of a number that is as good as
+/// floats, or else of the last with a denominator up to `most`; with `most` = 1 of the nearest integer. `None` if it is not
+/// finite, or too great for this.
+fn simple_fraction(number: f64, most: i64) -> Option<(i64, NonZeroI64)> {
     const GREATEST: f64 = 1e15;
     const CLOSE: f64 = 1e-12;
     if !number.is_finite() || number.abs() > GREATEST {
@@ -133,10 +195,7 @@ fn simple_fraction(number: f64, most: i64) -> Option<BigRational> {
         }
     }
     let (numerator, denominator) = last;
-    Some(BigRational::new(
-        BigInt::from(numerator),
-        BigInt::from(denominator),
-    ))
+    Some((numerator, NonZeroI64::new(denominator)?))
 }
 
 #[cfg(test)]
@@ -163,7 +222,10 @@ mod tests {
             (7.0, 1),
             (0.1428, 12),
         ];
-        let found = found.map(|(number, most)| simple_fraction(number, most).unwrap());
+        let found = found.map(|(number, most)| {
+            let (n, d) = simple_fraction(number, most).unwrap();
+            ratio(n, d.get())
+        });
         assert_eq!(
             found,
             [
@@ -176,6 +238,31 @@ mod tests {
         );
         assert_eq!(simple_fraction(f64::NAN, 12), None);
         assert_eq!(simple_fraction(1e300, 12), None);
+    }
+
+    /// Numbers that are in no machine word, or that leave them on the way, are solved all the same, and no others.
+    #[test]
+    fn what_no_word_holds() {
+        let great = 1_i64 << 40;
+        let chain = || {
+            let link = |n: usize| equation(&[(n, 1), (n + 1, -great)], 0);
+            let mut equations: Vec<Equation> = (0..3).map(link).collect();
+            equations.push(equation(&[(3, great)], 1));
+            equations
+        };
+        let solution = near(chain(), &[0.0; 4], |_| true).unwrap();
+        let power = |exponent: u32| {
+            BigRational::from_integer(num_bigint::BigInt::from(great).pow(exponent))
+        };
+        assert_eq!(solution, [power(2), power(1), power(0), power(1).recip()]);
+        let mut contradiction = chain();
+        contradiction.push((
+            [(0, power(0))].into(),
+            power(2) + BigRational::from_integer(1.into()),
+        ));
+        assert_eq!(near(contradiction, &[0.0; 4], |_| true), None);
+        let beyond = vec![(<_>::from([(0, power(3))]), power(4))];
+        assert_eq!(near(beyond, &[0.0], |_| true).unwrap(), [power(1)]);
     }
 
     #[test]
