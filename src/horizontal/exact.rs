@@ -123,7 +123,7 @@ impl<T: Field> Triangular<T> {
                     let entry = coefficients_of_other
                         .entry(*unknown)
                         .or_insert_with(T::zero);
-                    subtract(entry, coefficient.clone() * &factor)?;
+                    subtract(entry, &(coefficient.clone() * &factor))?;
                     let with = with.entry(*unknown).or_default();
                     if entry.is_zero() {
                         coefficients_of_other.remove(unknown);
@@ -132,7 +132,7 @@ impl<T: Field> Triangular<T> {
                         with.insert(other);
                     }
                 }
-                subtract(sum_of_other, sum.clone() * &factor)?;
+                subtract(sum_of_other, &(sum.clone() * &factor))?;
                 queue.insert((coefficients_of_other.len(), other));
             }
             solved.push((pivot, (coefficients, sum)));
@@ -161,8 +161,8 @@ fn none<T: Field>() -> Equation<T> {
     (BTreeMap::new(), T::zero())
 }
 
-fn subtract<T: Field>(from: &mut T, number: T) -> Result<(), Failure> {
-    let difference = mem::replace(from, T::zero()) - &number;
+fn subtract<T: Field>(from: &mut T, number: &T) -> Result<(), Failure> {
+    let difference = mem::replace(from, T::zero()) - number;
     *from = difference;
     from.is_defined().then_some(()).ok_or(Failure::Fault)
 }
