@@ -395,6 +395,7 @@ impl Stacking {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Pattern {
     /// All +.
     Fcc,

@@ -75,6 +75,7 @@ use crate::scalar::Polynomial;
 
 /// How a theorem is proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum ProofKind {
     /// Both sides are the same polynomial.
     Identity,
@@ -106,6 +107,7 @@ impl ProofKind {
 
 /// A statement about every pile, with its proof.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Theorem {
     /// A short name.
     pub name: &'static str,

@@ -78,6 +78,7 @@ struct Extremes {
 
 /// What the springs do to one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SoftContact {
     /// The numbers of the upper and of the lower sphere.
     pub ids: [u64; 2],

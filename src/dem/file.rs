@@ -14,6 +14,7 @@ use crate::table::{Cell, Column, Table};
 /// assert!(names.eq(["pile.data", "pile.in"]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum PileFormat {
     /// Any: `spheres.csv`, `contacts.csv`, `base.csv`, and `columns.csv`, which says what is in their columns.
     Csv,
@@ -84,6 +85,7 @@ impl PileFormat {
 /// All numbers are in SI, each the float nearest to the exact one, with the digits that read back the same. Spheres
 /// have the numbers of [`Numbering`](crate::shape::Numbering) in all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum PileFile {
     /// `spheres.csv`: the table of [`table::spheres`](crate::table::spheres), and `load`, the force downwards that acts
     /// besides the weight.

@@ -35,6 +35,7 @@ pub struct NumberedPile<'p> {
 
 /// A contact of a pile, its force rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NumberedContact {
     /// The numbers of the upper sphere and of the lower one; of two neighbours that of the one that names their contact first.
     pub ids: [u64; 2],

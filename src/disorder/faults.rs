@@ -35,6 +35,7 @@ use crate::scalar::{Algebra, Polynomial, Symbol};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FaultForce {
     /// The place.
     pub place: Place,

@@ -29,6 +29,7 @@ use num_rational::BigRational;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PackedContact {
     /// The upper sphere; of two neighbours, the one that the contact is named by.
     pub site: Site,

@@ -6,6 +6,7 @@ use crate::theorem::{self, Theorem};
 
 /// A theorem of [`theorem::all`], and what proves it for other programs.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Checked {
     /// The theorem.
     pub theorem: &'static Theorem,

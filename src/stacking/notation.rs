@@ -29,6 +29,7 @@ const QUOTED: usize = 60;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Notation {
     /// A sign for each step: `++-+`.
     Hagg,

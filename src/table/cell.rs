@@ -125,6 +125,7 @@ impl Cell {
 
 /// How exact quantities are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum NumberFormat {
     /// `4`, `7/3`, `7/3*sqrt(2)`.
     Exact,

@@ -10,6 +10,7 @@ use super::{json, text};
 
 /// How a table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum FileFormat {
     /// Aligned text with units and totals, for people.
     Text,

@@ -8,6 +8,7 @@ use crate::lattice::{Dimension, Link, Site};
 
 /// A contact of the pile, what its force is, and what was measured.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Difference {
     /// The numbers of the upper sphere and of the lower one.
     pub ids: [u64; 2],
@@ -29,6 +30,7 @@ pub struct Difference {
 
 /// A pair of spheres with a force, but no contact of the pile.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Extra {
     /// The numbers of the two, the lesser first.
     pub ids: [u64; 2],

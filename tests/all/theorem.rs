@@ -100,6 +100,7 @@ fn statements_name_their_subject_and_method() {
             ProofKind::Identity => &["an identity"],
             ProofKind::Sum => &["by summing"],
             ProofKind::Induction => &["by induction"],
+            other => panic!("no words for {other:?}"),
         };
         assert!(
             words.iter().any(|word| theorem.statement.contains(word)),
