@@ -343,6 +343,21 @@ def once(pairs):
     return dict(pairs)
 
 
+def verdict(file, name="-"):
+    """The exit status of a file's certificates, one or an array of them, and the line that tells why."""
+    try:
+        given = json.load(file, object_pairs_hook=once)
+        if given == []:
+            raise Unreadable("an empty array certifies nothing")
+        for certificate in given if isinstance(given, list) else [given]:
+            Certificate(certificate).check()
+    except Refused as refusal:
+        return 1, f"refused: {refusal}"
+    except (Unreadable, OSError, ValueError, RecursionError) as error:
+        return 2, f"error: {name}: {error}"
+    return 0, "accepted"
+
+
 def main(arguments):
     # Numbers of 5000 digits are read; newer versions stop at 4300.
     getattr(sys, "set_int_max_str_digits", lambda _: None)(0)
@@ -351,24 +366,12 @@ def main(arguments):
         return 2
     (name,) = arguments
     try:
-        if name == "-":
-            given = json.load(sys.stdin, object_pairs_hook=once)
-        else:
-            with open(name, encoding="utf-8") as file:
-                given = json.load(file, object_pairs_hook=once)
-        # One, or an array of them.
-        if given == []:
-            raise Unreadable("an empty array certifies nothing")
-        for certificate in given if isinstance(given, list) else [given]:
-            Certificate(certificate).check()
-    except Refused as refusal:
-        print(f"refused: {refusal}")
-        return 1
-    except (Unreadable, OSError, ValueError, RecursionError) as error:
-        print(f"error: {name}: {error}", file=sys.stderr)
-        return 2
-    print("accepted")
-    return 0
+        with sys.stdin if name == "-" else open(name, encoding="utf-8") as file:
+            status, said = verdict(file, name)
+    except OSError as error:
+        status, said = 2, f"error: {name}: {error}"
+    print(said, file=sys.stderr if status == 2 else sys.stdout)
+    return status
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 //! The claims that each fuzz target makes.
 //!
-//! Generators and claims are those of the property tests; here libFuzzer chooses the bytes. A crash file
-//! is such a byte string: it fails the same claim in `tests/properties`.
+//! Generators and claims are those of the property tests; here libFuzzer chooses the bytes. The first byte of an input chooses
+//! among the claims of its target, the others are such a byte string: those of a crash file fail the same claim in
+//! `tests/properties`.
 //!
 //! `cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes one on a stable toolchain. An
 //! input takes some hundred bytes: the last option gives them from the start.
@@ -24,7 +25,7 @@ use claims::{Claim, Failure};
 /// Every sphere of a small pile and one of any pile, any sin φ, are in exact equilibrium; other sites are none.
 #[must_use]
 pub fn equilibrium(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::equilibrium::one_sphere,
@@ -39,7 +40,7 @@ pub fn equilibrium(bytes: &[u8]) -> Corpus {
 /// A spacing is allowed just if no two spheres overlap, and answers in SI have its geometry.
 #[must_use]
 pub fn overlap(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::overlap::of_a_spacing,
@@ -52,7 +53,7 @@ pub fn overlap(bytes: &[u8]) -> Corpus {
 /// No parser panics, each reads what is printed, and a scene is a pile or is refused; scene files and JSON too.
 #[must_use]
 pub fn parsers(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::parsers::any_text,
@@ -78,7 +79,7 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
 /// Roots round to the nearest float and keep their order; float forces are a few roundings off.
 #[must_use]
 pub fn rounding(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::nearest::of_a_root,
@@ -94,7 +95,7 @@ pub fn rounding(bytes: &[u8]) -> Corpus {
 /// Every scalar keeps its laws; fixed-width answers are right or overflow.
 #[must_use]
 pub fn scalar_laws(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::laws::every_scalar,
@@ -109,7 +110,7 @@ pub fn scalar_laws(bytes: &[u8]) -> Corpus {
 /// Any text is a stacking by the rules or is refused, and what is one is printed and read again in every notation.
 #[must_use]
 pub fn stackings(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[claims::stackings::any_text, claims::stackings::of_runs],
     )
@@ -118,7 +119,7 @@ pub fn stackings(bytes: &[u8]) -> Corpus {
 /// Regions of any size are tight, grow and shrink as their sites do, and the spheres of piles on them are counted.
 #[must_use]
 pub fn regions(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::regions::any_bounds,
@@ -132,7 +133,7 @@ pub fn regions(bytes: &[u8]) -> Corpus {
 /// The forces of a small mixed pile are those of the equations of equilibrium, by every way to ask for them.
 #[must_use]
 pub fn engine(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[claims::engine::every_way, claims::engine::in_floats],
     )
@@ -142,7 +143,7 @@ pub fn engine(bytes: &[u8]) -> Corpus {
 #[cfg(feature = "ensemble")]
 #[must_use]
 pub fn ensemble(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::ensemble::counts,
@@ -157,13 +158,27 @@ pub fn ensemble(bytes: &[u8]) -> Corpus {
 #[cfg(feature = "horizontal")]
 #[must_use]
 pub fn horizontal(bytes: &[u8]) -> Corpus {
-    all_hold(bytes, &[claims::horizontal::any_pile])
+    holds(bytes, &[claims::horizontal::any_pile])
+}
+
+/// Whatever is changed in a certificate: what is accepted is true.
+#[cfg(feature = "horizontal")]
+#[must_use]
+pub fn certificates(bytes: &[u8]) -> Corpus {
+    holds(bytes, &[claims::certificates::changed])
+}
+
+/// The checker in Python and the library's come to one verdict.
+#[cfg(all(feature = "export", feature = "horizontal", feature = "serde"))]
+#[must_use]
+pub fn python_checker(bytes: &[u8]) -> Corpus {
+    holds(bytes, &[claims::certificates::judged_twice])
 }
 
 /// The mean over random stackings is that of all stackings, looked at one by one.
 #[must_use]
 pub fn mean(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[claims::disorder::small, claims::disorder::any_size],
     )
@@ -173,7 +188,7 @@ pub fn mean(bytes: &[u8]) -> Corpus {
 /// runs have the order that they were made with, and records of them are read back or refused.
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {
-    all_hold(
+    holds(
         bytes,
         &[
             claims::measured::any_file,
@@ -181,17 +196,22 @@ pub fn measured(bytes: &[u8]) -> Corpus {
             claims::ladder::any_rungs,
             claims::ladder::planted,
             claims::measured::any_table,
-            claims::measured::by_place,
             claims::measured::a_file,
             claims::measured::planted,
         ],
     )
 }
 
+/// Exact forces are accepted by the places of their contacts alone, in any frame and any order.
+#[must_use]
+pub fn placed(bytes: &[u8]) -> Corpus {
+    holds(bytes, &[claims::measured::by_place])
+}
+
 /// What is written for Coq is what the formulas give in rationals.
 #[must_use]
 pub fn recorded(bytes: &[u8]) -> Corpus {
-    all_hold(bytes, &[claims::recorded::any_values])
+    holds(bytes, &[claims::recorded::any_values])
 }
 
 /// Polynomials compute what their values compute.
@@ -215,14 +235,15 @@ fn kept(outcome: arbitrary::Result<()>) -> Corpus {
     }
 }
 
-/// Makes each claim about the input that it draws from the same bytes.
-fn all_hold(bytes: &[u8], claims: &[Claim]) -> Corpus {
-    for claim in claims {
-        match claim(&mut Unstructured::new(bytes)) {
-            Ok(()) => {}
-            Err(Failure::NoInput(_)) => return Corpus::Reject,
-            Err(refuted) => panic!("{refuted}"),
-        }
+/// Makes one of the claims, chosen by the first byte, about the input that it draws from the others.
+fn holds(bytes: &[u8], claims: &[Claim]) -> Corpus {
+    let Some((first, bytes)) = bytes.split_first() else {
+        return Corpus::Reject;
+    };
+    let claim = claims[usize::from(*first) % claims.len()];
+    match claim(&mut Unstructured::new(bytes)) {
+        Ok(()) => Corpus::Keep,
+        Err(Failure::NoInput(_)) => Corpus::Reject,
+        Err(refuted) => panic!("{refuted}"),
     }
-    Corpus::Keep
 }

@@ -77,6 +77,12 @@ properties! {
 #[cfg(feature = "horizontal")]
 properties! {
     what_can_be_borne_is_what_an_exact_program_says: claims::horizontal::any_pile, 192;
+    what_a_checker_accepts_is_true: claims::certificates::changed, 384;
+}
+
+#[cfg(all(feature = "export", feature = "horizontal", feature = "serde"))]
+properties! {
+    both_checkers_come_to_one_verdict: claims::certificates::judged_twice, 384;
 }
 
 #[cfg(feature = "ensemble")]

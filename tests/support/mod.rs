@@ -8,6 +8,7 @@
 //! | `judge` | which float is nearest to a number |
 //! | `oracles` | what the library is compared with |
 //! | `pair` | two scalars in step, and the first operation at which they part |
+//! | `python_checker` | the second checker of certificates, as a process that stays |
 //! | `rounding` | the cases of which every float must be the nearest |
 //! | `stress` | piles at the limits of floats, and how far off each way to compute is there |
 //! | `tally` | ensembles of stackings, counted one by one (feature `ensemble`) |
@@ -22,6 +23,7 @@ pub(crate) mod disorder;
 pub(crate) mod judge;
 pub(crate) mod oracles;
 pub(crate) mod pair;
+pub(crate) mod python_checker;
 pub(crate) mod rounding;
 pub(crate) mod stress;
 #[cfg(feature = "ensemble")]

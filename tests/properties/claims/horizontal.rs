@@ -21,13 +21,13 @@ use crate::support::oracles::admissible::{Affine, Corner, Pair, States, at, of_d
 use crate::support::oracles::balance::{Balance, place, site};
 
 /// A tiny pile, by the library and by the oracle.
-struct Drawn {
-    pile: Pile,
-    states: States,
+pub(super) struct Drawn {
+    pub(super) pile: Pile,
+    pub(super) states: States,
     /// One of them that only pushes, if there is any.
-    corner: Option<Corner>,
-    bottom: Site,
-    stiffness_ratio: BigRational,
+    pub(super) corner: Option<Corner>,
+    pub(super) bottom: Site,
+    pub(super) stiffness_ratio: BigRational,
 }
 
 /// Some pile of spheres or discs, one of its bottom spheres, and some forces.
@@ -91,7 +91,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
     has_least_energy(states, stiffness_ratio, &relaxed, &x)
 }
 
-fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
+pub(super) fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
     let stiffness_ratio = ratio(u.int_in_range(1..=9)?, u.int_in_range(1..=9)?);
     let (pile, balance, forces): (_, _, fn(&Balance) -> _) = if u.ratio(1, 8)? {
         let (pile, balance) = discs(u)?;
@@ -134,12 +134,12 @@ fn discs(u: &mut Unstructured<'_>) -> Result<(Pile, Balance), super::Failure> {
     Ok((pile, balance))
 }
 
-fn negative(affine: &Affine) -> Affine {
+pub(super) fn negative(affine: &Affine) -> Affine {
     affine.iter().map(|entry| -entry).collect()
 }
 
 /// As the library names it.
-fn contact((place, step): Pair) -> HorizontalContact {
+pub(super) fn contact((place, step): Pair) -> HorizontalContact {
     let axis = match step {
         [1, 0] => Axis::AlphaBeta,
         [0, _] => Axis::AlphaGamma,
@@ -150,7 +150,7 @@ fn contact((place, step): Pair) -> HorizontalContact {
 }
 
 /// The horizontal forces that a pile was given, in the order of the oracle.
-fn horizontal(pile: &Pile, states: &States) -> Vec<BigRational> {
+pub(super) fn horizontal(pile: &Pile, states: &States) -> Vec<BigRational> {
     let pairs = states.contacts.iter();
     pairs
         .map(|pair| pile.horizontal_force(contact(*pair)))

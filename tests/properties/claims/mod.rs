@@ -31,10 +31,13 @@
 //! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
 //! | `disorder` | the mean over random stackings is that of all stackings, one by one |
 //! | `ensemble` | tallies are what plain enumeration counts, and parts make the whole (feature `ensemble`) |
+//! | `certificates` | what a checker accepts is true, and the checker in Python says the same (feature `horizontal`) |
 //! | `horizontal` | what a pile with horizontal contacts can bear is what an exact program says, with proofs (feature `horizontal`) |
 //!
 //! `handed_on` has the oracle's forces of what a generator describes.
 
+#[cfg(feature = "horizontal")]
+pub(crate) mod certificates;
 pub(crate) mod disorder;
 pub(crate) mod engine;
 #[cfg(feature = "ensemble")]

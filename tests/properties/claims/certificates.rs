@@ -1,0 +1,250 @@
+//! A certificate that is accepted says the truth, whatever was changed in it, and both checkers say the same of it.
+//!
+//! Certificates that the library gives of a tiny pile are changed in a few places. What
+//! [`check`](cannonpile::certificate::Certificate::check) still accepts must hold by the exact programs of `States`. The
+//! second checker, in Python, is asked by way of [`python_checker`](crate::support::python_checker).
+
+use arbitrary::Unstructured;
+use cannonpile::certificate::{Certificate, Claim, Extreme};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::horizontal::{Drawn, contact, drawn, horizontal, negative};
+use super::{Checked, Failure, demand};
+use crate::generators::number::ratio;
+use crate::support::oracles::admissible::at;
+use crate::support::oracles::balance::place;
+
+/// What is accepted is true.
+pub(crate) fn changed(u: &mut Unstructured<'_>) -> Checked {
+    let drawn = drawn(u)?;
+    let certificate = any(u, &drawn)?;
+    let accepted = certificate.check().is_ok();
+    demand(!accepted || is_true(&drawn, &certificate)?, || {
+        format!("accepted, and not true: {certificate:?}")
+    })
+}
+
+/// Both checkers accept it, or both refuse it; and it comes back from its file.
+#[cfg(all(feature = "export", feature = "serde"))]
+pub(crate) fn judged_twice(u: &mut Unstructured<'_>) -> Checked {
+    use cannonpile::serde::{read_certificate, write_certificate};
+
+    use super::same;
+    use crate::support::python_checker;
+
+    let drawn = drawn(u)?;
+    let certificate = any(u, &drawn)?;
+    let refuted = |error: std::io::Error| Failure::Refuted(format!("{error}: {certificate:?}"));
+    let mut file = Vec::new();
+    write_certificate(&certificate, &mut file).map_err(refuted)?;
+    let read = read_certificate(file.as_slice()).map_err(refuted)?;
+    same("what was read back", &read, &certificate)?;
+    let Some(status) = python_checker::status(&file) else {
+        return Ok(());
+    };
+    let checked = certificate.check();
+    // 2 says that it is none.
+    let agree = status == u8::from(checked.is_err());
+    demand(agree, || {
+        format!("{checked:?}, but {status} in Python: {certificate:?}")
+    })
+}
+
+/// One of the certificates of the pile, with a few changes.
+fn any(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Certificate, Failure> {
+    let Drawn { pile, bottom, .. } = drawn;
+    let bounds = || pile.bounds(*bottom).ok();
+    let given = match u.int_in_range(0..=3)? {
+        0 => None,
+        1 => {
+            let elastic = pile.elastic(&drawn.stiffness_ratio).ok();
+            elastic.and_then(|state| state.certificate().cloned())
+        }
+        2 => bounds().and_then(|bounds| bounds.least.certificate),
+        _ => bounds().and_then(|bounds| bounds.greatest.certificate),
+    };
+    let mut certificate = match given {
+        Some(certificate) => certificate,
+        // What cannot stand has no other.
+        None => pile.equilibrium()?,
+    };
+    for _ in 0..u.int_in_range(0..=3)? {
+        change(u, drawn, &mut certificate)?;
+    }
+    Ok(certificate)
+}
+
+/// Another number, another claim, or the same proof twice as large.
+fn change(
+    u: &mut Unstructured<'_>,
+    drawn: &Drawn,
+    certificate: &mut Certificate,
+) -> Result<(), Failure> {
+    let more = ratio(
+        u.int_in_range(-3..=3)?,
+        *u.choose(&[1, 2, 3, 7, 1_000_000])?,
+    );
+    let Certificate {
+        pile,
+        claim,
+        horizontal,
+        field,
+    } = certificate;
+    match u.int_in_range(0..=4)? {
+        0 => {
+            let sites: Vec<_> = pile.shape().sites().collect();
+            let directions = pile.dimension().directions();
+            let direction = *u.choose(directions)?;
+            field.entry(*u.choose(&sites)?).or_default()[direction.index()] += more;
+        }
+        1 => {
+            if let Ok(pair) = u.choose(&drawn.states.contacts) {
+                *horizontal.entry(contact(*pair)).or_default() += more;
+            }
+        }
+        2 => match claim {
+            Claim::Least(Extreme {
+                normal, attained, ..
+            })
+            | Claim::Greatest(Extreme {
+                normal, attained, ..
+            }) => {
+                if more.is_zero() {
+                    *attained ^= true;
+                }
+                *normal += more;
+            }
+            Claim::Elastic { stiffness_ratio } => *stiffness_ratio += more,
+            other => *other = Claim::Stands,
+        },
+        3 => {
+            let extreme = Extreme {
+                site: drawn.bottom,
+                normal: more,
+                attained: u.arbitrary()?,
+            };
+            *claim = match claim.clone() {
+                Claim::Least(extreme) => Claim::Greatest(extreme),
+                Claim::Greatest(_) => Claim::Stands,
+                Claim::Stands => Claim::Least(extreme),
+                _ => Claim::CannotStand,
+            };
+        }
+        _ => {
+            for number in field.values_mut().flatten() {
+                *number *= ratio(2, 1);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a claim holds, by the exact programs over all states that only push; of springs, whether the forces are those of
+/// the library, which no state has less energy than (`horizontal`).
+fn is_true(drawn: &Drawn, certificate: &Certificate) -> Result<bool, Failure> {
+    let Drawn { states, corner, .. } = drawn;
+    Ok(match &certificate.claim {
+        Claim::Stands => corner.is_some(),
+        Claim::CannotStand => corner.is_none(),
+        Claim::Least(extreme) => is_bound(drawn, extreme, false),
+        Claim::Greatest(extreme) => is_bound(drawn, extreme, true),
+        Claim::Elastic { stiffness_ratio } => {
+            let elastic = drawn.pile.elastic(stiffness_ratio)?;
+            let zero = BigRational::zero();
+            let x = states.contacts.iter().map(|pair| {
+                let force = certificate.horizontal.get(&contact(*pair));
+                force.unwrap_or(&zero)
+            });
+            x.eq(&horizontal(elastic.pile(), states))
+        }
+        _ => false,
+    })
+}
+
+/// Whether no state passes a bound, and whether one attains it if that is claimed.
+fn is_bound(drawn: &Drawn, extreme: &Extreme, above: bool) -> bool {
+    let Some(normal) = drawn.states.normals.get(&place(extreme.site)) else {
+        return false;
+    };
+    let Some(corner) = &drawn.corner else {
+        return !extreme.attained;
+    };
+    let aim = if above {
+        negative(normal)
+    } else {
+        normal.clone()
+    };
+    let exact = at(normal, &corner.clone().lowest(&aim).x());
+    let within = if above {
+        exact <= extreme.normal
+    } else {
+        exact >= extreme.normal
+    };
+    within && (!extreme.attained || exact == extreme.normal)
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    /// Bounds of the pile that the bytes make, some that are too good by a trace, and one of a site that is no bottom sphere.
+    #[test]
+    fn bounds_that_are_too_good_are_caught() {
+        let trace = ratio(1, 1_000_000);
+        let mut caught = 0;
+        for seed in 0..40_u8 {
+            let bytes: Vec<u8> = (0..64)
+                .map(|n: u8| n.wrapping_mul(37).wrapping_add(seed))
+                .collect();
+            let drawn = drawn(&mut Unstructured::new(&bytes)).unwrap();
+            let Ok(bounds) = drawn.pile.bounds(drawn.bottom) else {
+                continue;
+            };
+            for (bound, above) in [(bounds.least, false), (bounds.greatest, true)] {
+                assert!(bound.attained);
+                let extreme = |normal, attained| Extreme {
+                    site: drawn.bottom,
+                    normal,
+                    attained,
+                };
+                let better = if above { -trace.clone() } else { trace.clone() };
+                assert!(is_bound(
+                    &drawn,
+                    &extreme(bound.normal.clone(), true),
+                    above
+                ));
+                assert!(is_bound(
+                    &drawn,
+                    &extreme(&bound.normal - &better, false),
+                    above
+                ));
+                assert!(!is_bound(
+                    &drawn,
+                    &extreme(&bound.normal - &better, true),
+                    above
+                ));
+                assert!(!is_bound(
+                    &drawn,
+                    &extreme(&bound.normal + &better, false),
+                    above
+                ));
+                caught += 1;
+            }
+        }
+        assert!(caught > 20, "{caught}");
+    }
+
+    #[test]
+    fn the_other_verdict_is_caught() {
+        let bytes = [0; 64];
+        let drawn = drawn(&mut Unstructured::new(&bytes)).unwrap();
+        let mut certificate = drawn.pile.equilibrium().unwrap();
+        assert!(is_true(&drawn, &certificate).unwrap());
+        certificate.claim = match certificate.claim {
+            Claim::Stands => Claim::CannotStand,
+            _ => Claim::Stands,
+        };
+        assert!(!is_true(&drawn, &certificate).unwrap());
+    }
+}

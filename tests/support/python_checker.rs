@@ -1,0 +1,105 @@
+//! The second checker of certificates, in Python, as a process that stays: a certificate a line, a verdict a line.
+//!
+//! It needs `python3`. Without it whoever asks fails, unless `CANNONPILE_WITHOUT_PYTHON` is set.
+
+use std::env;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// Reads certificates from lines, and answers with the exit status of the checker and what it says.
+const LINES: &str = "
+import io, sys
+sys.path.insert(0, sys.argv[1])
+import check_certificate
+getattr(sys, 'set_int_max_str_digits', lambda _: None)(0)
+for line in sys.stdin:
+    status, said = check_certificate.verdict(io.StringIO(line))
+    print(status, ' '.join(said.split()), flush=True)
+";
+
+struct Checker {
+    process: Child,
+    questions: ChildStdin,
+    answers: BufReader<ChildStdout>,
+}
+
+static CHECKER: OnceLock<Option<Mutex<Checker>>> = OnceLock::new();
+
+/// What its exit status would be of this file: 0 accepted, 1 refused, 2 no certificate. `None` if somebody said that there is no
+/// Python to ask.
+pub(crate) fn status(certificate: &[u8]) -> Option<u8> {
+    let checker = CHECKER.get_or_init(|| Checker::start().map(Mutex::new));
+    let mut checker = checker
+        .as_ref()?
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner);
+    let answer = checker.ask(certificate);
+    let status = answer
+        .split(' ')
+        .next()
+        .and_then(|status| status.parse().ok());
+    Some(status.unwrap_or_else(|| panic!("the checker in Python fell silent: {answer:?}")))
+}
+
+impl Checker {
+    fn start() -> Option<Self> {
+        let process = Command::new("python3")
+            .args(["-B", "-c", LINES])
+            .arg(folder())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn();
+        let mut process = match process {
+            Ok(process) => process,
+            Err(error) => {
+                assert!(
+                    env::var_os("CANNONPILE_WITHOUT_PYTHON").is_some(),
+                    "no python3 ({error}): the second checker is NOT compared; install Python 3.9 or later, or set \\
+                     CANNONPILE_WITHOUT_PYTHON=1 to go without"
+                );
+                return None;
+            }
+        };
+        Some(Self {
+            questions: process.stdin.take().expect("a pipe"),
+            answers: BufReader::new(process.stdout.take().expect("a pipe")),
+            process,
+        })
+    }
+
+    fn ask(&mut self, certificate: &[u8]) -> String {
+        let mut line = certificate.to_vec();
+        // No string in it has an end of line.
+        for byte in &mut line {
+            if *byte == b'\n' {
+                *byte = b' ';
+            }
+        }
+        line.push(b'\n');
+        self.questions.write_all(&line).expect("python3 reads");
+        let mut answer = String::new();
+        self.answers
+            .read_line(&mut answer)
+            .expect("python3 answers");
+        answer
+    }
+}
+
+impl Drop for Checker {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+    }
+}
+
+/// `proofs/`, from the library's tests or from the fuzz targets beside it.
+fn folder() -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders = [package.join("proofs"), package.join("../proofs")];
+    let is_there = |folder: &PathBuf| folder.join("check_certificate.py").exists();
+    folders
+        .into_iter()
+        .find(is_there)
+        .expect("proofs/check_certificate.py")
+}
