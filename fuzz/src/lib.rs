@@ -4,8 +4,9 @@
 //! among the claims of its target, the others are such a byte string: those of a crash file fail the same claim in
 //! `tests/properties`.
 //!
-//! `cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes one on a stable toolchain. An
-//! input takes some hundred bytes: the last option gives them from the start.
+//! `RUSTC_WRAPPER=$PWD/fuzz/rustc cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes one on a stable
+//! toolchain. An input takes some hundred bytes: the last option gives them from the start. The wrapper has only this project's code
+//! watched, which makes it three to ten times as fast.
 
 #[path = "../../tests/properties/claims/mod.rs"]
 mod claims;
@@ -98,7 +99,7 @@ pub fn scalar_laws(bytes: &[u8]) -> Corpus {
     holds(
         bytes,
         &[
-            claims::laws::every_scalar,
+            claims::laws::one_scalar,
             claims::laws::ratios_of_integers,
             claims::fixed::results_can_be_negated,
             claims::fixed::any_pile,

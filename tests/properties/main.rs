@@ -60,7 +60,7 @@ properties! {
     parsers_survive_any_text: claims::parsers::any_text, 1024;
     numbers_are_read_as_written: claims::parsers::a_number, 1024;
     what_is_printed_is_read_back: claims::parsers::a_value, 512;
-    every_scalar_keeps_the_laws: claims::laws::every_scalar, 512;
+    every_scalar_keeps_the_laws: claims::laws::one_scalar, 4096;
     ratios_are_in_lowest_terms: claims::laws::ratios_of_integers, 512;
     stackings_are_read_by_the_rules: claims::stackings::any_text, 2048;
     stackings_are_made_of_runs: claims::stackings::of_runs, 1024;

@@ -13,28 +13,25 @@ use super::{Checked, in_lowest_terms, same};
 use crate::generators::number;
 use crate::support::pair::Pair;
 
-/// All scalars of the crate on the same operands.
-pub(crate) fn every_scalar(u: &mut Unstructured<'_>) -> Checked {
-    let operands = Operands {
-        rationals: [
-            number::rational(u)?,
-            number::rational(u)?,
-            number::rational(u)?,
-        ],
-        integer: number::machine_integer(u)?,
-    };
-    suite::<f32>(&operands)?;
-    suite::<f64>(&operands)?;
-    suite::<DoubleDouble>(&operands)?;
-    suite::<Interval>(&operands)?;
-    suite::<Pair<BigRational, Interval>>(&operands)?;
-    suite::<BigRational>(&operands)?;
-    suite::<FixedRational<i8>>(&operands)?;
-    suite::<FixedRational<i16>>(&operands)?;
-    suite::<FixedRational<i32>>(&operands)?;
-    suite::<FixedRational<i64>>(&operands)?;
-    suite::<FixedRational<i128>>(&operands)
+/// One of the scalars of the crate.
+pub(crate) fn one_scalar(u: &mut Unstructured<'_>) -> Checked {
+    let suite = u.choose(&SUITES)?;
+    suite(&Operands::any(u)?)
 }
+
+const SUITES: [fn(&Operands) -> Checked; 11] = [
+    suite::<f32>,
+    suite::<f64>,
+    suite::<DoubleDouble>,
+    suite::<Interval>,
+    suite::<Pair<BigRational, Interval>>,
+    suite::<BigRational>,
+    suite::<FixedRational<i8>>,
+    suite::<FixedRational<i16>>,
+    suite::<FixedRational<i32>>,
+    suite::<FixedRational<i64>>,
+    suite::<FixedRational<i128>>,
+];
 
 /// A ratio of integers is the rational in lowest terms, and none over zero.
 pub(crate) fn ratios_of_integers(u: &mut Unstructured<'_>) -> Checked {
@@ -48,6 +45,19 @@ pub(crate) fn ratios_of_integers(u: &mut Unstructured<'_>) -> Checked {
 struct Operands {
     rationals: [BigRational; 3],
     integer: i128,
+}
+
+impl Operands {
+    fn any(u: &mut Unstructured<'_>) -> arbitrary::Result<Self> {
+        Ok(Self {
+            rationals: [
+                number::rational(u)?,
+                number::rational(u)?,
+                number::rational(u)?,
+            ],
+            integer: number::machine_integer(u)?,
+        })
+    }
 }
 
 fn suite<T: Field + RealEmbeddable>(operands: &Operands) -> Checked {
