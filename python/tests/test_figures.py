@@ -58,6 +58,28 @@ def test_save(tmp_path):
         figure.save(tmp_path / "nowhere" / "base.svg")
 
 
+def test_save_leaves_the_old_file_or_the_new_one(tmp_path, monkeypatch):
+    figure, old = Pile(6).plot("base"), tmp_path / "base.svg"
+    old.write_text("old")
+    link = tmp_path / "link.svg"
+    link.symlink_to(old)
+
+    def fail(*_):
+        raise OSError("no room")
+
+    with monkeypatch.context() as broken:
+        broken.setattr("os.replace", fail)
+        with pytest.raises(OSError, match="no room"):
+            figure.save(old)
+    assert old.read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["base.svg", "link.svg"]
+    figure.save(link)
+    assert link.is_symlink()
+    assert old.read_text(encoding="utf-8") == figure.svg
+    with pytest.raises(IsADirectoryError):
+        figure.save(tmp_path)
+
+
 def test_export(tmp_path):
     names = Pile(4, spacing="6/5").export(tmp_path / "pile", "csv", "lammps", "vtp", "yade", "card")
     assert set(names) == {path.name for path in (tmp_path / "pile").iterdir()}

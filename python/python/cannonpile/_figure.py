@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from ._file import write
+
 
 class Figure:
     """A figure as SVG, which Jupyter shows.
@@ -78,8 +80,7 @@ class Figure:
         ...     path.read_text(encoding="utf-8")[:5]
         '<svg '
         """
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self._svg)
+        write(path, self._svg)
 
     def _repr_svg_(self) -> str:
         return self._svg

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 
+from ._file import write
+
 
 class Page:
     """A page to look into a pile, which Jupyter shows; made by `Pile.show`.
@@ -65,8 +67,7 @@ class Page:
         ...     path.read_text(encoding="utf-8")[:15]
         '<!doctype html>'
         """
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self._html)
+        write(path, self._html)
 
     def _repr_html_(self) -> str:
         # A frame of its own: its styles and scripts are not the notebook's.
