@@ -8,9 +8,11 @@ pub use culprit::Culprit;
 
 use alloc::boxed::Box;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 
 use crate::engine::{Method, Quantity};
 use crate::geometry::{Apart, Spacing};
@@ -162,7 +164,7 @@ pub enum Error {
         quantity: &'static str,
         /// How many numbers it would keep.
         needed: BigUint,
-        /// How many are allowed.
+        /// How many are allowed; fewer than in all where the process may not have the memory.
         limit: u64,
         /// The narrower question.
         remedy: &'static str,
@@ -355,6 +357,46 @@ pub enum Error {
 pub(crate) fn bug(invariant: &'static str) -> Error {
     debug_assert!(false, "broken invariant: {invariant}");
     Error::Bug { invariant }
+}
+
+/// Refuses to keep more than `limit` numbers, and numbers of so many bytes each that this process may not have the memory:
+/// the allocator is asked for all of it at once, beforehand, and gets it back untouched.
+///
+/// # Errors
+/// [`Error::TooLarge`].
+pub(crate) fn refuse_beyond_memory(
+    quantity: &'static str,
+    needed: &BigUint,
+    (limit, bytes): (u64, usize),
+    remedy: &'static str,
+) -> Result<(), Error> {
+    let refused = |limit| Error::TooLarge {
+        quantity,
+        needed: needed.clone(),
+        limit,
+        remedy,
+    };
+    let few = needed.to_u64().filter(|numbers| *numbers <= limit);
+    let mut allowed = few.ok_or_else(|| refused(limit))?;
+    while allowed > 0 && !is_to_be_had(allowed, bytes) {
+        allowed /= 2;
+    }
+    if Some(allowed) < few {
+        return Err(refused(allowed));
+    }
+    Ok(())
+}
+
+/// Whether the allocator gives so many numbers of so many bytes.
+fn is_to_be_had(numbers: u64, bytes: usize) -> bool {
+    let mut memory = Vec::<u8>::new();
+    let bytes = usize::try_from(numbers)
+        .ok()
+        .and_then(|numbers| numbers.checked_mul(bytes));
+    let had = bytes.is_some_and(|bytes| memory.try_reserve_exact(bytes).is_ok());
+    // What nobody looks at is not asked for by optimised code.
+    core::hint::black_box(&memory);
+    had
 }
 
 impl Error {

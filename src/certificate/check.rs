@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::{Certificate, Claim, Extreme, Refusal, Relation};
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::formula::{self, tripled_half_turn};
 use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
 use crate::{Error, Pile};
@@ -107,14 +107,12 @@ impl Certificate {
                 common = common.lcm(number.denom());
             }
             let needed = &spheres * ((common.bits() + longest + turns) / 64 + 1);
-            if needed > MOST_WORDS.into() {
-                return Err(Error::TooLarge {
-                    quantity: "a check of every sphere",
-                    needed,
-                    limit: MOST_WORDS,
-                    remedy: "certify a smaller pile, with shorter numbers",
-                });
-            }
+            refuse_beyond_memory(
+                "a check of every sphere",
+                &needed,
+                (MOST_WORDS, size_of::<u64>()),
+                "certify a smaller pile, with shorter numbers",
+            )?;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use num_bigint::BigUint;
 
 use super::place::Place;
 use crate::Error;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::lattice::{Direction, Sign};
 
 /// The most 64-bit words that a recursion keeps.
@@ -93,16 +93,15 @@ impl Size {
         }
         // The windows: two words for each row of each layer.
         let needed = cells * per_cell + BigUint::from(self.steps.unsigned_abs());
-        let limit = MAX_WORDS / words.max(1);
-        if needed > BigUint::from(limit) {
-            return Err(Error::TooLarge {
-                quantity,
-                needed,
-                limit,
-                remedy: "ask for fewer layers, or a smaller pile",
-            });
-        }
-        Ok(())
+        let words = words.max(1);
+        // Not a default: no machine has as many.
+        let bytes = usize::try_from(words).map_or(usize::MAX, |words| words.saturating_mul(8));
+        refuse_beyond_memory(
+            quantity,
+            &needed,
+            (MAX_WORDS / words, bytes),
+            "ask for fewer layers, or a smaller pile",
+        )
     }
 }
 

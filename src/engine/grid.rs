@@ -17,13 +17,16 @@ use core::ops::Range;
 use num_bigint::BigUint;
 
 use crate::Error;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::lattice::Region;
 use crate::scalar::Algebra;
 use crate::shape::{Shape, Stretch};
 
 /// The most numbers that a sweep keeps, 1 GiB of `i64`.
 pub(crate) const MAX_NUMBERS: u64 = 1 << 27;
+
+/// A number of a plane has eight; and as many are for what is computed from it.
+const BYTES: usize = 16;
 
 /// Where the lines of a layer have their cells.
 #[derive(Clone, Debug)]
@@ -110,14 +113,12 @@ impl<'p> Grid<'p> {
     /// As for [`new`](Self::new).
     pub(crate) fn numbers(shape: &Shape, last: i128, planes: usize) -> Result<BigUint, Error> {
         let numbers = shape.layer(last)?.site_count() * 3_u32 * planes;
-        if numbers > BigUint::from(MAX_NUMBERS) {
-            return Err(Error::TooLarge {
-                quantity: "a sweep down to this layer",
-                needed: numbers,
-                limit: MAX_NUMBERS,
-                remedy: "ask for one sphere, or for fewer layers",
-            });
-        }
+        refuse_beyond_memory(
+            "a sweep down to this layer",
+            &numbers,
+            (MAX_NUMBERS, BYTES),
+            "ask for one sphere, or for fewer layers",
+        )?;
         Ok(numbers)
     }
 

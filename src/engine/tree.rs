@@ -2,13 +2,12 @@
 
 use alloc::vec::Vec;
 
-use num_bigint::BigUint;
 use num_traits::{One, Zero};
 
 use super::interrupt::check as check_interrupt;
 use super::lines::{Line, Lines, start_of};
 use crate::Error;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Algebra, Ring};
@@ -16,6 +15,12 @@ use crate::shape::{Shape, Stretch};
 
 /// The most nodes of a tree that are visited for one row.
 pub(crate) const MAX_NODES: usize = 4_000_000;
+
+/// Of so many it is not asked whether they fit in memory.
+const FEW_NODES: usize = 10_000;
+
+/// Its site, in lists that grow by doubling, and what three numerators of the level below it take.
+const BYTES_A_NODE: usize = 256;
 
 /// The forces from above on some spheres of one layer, as numerators.
 pub(crate) struct Above<T: Algebra> {
@@ -90,13 +95,13 @@ fn levels(
         sites.sort_unstable();
         sites.dedup();
         nodes += sites.len();
-        if nodes > MAX_NODES {
-            return Err(Error::TooLarge {
-                quantity: "the forces on spheres this far below so many changes of sign",
-                needed: BigUint::from(nodes),
-                limit: MAX_NODES as u64,
-                remedy: "ask for fewer layers or spheres",
-            });
+        if nodes > FEW_NODES {
+            refuse_beyond_memory(
+                "the forces on spheres this far below so many changes of sign",
+                &nodes.into(),
+                (MAX_NODES as u64, BYTES_A_NODE),
+                "ask for fewer layers or spheres",
+            )?;
         }
         let mut starts = Vec::new();
         if stretch.index > 0 {

@@ -6,13 +6,16 @@ use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::formula::{pushed, tripled_half_turn};
 use crate::lattice::{Direction, HorizontalContact, Site};
 use crate::{Error, Pile};
 
 /// The most equations, three for each sphere off the floor, of which a program is solved: 31 layers under one sphere.
 pub(super) const MOST_EQUATIONS: u64 = 15_000;
+
+/// What the factors of a program take for an equation at most, measured of 31 layers.
+const BYTES_AN_EQUATION: usize = 20_000;
 
 /// The most spheres of a pile whose certificate has numbers for all of them, where fewer would do.
 pub(super) const MOST_CERTIFIED: u32 = 100_000;
@@ -233,13 +236,10 @@ impl<'p> Network<'p> {
 }
 
 fn fits(equations: &BigUint, limit: u64) -> Result<(), Error> {
-    if *equations <= limit.into() {
-        return Ok(());
-    }
-    Err(Error::TooLarge {
-        quantity: "a program over all contacts",
-        needed: equations.clone(),
-        limit,
-        remedy: "ask for a smaller pile",
-    })
+    refuse_beyond_memory(
+        "a program over all contacts",
+        equations,
+        (limit, BYTES_AN_EQUATION),
+        "ask for a smaller pile",
+    )
 }

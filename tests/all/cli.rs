@@ -7,6 +7,7 @@ mod ensemble;
 mod explain;
 mod export;
 mod mean;
+mod memory;
 mod plot;
 mod scene;
 mod stackings;

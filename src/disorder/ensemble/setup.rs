@@ -126,7 +126,7 @@ impl Task {
             bits => bits / 64 + 5,
         };
         let numbers = BigUint::from(spheres.iter().sum::<u128>() * NUMBERS);
-        refuse_beyond_memory(numbers * words)?;
+        refuse_beyond_memory(&(numbers * words))?;
         Ok(Self {
             steps,
             order,
@@ -238,16 +238,13 @@ fn power_of_three(exponent: usize) -> BigInt {
 /// What is kept for each sphere of each layer: what comes down to it and what it passes on, three numbers each.
 const NUMBERS: u128 = 6;
 
-fn refuse_beyond_memory(words: BigUint) -> Result<(), Error> {
-    if words <= BigUint::from(MOST_WORDS) {
-        return Ok(());
-    }
-    Err(Error::TooLarge {
-        quantity: "the layers of one stacking",
-        needed: words,
-        limit: MOST_WORDS,
-        remedy: "use fewer layers, or a smaller top",
-    })
+fn refuse_beyond_memory(words: &BigUint) -> Result<(), Error> {
+    crate::error::refuse_beyond_memory(
+        "the layers of one stacking",
+        words,
+        (MOST_WORDS, size_of::<u64>()),
+        "use fewer layers, or a smaller top",
+    )
 }
 
 /// The most spheres of each layer, whatever the stacking.
@@ -259,7 +256,7 @@ fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
         let layers = (0..=k).map(|plus| top.grown(plus, k - plus).site_count());
         let most = layers.max().ok_or_else(|| bug("a layer has a region"))?;
         numbers += &most * NUMBERS;
-        refuse_beyond_memory(numbers.clone())?;
+        refuse_beyond_memory(&numbers)?;
         sizes.push(
             most.to_u128()
                 .ok_or_else(|| bug("what is below the limit fits"))?,

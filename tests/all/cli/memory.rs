@@ -1,0 +1,56 @@
+//! What a process may not have the memory for is refused beforehand.
+#![cfg(target_os = "linux")]
+
+use std::process::{Command, Output};
+
+/// Of a process that may have so many kilobytes.
+fn within(kilobytes: u32, arguments: &str) -> Output {
+    Command::new("sh")
+        .arg("-c")
+        .arg(format!("ulimit -v {kilobytes} && exec \"$0\" {arguments}"))
+        .arg(env!("CARGO_BIN_EXE_cannonpile"))
+        .output()
+        .expect("a shell runs")
+}
+
+#[test]
+fn more_than_a_process_may_have_is_refused_in_one_line() {
+    for (arguments, quantity) in [
+        (
+            "base --stacking hcp --layers 1000 --number f64",
+            "the forces on spheres this far below so many changes of sign",
+        ),
+        (
+            "mean --layers 80 --symbolic",
+            "the mean over random stackings",
+        ),
+    ] {
+        let output = within(250_000, arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {output:?}");
+        assert!(output.stdout.is_empty(), "{arguments}: {output:?}");
+        let line = String::from_utf8(output.stderr).expect("text");
+        let beginning = format!("error: --layers: {quantity} would take ");
+        assert!(
+            line.starts_with(&beginning) && line.lines().count() == 1,
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn a_summary_says_which_columns_it_had_no_memory_for() {
+    let output = within(250_000, "summary --stacking hcp --layers 1000");
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let notes = String::from_utf8(output.stderr).expect("text");
+    assert!(notes.lines().count() > 1, "{notes}");
+    assert!(
+        notes.lines().all(|line| line.starts_with("note: no ")),
+        "{notes}"
+    );
+}
+
+#[test]
+fn what_fits_is_answered() {
+    let output = within(250_000, "base --stacking hcp --layers 100 --number f64");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
