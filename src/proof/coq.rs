@@ -27,6 +27,7 @@ const BY_HAND: &[(&str, &str)] = &[
     ),
     ("Response.v", include_str!("../../proofs/coq/Response.v")),
     ("Mean.v", include_str!("../../proofs/coq/Mean.v")),
+    ("Spectrum.v", include_str!("../../proofs/coq/Spectrum.v")),
 ];
 
 /// Returns all files, in the order in which they are to be checked.

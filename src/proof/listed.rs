@@ -317,6 +317,15 @@ const NAMED: &[Named] = &[
         &["Mean.modes_of_the_mean", "Mean.staggered_mode"],
         &[],
     ),
+    (
+        "mean-spectrum",
+        &[
+            "Spectrum.spectrum_of_the_mean",
+            "Spectrum.waves_run",
+            "Spectrum.waves_across_decay",
+        ],
+        &[],
+    ),
     ("wave", &["Response.wave_of_hcp"], &[]),
     ("faults", &["Response.fault", "Response.load_is_kept"], &[]),
     ("one-fault", &["Response.one_fault"], &[]),
