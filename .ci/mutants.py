@@ -1,0 +1,670 @@
+#!/usr/bin/env python3
+"""Plants every fault that cargo-mutants lists, one at a time, and asks the tests whether they notice.
+
+    .ci/mutants [--room ROOM]… [--changed COMMIT] [--sample N] [--shard I/N] [--slowest S] [--most S] [--seconds S] [--jobs N] DIR
+
+cargo-mutants builds the tests anew for each fault, half a minute each and more; here are thousands of faults. So all are built at
+once: where a fault could be, the code asks `mutants::active(NUMBER)`, which is true of the one that the environment names. Each test
+is run once beforehand, and says which of these questions it came by; a fault is then shown to those tests alone, the quickest first,
+until one fails. What does not compile by its types is left out, as cargo-mutants leaves it out ("unviable").
+
+DIR keeps the instrumented copy, its build and all results; a second run goes on where the first one ended.
+`.ci/mutants.survivors` lists the faults that no test can notice, with the reason, a line each; a fault that survives and is not
+listed there, or that is listed and is noticed, makes this fail.
+
+The examples in the documentation are not among the tests.
+
+Needs cargo-mutants (for its list of faults), and the Python packages tree-sitter and tree-sitter-rust; `.ci/mutants` installs them.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import json
+import math
+import os
+import random
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import tree_sitter
+import tree_sitter_rust
+
+HERE = Path(__file__).parent.parent
+SURVIVORS = HERE / ".ci" / "mutants.survivors"
+# They read, write and draw: their faults are seen, and no number comes from them.
+TOOLS = {"dem", "export", "figure", "main", "scene", "serde", "table", "verify"}
+PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
+
+# Asked where a fault could be. What is computed while compiling has none.
+ASKED = """
+//! Which fault is planted: none, or the one that the environment names.
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
+use std::io::Write;
+
+const UNKNOWN: u32 = u32::MAX;
+const RECORD: u32 = u32::MAX - 1;
+const NONE: u32 = u32::MAX - 2;
+static PLANTED: AtomicU32 = AtomicU32::new(UNKNOWN);
+static SEEN: [AtomicBool; COUNT] = [const { AtomicBool::new(false) }; COUNT];
+
+/// Returns whether this is the fault.
+#[inline]
+pub const fn active(fault: u32) -> bool {
+    core::intrinsics::const_eval_select((fault,), never, now)
+}
+const fn never(_: u32) -> bool {
+    false
+}
+#[inline]
+fn now(fault: u32) -> bool {
+    let planted = PLANTED.load(Relaxed);
+    planted == fault || planted >= RECORD && first(fault, planted)
+}
+#[cold]
+#[inline(never)]
+fn first(fault: u32, planted: u32) -> bool {
+    let record = std::env::var_os("MUTANTS_REACHED");
+    if planted == UNKNOWN {
+        let named = std::env::var("MUTANT").ok().and_then(|name| name.parse().ok());
+        let planted = named.unwrap_or(if record.is_some() { RECORD } else { NONE });
+        PLANTED.store(planted, Relaxed);
+        return now(fault);
+    }
+    if !SEEN[fault as usize].swap(true, Relaxed) {
+        let path = record.expect("it was there");
+        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(path).expect("a file");
+        file.write_all(format!("{fault}\\n").as_bytes()).expect("room");
+    }
+    false
+}
+
+/// What a function returns that does not name its type.
+pub enum Either<A, B> {
+    Planted(A),
+    Own(B),
+}
+impl<A: Iterator<Item = B::Item>, B: Iterator> Iterator for Either<A, B> {
+    type Item = B::Item;
+    fn next(&mut self) -> Option<B::Item> {
+        match self {
+            Self::Planted(all) => all.next(),
+            Self::Own(all) => all.next(),
+        }
+    }
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        match self {
+            Self::Planted(all) => all.size_hint(),
+            Self::Own(all) => all.size_hint(),
+        }
+    }
+}
+"""
+
+
+def room(file):
+    return Path(file).parts[1].removesuffix(".rs")
+
+
+class Fault:
+    """One of cargo-mutants, with its place in the file."""
+
+    def __init__(self, number, listed, text):
+        self.number = number
+        self.file = listed["file"]
+        self.genre = listed["genre"]
+        self.replacement = listed["replacement"]
+        place, _, self.words = listed["name"].partition(": ")
+        self.place = place
+        lines = text.split("\n")
+        start = listed["span"]["start"]
+        line = lines[start["line"] - 1]
+        self.at = len("\n".join(lines[: start["line"] - 1]).encode()) + (start["line"] > 1)
+        self.at += len(line[: start["column"] - 1].encode())
+        # Without numbers of lines, which change.
+        self.key = f"{self.file}: {self.words}: {line.strip()}"
+
+
+class Rewriter:
+    """Rewrites one file so that it holds all faults that are left."""
+
+    def __init__(self, source, faults, path):
+        self.source = source
+        self.path = path
+        self.by_node = collections.defaultdict(list)
+        self.apart = []
+        tree = PARSER.parse(source)
+        self.root = tree.root_node
+        for fault in faults:
+            node = self.node_of(fault)
+            if node is None:
+                self.apart.append(fault)
+            else:
+                self.by_node[node.id].append(fault)
+
+    def node_of(self, fault):
+        leaf = self.root.descendant_for_byte_range(fault.at, fault.at)
+        kinds = {
+            "BinaryOperator": {"binary_expression", "compound_assignment_expr"},
+            "UnaryOperator": {"unary_expression"},
+            "MatchArm": {"match_arm"},
+            "MatchArmGuard": {"match_pattern"},
+            "StructField": {"struct_expression"},
+            "FnValue": {"function_item"},
+        }[fault.genre]
+        node = leaf
+        while node is not None and node.type not in kinds:
+            if fault.genre == "BinaryOperator" and node.type in {"let_chain", "block"}:
+                return None
+            node = node.parent
+        return node
+
+    def whole(self):
+        return self.text(self.root)
+
+    def slice(self, start, end):
+        return self.source[start:end].decode()
+
+    def text(self, node):
+        faults = self.by_node.get(node.id)
+        if faults:
+            return f"/*<{','.join(str(f.number) for f in faults)}*/{self.changed(node, faults)}/*>*/"
+        return self.plain(node)
+
+    def plain(self, node, changed=()):
+        """The text of a node, with that of some children given."""
+        if node.child_count == 0:
+            return self.slice(node.start_byte, node.end_byte)
+        parts, at = [], node.start_byte
+        given = {child.id: text for child, text in changed}
+        for child in node.children:
+            parts.append(self.slice(at, child.start_byte))
+            parts.append(given[child.id] if child.id in given else self.text(child))
+            at = child.end_byte
+        parts.append(self.slice(at, node.end_byte))
+        return "".join(parts)
+
+    def active(self, fault):
+        return f"{self.path}::mutants::active({fault.number})"
+
+    def choice(self, faults, original, alternative):
+        """if … else if … else; each alternative between marks, so that an error in it is known to be its own."""
+        text = ""
+        for fault in faults:
+            text += f"if {self.active(fault)} {{/*[{fault.number}*/{alternative(fault)}/*]*/}} else "
+        return f"{text}{{ {original} }}"
+
+    def changed(self, node, faults):
+        genre = faults[0].genre
+        if node.type == "function_item":
+            body = node.child_by_field_name("body")
+            returned = node.child_by_field_name("return_type")
+            if returned is not None and returned.text.startswith(b"impl "):
+                return self.plain(node, [(body, self.unnamed(body, faults))])
+            opening = body.children[0]
+            given = "".join(f"if {self.active(f)} {{/*[{f.number}*/return {f.replacement};/*]*/}} " for f in faults)
+            inner = self.plain(body, [(opening, "{ " + given)])
+            return self.plain(node, [(body, inner)])
+        if node.type == "match_arm":
+            pattern = node.child_by_field_name("pattern")
+            conditions = " && ".join(f"!{self.active(f)}" for f in faults)
+            guard = pattern.child_by_field_name("condition")
+            if guard is None:
+                return self.plain(node, [(pattern, f"{self.text(pattern)} if {conditions}")])
+            return self.plain(node, [(pattern, self.plain(pattern, [(guard, f"{conditions} && ({self.text(guard)})")]))])
+        if node.type == "match_pattern":
+            guard = node.child_by_field_name("condition")
+            given = f"({self.text(guard)})"
+            for fault in faults:
+                asked = self.active(fault)
+                given = f"({asked} || {given})" if fault.replacement == "true" else f"(!{asked} && {given})"
+            return self.plain(node, [(guard, given)])
+        if node.type == "struct_expression":
+            return self.choice(faults, self.plain(node), lambda fault: self.without_field(node, fault))
+        if node.type == "unary_expression":
+            operand = self.text(node.children[-1])
+            operator = self.slice(node.start_byte, node.children[-1].start_byte)
+            alternatives = self.choice(faults, f"{operator}mutant_l", lambda _: "mutant_l")
+            return f"(match {{ {operand} }} {{ mutant_l => {alternatives} }})"
+        left, right = node.child_by_field_name("left"), node.child_by_field_name("right")
+        operator = self.slice(*next((c.start_byte, c.end_byte) for c in node.children if not c.is_named))
+        if node.type == "compound_assignment_expr":
+            place = self.text(left)
+            alternatives = self.choice(
+                faults, f"{place} {operator} mutant_r", lambda fault: f"{place} {fault.replacement} mutant_r"
+            )
+            return f"match {self.text(right)} {{ mutant_r => {alternatives} }}"
+        if operator in {"&&", "||"}:
+            asked = self.active(faults[0])
+            assert len(faults) == 1 and faults[0].replacement in {"&&", "||"}, faults[0].words
+            return f"({asked} ^ (({asked} ^ ({self.text(left)})) {operator} ({asked} ^ ({self.text(right)}))))"
+        compares = operator in {"==", "!=", "<", ">", "<=", ">="}
+        mark, deref = ("&", "*") if compares else ("", "")
+        alternatives = self.choice(
+            faults,
+            f"{deref}mutant_l {operator} {deref}mutant_r",
+            lambda fault: f"{deref}mutant_l {fault.replacement} {deref}mutant_r",
+        )
+        scrutinee = f"({mark}({self.text(left)}), {mark}({self.text(right)}))"
+        return f"(match {scrutinee} {{ (mutant_l, mutant_r) => {alternatives} }})"
+
+    def unnamed(self, body, faults):
+        """A body whose type has no name."""
+        planted = f"{self.path}::mutants::Either::Planted"
+        dynamic = "::std::boxed::Box<dyn ::core::iter::Iterator<Item = _>>"
+        text = ""
+        for fault in faults:
+            given = f"return {planted}(::std::boxed::Box::new({fault.replacement}) as {dynamic});"
+            text += f"if {self.active(fault)} {{/*[{fault.number}*/{given}/*]*/}} "
+        return f"{{ {text} {self.path}::mutants::Either::Own({self.plain(body)}) }}"
+
+    def without_field(self, node, fault):
+        body = node.child_by_field_name("body")
+        parts = []
+        for child in body.named_children:
+            if not child.start_byte <= fault.at < child.end_byte and child.type != "line_comment":
+                parts.append(self.text(child))
+        return f"{self.slice(node.start_byte, body.start_byte)}{{ {', '.join(parts)} }}"
+
+
+class Copy:
+    """The instrumented copy of the project."""
+
+    def __init__(self, folder, faults, jobs):
+        self.tree = folder / "tree"
+        self.folder = folder
+        self.faults = {fault.number: fault for fault in faults}
+        self.unviable = {}
+        self.jobs = jobs
+        flags = f"{os.environ.get('RUSTFLAGS', '')} --cap-lints allow"
+        self.environment = os.environ | {
+            "CARGO_TARGET_DIR": str(folder / "target"),
+            "CARGO_INCREMENTAL": "0",
+            "CARGO_PROFILE_DEV_DEBUG": "none",
+            "CARGO_PROFILE_TEST_DEBUG": "none",
+            "CARGO_MANIFEST_DIR": str(self.tree),
+            "RUSTC_BOOTSTRAP": "1",
+            "RUSTFLAGS": flags,
+        }
+
+    def make(self):
+        shutil.rmtree(self.tree, ignore_errors=True)
+        self.tree.mkdir(parents=True)
+        archive = subprocess.run(["git", "ls-files", "-z"], cwd=HERE, check=True, capture_output=True).stdout
+        for name in filter(None, archive.decode().split("\0")):
+            (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(HERE / name, self.tree / name)
+        count = max(self.faults, default=0) + 1
+        (self.tree / "src" / "mutants.rs").write_text(ASKED.replace("COUNT", str(count)))
+        self.originals = {}
+        for file in {fault.file for fault in self.faults.values()} | {"src/lib.rs"}:
+            self.originals[file] = (self.tree / file).read_bytes()
+        self.write()
+
+    def write(self, files=None):
+        by_file = collections.defaultdict(list)
+        for fault in self.faults.values():
+            by_file[fault.file].append(fault)
+        for file in files or self.originals:
+            path = "cannonpile" if file.startswith("src/main/") else "crate"
+            rewriter = Rewriter(self.originals[file], by_file[file], path)
+            for fault in rewriter.apart:
+                self.drop(fault, "no expression of its own")
+            text = rewriter.whole()
+            if file == "src/lib.rs":
+                head = "#![feature(core_intrinsics, const_eval_select)]\n#![allow(internal_features)]\n"
+                text = head + text + "\n#[allow(missing_docs)]\npub mod mutants;\nextern crate std;\n"
+            (self.tree / file).write_text(text)
+
+    def drop(self, fault, why):
+        if self.faults.pop(fault.number, None):
+            self.unviable[fault.number] = (fault, why)
+
+    def cargo(self, *words):
+        return subprocess.run(
+            ["cargo", *words, "--message-format", "json"],
+            cwd=self.tree,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+        )
+
+    def blamed(self, error):
+        """The faults in whose text an error lies: of one alternative, or else of one expression."""
+        found = set()
+        for span in error["spans"]:
+            if not span["is_primary"]:
+                continue
+            path = self.tree / span["file_name"]
+            if not path.exists():
+                continue
+            text = path.read_bytes()
+            if (error["code"] or {}).get("code") == "E0004":
+                found |= self.arms(text, span["byte_start"])
+            else:
+                at = span["byte_start"]
+                found |= set(enclosing(text, at, b"[", b"]")) or set(enclosing(text, at, b"<", b">"))
+        return found
+
+    def arms(self, text, at):
+        """The faults that remove an arm of a match which needs it."""
+        node = PARSER.parse(text).root_node.descendant_for_byte_range(at, at)
+        while node.type != "match_expression":
+            node = node.parent
+        inside = {int(number) for number in re.findall(rb"if !\w+::mutants::active\((\d+)\)", node.text)}
+        return {number for number in inside if number in self.faults and self.faults[number].genre == "MatchArm"}
+
+    def settle(self):
+        """Leaves out what does not compile, until the rest does."""
+        while True:
+            said = self.cargo("check", "--all-features", "--lib", "--bins")
+            errors = [
+                line["message"]
+                for line in map(json.loads, said.stdout.splitlines())
+                if line["reason"] == "compiler-message" and line["message"]["level"] == "error" and line["message"]["spans"]
+            ]
+            if said.returncode == 0:
+                return
+            files, lost = set(), 0
+            for error in errors:
+                for number in self.blamed(error) & self.faults.keys():
+                    files.add(self.faults[number].file)
+                    self.drop(self.faults[number], error["message"])
+                    lost += 1
+            print(f"{len(errors)} errors, {lost} faults left out", flush=True)
+            if not lost:
+                for error in errors[:20]:
+                    print(error["rendered"])
+                print(said.stderr[-3000:])
+                raise SystemExit("the instrumented code does not compile")
+            self.write(files)
+
+    def build(self):
+        said = self.cargo("test", "--all-features", "--no-run", "--lib", "--bins", "--test", "all", "--test", "properties")
+        if said.returncode:
+            print(said.stderr[-4000:])
+            raise SystemExit("the tests do not build")
+        return [
+            line["executable"]
+            for line in map(json.loads, said.stdout.splitlines())
+            if line["reason"] == "compiler-artifact" and line["executable"] and line["profile"]["test"]
+        ]
+
+
+def enclosing(text, at, opening, closing):
+    """The numbers of the innermost pair of marks around a place."""
+    depth = 0
+    pattern = rb"/\*(?:" + re.escape(opening) + rb"([\d,]+)|" + re.escape(closing) + rb")\*/"
+    for mark in reversed(list(re.finditer(pattern, text[:at]))):
+        if mark[1] is None:
+            depth += 1
+        elif depth:
+            depth -= 1
+        else:
+            return [int(number) for number in mark[1].split(b",")]
+    return []
+
+
+def limits():
+    """A fault may ask for all memory there is."""
+    resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    os.setsid()
+
+
+class Tests:
+    """All tests, with their times and what they reach."""
+
+    def __init__(self, copy):
+        self.copy = copy
+
+    def run(self, binary, names, seconds, **environment):
+        """Whether they pass: in time, one after the other. `None` where they do not end in time."""
+        process = subprocess.Popen(
+            [binary, "--exact", "--test-threads", "1", *names],
+            cwd=self.copy.tree,
+            env=self.copy.environment | {"PROPTEST_FAILURE_PERSISTENCE": "off"} | environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            preexec_fn=limits,
+        )
+        try:
+            return process.wait(seconds) == 0
+        except subprocess.TimeoutExpired:
+            return None
+        finally:
+            try:
+                os.killpg(process.pid, 9)
+            except ProcessLookupError:
+                pass
+            process.wait()
+
+    def record(self, binaries, jobs, slowest):
+        """Runs each test alone; those that take longer are left out."""
+        tests = []
+        for binary in binaries:
+            listed = subprocess.run([binary, "--list", "--format", "terse"], capture_output=True, text=True, check=True).stdout
+            tests += [(binary, line.removesuffix(": test")) for line in listed.splitlines() if line.endswith(": test")]
+        reached = self.copy.folder / "reached"
+        reached.mkdir(exist_ok=True)
+
+        def one(numbered):
+            number, (binary, name) = numbered
+            path = reached / str(number)
+            path.unlink(missing_ok=True)
+            began = time.monotonic()
+            passed = self.run(binary, [name], slowest, MUTANTS_REACHED=str(path))
+            seconds = time.monotonic() - began
+            seen = sorted({int(line) for line in path.read_text().split()}) if path.exists() else []
+            return {"binary": binary, "name": name, "passed": passed, "seconds": seconds, "reached": seen}
+
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            return list(pool.map(one, enumerate(tests)))
+
+
+class Attack:
+    """Shows faults to tests."""
+
+    def __init__(self, tests, recorded, most):
+        self.tests = tests
+        self.most = most
+        self.recorded = [test for test in recorded if test["passed"]]
+        self.reaching = collections.defaultdict(list)
+        for index, test in enumerate(self.recorded):
+            for number in test["reached"]:
+                self.reaching[number].append(index)
+        self.kills = collections.defaultdict(collections.Counter)
+        self.lock = threading.Lock()
+
+    def order(self, fault):
+        """Those that noticed faults in the same file, then what is quick and reaches little."""
+        with self.lock:
+            kills = dict(self.kills[fault.file])
+
+        def cost(index):
+            test = self.recorded[index]
+            return (0.02 + test["seconds"]) * math.sqrt(1 + len(test["reached"])) / (1 + 3 * kills.get(index, 0))
+
+        return sorted(self.reaching[fault.number], key=cost)
+
+    def judge(self, fault):
+        began = time.monotonic()
+        order = self.order(fault)
+        if not order:
+            return {"outcome": "not reached", "seconds": 0}
+        at, size, spent = 0, 1, 0.0
+        while at < len(order):
+            binary = self.recorded[order[at]]["binary"]
+            chunk = []
+            while at < len(order) and len(chunk) < size and self.recorded[order[at]]["binary"] == binary:
+                chunk.append(order[at])
+                at += 1
+            expected = sum(self.recorded[index]["seconds"] for index in chunk)
+            if spent + expected > self.most and spent:
+                return {"outcome": "survives so far", "seconds": time.monotonic() - began, "left": len(order) - at + len(chunk)}
+            spent += expected
+            names = [self.recorded[index]["name"] for index in chunk]
+            if not self.tests.run(binary, names, 10 + 5 * expected, MUTANT=str(fault.number)):
+                if len(chunk) == 1:
+                    with self.lock:
+                        self.kills[fault.file][chunk[0]] += 1
+                return {"outcome": "noticed", "seconds": time.monotonic() - began, "by": names if len(names) < 4 else names[:3]}
+            size *= 2
+        return {"outcome": "survives", "seconds": time.monotonic() - began, "tests": len(order)}
+
+
+def listed(folder):
+    """What cargo-mutants lists, numbered."""
+    path = folder / "listed.json"
+    said = subprocess.run(["cargo", "mutants", "--list", "--json"], cwd=HERE, check=True, capture_output=True, text=True)
+    path.write_text(said.stdout)
+    texts = {}
+    faults = []
+    for number, one in enumerate(json.loads(said.stdout)):
+        file = one["file"]
+        if file not in texts:
+            texts[file] = (HERE / file).read_text()
+        faults.append(Fault(number, one, texts[file]))
+    return faults
+
+
+def changed_lines(commit):
+    """The lines of src that differ from a commit, as (file, line)."""
+    said = subprocess.run(["git", "diff", "-U0", commit, "--", "src"], cwd=HERE, check=True, capture_output=True, text=True).stdout
+    lines, file = set(), None
+    for line in said.splitlines():
+        if line.startswith("+++ b/"):
+            file = line.removeprefix("+++ b/")
+        hunk = re.match(r"@@ -\S+ \+(\d+)(?:,(\d+))? @@", line)
+        if hunk:
+            first, count = int(hunk[1]), int(hunk[2] or 1)
+            lines |= {(file, number) for number in range(first, first + count)}
+    return lines
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, metavar="DIR", help="keeps the copy, its build and the results")
+    parser.add_argument("--room", action="append", help="of these rooms of src (all but the tools)")
+    parser.add_argument("--changed", metavar="COMMIT", help="in lines that differ from it")
+    parser.add_argument("--sample", type=int, metavar="N", help="so many, drawn by chance, always the same")
+    parser.add_argument("--shard", default="0/1", metavar="I/N", help="each N-th, from the I-th on")
+    parser.add_argument("--slowest", type=float, default=600, metavar="S", help="leaves out tests that take longer")
+    parser.add_argument("--seconds", type=float, default=1e9, metavar="S", help="begins no other after so long")
+    parser.add_argument("--most", type=float, default=1e9, metavar="S", help="seconds of tests for one fault")
+    parser.add_argument("--least", type=float, metavar="P", help="fails only if fewer per cent are noticed")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    return parser.parse_args()
+
+
+def chosen(faults, asked):
+    if asked.room:
+        faults = [fault for fault in faults if room(fault.file) in asked.room]
+    else:
+        faults = [fault for fault in faults if room(fault.file) not in TOOLS]
+    if asked.changed:
+        lines = changed_lines(asked.changed)
+        faults = [fault for fault in faults if (fault.file, int(fault.place.split(":")[1])) in lines]
+    first, count = map(int, asked.shard.split("/"))
+    faults = faults[first::count]
+    if asked.sample and asked.sample < len(faults):
+        faults = sorted(random.Random(1).sample(faults, asked.sample), key=lambda fault: fault.number)
+    return faults
+
+
+def main():
+    asked = options()
+    began = time.monotonic()
+    folder = asked.folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    state = folder / "state.json"
+    copy = Copy(folder, chosen(listed(folder), asked), asked.jobs)
+    everything = dict(copy.faults)
+    print(f"{len(everything)} faults", flush=True)
+    if state.exists():
+        known = json.loads(state.read_text())
+        copy.faults = {number: everything[number] for number in known["viable"]}
+        copy.unviable = {int(number): (everything[int(number)], why) for number, why in known["unviable"].items()}
+        recorded = known["recorded"]
+    else:
+        copy.make()
+        copy.settle()
+        print(f"{len(copy.faults)} compile, {time.monotonic() - began:.0f} s", flush=True)
+        binaries = copy.build()
+        print(f"built, {time.monotonic() - began:.0f} s", flush=True)
+        recorded = Tests(copy).record(binaries, asked.jobs, asked.slowest)
+        unviable = {number: why for number, (_, why) in copy.unviable.items()}
+        state.write_text(json.dumps({"viable": sorted(copy.faults), "unviable": unviable, "recorded": recorded}))
+    failing = [test["name"] for test in recorded if test["passed"] is False]
+    slow = [test["name"] for test in recorded if test["passed"] is None]
+    print(f"{len(recorded)} tests, {sum(t['seconds'] for t in recorded):.0f} s of them, {time.monotonic() - began:.0f} s", flush=True)
+    if failing:
+        print(f"left out, for they fail of the copy itself: {', '.join(failing)}", flush=True)
+    if slow:
+        print(f"left out, for they take longer than {asked.slowest:.0f} s: {', '.join(slow)}", flush=True)
+
+    results = folder / "results.jsonl"
+    done = {}
+    if results.exists():
+        done = {one["number"]: one for one in map(json.loads, results.read_text().splitlines())}
+    attack = Attack(Tests(copy), recorded, asked.most)
+    # Any part of them is a sample of all.
+    todo = [f for n, f in copy.faults.items() if n not in done or done[n]["outcome"] == "survives so far" and asked.most >= 1e9]
+    random.Random(2).shuffle(todo)
+    with results.open("a") as out, concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
+
+        def one(fault):
+            if time.monotonic() - began > asked.seconds:
+                return
+            judged = {"number": fault.number, "key": fault.key, "place": fault.place} | attack.judge(fault)
+            with attack.lock:
+                done[fault.number] = judged
+                out.write(json.dumps(judged) + "\n")
+                out.flush()
+
+        list(pool.map(one, todo))
+    raise SystemExit(report(copy, everything, done, asked.least))
+
+
+def report(copy, everything, done, least):
+    """The table by room, and what survives; 1 where the list of survivors does not agree, or fewer than the least are noticed."""
+    reasons = {}
+    if SURVIVORS.exists():
+        for line in SURVIVORS.read_text().splitlines():
+            if line and not line.startswith("#"):
+                key, _, reason = line.partition("\t")
+                reasons[key] = reason
+    table = collections.defaultdict(collections.Counter)
+    for number, fault in everything.items():
+        outcome = "unviable" if number in copy.unviable else done.get(number, {"outcome": "not run"})["outcome"]
+        table[room(fault.file)][outcome] += 1
+        table["all"][outcome] += 1
+    columns = ["noticed", "survives", "survives so far", "not reached", "not run", "unviable"]
+    print("| room | " + " | ".join(columns) + " | noticed of viable |")
+    print("|---|" + "--:|" * (len(columns) + 1))
+    for name, counts in sorted(table.items(), key=lambda entry: (entry[0] == "all", entry[0])):
+        judged = sum(counts[c] for c in columns[:4])
+        share = f"{100 * counts['noticed'] / judged:.1f} %" if judged else ""
+        print(f"| {name} | " + " | ".join(str(counts[column]) for column in columns) + f" | {share} |")
+    wrong = 0
+    for number, one in sorted(done.items()):
+        known = one["key"] in reasons
+        if one["outcome"] == "noticed" and known:
+            print(f"NOTICED, though listed: {one['key']}")
+        elif one["outcome"] != "noticed" and not known:
+            wrong += 1
+            print(f"{one['outcome'].upper()}: {one['place']}: {one['key']}")
+    noticed = sum(one["outcome"] == "noticed" for one in done.values())
+    return wrong > 0 if least is None else 100 * noticed < least * len(done)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
