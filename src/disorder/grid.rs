@@ -228,3 +228,57 @@ fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
     });
     hulls.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 97 and 997 further than the first cell, and a free one at each end: 10⁵ cells.
+    #[test]
+    fn as_many_words_as_may_be_kept_and_no_more() {
+        let needed = |reach, steps, per_cell: u32, words| {
+            let size = Size::new([-7, 5], [90, 1002], reach, steps);
+            match size.check("cells", &per_cell.into(), words) {
+                Ok(()) => None,
+                Err(Error::TooLarge { needed, limit, .. }) => {
+                    assert_eq!(limit, MAX_WORDS / words.max(1));
+                    u64::try_from(needed).ok()
+                }
+                Err(error) => panic!("{error}"),
+            }
+        };
+        assert_eq!(needed(0, 0, 1000, 1), None);
+        assert_eq!(needed(0, 0, 1000, 0), None);
+        assert_eq!(needed(0, 0, 1001, 1), Some(100_100_000));
+        // Windows of one layer more.
+        assert_eq!(needed(0, 1, 1000, 1), Some(100_000_001));
+        assert_eq!(needed(0, 0, 500, 2), None);
+        assert_eq!(needed(0, 0, 501, 2), Some(50_100_000));
+        // 50 cells more at each end.
+        assert_eq!(needed(1, 50, 454, 1), None);
+        assert_eq!(needed(1, 50, 455, 1), Some(200 * 1100 * 455 + 50));
+    }
+
+    /// Two steps around two cells, and a free cell at each end.
+    #[test]
+    fn cells_are_those_of_the_box() {
+        let size = Size::new([2, -1], [3, -1], 1, 2);
+        let first = FirstRows::from([(-1, 2..4)]);
+        let grid = Grid::new(&size, &first, of_places).unwrap();
+        assert_eq!(grid.cells(), 8 * 7);
+        for (a, b) in (-9..=12).flat_map(|a| (-9..=9).map(move |b| (a, b))) {
+            let is_inside = (-1..=6).contains(&a) && (-4..=2).contains(&b);
+            let cell = grid.cell([a, b]);
+            assert_eq!(cell.is_some(), is_inside, "{a} {b}");
+            if let Some(cell) = cell {
+                assert!(cell < grid.cells());
+                assert_eq!(grid.coordinates(cell), [a, b]);
+            }
+        }
+        // Rows of 2; of 3, 4, 3; of 4, 5, 6, 5, 4.
+        for (layer, cells) in [2, 10, 24].into_iter().enumerate() {
+            assert_eq!(grid.reached(layer).unwrap(), cells);
+        }
+        assert!(grid.reached(3).is_err());
+    }
+}

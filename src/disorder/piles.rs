@@ -276,7 +276,6 @@ impl RandomPiles {
         let steps = self.stackings.steps();
         let turned = (steps - 2).max(-steps);
         match self.stackings.first() {
-            _ if steps == 0 => 0..=0,
             super::FirstSign::Plus => -turned..=steps,
             super::FirstSign::Minus => -steps..=turned,
             super::FirstSign::Random => -steps..=steps,

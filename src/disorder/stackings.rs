@@ -227,10 +227,8 @@ impl RandomStackings {
         if self.layers == 1 {
             return BigUint::one();
         }
-        // Not negative, and few faults of many.
         let of = self.most_faults().unsigned_abs();
-        let few = u128::from(faults).min(of - u128::from(faults));
-        let stackings = binomial(BigUint::from(of), BigUint::from(few));
+        let stackings = binomial(BigUint::from(of), BigUint::from(faults));
         stackings * BigUint::from(self.first.signs().len())
     }
 

@@ -83,3 +83,77 @@ pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> Result
     }
     Ok((sum * denominator.magnitude()).bits() + 4)
 }
+
+#[cfg(test)]
+mod tests {
+    use num_rational::BigRational;
+
+    use super::super::frame::Load;
+    use super::*;
+    use crate::disorder::{FirstSign, RandomPiles, RandomStackings};
+    use crate::lattice::{Region, Site};
+
+    #[test]
+    fn counts_take_the_bits_of_the_greatest() {
+        for steps in 0..=60_u32 {
+            let of = steps.saturating_sub(1);
+            let count = |d: u32| {
+                let ways = binomial(BigUint::from(of), BigUint::from(d));
+                (ways * BigUint::from(3_u32).pow(d)).bits()
+            };
+            let greatest = (0..=of).map(count).max();
+            assert_eq!(Some(bits_of_counts(steps.into())), greatest, "{steps}");
+        }
+        assert_eq!(bits_of_counts(1001), 1995);
+        // From there on those of 4^(n−1), that is two for each step but one, and never fewer.
+        for steps in [1002, 5000, 1 << 32] {
+            assert_eq!(i128::from(bits_of_counts(steps)), 2 * (steps - 1));
+        }
+        assert!(i128::from(bits_of_counts(1 << 40)) >= 2 * ((1 << 40) - 1));
+    }
+
+    /// 1, the roots of three times the cells of each layer, rounded up, and twice each load: over the denominator, and sixteenfold.
+    #[test]
+    fn sources_take_the_bits_of_their_bound() {
+        let load = |piles: RandomPiles| {
+            let load = BigRational::new(199.into(), 2.into());
+            piles.with_load(Site::APEX, load).unwrap()
+        };
+        for steps in 0..=40_u64 {
+            let stackings = RandomStackings::new(i128::from(steps) + 1, FirstSign::Plus).unwrap();
+            let under = RandomPiles::under(Region::SITE, stackings);
+            let roots = (0..=steps).map(|k| (3 * (3 * k * k + 3 * k + 1)).isqrt() + 1);
+            let roots: u64 = roots.sum();
+            for (piles, denominator, bound) in [
+                (under.clone(), 1_u64, 1 + roots),
+                (load(under.clone()), 2, 1 + roots + 200),
+                (load(under.weightless()), 6, 1 + 200),
+            ] {
+                let one = Load {
+                    classes: 1,
+                    words: 1,
+                };
+                let frame = Frame::new(&piles, one).unwrap();
+                let found = bits_of_sources(&frame, &denominator.into()).unwrap();
+                let bits = u64::from(64 - (bound * denominator).leading_zeros()) + 4;
+                assert_eq!(found, bits, "{steps} {denominator}");
+            }
+        }
+    }
+
+    /// The sign aside: 62 bits leave one of 63 free.
+    #[test]
+    fn words_of_each_width() {
+        for (bits, words) in [
+            (0, 1),
+            (62, 1),
+            (63, 2),
+            (126, 2),
+            (127, 7),
+            (128, 8),
+            (640, 16),
+        ] {
+            assert_eq!(Width::of(bits).words(bits), words, "{bits}");
+        }
+    }
+}

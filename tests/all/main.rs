@@ -59,6 +59,7 @@ mod geometry {
 #[cfg(feature = "std")]
 mod formula {
     mod one_body;
+    mod turn;
 }
 
 #[cfg(feature = "std")]
@@ -155,7 +156,9 @@ mod disorder {
     mod enumeration;
     mod few_faults;
     mod moments;
+    mod products;
     mod refused;
+    mod spread;
     mod squares;
     mod sums;
     mod widths;

@@ -194,6 +194,22 @@ fn every_step_refuses_a_fault() {
     assert!(idle.is_empty(), "{}", idle.join("\n"));
 }
 
+/// Of each theorem one, the first in the list: for a quick look.
+#[test]
+fn the_first_fault_of_each_theorem_is_refused() {
+    let faults = faults::all();
+    for theorem in theorem::all() {
+        let fault = faults
+            .iter()
+            .find(|fault| fault.refused_by.contains(&theorem.name))
+            .expect("a fault");
+        let proof = theorem.prove_for(&fault.formulas);
+        assert!(!proof.holds(), "{}: {}", theorem.name, fault.what);
+        let fails = |step: &theorem::Step| !step.holds();
+        assert!(proof.steps.iter().any(fails), "{}", theorem.name);
+    }
+}
+
 /// The printed proof says that it fails, where it does.
 #[test]
 fn a_refuted_proof_is_listed_as_such() {
@@ -216,4 +232,76 @@ fn a_refuted_proof_is_listed_as_such() {
             }
         }
     }
+}
+
+/// How many steps each proof has, counted by cases: the theorem `dimensions` has 2d + 4 for each d from 2 to 6.
+const STEPS: [(&str, usize); 52] = [
+    ("counts", 15),
+    ("rotation", 3),
+    ("spheres", 3),
+    ("contacts", 6),
+    ("strengths", 6),
+    ("paper-system", 8),
+    ("unit-directions", 4),
+    ("equilibrium", 12),
+    ("surface", 3),
+    ("action-reaction", 3),
+    ("central-force", 6),
+    ("half-turn", 11),
+    ("base-normal", 2),
+    ("uniform-base", 4),
+    ("weight", 1),
+    ("shear", 2),
+    ("total-shear", 2),
+    ("total-moment", 3),
+    ("second-moment", 1),
+    ("shear-on-axis", 10),
+    ("shear-ratio", 5),
+    ("discs", 8),
+    ("dimensions", 60),
+    ("region-counts", 72),
+    ("run", 12),
+    ("tripled-half-turn", 6),
+    ("change-of-sign", 6),
+    ("edge", 24),
+    ("point-load", 29),
+    ("horizontal-balance", 15),
+    ("virtual-work", 11),
+    ("elastic-straight", 10),
+    ("elastic-energy", 2),
+    ("settlement", 5),
+    ("elastic-monotone", 60),
+    ("no-dip", 24),
+    ("corner-least", 27),
+    ("corner-greatest", 64),
+    ("arch", 30),
+    ("inner-greatest", 2),
+    ("edge-greatest", 3),
+    ("run-horizontal", 18),
+    ("resultant-form", 6),
+    ("squares", 5),
+    ("third-moment", 18),
+    ("fourth-moment", 16),
+    ("mean-modes", 12),
+    ("mean-spectrum", 3),
+    ("wave", 3),
+    ("faults", 20),
+    ("one-fault", 24),
+    ("registry", 6),
+];
+
+/// As many steps as there are cases: none is passed over.
+#[test]
+fn no_case_is_left_out() {
+    let steps: Vec<_> = theorem::all()
+        .map(|theorem| (theorem.name, theorem.prove().steps.len()))
+        .collect();
+    assert_eq!(steps, STEPS);
+    // Where the sign is kept, nothing is turned.
+    let proof = theorem::find("point-load").map(theorem::Theorem::prove);
+    let claims = proof.into_iter().flat_map(|proof| proof.steps);
+    let claims = claims.map(|step| step.claim);
+    let squares = claims.filter(|claim| claim.ends_with("Σv² stays"));
+    let signs = squares.map(|claim| claim.replace(": Σv² stays", ""));
+    assert!(signs.eq(["+ above, − below", "− above, + below"]));
 }

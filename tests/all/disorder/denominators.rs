@@ -100,3 +100,21 @@ fn no_less_would_do() {
         assert_eq!(normals.collect::<Vec<_>>(), bounds.collect::<Vec<_>>());
     }
 }
+
+/// Over 3^(d+1) times the least common denominator of the loads the sums of normal forces are whole, over twice that the shears.
+#[test]
+fn of_sums_by_faults() {
+    let mut described = Piles::response(4, FirstSign::Plus);
+    described.loads = vec![([0, 0], ratio(2, 15)), ([1, 1], ratio(3, 10))];
+    let by_faults = described.piles().unwrap().by_faults().unwrap();
+    let denominators = (0..4).map(|d| by_faults.denominator(d));
+    assert!(denominators.eq([90, 270, 810, 2430].map(BigInt::from)));
+    for row in by_faults.rows() {
+        let row = row.unwrap();
+        let denominator = by_faults.denominator(row.faults);
+        assert!((row.normal * &denominator).is_integer());
+        for shear in [row.shear_x, row.shear_y] {
+            assert!((shear * &denominator * BigInt::from(2)).is_integer());
+        }
+    }
+}

@@ -63,6 +63,14 @@ fn at_a_half_the_registries_even_out_by_halves() {
     assert_eq!(registry, expected);
 }
 
+/// As many layers as registries are found of: 9999 steps of FCC lead to the registry of the top layer.
+#[test]
+fn registries_of_ten_thousand_layers() {
+    let stackings = RandomStackings::new(10_000, FirstSign::Plus).unwrap();
+    let registry = stackings.registry(&ratio(0, 1)).unwrap();
+    assert_eq!(registry, [1, 0, 0].map(|share| ratio(share, 1)));
+}
+
 #[test]
 fn first_signs_are_read_as_printed() {
     for first in FIRSTS {
@@ -100,6 +108,9 @@ fn a_place_is_a_site_of_one_registry() {
             }
         }
     }
+    assert_eq!(Place { a: -1, b: 2 }.to_string(), "(-1,2)");
+    let in_order = [(5, -1), (-3, 2), (4, 2), (-8, 3)].map(|(a, b)| Place { a, b });
+    assert!(in_order.is_sorted() && in_order[0] < in_order[1]);
     let far = i128::MAX;
     assert_eq!(Place::of([far, 0], 0), None);
     assert_eq!(Place { a: far, b: 0 }.site(0), None);

@@ -9,7 +9,7 @@ use cannonpile::scalar::{Algebra, DoubleDouble, Polynomial, RealEmbeddable, Symb
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use num_rational::BigRational;
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, pow};
 
 use crate::support::answers::ratio;
 use crate::support::disorder::{
@@ -117,6 +117,31 @@ fn on_bases() {
         4,
         FirstSign::Random,
     ));
+}
+
+/// A triangle of L carries as many layers in FCC alone, which presses with (L+2)/3 everywhere; in order of b, then a.
+#[test]
+fn triangles_as_high_as_they_go() {
+    for layers in 1..=6_usize {
+        let side = layers as i128;
+        let base = Anchor::Base(Region::triangle(side).unwrap());
+        let piles = Piles::heavy(base, layers - 1, FirstSign::Plus)
+            .piles()
+            .unwrap();
+        let mean = piles.exact(&ratio(1, 3)).unwrap();
+        assert_eq!(mean.rows().len(), layers * (layers + 1) / 2);
+        let probability = pow(ratio(2, 3), layers.saturating_sub(2));
+        let normal = BigRational::new((side + 2).into(), 3.into());
+        for row in mean.rows() {
+            assert_eq!(row.probability, probability);
+            assert_eq!(row.normal, &normal * &probability, "{}", row.place);
+        }
+        let by_faults = piles.by_faults().unwrap();
+        let rows = by_faults.rows().map(Result::unwrap);
+        let rows: Vec<_> = rows.map(|row| (row.place, row.faults)).collect();
+        let places = mean.rows().iter().map(|row| (row.place, 0));
+        assert!(rows.into_iter().eq(places.clone()) && places.is_sorted());
+    }
 }
 
 /// The sums over all piles that are asked themselves.

@@ -145,6 +145,95 @@ fn what_no_memory_holds() {
     );
 }
 
+/// The quantity, how large it would be and how large it may be.
+fn too_large<T: std::fmt::Debug>(answer: Result<T, Error>) -> (&'static str, u64, u64) {
+    let Error::TooLarge {
+        quantity,
+        needed,
+        limit,
+        ..
+    } = answer.unwrap_err()
+    else {
+        panic!("it is too large");
+    };
+    (quantity, u64::try_from(needed).unwrap(), limit)
+}
+
+/// Numbers for each cell of a plane of (2n+3)² cells, and n; of words each as long as it gets.
+#[test]
+fn what_is_too_large_says_how_large() {
+    const MEAN: &str = "the mean over random stackings";
+    let plane = |layers, first| {
+        let stackings = RandomStackings::new(layers, first).unwrap();
+        let plane = RandomPiles::plane(stackings).weightless();
+        plane.with_load(site(0, 0, 0), one()).unwrap()
+    };
+    let under = |layers| RandomPiles::under(Region::SITE, stackings(layers));
+    let half = ratio(1, 2);
+    // Three lines, two signs and two layers, in 10001² cells.
+    let needed = 10_001 * 10_001 * 12 + 4999;
+    for piles in [plane(5000, FirstSign::Plus), under(5000)] {
+        let found = too_large(piles.mean(&0.5));
+        assert_eq!(found, (MEAN, needed, 100_000_000));
+        assert_eq!(too_large(piles.exact(&half)), found);
+    }
+    // By 4999 numbers of faults, of which each leaves one sign.
+    let needed = 10_001 * 10_001 * 6 * 4999 + 4999;
+    assert_eq!(
+        too_large(plane(5000, FirstSign::Plus).by_faults()),
+        (MEAN, needed, 100_000_000)
+    );
+    let needed = 10_001 * 10_001 * 12 * 4999 + 4999;
+    assert_eq!(
+        too_large(plane(5000, FirstSign::Random).by_faults()),
+        (MEAN, needed, 100_000_000)
+    );
+    // The greatest 3^d C(99,d) has 195 bits: three words, and six to keep a big integer.
+    let needed = 203 * 203 * 6 * 100 + 100;
+    assert_eq!(
+        too_large(plane(101, FirstSign::Plus).by_faults()),
+        (MEAN, needed, 100_000_000 / 9)
+    );
+    // 6^999 in 3 bits a step: 2997 bits, 46 words.
+    let needed = 2003 * 2003 * 12 + 1000;
+    assert_eq!(
+        too_large(under(1001).exact(&half)),
+        (MEAN, needed, 100_000_000 / 52)
+    );
+    // On a base all that for each number of steps that are left, −99 to 99.
+    let base = Region::triangle(300).unwrap();
+    let needed = 302 * 302 * 12 * 199 + 99;
+    assert_eq!(
+        too_large(RandomPiles::on(base, stackings(100)).mean(&0.5)),
+        (MEAN, needed, 100_000_000)
+    );
+    // Nine products of lines, two signs, two layers.
+    let needed = 10_001 * 10_001 * 36 + 4999;
+    assert_eq!(
+        too_large(plane(5000, FirstSign::Plus).mean_square(&0.5)),
+        ("the mean square of random stackings", needed, 100_000_000)
+    );
+    // 3n²+3n+1 places for each load.
+    let pairs = 10_621 * 10_621 * 6;
+    let piles = plane(60, FirstSign::Plus);
+    let of_pairs = |needed| ("the pair moments of random stackings", needed, 20_000_000);
+    assert_eq!(too_large(piles.pair_moments(&0.5)), of_pairs(pairs));
+    let piles = piles.with_load(site(3, 0, 0), one()).unwrap();
+    assert_eq!(too_large(piles.pair_moments(&0.5)), of_pairs(4 * pairs));
+}
+
+/// More layers than bits are counted for are refused without counting them.
+#[test]
+fn billions_of_layers_are_refused_at_once() {
+    for layers in [2_000_000_000, 1 << 40] {
+        let piles = RandomPiles::under(Region::SITE, stackings(layers));
+        let Error::TooLarge { quantity, .. } = piles.by_faults().unwrap_err() else {
+            panic!("it is too large");
+        };
+        assert_eq!(quantity, "the mean over random stackings");
+    }
+}
+
 /// Far from the origin all is the same.
 #[test]
 fn far_away() {
@@ -170,6 +259,12 @@ fn far_away() {
         numbers(&far),
         numbers(&RandomPiles::under(same, stackings(4)))
     );
+    let near = RandomPiles::on(Region::new(0..=4, 0..=3, 0..=4).unwrap(), stackings(3));
+    for [i, j] in [[50, 60], [-50, 60], [50, -60], [-50, -60]] {
+        let base = Region::new(i..=i + 4, j..=j + 3, i + j..=i + j + 4).unwrap();
+        let far = RandomPiles::on(base, stackings(3));
+        assert_eq!(numbers(&near), numbers(&far), "{base}");
+    }
 }
 
 #[test]
@@ -189,6 +284,12 @@ fn a_base_that_carries_no_stacking_so_high() {
     // Four layers of this triangle begin with +.
     let minus = RandomStackings::new(4, FirstSign::Minus).unwrap();
     let error = RandomPiles::on(base, minus).mean(&0.5).unwrap_err();
+    says(&error, Culprit::Layers, &["4 layers", "the highest has 3"]);
+    // And of the triangle turned round they begin with −.
+    let turned = Region::hexagon(1, 4).unwrap();
+    let error = RandomPiles::on(turned, stackings(4))
+        .mean(&0.5)
+        .unwrap_err();
     says(&error, Culprit::Layers, &["4 layers", "the highest has 3"]);
     let hexagon = Region::hexagon(3, 3).unwrap();
     assert!(RandomPiles::on(hexagon, stackings(5)).mean(&0.5).is_ok());

@@ -1,6 +1,6 @@
 //! Tallies against plain enumeration: every stacking made as a pile, its forces asked for one by one, and counted.
 
-use cannonpile::disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+use cannonpile::disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard};
 use cannonpile::lattice::Region;
 use cannonpile::{Error, census};
 use num_rational::BigRational;
@@ -200,6 +200,95 @@ fn as_many_stand_with_horizontal_contacts() -> Result<(), Error> {
     }
     let found = tally.faults.iter().map(|with| with.held.clone());
     assert!(found.eq(held.into_iter().map(|held| Some(held.into()))));
+    Ok(())
+}
+
+/// Two layers have three forces of 1 and three normal forces of 4/3, all in the bin of 0; three widths must fit into a
+/// number.
+#[test]
+fn of_bins_as_wide_as_numbers_hold() -> Result<(), Error> {
+    for (width, exponent) in [
+        (3, 18),
+        (4, 18),
+        (6, 18),
+        (5, 37),
+        (6, 37),
+        (9, 37),
+        (1, 60),
+    ] {
+        let width = num_traits::pow(ratio(10, 1), exponent) * ratio(width, 1);
+        let stackings = RandomStackings::new(2, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bins(width.clone())?;
+        let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
+        let all = &tally.faults[0].all;
+        for histogram in [&all.forces, &all.normals] {
+            assert_eq!(histogram.first, 0, "{width}");
+            assert_eq!(histogram.counts, [3_u32.into()], "{width}");
+        }
+    }
+    Ok(())
+}
+
+/// What a single sphere bears is the sum of three forces, and so three times as great.
+#[test]
+fn of_loads_as_great_as_numbers_hold() -> Result<(), Error> {
+    for (load, exponent) in [(29, 17), (32, 17), (5, 37), (6, 37)] {
+        let unit = num_traits::pow(ratio(10, 1), exponent);
+        let stackings = RandomStackings::new(1, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.weightless();
+        let ensemble = ensemble.with_load([0, 0], &unit * ratio(load, 1))?;
+        let tally = ensemble.with_bins(unit)?.run(&Choice::All, Shard::WHOLE)?;
+        let normals = &tally.faults[0].all.normals;
+        assert_eq!((normals.first, normals.counts.len()), (load, 1));
+    }
+    Ok(())
+}
+
+/// No force of a single sphere is greater than 2, so that 10⁵ bins from −2 to 2 are 1/25000 wide; it bears 1.
+#[test]
+fn as_many_bins_as_there_may_be() -> Result<(), Error> {
+    let of = |width| {
+        let stackings = RandomStackings::new(1, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bins(width)?;
+        ensemble.run(&Choice::All, Shard::WHOLE)
+    };
+    let tally = of(ratio(1, 25_000))?;
+    let normals = &tally.faults[0].all.normals;
+    assert_eq!((normals.first, normals.counts.len()), (25_000, 1));
+    let Error::TooLarge { needed, limit, .. } = of(ratio(1, 25_001)).unwrap_err() else {
+        panic!("there are too many bins");
+    };
+    assert_eq!((needed, limit), (100_004_u32.into(), 100_000));
+    Ok(())
+}
+
+/// The most spheres of each of so many layers under one: after p + steps and m − steps a hexagon of p + 1 and m + 1 spheres.
+fn spheres(layers: u64) -> u64 {
+    let hexagon = |p: u64, q: u64| (p * p + q * q + 4 * p * q + 2 - 3 * p - 3 * q) / 2;
+    let most = |k: u64| (0..=k).map(|plus| hexagon(plus + 1, k - plus + 1)).max();
+    (0..layers).map(|k| most(k).unwrap()).sum()
+}
+
+/// Six numbers for each sphere, each as long as the forces can get.
+#[test]
+fn what_is_too_large_says_how_large() -> Result<(), Error> {
+    let one = Choice::Drawn(Samples::new(1, 1, ratio(1, 2))?);
+    let needed = |ensemble: &Ensemble| match ensemble.size(&one, Shard::WHOLE) {
+        Err(Error::TooLarge { needed, limit, .. }) => {
+            assert_eq!(limit, 50_000_000);
+            u64::try_from(needed).unwrap()
+        }
+        other => panic!("{other:?}"),
+    };
+    // A hexagon of 4000 has 3·4000·3999 + 1 spheres.
+    let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    let wide = Ensemble::under("hexagon:4000".parse()?, stackings)?;
+    assert_eq!(needed(&wide), 6 * (3 * 4000 * 3999 + 1));
+    // A load of 2^−1640, 17 bits for forces, and 3^108 for changes of sign: 28 words and a half, and five to keep them.
+    let stackings = RandomStackings::new(110, FirstSign::Plus)?;
+    let load = num_traits::pow(ratio(1, 2), 1640);
+    let fine = Ensemble::under(Region::SITE, stackings)?.with_load([0, 0], load)?;
+    assert_eq!(needed(&fine), 6 * spheres(110) * 33);
     Ok(())
 }
 

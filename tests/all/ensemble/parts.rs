@@ -152,6 +152,115 @@ fn what_is_no_part_is_refused() -> Result<(), Error> {
     Ok(())
 }
 
+/// ⌊128 I/3⌋ and so on; one of two mirror images is looked at where both have the same forces, and every sample.
+#[test]
+fn a_part_is_as_large_as_it_says() -> Result<(), Error> {
+    let sizes = |top: &str, choice: &Choice, of: u64| -> Result<Vec<u64>, Error> {
+        let ensemble = ensemble(top, 9)?;
+        let size = |index| ensemble.size(choice, Shard::new(index, of)?);
+        (1..=of).map(size).collect()
+    };
+    let drawn = drawn(100, 1, ratio(1, 3))?;
+    for (top, choice, of, expected) in [
+        ("hexagon:1", &Choice::All, 3, vec![42, 43, 43]),
+        ("hexagon:1", &Choice::All, 4, vec![32; 4]),
+        ("triangle:2", &Choice::All, 3, vec![85, 85, 86]),
+        ("hexagon:1", &drawn, 3, vec![33, 33, 34]),
+    ] {
+        assert_eq!(sizes(top, choice, of)?, expected, "{top}");
+    }
+    Ok(())
+}
+
+/// A load on each of these sites of a top layer, and whether the whole is its own mirror image: then of 16 stackings 8 are looked at.
+#[test]
+fn loads_are_their_own_mirror_image_or_not() -> Result<(), Error> {
+    let hexagon = "hexagon:2";
+    let elsewhere = "region:1..3,-6..-4,-4..-2";
+    let same: [(&str, &[[i128; 2]]); 6] = [
+        (hexagon, &[]),
+        (hexagon, &[[0, 0]]),
+        (hexagon, &[[1, 0], [-1, 0]]),
+        (hexagon, &[[0, 1], [0, -1], [1, -1], [-1, 1]]),
+        (elsewhere, &[[2, -5]]),
+        (elsewhere, &[[3, -5], [1, -5], [2, -4], [2, -6]]),
+    ];
+    let other: [(&str, &[[i128; 2]]); 7] = [
+        (hexagon, &[[1, 0]]),
+        (hexagon, &[[0, 1]]),
+        (hexagon, &[[1, 0], [0, 1], [-1, 0]]),
+        (hexagon, &[[0, 1], [1, 0], [0, -1]]),
+        (elsewhere, &[[3, -5]]),
+        (elsewhere, &[[2, -4]]),
+        ("triangle:2", &[]),
+    ];
+    let looked_at = |(top, sites): (&str, &[[i128; 2]]), last: BigRational| -> Result<u64, Error> {
+        let mut ensemble = ensemble(top, 5)?;
+        for (n, site) in sites.iter().enumerate() {
+            let is_last = n + 1 == sites.len();
+            let load = if is_last { last.clone() } else { ratio(1, 2) };
+            ensemble = ensemble.with_load(*site, load)?;
+        }
+        ensemble.size(&Choice::All, Shard::WHOLE)
+    };
+    for (top, sites) in same {
+        assert_eq!(looked_at((top, sites), ratio(1, 2))?, 8, "{top} {sites:?}");
+        // As many loads, of which one is another.
+        let expected = if sites.len() > 1 { 16 } else { 8 };
+        let found = looked_at((top, sites), ratio(1, 3))?;
+        assert_eq!(found, expected, "{top} {sites:?}");
+    }
+    for (top, sites) in other {
+        assert_eq!(looked_at((top, sites), ratio(1, 2))?, 16, "{top} {sites:?}");
+    }
+    Ok(())
+}
+
+/// Places of stackings are counted in 62 bits; beyond that not even a small part of them has any.
+#[test]
+fn a_part_of_more_stackings_than_are_counted_is_refused() -> Result<(), Error> {
+    let size = |layers, of| {
+        let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
+        let ensemble = Ensemble::under("hexagon:1".parse()?, stackings)?;
+        ensemble.size(&Choice::All, Shard::new(1, of)?)
+    };
+    assert_eq!(size(63, 1 << 45), Ok(1 << 16));
+    let refused = |layers, of, stackings: u128| {
+        let limit = 1 << 24;
+        let stackings = stackings.into();
+        let expected = Error::TooManyStackings { stackings, limit };
+        assert_eq!(size(layers, of), Err(expected));
+    };
+    refused(64, 1 << 45, 1 << 62);
+    refused(80, 1 << 63, 1 << 78);
+    // As large as a part may be, and one larger.
+    assert_eq!(size(26, 1), Ok(1 << 24));
+    assert_eq!(size(27, 2), Ok(1 << 24));
+    refused(27, 1, 1 << 25);
+    refused(31, 31, (1 << 29) / 31);
+    Ok(())
+}
+
+/// The first twenty are named.
+#[test]
+fn many_missing_parts_are_named_as_far_as_twenty() -> Result<(), Error> {
+    for (of, names) in [(2, 1), (3, 2), (21, 20), (22, 20), (40, 20)] {
+        let part = ensemble("hexagon:1", 3)?.run(&Choice::All, Shard::new(1, of)?)?;
+        let missing = Tally::merge(&[part]).unwrap_err();
+        let named: Vec<_> = (2..names + 2)
+            .map(|index| format!("{index}/{of}"))
+            .collect();
+        let (count, more) = (of - 1, if of > 21 { ", …" } else { "" });
+        let parts = if count == 1 { "part is" } else { "parts are" };
+        let expected = format!(
+            "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and give its file too",
+            named.join(", ")
+        );
+        assert_eq!(missing.to_string(), expected);
+    }
+    Ok(())
+}
+
 #[test]
 fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
     let part = |index| ensemble("hexagon:2", 4)?.run(&Choice::All, Shard::new(index, 3)?);
@@ -191,6 +300,75 @@ fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
 
 /// What is changed in the counts of a number of faults.
 type Change = fn(&mut WithFaults);
+
+/// Bins as far out as a run may have them, of a number that is there; not one further, and none without the number it begins or ends
+/// with.
+#[test]
+fn bins_that_no_run_can_have_are_refused() -> Result<(), Error> {
+    let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
+    let changed_of = |faults: usize, change: &dyn Fn(&mut WithFaults)| {
+        let mut changed = whole.clone();
+        change(&mut changed.faults[faults]);
+        let merged = Tally::merge(std::slice::from_ref(&changed));
+        match merged {
+            Err(Unmergeable::Impossible { place: 0 }) => false,
+            merged => {
+                assert_eq!(merged, Ok(changed));
+                true
+            }
+        }
+    };
+    let changed = |change: &dyn Fn(&mut WithFaults)| changed_of(1, change);
+    let up_to = |last: i64| {
+        changed(&|with| {
+            let normals = &mut with.all.normals;
+            let length = usize::try_from(last - normals.first + 1).unwrap();
+            normals.counts.resize(length, 0_u32.into());
+            *normals.counts.last_mut().unwrap() = 1_u32.into();
+            let greatest = with.all.greatest_normal.as_mut();
+            greatest.unwrap().force = ratio(last, 3);
+        })
+    };
+    assert!(up_to(99_999));
+    assert!(!up_to(100_000));
+    let down_to = |first: i64| {
+        changed(&|with| {
+            let normals = &mut with.all.normals;
+            let more = usize::try_from(normals.first - first).unwrap();
+            let zeros = vec![0_u32.into(); more];
+            normals.counts.splice(0..0, zeros);
+            normals.counts[0] = 1_u32.into();
+            normals.first = first;
+            with.all.least_normal.as_mut().unwrap().force = ratio(first, 3);
+        })
+    };
+    assert!(down_to(-100_000));
+    assert!(!down_to(-100_001));
+    assert!(!changed(&|with| {
+        let counts = &mut with.all.normals.counts;
+        let first = std::mem::take(&mut counts[0]);
+        counts[1] += first;
+    }));
+    assert!(!changed(&|with| {
+        let counts = &mut with.all.normals.counts;
+        let last = counts.len() - 1;
+        let count = std::mem::take(&mut counts[last]);
+        counts[last - 1] += count;
+    }));
+    // With three faults none stands: without numbers there is no first bin, and no end.
+    assert!(whole.faults[3].standing.normals.counts.is_empty());
+    assert!(changed_of(3, &|_| {}));
+    let refused: [Change; 4] = [
+        |with| with.standing.normals.first = 1,
+        |with| with.standing.forces.first = -1,
+        |with| with.standing.least_normal = with.all.least_normal.clone(),
+        |with| with.standing.greatest = with.all.greatest.clone(),
+    ];
+    for change in refused {
+        assert!(!changed_of(3, &change));
+    }
+    Ok(())
+}
 
 /// As a file would have it in which numbers were changed by hand.
 #[test]

@@ -4,10 +4,12 @@ use cannonpile::Pile;
 use cannonpile::formula::half_turn;
 use cannonpile::geometry::{Vector, squared_distance};
 use cannonpile::lattice::{Direction, Site};
+use cannonpile::scalar::{Polynomial, Ring};
+use cannonpile::theorem::{Formulas, find};
 use num_rational::BigRational as Q;
 use num_traits::Zero;
 
-use super::{at_site, equilateral_piles, int, piles, prove, ratio, sines, value};
+use super::{RIGHT, at_site, equilateral_piles, evaluated, int, piles, prove, ratio, sines, value};
 
 const LAYERS: i128 = 5;
 
@@ -43,6 +45,25 @@ fn increments_solve_the_papers_system() {
             forces.increment_sum().expect("W")
         );
     }
+}
+
+/// The product of any three directions, here whole numbers.
+#[test]
+fn the_product_of_directions_is_their_determinant() {
+    let skew: Formulas = Formulas {
+        directions: |_| {
+            [[1, 2, 3], [4, 5, 7], [11, 13, 17]].map(|direction| {
+                let [x, y, z] = direction.map(Polynomial::from_i128);
+                Vector { x, y, z }
+            })
+        },
+        ..RIGHT
+    };
+    let proof = find("paper-system").expect("a theorem").prove_for(&skew);
+    let product = proof.steps.last().expect("a step");
+    assert_eq!(product.claim, "ê_a·(ê_b × ê_c) = 1+s");
+    let sides = evaluated(product, &[("s", ratio(1, 2))]);
+    assert_eq!(sides, [int(3), ratio(3, 2)]);
 }
 
 /// By the form, and by the components of a position in the basis (sinθ, 2cosφ·sinθ, cosθ).

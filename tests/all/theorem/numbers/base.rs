@@ -1,12 +1,14 @@
 //! Forces on the floor, sphere by sphere and summed over real piles.
 
+use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::Selection;
+use cannonpile::theorem::{Formulas, find};
 use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational as Q;
 use num_traits::Zero;
 
-use super::{equilateral_piles, int, piles, prove, value};
+use super::{RIGHT, equilateral_piles, evaluated, int, piles, prove, value};
 
 const LAYERS: i128 = 12;
 
@@ -177,6 +179,29 @@ fn shear_and_moments_in_all() {
         let about_x = value(&moment, "ΣF_z y", &values);
         assert_eq!(about_x, over(&base, |b| &b.force.normal * &b.y));
         assert_eq!(about_x, weighed(&pile, |_, _, y| y));
+    }
+}
+
+/// Forces that are turned by a right angle have the moment that they had outwards.
+#[test]
+fn forces_that_turn_have_a_moment() {
+    let turned: Formulas = Formulas {
+        handed_on: |above, directions, weight| {
+            let Vector { x, y, z } = (RIGHT.handed_on)(above, directions, weight);
+            Vector { x: -y, y: x, z }
+        },
+        ..RIGHT
+    };
+    let proof = find("total-moment").expect("a theorem").prove_for(&turned);
+    let about_axis = &proof.steps[0];
+    assert!(about_axis.claim.starts_with("Σ(x F_y"));
+    for pile in piles(5) {
+        let outwards = over(&base(&pile), |b| {
+            &b.x * &b.force.shear_x + &b.y * &b.force.shear_y
+        });
+        let [moment, claimed] = evaluated(about_axis, &at_layers(&pile));
+        assert_eq!(moment, outwards);
+        assert!(claimed.is_zero());
     }
 }
 

@@ -2,11 +2,12 @@
 
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
+use cannonpile::theorem::{Formulas, find};
 use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational as Q;
 use num_traits::Zero;
 
-use super::{int, prove, value};
+use super::{RIGHT, evaluated, int, prove, value};
 
 #[test]
 fn discs_on_the_floor() {
@@ -89,4 +90,21 @@ fn every_dimension() {
     in_dimension::<4>();
     in_dimension::<5>();
     in_dimension::<6>();
+}
+
+/// Spheres that passed on g² + w of g would be pushed to the side by the d-fold of (g² − g) along a line, less the sum of all.
+#[test]
+fn squares_of_forces_push_to_the_side() {
+    let squares: Formulas = Formulas {
+        passed_on: |received, own| received.clone() * &received + own,
+        ..RIGHT
+    };
+    let proof = find("dimensions").expect("a theorem").prove_for(&squares);
+    let values = [("g_1", 2), ("g_2", 3), ("g_3", 5)].map(|(name, n)| (name, int(n)));
+    for (coordinate, expected) in [(1, -22), (2, -10), (3, 32)] {
+        let claim = format!("d = 3: no push to the side, coordinate {coordinate}");
+        let found = proof.steps.iter().find(|step| step.claim == claim);
+        let sides = evaluated(found.expect("a step"), &values);
+        assert_eq!(sides, [int(expected), int(0)], "{claim}");
+    }
 }

@@ -2,9 +2,10 @@
 
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
+use cannonpile::theorem::{Formulas, find};
 use num_rational::BigRational as Q;
 
-use super::{equilateral_piles, int, prove, value};
+use super::{RIGHT, equilateral_piles, int, prove, value};
 
 #[test]
 fn energy() {
@@ -31,5 +32,34 @@ fn settlement() {
         let sum: Q = field[&Site::APEX].iter().sum();
         let at = [("L", int(pile.layers()))];
         assert_eq!(value(&proof, "the apex", &at), sum * int(2) / int(3));
+    }
+}
+
+/// Sites may be named the other way round, with i and j exchanged.
+#[test]
+fn the_elastic_state_is_the_same_whatever_the_names_of_sites() {
+    let exchanged: Formulas = Formulas {
+        above: |i, j, k| (RIGHT.above)(j, i, k),
+        descent: |sign, direction| {
+            let [i, j] = (RIGHT.descent)(sign, direction);
+            [j, i]
+        },
+        ..RIGHT
+    };
+    let theorem = find("elastic-straight").expect("a theorem");
+    let proof = theorem.prove_for(&exchanged);
+    assert!(proof.holds(), "{proof:?}");
+    // With one exchanged alone a contact leads elsewhere.
+    for mixed in [
+        Formulas {
+            above: RIGHT.above,
+            ..exchanged
+        },
+        Formulas {
+            descent: RIGHT.descent,
+            ..exchanged
+        },
+    ] {
+        assert!(!theorem.prove_for(&mixed).holds());
     }
 }

@@ -9,8 +9,10 @@ mod horizontal;
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
 use cannonpile::scalar::{Ring, Symbol};
-use cannonpile::theorem::{self, Proof, Relation, Step};
+use cannonpile::theorem::{self, Formulas, Proof, Relation, Step};
 use num_rational::BigRational as Q;
+
+const RIGHT: Formulas = Formulas::LIBRARY;
 
 fn ratio(n: i64, d: i64) -> Q {
     Q::new(n.into(), d.into())
