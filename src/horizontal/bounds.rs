@@ -317,3 +317,33 @@ fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational
             .collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The spheres above the floor bear down on one at most, each with its weight, whatever the dimension.
+    #[test]
+    fn what_is_said_without_a_solution_is_proved() {
+        for (pile, i, most) in [
+            (Pile::triangular(4), 1, 1 + 10),
+            (Pile::triangular(1), 0, 1),
+            (Pile::discs(4), 1, 1 + 6),
+        ] {
+            let pile = pile.unwrap();
+            let k = pile.layers() - 1;
+            let solver = Solver {
+                pile: &pile,
+                site: Site { i, j: 0, k },
+                straight: None,
+            };
+            let network = Network::above(&pile, k, MOST_EQUATIONS).unwrap();
+            for (end, normal) in [(End::Least, 1), (End::Greatest, most)] {
+                let field = trivial_field(&network, end);
+                let bound = solver.normal_of(&field);
+                assert_eq!(bound, BigRational::from_integer(normal.into()));
+                assert_eq!(solver.certificate(end, bound, None, field).check(), Ok(()));
+            }
+        }
+    }
+}

@@ -43,7 +43,7 @@ impl Edge {
         self.straight.outer_bound()
     }
 
-    /// The face of the edge without its bottom spheres: x and y.
+    /// The face of the edge without its bottom spheres: x and y, x + y < a + b.
     fn face(&self) -> impl Iterator<Item = [i128; 2]> {
         let layers = self.a + self.b;
         (0..layers).flat_map(move |x| (0..layers - x).map(move |y| [x, y]))
@@ -73,9 +73,9 @@ impl Edge {
     /// X between (x, y, 0) and (x−1, y+1, 0).
     fn along(&self, [x, y]: [i128; 2]) -> i128 {
         let above = y - self.b;
-        if x >= 1 && above >= 0 && x + above < self.a {
+        if x >= 1 && above >= 0 {
             (2 * x - 1).min(2 * (self.b - above) + 1)
-        } else if x > self.a && x - self.a + y < self.b {
+        } else if x > self.a {
             2 * y + 1
         } else {
             0
@@ -87,7 +87,7 @@ impl Edge {
         let (along_x, along_y) = ([x - 1, y, 1], [x, y - 1, 1]);
         let above = y - self.b;
         let (other, is_pushed) = if above > 0 {
-            (along_x, x >= 1 && above <= self.b && x + above < self.a)
+            (along_x, x >= 1 && above <= self.b)
         } else if x >= self.c || (above < 0 && y <= 2 * x - 2 - self.b) {
             (along_y, y >= 1)
         } else {
@@ -101,7 +101,7 @@ impl Edge {
     pub(super) fn field(&self) -> BTreeMap<Site, [BigRational; 3]> {
         let mut field = BTreeMap::new();
         for [x, y] in self.face() {
-            let along_x = (y == self.b && x < self.a) || (y > self.b && x + y - self.b < self.c);
+            let along_x = y == self.b || (y > self.b && x + y - self.b < self.c);
             let along_y = x >= self.c && y <= self.b;
             let out = (along_x && x >= 1) || (along_y && y >= 1);
             let mut here = [(); 3].map(|()| BigRational::zero());

@@ -238,6 +238,13 @@ mod tests {
         );
         assert_eq!(simple_fraction(f64::NAN, 12), None);
         assert_eq!(simple_fraction(1e300, 12), None);
+        let one = NonZeroI64::new(1).unwrap();
+        assert_eq!(
+            simple_fraction(1e15, 12),
+            Some((1_000_000_000_000_000, one))
+        );
+        assert_eq!(simple_fraction(-2e15, 12), None);
+        assert_eq!(simple_fraction(f64::INFINITY, 12), None);
     }
 
     /// Numbers that are in no machine word, or that leave them on the way, are solved all the same, and no others.

@@ -243,3 +243,24 @@ fn fits(equations: &BigUint, limit: u64) -> Result<(), Error> {
         "ask for a smaller pile",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three equations for each of 1 + 3 + 6 spheres, two for each of 1 + 2 + 3 discs.
+    #[test]
+    fn as_many_equations_as_are_allowed() {
+        for (pile, equations) in [(Pile::triangular(4), 30), (Pile::discs(4), 12)] {
+            let pile = pile.unwrap();
+            let network = Network::above(&pile, 3, equations).unwrap();
+            assert_eq!(u64::try_from(network.weights.len()), Ok(equations));
+            let refused = Network::above(&pile, 3, equations - 1).err();
+            assert!(matches!(refused, Some(Error::TooLarge { .. })));
+        }
+        let tall = Pile::triangular(33).unwrap();
+        let sized = |floor| Network::above(&tall, floor, 100_000).unwrap().check_size();
+        assert_eq!(sized(30), Ok(()));
+        assert!(matches!(sized(31), Err(Error::TooLarge { .. })));
+    }
+}

@@ -264,3 +264,22 @@ pub(super) fn of_formulas(certificate: Certificate) -> Result<Certificate, Error
     }
     Ok(certificate)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Pile;
+    use crate::certificate::Claim;
+
+    #[test]
+    fn a_refusal_says_whether_the_pile_is_too_large() {
+        let claimed = |layers, claim| Pile::triangular(layers).unwrap().certified(claim);
+        let stands = claimed(4, Claim::Stands);
+        assert_eq!(accepted(stands.clone(), 7), Ok(stands));
+        let refused = accepted(claimed(4, Claim::CannotStand), 7);
+        assert_eq!(refused, Err(Error::NotSolved { equations: 7 }));
+        // Four and a half million spheres.
+        let large = accepted(claimed(300, Claim::Stands), 7);
+        assert!(matches!(large, Err(Error::TooLarge { .. })), "{large:?}");
+    }
+}

@@ -183,10 +183,7 @@ impl Pile {
             self.beginning(floor)?
         };
         let certificate = if stands {
-            let program = Program {
-                columns: network.columns.as_slice().into(),
-                ..program
-            };
+            // Without the pulls.
             guess.unknowns.truncate(unknowns);
             guess.positive.truncate(unknowns);
             program.exact_unknowns(&guess).map(|forces| {
@@ -210,5 +207,22 @@ impl Pile {
             certificate.ok_or(Error::NotSolved { equations })?,
             equations,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Region;
+
+    #[test]
+    fn what_has_no_solution_cannot_stand_or_was_not_solved() {
+        let unsolved = |stacking: &str| {
+            let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
+            pile.unsolved(7)
+        };
+        assert_eq!(unsolved("+++"), Error::NotSolved { equations: 7 });
+        // A run of five steps before a change of sign.
+        assert_eq!(unsolved("+++++-"), Error::CannotStand);
     }
 }

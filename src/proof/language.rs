@@ -265,3 +265,69 @@ impl Language {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+    use crate::scalar::Symbol;
+
+    fn language(assistant: Assistant) -> Language {
+        Language {
+            assistant,
+            carrier: Carrier::Rationals,
+        }
+    }
+
+    /// Name, parts with two more columns each, and what is left of it: a hundred columns, and one more.
+    #[test]
+    fn what_is_wider_than_a_line_is_broken() {
+        let parts = |last: usize| ["a".repeat(40), "b".repeat(30), "c".repeat(last)];
+        let [coq, lean] = [Assistant::Coq, Assistant::Lean].map(language);
+        // 5 of `Three`, 4 of the indent, 40 + 30 + 15 and three times two.
+        let [a, b, c] = parts(15);
+        assert_eq!(
+            coq.made("Three", &parts(15), 4),
+            format!("Three {a} {b} {c}")
+        );
+        assert_eq!(
+            lean.made("Three", &parts(15), 4),
+            format!("⟨{a}, {b}, {c}⟩")
+        );
+        let c = "c".repeat(16);
+        let broken = format!("Three\n      {a}\n      {b}\n      {c}");
+        assert_eq!(coq.made("Three", &parts(16), 4), broken);
+        let broken = format!("⟨\n      {a},\n      {b},\n      {c}⟩");
+        assert_eq!(lean.made("Three", &parts(16), 4), broken);
+    }
+
+    #[test]
+    fn parts_of_parts_stand_further_in() {
+        let long: Expression = Symbol("a_symbol_of_more_than_thirty_letters").into();
+        let vector = || Vector {
+            x: long.clone(),
+            y: long.clone(),
+            z: long.clone(),
+        };
+        let directions = Value::Directions(Box::new([vector(), vector(), vector()]));
+        let text = language(Assistant::Coq).value(&directions, 6).unwrap();
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines.len(), 1 + 3 * 4);
+        assert_eq!((lines[0], lines[1]), ("Three", "        (Vector"));
+        assert_eq!(lines[2], format!("          {long}"));
+        assert_eq!(lines[12], format!("          {long})"));
+    }
+
+    #[test]
+    fn negative_numbers_have_brackets() {
+        let fraction =
+            |assistant, n: i64, d: i64| language(assistant).fraction(&n.into(), &d.into());
+        let [coq, lean] = [Assistant::Coq, Assistant::Lean];
+        for assistant in [coq, lean] {
+            assert_eq!(fraction(assistant, -2, 1), "(-2)");
+            assert_eq!(fraction(assistant, 2, 1), "2");
+        }
+        assert_eq!(fraction(coq, -2, 3), "(-2 # 3)");
+        assert_eq!(fraction(lean, -2, 3), "(-2 / 3 : Rat)");
+    }
+}

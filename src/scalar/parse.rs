@@ -198,6 +198,7 @@ mod tests {
             nines(most),
             format!("-{}/{}", nines(most), nines(most - 1)),
             format!("0.{}", nines(most - 1)),
+            format!("{}.{}", nines(most / 2), nines(most / 2)),
             format!("1e{}", most - 1),
             format!("1e-{}", most - 1),
             format!("{}e-10", nines(most)),
@@ -218,6 +219,38 @@ mod tests {
             let message = rational(&refused).unwrap_err().to_string();
             assert!(message.ends_with("is not a number of at most 5000 digits"));
             assert!(message.len() < 150, "{message}");
+        }
+    }
+
+    #[test]
+    fn only_what_would_be_a_number_is_called_too_long() {
+        let long = "9".repeat(MOST_DIGITS + 1);
+        for text in [
+            format!("x{long}"),
+            format!("{long}.x"),
+            format!("x.{long}"),
+            format!("1/{long}x"),
+            format!("{long}_/1"),
+        ] {
+            let message = rational(&text).unwrap_err().to_string();
+            assert!(message.ends_with("is not a number such as 6/5, 1.2 or 1e-3"));
+        }
+        for text in [long.clone(), format!("-{long}"), format!("{long}e0")] {
+            let message = big_integer(&text).unwrap_err().to_string();
+            assert!(message.ends_with("is not a number of at most 5000 digits"));
+        }
+        let message = big_integer(&format!("{long}x")).unwrap_err().to_string();
+        assert!(message.ends_with("is not an integer such as 12 or 1e6"));
+    }
+
+    #[test]
+    fn among_digits_is_nothing_else() {
+        for text in [
+            "", "-", "+", ".", "1_000", "--5", "+-5", "-+5", "1/-5", "1/+5", "1/", "/2", "1e--3",
+            "1e1_0", "1._5", "1.-5", "0x10", " 1", "1 ",
+        ] {
+            let refused = Err(Error::syntax(text, NUMBER));
+            assert_eq!(rational(text), refused, "{text:?}");
         }
     }
 

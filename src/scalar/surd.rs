@@ -340,11 +340,8 @@ impl Surd {
 /// Returns a·b. In lowest terms once the factors across are out: `Ratio` looks for others all the same, which takes longer than
 /// all the rest.
 fn product(a: &BigRational, b: &BigRational) -> BigRational {
+    // Not zero: no denominator is.
     let (left, right) = (a.numer().gcd(b.denom()), b.numer().gcd(a.denom()));
-    if left.is_zero() || right.is_zero() {
-        // 0/0 alone has such a factor, and is refused as `Ratio` refuses it.
-        return a * b;
-    }
     let numer = (a.numer() / &left) * (b.numer() / &right);
     let denom = (a.denom() / right) * (b.denom() / left);
     BigRational::new_raw(numer, denom)
@@ -504,6 +501,16 @@ mod tests {
         let roots = factors.map(move |factor| Surd::sqrt(&middle * &middle * factor).unwrap());
         let scales = [two_to(80).recip(), two_to(1).recip(), two_to(0), two_to(60)];
         roots.flat_map(move |root| scales.clone().map(|scale| root.scaled(&scale)))
+    }
+
+    #[cfg(feature = "std")]
+    #[test]
+    fn the_screen_decides_what_is_near_no_tie() {
+        let long = BigRational::new(two_to(300).to_integer() + 1, two_to(200).to_integer() + 7);
+        for value in [Surd::from(long.clone()), Surd::sqrt(long).unwrap()] {
+            assert!(value.screened::<f64>().is_some() && value.screened::<f32>().is_some());
+            assert_eq!(value.screened::<f64>(), value.nearest::<f64>());
+        }
     }
 
     #[test]

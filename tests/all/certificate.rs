@@ -4,12 +4,14 @@
 //! |---|---|
 //! | `claims` | certificates that anybody can derive are accepted, and what they say is what the library says elsewhere |
 //! | `changed` | with another number they are refused, in the equation that has it |
+//! | `size` | what would not fit into memory is refused |
 //! | `python` | `proofs/check_certificate.py` comes to the same verdicts |
 
 mod changed;
 mod claims;
 #[cfg(all(feature = "serde", feature = "export"))]
 mod python;
+mod size;
 
 use cannonpile::Pile;
 use cannonpile::certificate::{Certificate, Claim, Extreme};

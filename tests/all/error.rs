@@ -359,3 +359,34 @@ fn tests_of_suites() {
         assert_eq!(error.culprit(), Some(Culprit::Layers));
     }
 }
+
+#[test]
+fn what_excludes_each_other() {
+    let message = |given, beside| Error::Excluded { given, beside }.to_string();
+    let (stacking, dimension) = (Culprit::Stacking, Culprit::Dimension);
+    assert_eq!(
+        message(stacking, dimension),
+        format!("{stacking} has no meaning with {dimension} 2: leave one of the two out")
+    );
+    assert_eq!(
+        message(Culprit::SinPhi, stacking),
+        format!(
+            "{} has no meaning with {stacking}: leave one of the two out",
+            Culprit::SinPhi
+        )
+    );
+}
+
+#[test]
+fn what_does_not_go_together_names_both() {
+    let scene = Scene {
+        layers: Some(4),
+        stacking: Some("++-+-".parse().unwrap()),
+        ..Scene::default()
+    };
+    let error = scene.pile().unwrap_err();
+    assert!(matches!(error, Error::LayersOfStacking { .. }), "{error:?}");
+    assert_eq!(error.conflicts_with(), Some(Culprit::Stacking));
+    let error = Pile::isosceles(5, ratio(3, 2)).unwrap_err();
+    assert_eq!(error.conflicts_with(), None);
+}

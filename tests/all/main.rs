@@ -10,6 +10,7 @@ mod support;
 
 mod scalar {
     mod double_double;
+    mod expression;
     #[cfg(feature = "std")]
     mod fixed_width;
     #[cfg(feature = "std")]
@@ -82,6 +83,8 @@ mod forces {
     #[cfg(feature = "std")]
     mod equilibrium;
     #[cfg(feature = "std")]
+    mod error_bounds;
+    #[cfg(feature = "std")]
     mod extremes;
     #[cfg(feature = "std")]
     pub(crate) mod invariants;
@@ -110,6 +113,7 @@ mod forces {
 }
 
 mod packing {
+    mod places;
     mod rounded;
     mod vectors;
 }

@@ -89,3 +89,57 @@ fn formulas_are_written_as_they_run() {
     };
     assert_ne!(written(&wrong), text);
 }
+
+#[test]
+fn theorems_are_listed_under_what_proves_them() {
+    let named = |name| {
+        let found = proof::checked().find(|checked| checked.theorem.name == name);
+        found.expect("a theorem").coq
+    };
+    assert_eq!(named("counts"), ["Straight.counts"]);
+    assert_eq!(named("rotation"), ["Straight.rotation"]);
+    assert_eq!(named("faults"), ["Response.fault", "Response.load_is_kept"]);
+}
+
+/// The file of all theorems asks Coq for each of what is listed, and for nothing twice.
+#[test]
+fn every_listed_proof_is_asked_for() {
+    let files = files(Assistant::Coq);
+    let mut asked: Vec<&str> = Vec::new();
+    for line in files.iter().flat_map(|file| file.text().lines()) {
+        asked.extend(
+            line.strip_prefix("Check ")
+                .and_then(|line| line.strip_suffix('.')),
+        );
+    }
+    let listed: Vec<&str> = proof::checked()
+        .flat_map(|checked| checked.coq.iter().copied())
+        .collect();
+    assert!(listed.len() > 80);
+    assert_eq!(asked, listed);
+    let by_name = files.last().expect("files").text();
+    assert!(
+        by_name.contains("\n(** rotation *)\nCheck Straight.rotation.\n"),
+        "{by_name}"
+    );
+}
+
+/// Over integers with their own division, and no line is longer than a hundred columns.
+#[test]
+fn integers_have_their_own_formulas() {
+    let files = files(Assistant::Coq);
+    let formulas = files.iter().find(|file| file.name() == "Formulas.v");
+    let (rationals, integers) = formulas
+        .and_then(|file| file.text().split_once("Module Integers."))
+        .expect("both");
+    for line in ["Definition tripled_half_turn ", "Definition above "] {
+        assert!(
+            rationals.contains(line) && integers.contains(line),
+            "{line}"
+        );
+    }
+    for line in formulas.expect("formulas").text().lines() {
+        let is_about = line.starts_with("(**") || line.starts_with("Definition");
+        assert!(is_about || line.chars().count() <= 100, "{line}");
+    }
+}

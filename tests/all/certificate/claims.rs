@@ -142,3 +142,11 @@ fn what_does_not_fit_is_refused_at_once() {
     }
     assert!(is_refused(pile));
 }
+
+#[test]
+fn relations_are_written_in_words() {
+    use cannonpile::certificate::Relation;
+
+    let written = [Relation::AtMost, Relation::Equal, Relation::AtLeast].map(|r| r.to_string());
+    assert_eq!(written, ["at most", "equal to", "at least"]);
+}

@@ -225,3 +225,44 @@ fn no_least_contact_is_named_where_not_all_were_looked_at() {
     let standing = tall.standing().unwrap();
     assert_eq!((standing.first_failure, standing.least), (Some(4), None));
 }
+
+/// Small piles, with another weight on one sphere of the base after the other: no float of a sphere as it would be without
+/// decides what it is.
+#[test]
+fn of_a_base_with_one_other_sphere() {
+    let tiny = BigRational::from_integer(num_bigint::BigInt::from(7).pow(200)).recip();
+    for (top, stacking) in [
+        (Region::SITE, "+-+-+"),
+        (Region::hexagon(2, 1).unwrap(), "-++-"),
+        (Region::new(-1..=1, 0..=2, -1..=2).unwrap(), "+--"),
+    ] {
+        let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+        let first = pile.shape().sites().next().unwrap();
+        let mut changed = vec![
+            pile.clone(),
+            pile.clone()
+                .with_load(first, tiny.clone())
+                .unwrap()
+                .weightless(),
+            // Beyond the floats, and then not, on some spheres alone.
+            pile.clone().with_load(first, tiny.recip().pow(3)).unwrap(),
+        ];
+        for site in pile.rows(Selection::Base).unwrap().flatten() {
+            changed.extend([
+                pile.clone().with_weight(site, ratio(0, 1)).unwrap(),
+                pile.clone().with_weight(site, ratio(1, 2)).unwrap(),
+                pile.clone().with_load(site, ratio(100, 1)).unwrap(),
+            ]);
+        }
+        for pile in changed {
+            let BaseExtremes {
+                normal_min,
+                normal_max,
+                max_shear_ratio,
+                ..
+            } = pile.base_extremes().unwrap();
+            let found = [normal_min, normal_max, max_shear_ratio.square()];
+            assert_eq!(found, over_all(&pile), "{stacking}");
+        }
+    }
+}

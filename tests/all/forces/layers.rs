@@ -208,3 +208,65 @@ fn what_does_not_fit_is_refused() {
     let floor = forces.layers(Selection::Base).expect("a base").spheres();
     assert_eq!(floor, Ok(0));
 }
+
+#[test]
+fn a_layer_fills_what_its_spheres_hand_on_to_the_floor() {
+    for pile in piles() {
+        let forces = pile.forces::<BigRational>();
+        let mut layers = forces.layers(Selection::Base).expect("a base");
+        let layer = layers.next_layer().expect("room").expect("a floor");
+        let zero = ratio(0, 1);
+        let mut filled = slices(&zero, layer.spheres());
+        let done = layer.fill_base(filled.each_mut().map(Vec::as_mut_slice));
+        assert_eq!(done, Ok(()));
+        let base = forces.base(Selection::Base).expect("a base");
+        let asked: Vec<_> = base
+            .map(|force| force.expect("a force"))
+            .map(|force| [force.normal, force.shear_x, force.shear_y])
+            .collect();
+        assert_eq!(transposed(&filled), asked, "{pile:?}");
+    }
+}
+
+#[test]
+fn layers_refuse_what_is_asked_of_others() {
+    let pile = Pile::triangular(5).expect("a pile");
+    let (site, floor) = (Site { i: 1, j: 0, k: 2 }, 4);
+    let forces = pile.forces::<BigRational>();
+    let refused = Err(Error::NotOnFloor { site, floor });
+    let mut layers = forces.layers(Selection::Layer(2)).expect("a layer");
+    let layer = layers.next_layer().expect("room").expect("a layer");
+    assert_eq!(layer.on_floor(site).map(drop), refused);
+    let bottom = Site { i: 1, j: 0, k: 4 };
+    let other = Error::OtherLayer { layer: 4, at: 2 };
+    assert_eq!(layer.to_below(bottom).map(drop), Err(other));
+
+    let first = Site { i: 0, j: 0, k: 2 };
+    let refused = Err(Error::NotOnFloor { site: first, floor });
+    let layers = forces.layers(Selection::Layer(2)).expect("a layer");
+    let mut layers = layers.nearest::<f64>().expect("floats");
+    let layer = layers.next_layer().expect("room").expect("a layer");
+    let [mut a, mut b, mut c] = [[0.0; 6]; 3];
+    assert_eq!(layer.fill_base([&mut a, &mut b, &mut c]), refused);
+}
+
+/// What stands beside a table or a sweep says where it is.
+#[test]
+fn layers_are_shown_by_where_they_are() {
+    let pile = Pile::triangular(5).expect("a pile");
+    let forces = pile.forces::<BigRational>();
+    let layers = || forces.layers(Selection::All).expect("layers");
+    let mut of_all = layers();
+    assert_eq!(format!("{of_all:?}"), "Layers { ahead: 0..5, .. }");
+    let layer = of_all.next_layer().expect("room");
+    assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
+    assert_eq!(format!("{of_all:?}"), "Layers { ahead: 1..5, .. }");
+    let mut nearest = layers().nearest::<f32>().expect("floats");
+    assert_eq!(format!("{nearest:?}"), "Layers { ahead: 0..5, .. }");
+    let layer = nearest.next_layer().expect("room");
+    assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
+    let mut integers = layers().numerators::<i64>().expect("integers");
+    assert_eq!(format!("{integers:?}"), "Layers { ahead: 0..5, .. }");
+    let layer = integers.next_layer().expect("room");
+    assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
+}

@@ -313,3 +313,44 @@ fn what_has_no_bounds_is_refused() {
     assert!(matches!(high.bounds(site), Err(Error::TooLarge { .. })));
     assert!(BigRational::zero() < high.weight());
 }
+
+/// Said of the first sphere of six images with a certificate, and of the others without.
+#[test]
+fn images_have_no_certificates_of_their_own() {
+    for stacking in ["+++", "+-+"] {
+        let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
+        let shift = pile.shape().stacking().runs().count();
+        let o = if shift == 1 { 3 } else { 1 };
+        let mut met = std::collections::BTreeSet::new();
+        for (site, [least, greatest]) in all(&pile) {
+            let mut orbit = [o - site.i - site.j, site.i, site.j];
+            orbit.sort_unstable();
+            let is_first = met.insert(orbit);
+            for bound in [least, greatest] {
+                assert_eq!(bound.certificate.is_some(), is_first, "{stacking}: {site}");
+            }
+        }
+    }
+    // Without an image every sphere has its own.
+    let pile = Pile::under(Region::hexagon(2, 1).unwrap(), "++".parse().unwrap()).unwrap();
+    for (site, bounds) in all(&pile) {
+        let certified = bounds.iter().all(|bound| bound.certificate.is_some());
+        assert!(certified, "{site}");
+    }
+}
+
+#[test]
+fn bounds_still_to_come_are_counted() {
+    let pile = Pile::triangular(4).unwrap();
+    let mut bounds = pile.base_bounds(Selection::Base).unwrap();
+    for left in (0..=10).rev() {
+        let (least, most) = bounds.size_hint();
+        assert!(
+            least <= left && most.is_none_or(|most| left <= most),
+            "{left}"
+        );
+        // Within a row of four all that is left of it is known.
+        assert!(left != 9 || least >= 3, "{least}");
+        assert_eq!(bounds.next().is_some(), left > 0);
+    }
+}

@@ -257,3 +257,18 @@ fn is_proved_or_of_an_edge(entry: &Entry) {
         assert_eq!(elastic, if entry.stands() { Ok(()) } else { cannot });
     }
 }
+
+#[test]
+fn what_decides_is_written_by_its_name() {
+    use cannonpile::horizontal::census::DecidedBy;
+
+    for (by, name) in [
+        (DecidedBy::Sloping, "sloping"),
+        (DecidedBy::Horizontal, "horizontal"),
+        (DecidedBy::Run, "run"),
+        (DecidedBy::Work, "work"),
+    ] {
+        assert_eq!((by.to_string(), by.name()), (name.to_owned(), name));
+        assert_eq!(format!("{by:>11}"), format!("{name:>11}"));
+    }
+}

@@ -207,3 +207,46 @@ fn a_certificate_of_a_pile_with_forces_of_its_own_is_refused() {
         Refusal::GivenForces { contact }
     );
 }
+
+/// Of a pile of more than 10⁵ spheres the certificate is that of its layers down to one below the last change of sign, with
+/// what they weigh and bear; of a smaller one of itself.
+#[test]
+fn certificates_of_large_piles_are_of_their_first_layers() {
+    let large = under_one_sphere("(1,1,98)");
+    let certificate = large.equilibrium().unwrap();
+    assert_eq!(
+        (certificate.claim, certificate.pile),
+        (Claim::Stands, under_one_sphere("+-+"))
+    );
+    let [apex, second, deep] = [(0, 0), (0, 1), (0, 50)].map(|(i, k)| Site { i, j: 0, k });
+    let changed = |pile: Pile| {
+        let pile = pile.with_weight(second, ratio(1, 2)).unwrap();
+        pile.with_load(apex, ratio(1, 9)).unwrap()
+    };
+    let other = changed(large).with_weight(deep, ratio(3, 1)).unwrap();
+    let other = other.with_load(deep, ratio(5, 1)).unwrap();
+    let certificate = other.equilibrium().unwrap();
+    assert_eq!(certificate.check(), Ok(()));
+    assert_eq!(certificate.pile, changed(under_one_sphere("+-+")));
+    for stacking in ["+-+-++", "+-+-+++", "(1,30)"] {
+        let pile = under_one_sphere(stacking);
+        assert_eq!(pile.equilibrium().unwrap().pile, pile, "{stacking}");
+    }
+}
+
+/// Only the straight pile of equal spheres is known to be elastic however large it is.
+#[test]
+fn springs_of_large_piles_are_those_of_the_paper_or_refused() {
+    let one = ratio(1, 1);
+    let straight = Pile::triangular(100).unwrap();
+    let state = straight.elastic(&one).unwrap();
+    assert!(state.certificate().is_none() && state.pile().horizontal_forces().next().is_none());
+    let loaded = straight.with_load(Site::APEX, ratio(5, 1)).unwrap();
+    for pile in [loaded, under_one_sphere("(1,99)")] {
+        let refused = pile.elastic(&one).err();
+        assert!(
+            matches!(refused, Some(Error::TooLarge { .. })),
+            "{refused:?}"
+        );
+    }
+}

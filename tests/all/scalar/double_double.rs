@@ -293,3 +293,59 @@ fn infinities_and_not_a_number() {
     let tiny = DoubleDouble::new(1.0) + DoubleDouble::new(-1e-30);
     assert_eq!((tiny - &DoubleDouble::one()).sign(), RealSign::Negative);
 }
+
+/// Beside the least subnormal and the greatest float: what two parts hold comes out without an error.
+#[test]
+fn products_across_the_whole_range_are_exact_where_they_can_be() {
+    let power = |e: i32| BigRational::from_integer(2.into()).pow(e);
+    let value = |x: &DoubleDouble| x.enclosure().unwrap().lower;
+    // (1 + 2^−60)·2^e
+    let two_parts = |e: i32| (BigRational::one() + power(-60)) * power(e);
+    for (n, least) in [
+        (1, -1074),
+        (3, -1074),
+        (5, -1070),
+        (7, -1030),
+        (1, -1022),
+        (9, -700),
+    ] {
+        let small = power(least) * BigInt::from(n);
+        let a = DoubleDouble::from_rational(&small);
+        assert_eq!(value(&a), small);
+        for e in [-100, 0, 400, 700, 1000, 1023] {
+            // Both parts of the product are normal.
+            if least + e < -900 {
+                continue;
+            }
+            let great = two_parts(e);
+            let b = DoubleDouble::from_rational(&great);
+            assert_eq!(value(&b), great);
+            for product in [a * b, b * a] {
+                assert_eq!(value(&product), &small * &great, "{n}*2^{least}, 2^{e}");
+            }
+            assert_eq!(
+                (a * b).checked_div(&b).map(|q| value(&q)),
+                Some(small.clone())
+            );
+        }
+    }
+}
+
+/// Of factors of 53 bits the product has 106, in which every bit of the halves that they are split into counts.
+#[test]
+fn products_of_whole_numbers_are_exact() {
+    let value = |x: &DoubleDouble| x.enclosure().unwrap().lower;
+    let most = (1_i128 << 53) - 1;
+    for (n, m) in [
+        (most, most - 2),
+        (most - 4, -most),
+        (0x1a_5c3f_9d27_6be1, 0x15_39e7_c84b_2da3),
+        ((1 << 52) + 1, (1 << 52) + 3),
+        (134_217_729, 8_001_234_567_890_123),
+    ] {
+        let [a, b] = [n, m].map(DoubleDouble::from_i128);
+        let product = BigRational::from_i128(n) * BigRational::from_i128(m);
+        assert_eq!(value(&(a * b)), product, "{n} * {m}");
+        assert_eq!((a * b).checked_div(&b).map(|q| value(&q)), Some(value(&a)));
+    }
+}

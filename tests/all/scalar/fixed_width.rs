@@ -263,3 +263,27 @@ fn questions_at_the_ends_of_the_integers() {
         "{tallies:?}"
     );
 }
+
+#[test]
+fn written_as_fractions_in_lowest_terms() {
+    for (n, d, text) in [
+        (6, 2, "3"),
+        (0, 5, "0"),
+        (-4, 4, "-1"),
+        (7, -14, "-1/2"),
+        (-7, 3, "-7/3"),
+        (1, 0, "overflow"),
+    ] {
+        let value = FixedRational::<i64>::new(n, d);
+        assert_eq!(value.to_string(), text);
+        assert_eq!(format!("{value:?}"), text);
+    }
+}
+
+#[test]
+fn numerators_are_divided_as_numbers_are() {
+    let three = 3.try_into().expect("not zero");
+    let third = |n| FixedRational::<i64>::divide_numerator(FixedRational::new(n, 1), three);
+    assert_eq!(third(6), Some(FixedRational::new(2, 1)));
+    assert_eq!(third(-7), Some(FixedRational::new(-7, 3)));
+}

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use self::flawed::{Fault, Flawed, flawed};
 use crate::support::answers::ratio;
-use cannonpile::scalar::{Exactness, NearestFloat, RealSign, laws};
+use cannonpile::scalar::{Enclosure, Exactness, NearestFloat, RealSign, laws};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Signed, Zero};
@@ -28,6 +28,7 @@ fn broken<F: Fault>() -> BTreeSet<&'static str> {
     for x in &numbers {
         for y in &numbers {
             verdicts.push(laws::embedding::<Flawed<F>>(x, y));
+            verdicts.push(laws::numerators::<Flawed<F>>(x, y));
             for z in &numbers {
                 let [a, b, c] = [x, y, z].map(|number| flawed::<F>(number.clone()));
                 verdicts.push(laws::algebra(&a, &b, &c));
@@ -145,6 +146,70 @@ caught! {
         const CLAIMS: Exactness = Exactness::Rounded { bits: 53 };
         fn mul(a: &Q, b: &Q) -> Q { single(&(a * b)) }
     }
+    double_whose_great_products_are_single breaks "a b": {
+        const CLAIMS: Exactness = Exactness::Rounded { bits: 53 };
+        fn rational(r: &Q) -> Q { double(r) }
+        fn mul(a: &Q, b: &Q) -> Q {
+            if (a * b).abs() > ratio(1 << 40, 1) { single(&(a * b)) } else { double(&(a * b)) }
+        }
+    }
+    sum_with_zero breaks "a + 0 = a": {
+        fn add(a: &Q, b: &Q) -> Q { if a.is_zero() || b.is_zero() { a + b + Q::one() } else { a + b } }
+    }
+    division_by_minus_one breaks "(a / n) n = a": {
+        fn div_int(a: &Q, n: i64) -> Q { if n == -1 { a.clone() } else { a / BigInt::from(n) } }
+    }
+    division_by_minus_seven breaks "(a / n) n = a": {
+        fn div_int(a: &Q, n: i64) -> Q { if n == -7 { a / BigInt::from(7) } else { a / BigInt::from(n) } }
+    }
+    division_by_two breaks "(a / n) n = a": {
+        fn div_int(a: &Q, n: i64) -> Q { if n == 2 { a.clone() } else { a / BigInt::from(n) } }
+    }
+    division_by_three breaks "(a / n) n = a": {
+        fn div_int(a: &Q, n: i64) -> Q { if n == 3 { a.clone() } else { a / BigInt::from(n) } }
+    }
+    division_by_the_least_integer breaks "(a / n) n = a": {
+        fn div_int(a: &Q, n: i64) -> Q { if n == i64::MIN { a.clone() } else { a / BigInt::from(n) } }
+    }
+    saturation_in_place_of_a_fault breaks "(a + b) + c = a + (b + c)": {
+        const CLAIMS: Exactness = Exactness::ExactOrFault;
+        fn add(a: &Q, b: &Q) -> Q { (a + b).min(ratio(i64::MAX, 1)) }
+    }
+    fault_in_place_of_an_integer breaks "n and n/1 have one image": {
+        const CLAIMS: Exactness = Exactness::ExactOrFault;
+        fn integer(n: i128) -> Q { i64::try_from(n).map_or(fault(), |n| ratio(n, 1)) }
+        fn is_defined(a: &Q) -> bool { *a != fault() }
+    }
+    division_refused breaks "a / b is undefined just for b = 0": {
+        fn div(a: &Q, b: &Q) -> Option<Q> { b.is_positive().then(|| a / b) }
+    }
+    bounds_beside_the_sum breaks "a + b": {
+        const CLAIMS: Exactness = Exactness::Enclosure;
+        fn add(a: &Q, b: &Q) -> Q { a + b + ratio(1, 100) }
+        fn enclosure(a: &Q) -> Enclosure {
+            let hair = ratio(1, 1_000_000);
+            Enclosure { lower: a - &hair, upper: a + hair }
+        }
+    }
+    sign_of_bounds breaks "the sign is that of the value": {
+        const CLAIMS: Exactness = Exactness::Enclosure;
+        fn sign(a: &Q) -> RealSign { if a.is_negative() { RealSign::Positive } else { RealSign::Negative } }
+    }
+    denominator_left_out breaks "n / d is the value": {
+        fn ratio(n: &Q, d: &Q) -> Option<Q> { (!d.is_zero()).then(|| n + d) }
+    }
+}
+
+#[test]
+fn what_is_broken_is_said() {
+    let broken = laws::integers::<Flawed<cast_to_64_bits>>(1 << 70).unwrap_err();
+    let says = "Flawed breaks n and n/1 have one image: 1180591620717411303424: ";
+    assert!(broken.to_string().starts_with(says), "{broken}");
+}
+
+/// No value of its own, but a number that stands for none.
+fn fault() -> Q {
+    ratio(1, 1_000_003)
 }
 
 /// A numerator that wraps around like an `i64`.

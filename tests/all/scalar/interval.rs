@@ -342,3 +342,74 @@ fn infinite_ends() {
     assert_eq!(Interval::from_rational(&beyond), of(f64::MAX, inf));
     assert!(ray.contains(&beyond) && Interval::WHOLE.contains(&-beyond));
 }
+
+/// A subnormal times a great number, or over a small one, has a rounding error that is held, and nothing more is.
+#[test]
+fn subnormals_are_multiplied_and_divided_tightly() {
+    let mut inexact = 0;
+    for bits in [1, 3, 5, 7, 1025, (1 << 40) + 1, (1 << 51) - 1] {
+        for odd in [1, 3, 5, 0xf_ffff_ffff_ffff] {
+            let subnormal = f64::from_bits(bits);
+            // (1 + odd·2^−52)·2^1000 and ·2^−1000.
+            let [great, small] = [2023_u64, 23].map(|power| f64::from_bits(power << 52 | odd));
+            let [x, y, z] = [subnormal, -great, small].map(Interval::point);
+            let product = exactly(subnormal) * exactly(-great);
+            assert!(encloses(&(x * y), [&product; 2], 0), "{bits} * {great:e}");
+            assert_eq!(y * x, x * y);
+            let quotient = exactly(subnormal) / exactly(small);
+            let found = x.checked_div(&z).unwrap();
+            assert!(encloses(&found, [&quotient; 2], 0), "{bits} / {small:e}");
+            inexact += u32::from((x * y).lower() < (x * y).upper());
+        }
+    }
+    assert!(inexact > 15, "{inexact}");
+}
+
+/// MAX − 3/2 units lies between MAX − 2 and MAX − 1, whichever is added to which.
+#[test]
+fn sums_next_to_the_greatest_float_are_enclosed_tightly() {
+    let unit = f64::MAX - f64::MAX.next_down();
+    let [most, less] = [f64::MAX, -1.5 * unit].map(Interval::point);
+    let below = f64::MAX.next_down();
+    let between = Interval::new(below.next_down(), below).unwrap();
+    assert_eq!((most + less, less + most), (between, between));
+    assert_eq!((-less - &most, -most - &less), (-between, -between));
+}
+
+#[test]
+fn intervals_without_a_common_point_are_not_equal() {
+    let of = |lower, upper| Interval::new(lower, upper).expect("lower ≤ upper");
+    for (a, b, may) in [
+        (of(1.0, 2.0), of(2.0, 3.0), true),
+        (of(1.0, 2.0), of(0.0, 9.0), true),
+        (of(1.0, 2.0), of(3.0, 4.0), false),
+        (of(1.0, 1.0), of(1.0_f64.next_up(), f64::INFINITY), false),
+        (Interval::WHOLE, Interval::zero(), true),
+    ] {
+        assert_eq!(
+            (a.may_equal(&b), b.may_equal(&a)),
+            (may, may),
+            "{a:?} {b:?}"
+        );
+    }
+}
+
+/// 2^−1022 (1 − 2^−53) is rounded up to the least normal float, where subnormals would hold its significand no more.
+#[test]
+fn a_product_rounded_to_the_least_normal_float_is_held() {
+    let (x, y) = (1.0_f64.next_down(), f64::MIN_POSITIVE);
+    for product in [
+        Interval::point(x) * Interval::point(y),
+        Interval::point(y) * Interval::point(x),
+    ] {
+        assert_eq!(product.upper(), f64::MIN_POSITIVE);
+        assert!(product.contains(&(exactly(x) * exactly(y))), "{product:?}");
+    }
+    let quotient = Interval::point(y)
+        .checked_div(&Interval::point(1.0_f64.next_up()))
+        .unwrap();
+    assert!(
+        quotient.contains(&(exactly(y) / exactly(1.0_f64.next_up()))),
+        "{quotient:?}"
+    );
+}

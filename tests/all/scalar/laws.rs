@@ -3,8 +3,8 @@
 use crate::support::answers::ratio;
 use crate::support::pair::Pair;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Expression, Field, FixedInteger, FixedRational, Interval, Polynomial,
-    RealEmbeddable, Ring, Symbol, laws,
+    Algebra, DoubleDouble, Exactness, Expression, Field, FixedInteger, FixedRational, Interval,
+    Polynomial, RealEmbeddable, Ring, Symbol, laws,
 };
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
@@ -361,4 +361,22 @@ fn pairs_with_floats() {
 #[test]
 fn pairs_with_double_doubles() {
     pairs_obey::<DoubleDouble>();
+}
+
+#[test]
+fn of_two_promises_the_weaker_is_kept() {
+    let [single, double] = [24, 53].map(|bits| Exactness::Rounded { bits });
+    let promises = [
+        Exactness::Exact,
+        Exactness::ExactOrFault,
+        Exactness::Enclosure,
+        double,
+        single,
+    ];
+    for (n, stronger) in promises.into_iter().enumerate() {
+        for weaker in &promises[n..] {
+            assert_eq!(stronger.weaker(*weaker), *weaker);
+            assert_eq!(weaker.weaker(stronger), *weaker);
+        }
+    }
 }

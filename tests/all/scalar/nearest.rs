@@ -236,3 +236,41 @@ fn wrong_roundings_are_refused() {
     let least = exact(f32::from_bits(1));
     assert!(is_nearest(Some(0_f32), &squared(&(&least * &least))).is_err());
 }
+
+/// (d(2⁵³ + 1) + 1)/d is 1/d beyond the middle between two floats; the last of its 129 bits tell.
+#[test]
+fn no_digit_of_a_long_number_is_left_out() {
+    let d: BigInt = (BigInt::one() << 75) + (BigInt::one() << 63) + 1;
+    let middle = (BigInt::one() << 53) + 1;
+    let [above, below] = [1, -1].map(|hair| BigRational::new(&d * &middle + hair, d.clone()));
+    assert_eq!(above.numer().bits(), 129);
+    assert_eq!(f64::nearest_to_rational(&above), Some(2_f64.powi(53) + 2.0));
+    assert_eq!(f64::nearest_to_rational(&below), Some(2_f64.powi(53)));
+}
+
+/// Of 55 and 56 bits, whole numbers times a power of two: rounded up, down, and at the middle to the even one. The greater
+/// ones are beyond what a screen takes.
+#[test]
+fn whole_numbers_are_rounded_by_the_bits_behind_the_float() {
+    let power = |e: u32| BigInt::one() << e;
+    for scale in [0, 3, 40, 940, 960] {
+        for (behind, rounded) in [
+            (0, 0),
+            (1, 0),
+            (2, 0),
+            (3, 4),
+            (5, 4),
+            (6, 8),
+            (7, 8),
+            (9, 8),
+            (10, 8),
+            (11, 12),
+        ] {
+            let [value, wanted] = [behind, rounded]
+                .map(|n: i32| BigRational::from_integer((power(54) + n) * power(scale)));
+            let float = f64::nearest_to_rational(&value).unwrap();
+            assert_eq!(exact(float), wanted, "(2^54 + {behind})*2^{scale}");
+            assert_eq!(f64::nearest_to_rational(&-value), Some(-float));
+        }
+    }
+}

@@ -350,3 +350,37 @@ fn high_degrees_do_not_wrap() {
     assert_eq!(product.to_constant(), None);
     assert_ne!(high(&x, 32) * &x, x);
 }
+
+/// A power beyond 2³² − 1 is none.
+#[test]
+fn faults_are_equal_to_nothing() {
+    let [x, y, _, _] = symbols();
+    let power = (0..31).fold(x.clone(), |power, _| power.clone() * &power);
+    let fault = power.clone() * &power;
+    assert!(power.is_defined() && !fault.is_defined());
+    assert!(fault != fault.clone() && fault != x && fault != P::zero() && P::zero() != fault);
+    for sum in [
+        fault.clone() + &x,
+        x.clone() + &fault,
+        x.clone() - &fault,
+        -fault.clone(),
+    ] {
+        assert!(!sum.is_defined());
+    }
+    assert!(
+        !(fault * &P::zero()).is_defined() && power.evaluate(&[(Symbol("x"), 1.0)]) == Some(1.0)
+    );
+    assert!(x != y && x != constant(1, 2) && constant(1, 2) != constant(1, 3));
+}
+
+#[test]
+fn a_negative_denominator_is_a_sign() {
+    let of = |coefficients: [i64; 3], denominator: i64| {
+        let coefficients = coefficients.map(BigInt::from);
+        P::in_powers(Symbol("x"), coefficients, denominator.into())
+    };
+    assert_eq!(of([1, 2, 0], -3).unwrap().to_string(), "(-2 x - 1)/3");
+    assert_eq!(of([1, 2, 0], -3), of([-1, -2, 0], 3));
+    assert_eq!(of([4, 0, -2], -2).unwrap().to_string(), "x^2 - 2");
+    assert_eq!(of([1, 2, 0], 0), None);
+}

@@ -168,3 +168,22 @@ fn comparison_with_floats() {
         }
     }
 }
+
+/// 10007 is the least prime beyond 10000.
+#[test]
+fn squares_of_small_primes_are_in_front_of_the_root() {
+    for p in [2, 3, 5, 7, 11, 31, 101, 499, 991, 997] {
+        for (square, front, under) in [
+            (p * p * 10_007, p, 10_007),
+            (p * p * p * 10_007, p, p * 10_007),
+            (p * p * 6, p, 6),
+        ] {
+            let root = Surd::sqrt(ratio(square, 1)).unwrap();
+            assert_eq!(root.coefficient(), &ratio(front, 1), "{square}");
+            assert_eq!(root.radicand().to_string(), under.to_string());
+        }
+    }
+    assert_eq!(Surd::sqrt(ratio(45, 1)).unwrap().to_string(), "3*sqrt(5)");
+    let sum = surd((1, 1), (45, 1)).checked_add(&surd((1, 1), (5, 1)));
+    assert_eq!(sum.unwrap().to_string(), "4*sqrt(5)");
+}

@@ -44,8 +44,18 @@ pub(crate) trait Fault: Clone + Debug + PartialEq + Send + Sync {
     fn div(a: &Q, b: &Q) -> Option<Q> {
         (!b.is_zero()).then(|| a / b)
     }
+    /// Of a numerator and a denominator.
+    fn ratio(n: &Q, d: &Q) -> Option<Q> {
+        (!d.is_zero()).then(|| n / d)
+    }
+    fn is_defined(_: &Q) -> bool {
+        true
+    }
     fn sign(a: &Q) -> RealSign {
         RealEmbeddable::sign(a)
+    }
+    fn enclosure(a: &Q) -> Enclosure {
+        Enclosure::point(a.clone())
     }
 }
 
@@ -143,7 +153,7 @@ impl<F: Fault> Algebra for Flawed<F> {
     }
 
     fn is_defined(&self) -> bool {
-        true
+        F::is_defined(&self.0)
     }
 
     fn numerators<const N: usize>(values: &[Q; N]) -> ([Self; N], Self) {
@@ -151,7 +161,7 @@ impl<F: Fault> Algebra for Flawed<F> {
     }
 
     fn from_ratio(n: Self, d: &Self) -> Option<Self> {
-        n.checked_div(d)
+        F::ratio(&n.0, &d.0).map(flawed)
     }
 }
 
@@ -167,6 +177,6 @@ impl<F: Fault> RealEmbeddable for Flawed<F> {
     }
 
     fn enclosure(&self) -> Option<Enclosure> {
-        Some(Enclosure::point(self.0.clone()))
+        Some(F::enclosure(&self.0))
     }
 }
