@@ -67,6 +67,7 @@ mod engine {
     #[cfg(all(feature = "export", feature = "horizontal"))]
     mod interrupt;
     mod methods;
+    mod plans;
     mod trees;
     mod widths;
 }
@@ -111,6 +112,11 @@ mod forces {
 mod packing {
     mod rounded;
     mod vectors;
+}
+
+#[cfg(feature = "std")]
+mod standing {
+    mod least;
 }
 
 #[cfg(feature = "std")]

@@ -257,3 +257,15 @@ fn is_proved_or_of_an_edge(entry: &Entry) {
         assert_eq!(elastic, if entry.stands() { Ok(()) } else { cannot });
     }
 }
+
+/// 12L − 56 entries of L layers, and no more than 10¹¹ of them.
+#[test]
+fn as_many_entries_as_a_census_may_have_are_not_refused() {
+    let most = 8_333_333_338;
+    assert!(census::under_one_sphere(most, true).is_ok());
+    let refused = census::under_one_sphere(most + 1, true).err();
+    assert!(matches!(
+        refused,
+        Some(Error::TooManyRows { rows, .. }) if rows == 100_000_000_012_u64.into()
+    ));
+}
