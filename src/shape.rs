@@ -619,3 +619,30 @@ impl Shape {
         Ok(Self::new(Dimension::Three, steps, Anchor::Base(base)).height_above_base())
     }
 }
+
+#[cfg(all(test, feature = "export"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_horizontal_contacts_of_a_layer_are_those_of_its_spheres() {
+        let under = |top| Shape::under(top, "++-".parse().unwrap()).unwrap();
+        for shape in [
+            Shape::pyramid(5, Dimension::Three).unwrap(),
+            Shape::pyramid(5, Dimension::Two).unwrap(),
+            under(Region::hexagon(3, 2).unwrap()),
+            under(Region::new(2..=5, 1..=1, 3..=6).unwrap()),
+        ] {
+            for k in 0..shape.layers() {
+                let sites = shape.rows(Selection::Layer(k)).unwrap().flatten();
+                let contacts = sites.flat_map(|site| shape.horizontal_contacts(site));
+                let counted = shape.horizontal_contacts_in(k);
+                assert_eq!(counted, contacts.count().into(), "{k}");
+            }
+            assert_eq!(shape.horizontal_contacts_in(-1), BigUint::ZERO);
+        }
+        // Three rows of three, two and one sphere, along each of three axes: 3·3.
+        let pyramid = Shape::pyramid(5, Dimension::Three).unwrap();
+        assert_eq!(pyramid.horizontal_contacts_in(2), 9_u32.into());
+    }
+}

@@ -182,7 +182,7 @@ fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
 
 /// The rows that passes take in one band.
 struct Rows {
-    /// Where the band ends: none of its passes takes this row, or one below it.
+    /// Where the band ends, if another follows: none of its passes takes this row, or one below it.
     end: i128,
     /// By pass.
     taken: Vec<Range<i128>>,
@@ -197,7 +197,7 @@ fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
             *rows.start()..rows.end() + 1
         })
         .collect();
-    let (Some(first), Some(last)) = (whole.first().cloned(), whole.last().cloned()) else {
+    let Some(first) = whole.first().cloned() else {
         return (Vec::new(), Vec::new());
     };
     let shifts = || passes.iter().map(|(pass, _)| pass.shift);
@@ -245,19 +245,9 @@ fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
             .map(|(start, end)| start..end)
             .collect(),
     };
-    let end = |band, end| {
-        if band == number {
-            last.end.max(first.end)
-        } else {
-            end
-        }
-    };
-    let apart = (0..number).map(|band| {
-        let end = end(band + 1, border(band + 1));
-        rows(end, starts(band), ends(band + 1))
-    });
+    let apart = (0..number).map(|band| rows(border(band + 1), starts(band), ends(band + 1)));
     let seams = (1..number).map(|seam| {
-        let end = end(seam + 1, border(seam).midpoint(border(seam + 1)));
+        let end = border(seam).midpoint(border(seam + 1));
         rows(end, ends(seam), starts(seam))
     });
     (apart.collect(), seams.collect())
@@ -666,5 +656,19 @@ mod tests {
             }
         }
         assert_eq!(compared, 144);
+    }
+
+    /// From bands of a few rows to as many as fit between the rows that passes lose.
+    #[test]
+    fn bands_of_low_layers_are_the_whole() {
+        for (side, stacking) in [(12, "+-+-+-+-"), (20, "-++-+--+"), (31, "+++---+-")] {
+            let top = Region::triangle(side).unwrap();
+            let shape = Shape::under(top, stacking.parse().unwrap()).unwrap();
+            let Plane(whole) = swept(&shape, 8, 1, 1);
+            for number in 2..=9 {
+                let Plane(bands) = swept(&shape, 8, number, 1);
+                assert_eq!(bands, whole, "{stacking} {number}");
+            }
+        }
     }
 }

@@ -137,7 +137,7 @@ impl<'p> Grid<'p> {
         let k = run.to.min(to);
         let pass = Pass {
             run,
-            turns: k == run.to && k < self.shape.layers() - 1 && k < self.end,
+            turns: k == run.to && k < self.end,
             from,
             k,
             region: self.shape.layer(k)?,

@@ -485,6 +485,7 @@ mod tests {
         assert!(are_within_2_62(&[0, -1, within - 1, -within]));
         assert!(!are_within_2_62(&[0, within]));
         assert!(!are_within_2_62(&[-within - 1, 0]));
+        assert!(!are_within_2_62(&[within, within, 0]));
     }
 
     /// All lines of all layers, in limbs and in big integers, down to many planes.
@@ -504,6 +505,48 @@ mod tests {
                 assert_eq!(exact.unwrap().forces, plain.unwrap().forces, "{site}");
             }
         }
+    }
+
+    /// Numbers that grow from one limb to two on the way.
+    #[test]
+    fn the_first_numbers_of_two_limbs_are_what_big_integers_are() {
+        let pile = Pile::under(Region::SITE, "+-".repeat(21).parse().unwrap()).unwrap();
+        let system = pile.system();
+        let planes = |last| system.size_of_sweep(last).planes;
+        assert_eq!([planes(20), planes(pile.layers() - 1)], [1, 2]);
+        compare(&pile);
+    }
+
+    #[test]
+    fn passes_wait_until_carries_are_due() {
+        let shape = Shape::under(Region::SITE, "+-+-+-+-".parse().unwrap()).unwrap();
+        let grid = Grid::new(&shape, 8, 2).unwrap();
+        let mut planes = two_planes(&grid);
+        let one = [1, 1, 1].map(BigInt::from);
+        for (k, waiting) in (0..8).zip([1, 2, 3, 4, 0, 1, 2, 3]) {
+            let pass = grid.pass(k, k + 1).unwrap().unwrap();
+            planes.pass(&grid, &pass, &one).unwrap();
+            assert_eq!(planes.waiting.len(), waiting, "{k}");
+            assert_eq!(planes.passes as usize, waiting, "{k}");
+        }
+    }
+
+    #[test]
+    #[cfg_attr(debug_assertions, should_panic(expected = "no force is wider"))]
+    fn a_number_that_is_wider_than_was_proved_is_a_bug() {
+        let shape = Shape::pyramid(2, Dimension::Three).unwrap();
+        let grid = Grid::new(&shape, 1, 1).unwrap();
+        let (mut planes, cells) = (Planes::new(&grid, 1.into()), grid.site(0, 0, 0).unwrap());
+        let wide = [1, 0, 0].map(|n| BigInt::from(n) << 62);
+        assert_eq!(planes.add_at(cells, &wide), Err(bug(WIDE_ENOUGH)));
+    }
+
+    #[test]
+    fn half_a_limb_is_carried() {
+        let half = 1_i64 << (LIMB - 1);
+        assert_eq!(limbs(&half.into(), 2), Some(alloc::vec![-half, 1]));
+        assert_eq!(limbs(&(-half).into(), 2), Some(alloc::vec![-half, 0]));
+        assert_eq!(limbs(&(half - 1).into(), 2), Some(alloc::vec![half - 1, 0]));
     }
 
     #[test]

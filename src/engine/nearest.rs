@@ -355,4 +355,65 @@ mod tests {
         }
         assert!(met > 2500);
     }
+
+    /// The two integers between which n units are a float and a half: the leading limbs alone tell neither from the tie.
+    #[test]
+    fn all_limbs_count_beside_a_tie() {
+        let mut met = 0;
+        let units = units(&BigInt::from(1));
+        for (unit, square) in units.iter().skip(1).zip([
+            // c²r = (7/3)²·8/17 and 2/1,000,003².
+            (BigInt::from(392), BigInt::from(153)),
+            (2.into(), BigInt::from(1_000_003_i64).pow(2)),
+        ]) {
+            for (odd, power) in (1_i64..40).zip((130..).step_by(3)) {
+                // Halfway between two floats, over the unit, rounded down: n² ≤ tie²/(c²r).
+                let tie = BigInt::from((1_i64 << 53) + 2 * odd - 1) << power;
+                let squared: BigInt = &tie * &tie * &square.1;
+                let below: BigInt = (squared / &square.0).sqrt();
+                let above: BigInt = &below + 1_i32;
+                for n in [below.clone(), above.clone(), -below, -above] {
+                    assert_eq!(read::<f64>(unit, &n), slowly(unit, &n), "{n}");
+                    met += 1;
+                }
+            }
+        }
+        assert_eq!(met, 312);
+    }
+
+    /// Ties of one limb and of several, zero under a negative unit, and the ends of the integers.
+    #[test]
+    fn ties_zeros_and_ends_are_as_the_exact_number_says() {
+        let units = units(&BigInt::from(1));
+        for power in [0, 30, 80, 170] {
+            let tie = ((BigInt::from(1) << 53) + 1) << power;
+            let even = read::<f64>(&units[0], &(BigInt::from(1) << (53 + power)));
+            assert_eq!(read::<f64>(&units[0], &tie), even, "{power}");
+        }
+        for unit in &units {
+            for n in [0, 1, i128::MIN, i128::MAX, 1 << 126, -(1 << 125)] {
+                let exact = slowly::<f64>(unit, &n.into()).unwrap();
+                let near = unit.nearest_to::<f64>(n).unwrap();
+                assert_eq!(near.to_bits(), exact.to_bits(), "{n}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_unit_exceeds_no_power_of_two_that_is_as_great() {
+        for power in [-40, -1, 0, 1, 40_i64] {
+            let two = BigInt::from(1) << power.unsigned_abs();
+            let two = if power < 0 {
+                BigRational::new(1.into(), two)
+            } else {
+                two.into()
+            };
+            let unit = Unit::new(
+                Surd::new(two, BigRational::from(BigInt::from(1))).unwrap(),
+                1.into(),
+            );
+            assert!(!unit.exceeds_power_of_two(power));
+            assert!(unit.exceeds_power_of_two(power - 4));
+        }
+    }
 }

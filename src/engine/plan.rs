@@ -11,7 +11,7 @@ use super::limbs::{Size, bound};
 use super::question::{Method, Quantity};
 use super::tree::{MAX_NODES, check_tree};
 use crate::Error;
-use crate::lattice::Site;
+use crate::lattice::{Region, Site};
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness};
 use crate::shape::Rows;
@@ -124,8 +124,8 @@ impl System<'_> {
 
     /// Returns the width of the numbers of an exact sweep down to layer `last`, the change of sign there included.
     pub(crate) fn size_of_sweep(&self, last: i128) -> Size {
-        let below = (last + 1).min(self.shape.layers() - 1);
-        Size::new(&self.bound_of_sweep(last), self.shape.changes_above(below))
+        let changes = self.shape.changes_above(last + 1);
+        Size::new(&self.bound_of_sweep(last), changes)
     }
 
     /// Returns a bound no less than 2√3·B·D on the numbers of an exact sweep down to layer `last`, before changes of
@@ -253,21 +253,11 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Errors if a tree of layer `k` is too large: of four sample pieces, in the middle of the rows and of the corners.
-    /// Others may still be refused when they are asked for.
+    /// Errors if a tree of layer `k` is too large: of four sample pieces. Others may still be refused when they are asked
+    /// for.
     fn sample_trees(&self, k: i128) -> Result<(), Error> {
-        let region = self.shape.layer(k)?;
-        let corners = region.corners();
-        let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;
-        for j in [region.y().start().midpoint(*region.y().end()), mean(1)] {
-            let row = region.row(j);
-            for middle in [row.start.midpoint(row.end - 1), mean(0)] {
-                let piece = middle - CHUNK / 2..middle + CHUNK / 2;
-                let sites: Vec<_> = piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect();
-                check_tree(self.shape, k, &sites)?;
-            }
-        }
-        Ok(())
+        let mut pieces = samples(&self.shape.layer(k)?);
+        pieces.try_for_each(|piece| check_tree(self.shape, k, &piece))
     }
 
     /// Plans one sweep, down to the last layer.
@@ -296,6 +286,20 @@ impl System<'_> {
     }
 }
 
+/// Returns four pieces of rows that one tree may answer, in the middle of the rows and of the corners.
+fn samples(region: &Region) -> impl Iterator<Item = Vec<[i128; 2]>> + use<> {
+    let corners = region.corners();
+    let mean = |axis: usize| corners.iter().map(|corner| corner[axis]).sum::<i128>() / 6;
+    let [i, j] = [0, 1].map(mean);
+    let rows = [region.y().start().midpoint(*region.y().end()), j].map(|j| (j, region.row(j)));
+    rows.into_iter().flat_map(move |(j, row)| {
+        [row.start.midpoint(row.end - 1), i].map(|middle| {
+            let piece = middle - CHUNK / 2..middle + CHUNK / 2;
+            piece.filter(|i| row.contains(i)).map(|i| [i, j]).collect()
+        })
+    })
+}
+
 /// Returns the lowest layer that rows are of.
 pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
     let last = match rows.one() {
@@ -303,4 +307,27 @@ pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
         None => rows.layers().end - 1,
     };
     last.max(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(i: core::ops::Range<i128>, j: i128) -> Vec<[i128; 2]> {
+        i.map(|i| [i, j]).collect()
+    }
+
+    /// Rows 0 … 30 of 5000, 4999, … places; the corners (0, 0) and (4999, 0) twice, (4969, 30) and (0, 30) are at
+    /// (2494, 10) in the mean.
+    #[test]
+    fn sample_pieces_are_in_the_middle() {
+        let region = Region::new(0..=4999, 0..=30, 0..=4999).unwrap();
+        let pieces: Vec<_> = samples(&region).collect();
+        let middle = [row(1980..3004, 15), row(1982..3006, 15)];
+        let mean = [row(1982..3006, 10), row(1982..3006, 10)];
+        assert_eq!(pieces, [middle, mean].concat());
+        // A row that is shorter is its own piece.
+        let low = Region::triangle(4).unwrap();
+        assert!(samples(&low).all(|piece| piece == row(0..3, 1)));
+    }
 }

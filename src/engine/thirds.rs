@@ -178,11 +178,12 @@ fn sum(region: &Region) -> Result<i128, Error> {
 mod tests {
     use alloc::vec::Vec;
 
+    use num_bigint::BigInt;
     use num_rational::BigRational;
 
     use super::*;
     use crate::Pile;
-    use crate::engine::{Lines, exact_sweep, shortest_exact_sweep};
+    use crate::engine::{Cells, Descent, Lines, exact_sweep, shortest_exact_sweep};
 
     /// One sphere, six-sided and three-sided tops, one elsewhere, and a base; changes everywhere, seldom, and mixed.
     fn piles() -> Vec<Pile> {
@@ -232,6 +233,40 @@ mod tests {
             if k > 0 {
                 assert_eq!(whole.least().unwrap(), third.least().unwrap(), "{what}");
             }
+        }
+    }
+
+    /// Some layers at a time and all at once, with windows between them, and a run that is longer than a window.
+    #[test]
+    fn a_third_of_a_small_pile_is_the_whole() {
+        for (top, stacking) in [
+            (Region::SITE, "+-+--+-+-+++-"),
+            (Region::hexagon(2, 3).unwrap(), "-+-++-+-+-+-"),
+            (Region::SITE, "(11,17,1,2)"),
+        ] {
+            let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+            for stops in [3, pile.layers() - 1] {
+                compare(&pile, stops);
+            }
+        }
+    }
+
+    /// Windows are of layers, whatever numbers are kept.
+    #[test]
+    fn a_third_in_plain_numbers_is_the_whole() {
+        let pile = Pile::under(Region::SITE, "+-+--+-+-+++-+".parse().unwrap()).unwrap();
+        let (system, last) = (pile.system(), pile.layers() - 1);
+        let lines = Lines::<BigRational>::new(&system);
+        let mut whole = exact_sweep(&lines, &system, last).unwrap();
+        let grid = Grid::of_thirds(pile.shape(), last, 1).unwrap();
+        assert!(grid.last < last);
+        let cells = Cells::new(&grid, &BigInt::ZERO);
+        let mut third = Descent::<BigRational, Cells<BigInt>>::new(lines, grid, cells);
+        whole.advance(last, ()).unwrap();
+        third.advance(last, ()).unwrap();
+        for site in pile.shape().layer(last).unwrap().rows(last).flatten() {
+            let [whole, third] = [whole.received(site), third.received(site)];
+            assert_eq!(whole.unwrap().forces, third.unwrap().forces, "{site}");
         }
     }
 

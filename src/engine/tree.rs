@@ -258,3 +258,26 @@ impl<T: Algebra> Lines<'_, T> {
         extras.fold(ordinary, |sum, (_, extra)| formula::passed_on(sum, extra))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Pile;
+    use crate::lattice::Region;
+
+    /// Under a row of n spheres n + 1 of the next layer.
+    #[test]
+    fn a_tree_has_four_million_nodes_at_most() {
+        let most = 4_000_000;
+        let row = Region::new(0..=most, 0..=0, 0..=most).unwrap();
+        let pile = Pile::under(row, "+".parse().unwrap()).unwrap();
+        let mut sites: Vec<[i128; 2]> = (0..=most).map(|i| [i, 0]).collect();
+        let refused = check_tree(pile.shape(), 1, &sites);
+        assert!(matches!(
+            refused,
+            Err(Error::TooLarge { needed, limit: 4_000_000, .. }) if needed == 4_000_001_u32.into()
+        ));
+        sites.pop();
+        assert_eq!(check_tree(pile.shape(), 1, &sites), Ok(()));
+    }
+}

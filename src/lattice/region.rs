@@ -538,3 +538,25 @@ impl FromStr for Region {
 
 #[cfg(feature = "serde")]
 crate::scalar::serde::as_text!(Region: ":#");
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use super::*;
+
+    #[test]
+    fn the_sites_above_a_corner_are_those_with_as_great_coordinates() {
+        let region = Region::new(-2..=3, -1..=4, -2..=5).unwrap();
+        let sites = |region: Region| region.rows(0).flatten();
+        for (x, s) in (-3..=4).flat_map(|x| (-3..=7).map(move |s| (x, s))) {
+            let wanted = sites(region).filter(|site| site.i >= x && site.i + site.j >= s);
+            let above = region.above([x, s]).into_iter().flat_map(sites);
+            assert_eq!(
+                above.collect::<Vec<_>>(),
+                wanted.collect::<Vec<_>>(),
+                "{x} {s}"
+            );
+        }
+    }
+}

@@ -69,6 +69,7 @@ mod engine {
     #[cfg(all(feature = "export", feature = "horizontal"))]
     mod interrupt;
     mod methods;
+    mod plans;
     mod trees;
     mod widths;
 }
@@ -116,6 +117,11 @@ mod packing {
     mod places;
     mod rounded;
     mod vectors;
+}
+
+#[cfg(feature = "std")]
+mod standing {
+    mod least;
 }
 
 #[cfg(feature = "std")]

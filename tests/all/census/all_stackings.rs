@@ -216,3 +216,20 @@ fn a_census_of_any_size_begins_at_once() {
         );
     }
 }
+
+/// 11L − 50 entries of L layers, and no more than 10¹¹ of them.
+#[test]
+fn a_census_of_too_many_entries_is_refused_with_their_number() {
+    let most = 9_090_909_095;
+    assert!(census::under_one_sphere(most, true).is_ok());
+    let refused = |layers, rows: u64| {
+        let refusal = Error::TooManyRows {
+            rows: rows.into(),
+            limit: census::MAX_ENTRIES,
+            remedy: "ask for fewer layers, or only for those that stand",
+        };
+        assert_eq!(census::under_one_sphere(layers, true).err(), Some(refusal));
+    };
+    refused(most + 1, 100_000_000_006);
+    refused(10_i128.pow(11), 1_099_999_999_950);
+}

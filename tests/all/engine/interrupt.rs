@@ -177,3 +177,35 @@ fn one_thread_is_not_ended_for_another() {
     });
     assert_eq!(answer, (Ok(()), Err(Error::Interrupted)));
 }
+
+#[test]
+fn without_a_request_an_error_is_what_it_was() {
+    let interrupt = Interrupt::new();
+    assert!(!interrupt.is_requested());
+    let refused = interrupt.during(|| Pile::triangular(0)).err();
+    assert_eq!(refused, Some(Error::Layers { given: 0.into() }));
+    interrupt.clone().request();
+    assert!(interrupt.is_requested());
+    let ended = interrupt.during(Interrupt::check);
+    assert_eq!(
+        (ended, Interrupt::check()),
+        (Err(Error::Interrupted), Ok(()))
+    );
+}
+
+/// So many spheres that threads take parts of them: each knows what it is ended by.
+#[test]
+fn a_fill_that_threads_share_ends() {
+    let pile = Pile::triangular(80).unwrap();
+    let layers = pile.forces::<f64>().layers(Selection::All).unwrap();
+    let n = layers.spheres().unwrap();
+    assert!(n > 1 << 16);
+    let mut columns = [(); 3].map(|()| vec![0.0; n]);
+    let interrupt = Interrupt::new();
+    interrupt.request();
+    let slices = columns.each_mut().map(Vec::as_mut_slice);
+    assert_eq!(
+        interrupt.during(|| layers.fill(slices)),
+        Err(Error::Interrupted)
+    );
+}

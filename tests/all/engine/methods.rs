@@ -407,6 +407,9 @@ fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
     };
     let plan = pile.plan(Selection::One(site)).unwrap();
     assert_eq!(plan.method, Method::Sweep);
+    // Each exact number in the words of an integer that grows, and in those of its digits.
+    let words = plan.planes + size_of::<BigInt>().div_ceil(8);
+    assert_eq!(plan.bytes, &plan.numbers * words * 8_u32);
     let counters = Counters::default();
     let forces = pile.forces::<f64>().metered(&counters);
     let three = all(forces.contacts(Selection::One(site)).unwrap()).unwrap();

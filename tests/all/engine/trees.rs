@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{Error, Pile};
+use cannonpile::{Error, Method, Pile};
 
 use crate::support::cases::{Bounds, Case, Random, all_signs, repeated};
 use crate::support::oracles::balance::{Balance, Place, direction, site};
@@ -94,6 +94,10 @@ fn where_a_tree_would_be_too_large_a_sweep_answers() {
         Err(Error::TooLarge { .. })
     ));
     let forces = pile.forces::<f64>();
+    // But not where a tree is asked for.
+    let by_tree = forces.clone().by(Method::Tree).unwrap();
+    let refused = by_tree.contact(middle, Direction::Alpha);
+    assert!(matches!(refused, Err(Error::TooLarge { .. })));
     let one = forces.contact(middle, Direction::Alpha).unwrap();
     let mut contacts = forces
         .contacts(Selection::Layer(398))

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::support::answers::{Shape, ratio};
 use crate::support::oracles::overlap::{self, Difference};
-use cannonpile::geometry::{Clearance, Spacing};
+use cannonpile::geometry::{Apart, Clearance, Spacing};
 use cannonpile::lattice::{Region, Sign};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
@@ -294,4 +294,41 @@ fn wrong_verdicts_are_refused() {
         room(&tight).as_ref(),
         &check(&other, &tight)
     ));
+}
+
+/// One sphere has no neighbour, whatever it was grown from.
+#[test]
+fn one_sphere_sets_no_lower_bound() {
+    let elsewhere = Region::new(5..=5, -3..=-3, 2..=2).unwrap();
+    let one = Stacking::single_layer;
+    for pile in [
+        Pile::on(Region::SITE, one()),
+        Pile::under(elsewhere, one()),
+        Pile::triangular(1),
+    ] {
+        let clearance = pile.unwrap().clearance();
+        assert_eq!((clearance.least(), clearance.most()), (None, None));
+        assert_eq!(clearance.check(&spacing(&ratio(1, 100))), Ok(vec![]));
+    }
+}
+
+/// sin φ = 4/5: the neighbours across are at q = 25/12, spheres two layers apart at q = 5/2, which both are irrational; a
+/// lower bound is rounded up, an upper one down.
+#[test]
+fn what_is_too_close_and_the_bounds_are_named() {
+    let clearance = Shape::Spheres(ratio(4, 5)).pile(9).clearance();
+    let apart = |layers| Apart { layers };
+    let touching = |q| clearance.check(&spacing(&q)).unwrap();
+    assert_eq!(touching(ratio(25, 12)), [apart(0)]);
+    assert_eq!(touching(ratio(5, 2)), [apart(2)]);
+    let refused = |q| clearance.check(&spacing(&q)).unwrap_err().to_string();
+    let allowed = "a/R must be at least 5/6*sqrt(3), just below 1.443376 and at most 1/2*sqrt(10) = 1.581138…";
+    assert_eq!(
+        refused(ratio(1, 1)),
+        format!("spacing 1 lets spheres in one layer overlap: {allowed}")
+    );
+    assert_eq!(
+        refused(ratio(64, 25)),
+        format!("spacing 8/5 lets spheres 2 layers apart overlap: {allowed}")
+    );
 }

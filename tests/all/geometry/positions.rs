@@ -3,7 +3,7 @@
 use crate::support::answers::{Shape, below, ratio};
 use crate::support::oracles::overlap;
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::Site;
+use cannonpile::lattice::{Region, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
@@ -193,6 +193,25 @@ fn forces_on_the_floor_in_newtons() {
                 shear_y.scaled(&(&multiple.shear_y * &weight))
             );
             assert!(shape != Shape::Discs || multiple.shear_y.is_zero());
+        }
+    }
+}
+
+/// Of a pile grown up from its base the origin is over the base's site (0, 0), and the steps lead up from there.
+#[test]
+fn positions_are_counted_from_the_site_that_a_pile_was_grown_from() {
+    let base = Region::hexagon(4, 4).unwrap();
+    let top = Region::hexagon(2, 2).unwrap();
+    let spacing = Spacing::new(ratio(1, 1)).unwrap();
+    for signs in ["+--", "++-", "-"] {
+        let grown_up = Pile::on(base, signs.parse().unwrap()).unwrap();
+        let grown_down = Pile::under(top, signs.parse().unwrap()).unwrap();
+        let last = grown_up.layers() - 1;
+        for (pile, k) in [(grown_up, last), (grown_down, 0)] {
+            let origin = Site { i: 0, j: 0, k };
+            let packing = Packing::new(&pile, &spacing).unwrap();
+            let [x, y, _] = packing.position(origin).unwrap();
+            assert_eq!([x, y], [Surd::zero(), Surd::zero()], "{signs}");
         }
     }
 }

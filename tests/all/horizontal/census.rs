@@ -272,3 +272,15 @@ fn what_decides_is_written_by_its_name() {
         assert_eq!(format!("{by:>11}"), format!("{name:>11}"));
     }
 }
+
+/// 12L − 56 entries of L layers, and no more than 10¹¹ of them.
+#[test]
+fn as_many_entries_as_a_census_may_have_are_not_refused() {
+    let most = 8_333_333_338;
+    assert!(census::under_one_sphere(most, true).is_ok());
+    let refused = census::under_one_sphere(most + 1, true).err();
+    assert!(matches!(
+        refused,
+        Some(Error::TooManyRows { rows, .. }) if rows == 100_000_000_012_u64.into()
+    ));
+}

@@ -137,3 +137,22 @@ fn lines_are_counted_at_the_limit() {
     assert_eq!(base.spheres_above(0, 0, Sign::Minus, MAX), [-low; 3]);
     assert_eq!(base.spheres_above(0, 0, Sign::Minus, 5), [5; 3]);
 }
+
+/// From one end of the places a region grows by more steps than there are coordinates on one side.
+#[test]
+fn a_region_grows_from_one_limit_to_the_other() {
+    let half = MAX / 2;
+    let corner = region([-half, -half, -half, -half, -MAX, -MAX]).expect("at the limit");
+    let grown = corner
+        .dilated_by(Sign::Plus, 3 * half)
+        .expect("to the limit");
+    let expected = region([-half, MAX, -half, MAX, -MAX, half]).expect("at the limit");
+    assert_eq!(grown, expected);
+    for steps in [3 * half + 1, 2 * MAX, i128::MAX] {
+        let refused = corner.dilated_by(Sign::Plus, steps);
+        assert!(
+            matches!(refused, Err(Error::RegionTooLarge { .. })),
+            "{steps}"
+        );
+    }
+}

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::support::answers::{Shape, above, below, ratio};
-use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Row, Site, count};
-use cannonpile::shape::{Selection, Shape as Sites};
+use crate::support::cases::stacking;
+use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Region, Row, Site, count};
+use cannonpile::shape::{Anchor, Selection, Shape as Sites};
 use cannonpile::{Error, Pile};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -303,4 +304,58 @@ fn the_last_rows_of_the_greatest_pile() {
             i: 0..MAX_LAYERS
         }]
     );
+}
+
+/// Each corner once, in turn, those of the top first; of one sphere itself, and of nothing none.
+#[test]
+fn corners_come_in_turn_and_once() {
+    let pile = Pile::triangular(4).unwrap();
+    let site = |(i, j, k)| Site { i, j, k };
+    let corners = |part| -> Vec<Site> { pile.rows(part).unwrap().corners().collect() };
+    let base = [(0, 0, 3), (3, 0, 3), (0, 3, 3)].map(site);
+    assert_eq!(corners(Selection::All), [&[Site::APEX], &base[..]].concat());
+    assert_eq!(corners(Selection::Base), [base, base].concat());
+    let one = site((1, 0, 2));
+    assert_eq!(corners(Selection::One(one)), [one]);
+    let none = pile.rows(Selection::Base).unwrap().off_the_floor();
+    assert_eq!(none.corners().count(), 0);
+}
+
+/// On bases away from (0, 0) whose sides vanish one after another on the way up.
+#[test]
+fn piles_on_bases_anywhere_are_counted_as_their_sites() {
+    let mut high = 0;
+    for [x0, x1, y0, y1, s0, s1] in [
+        [3, 20, 5, 18, 12, 33],
+        [-9, 14, 4, 11, -3, 20],
+        [2, 13, -17, 3, -12, 9],
+        [-20, -4, -15, -3, -30, -9],
+        [7, 15, 7, 15, 14, 23],
+    ] {
+        let base = Region::new(x0..=x1, y0..=y1, s0..=s1).unwrap();
+        for pattern in ["+", "-", "+++++-----", "--+++++++"] {
+            for layers in 1.. {
+                let signs = pattern.chars().cycle().take(layers - 1);
+                let signs: String = signs.collect();
+                let Ok(shape) = Sites::on(base, stacking(&signs)) else {
+                    break;
+                };
+                let sites = shape.sites().count();
+                assert_eq!(shape.sphere_count(), sites.into(), "{base} {signs}");
+                high = high.max(layers);
+            }
+        }
+    }
+    assert!(high > 8, "{high}");
+}
+
+#[test]
+fn an_anchor_has_the_name_of_its_option() {
+    assert_eq!(Anchor::Top(Region::SITE).name(), "top");
+    assert_eq!(Anchor::Base(Region::SITE).name(), "base");
+}
+
+#[test]
+fn a_dimension_is_shown_as_its_number() {
+    assert_eq!(SHAPES.map(|dimension| dimension.to_string()), ["2", "3"]);
 }

@@ -160,3 +160,63 @@ fn runs_that_are_none_are_refused() {
     let given = (MAX_LAYERS + 1).into();
     assert_eq!(Stacking::from_runs(more), Err(Error::Layers { given }));
 }
+
+/// Where the fault of a long text is, and what stands there.
+#[test]
+fn the_fault_of_a_long_text_is_located() {
+    let long = "1,".repeat(40);
+    for (text, position, found) in [
+        (format!("x{}", "+".repeat(70)), 1, Some('x')),
+        (format!("{}x+", "+".repeat(70)), 71, Some('x')),
+        // Two equal letters: the second is wrong.
+        (format!("{}CA", "ABC".repeat(30)), 91, Some('C')),
+        (format!("{}xc", "ch".repeat(40)), 81, Some('x')),
+        // Ten places into the brackets, and in the middle of a length.
+        (format!("(12,345,67x8,{long}1)"), 11, Some('x')),
+        (format!("({long}x)"), 82, Some('x')),
+        (format!("({long}12,0,{long}1)"), 85, Some('0')),
+        (format!("-({long}x)"), 83, Some('x')),
+        (format!("({long}1"), 83, None),
+    ] {
+        match text.parse::<Stacking>() {
+            Err(Error::Misspelled {
+                position: at,
+                found: there,
+                ..
+            }) => assert_eq!((at, there), (position, found), "{text}"),
+            other => panic!("{text}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn more_layers_than_can_be_counted_are_refused_as_such() {
+    let beyond = format!("({})", "9".repeat(50));
+    refused(&beyond, "is not a stacking of at most 10^36 layers");
+    // 39 digits, past 2^127; 38 are a number of layers, if too many.
+    refused(
+        &format!("(1,{})", "9".repeat(39)),
+        "of at most 10^36 layers",
+    );
+    refused(
+        &format!("({})", "9".repeat(38)),
+        "layers must be at least 1 and at most 10^36, not 100000000000000000000000000000000000000",
+    );
+}
+
+#[test]
+fn a_text_beyond_the_greatest_length_is_not_read() {
+    let letters = "c".repeat(LONGEST + 2);
+    refused(&letters, "is not a stacking of at most 4000000 characters");
+}
+
+#[test]
+fn signs_are_shown_of_up_to_65_layers() {
+    for steps in [63, 64] {
+        let shown = Stacking::fcc(steps + 1).unwrap().to_string();
+        assert_eq!(shown, "+".repeat(usize::try_from(steps).unwrap()));
+    }
+    let stacking = Stacking::fcc(66).unwrap();
+    assert_eq!(stacking.to_string(), "(65)");
+    assert_eq!(stacking.mirrored().to_string(), "-(65)");
+}
