@@ -528,11 +528,17 @@ def listed(folder):
     path.write_text(said.stdout)
     texts = {}
     faults = []
+    times = collections.Counter()
     for number, one in enumerate(json.loads(said.stdout)):
         file = one["file"]
         if file not in texts:
             texts[file] = (HERE / file).read_text()
-        faults.append(Fault(number, one, texts[file]))
+        fault = Fault(number, one, texts[file])
+        times[fault.key] += 1
+        # The second like it, in the same line or in another that reads the same.
+        if times[fault.key] > 1:
+            fault.key += f" #{times[fault.key]}"
+        faults.append(fault)
     return faults
 
 
