@@ -16,8 +16,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use args::SceneOptions;
 use command::forces::{Base, Contacts};
 use command::{
-    bounds, cases, census, check, completions, ensemble, explain, export, mean, plot, prove, scene,
-    spheres, summary, verify,
+    bounds, cases, census, check, completions, ensemble, explain, export, man, mean, plot, prove,
+    scene, spheres, summary, verify,
 };
 use output::{Failure, complain};
 
@@ -80,6 +80,8 @@ enum Command {
     Plot(plot::Plot),
     /// A script with which a shell completes commands and options
     Completions(completions::Completions),
+    /// Pages of the manual, which man shows, one for each command
+    Man(man::Man),
 }
 
 impl Command {
@@ -104,6 +106,7 @@ impl Command {
             Self::Check(command) => command.run(),
             Self::Plot(command) => command.run(),
             Self::Completions(command) => command.print(Arguments::command()),
+            Self::Man(command) => command.write(Arguments::command()),
         }
     }
 
@@ -127,7 +130,8 @@ impl Command {
             | Self::Merge(_)
             | Self::Prove(_)
             | Self::Check(_)
-            | Self::Completions(_) => return None,
+            | Self::Completions(_)
+            | Self::Man(_) => return None,
         })
     }
 }

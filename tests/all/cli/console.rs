@@ -45,7 +45,7 @@ console! {
     ensemble: 35;
     explain: 12;
     export: 43;
-    help: 18;
+    help: 19;
     mean: 45;
     merge: 13;
     plot: 38;
