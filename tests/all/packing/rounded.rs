@@ -42,7 +42,8 @@ fn rationals() {
 }
 
 macro_rules! quantities {
-    ($($name:ident: $quantity:ident;)*) => {$(
+    ($($(#[$only:meta])? $name:ident: $quantity:ident;)*) => {$(
+        $(#[$only])?
         #[test]
         fn $name() {
             none_is_wrong(|random, cases| Quantity::$quantity.tally(random, cases));
@@ -59,6 +60,9 @@ quantities! {
     unit_forces: UnitForce;
     masses_weights_and_sizes: Weight;
     filled_in_contact_forces: Filled;
+    filled_in_contact_forces_of_stackings: FilledStacking;
+    #[cfg(feature = "horizontal")]
+    elastic_states: Elastic;
 }
 
 /// (2^p + 1)·(1 ± a hair), beside the middle between two floats of p bits: no double-double is near enough.

@@ -1,5 +1,8 @@
 //! Piles of every kind, their spacings, sizes and weights.
 
+#[cfg(feature = "horizontal")]
+use std::sync::OnceLock;
+
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Sign;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
@@ -43,8 +46,29 @@ fn sin_phi(random: &mut Random) -> BigRational {
     ratio(random.of(&[(1, 2), (2, 5), (5, 6), (1, 1_000_000), any, any]))
 }
 
+/// An elastic state of up to eight layers, in which neighbours push each other.
+#[cfg(feature = "horizontal")]
+pub(crate) fn elastic(random: &mut Random) -> Pile {
+    static STATES: OnceLock<Vec<Pile>> = OnceLock::new();
+    let states = STATES.get_or_init(|| {
+        // They stand, and some neighbours push in each.
+        let stackings = ["+-+-+", "+++-++", "+-+-++", "+--+--", "++-+---"];
+        let ratios = [(1, 1), (2, 7), (100, 3)].map(ratio);
+        let states = stackings.into_iter().flat_map(|stacking| {
+            let stacking = stacking.parse().expect("signs");
+            let pile = Pile::under(Region::SITE, stacking).expect("a pile");
+            let state = |ratio| pile.elastic(ratio).expect("a state").pile().clone();
+            ratios.each_ref().map(state)
+        });
+        states.collect()
+    });
+    assert!(states.iter().all(|pile| pile.horizontal_forces().len() > 0));
+    let states: Vec<&Pile> = states.iter().collect();
+    random.of(&states).clone()
+}
+
 /// A pile of up to twelve layers of any stacking, with a few weights and loads.
-fn loaded(random: &mut Random) -> Pile {
+pub(crate) fn loaded(random: &mut Random) -> Pile {
     let [p, q] = [random.within(1..4), random.within(1..4)].map(i128::from);
     let region = random.of(&[
         Region::SITE,

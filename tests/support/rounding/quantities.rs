@@ -1,9 +1,12 @@
 //! The physical quantities of a pile.
 
+use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{RealSign, Surd};
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing};
+use num_rational::BigRational;
+use num_traits::One;
 
 use super::piles::{self, Measure};
 use super::random::Random;
@@ -27,13 +30,18 @@ pub(crate) enum Quantity {
     UnitForce,
     /// Masses, weights and sizes, which are rationals.
     Weight,
-    /// Contact forces filled into slices.
+    /// Contact forces of straight piles filled into slices.
     Filled,
+    /// Those of any stacking, with weights and loads.
+    FilledStacking,
+    /// What neighbours and spheres below each other bear in elastic states, and where.
+    #[cfg(feature = "horizontal")]
+    Elastic,
 }
 
 impl Quantity {
     /// All of them.
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: &'static [Self] = &[
         Self::Contact,
         Self::ContactVector,
         Self::ContactPoint,
@@ -42,6 +50,9 @@ impl Quantity {
         Self::UnitForce,
         Self::Weight,
         Self::Filled,
+        Self::FilledStacking,
+        #[cfg(feature = "horizontal")]
+        Self::Elastic,
     ];
 
     /// What a table calls it.
@@ -55,6 +66,9 @@ impl Quantity {
             Self::UnitForce => "unit force, angles",
             Self::Weight => "mass, weight, sizes",
             Self::Filled => "contact forces filled in",
+            Self::FilledStacking => "the same, stackings",
+            #[cfg(feature = "horizontal")]
+            Self::Elastic => "elastic states",
         }
     }
 
@@ -79,12 +93,17 @@ impl Quantity {
     }
 
     fn one_pile(self, random: &mut Random, tally: &mut Tally) -> Result<(), Error> {
-        let pile = if self == Self::Filled {
-            piles::small(random)
-        } else {
-            piles::any(random)
+        let pile = match self {
+            Self::Filled => piles::small(random),
+            Self::FilledStacking => piles::loaded(random),
+            #[cfg(feature = "horizontal")]
+            Self::Elastic => piles::elastic(random),
+            _ => piles::any(random),
         };
-        let spacing = piles::spacing(&pile, random);
+        let spacing = match pile.horizontal_forces().len() {
+            0 => piles::spacing(&pile, random),
+            _ => Spacing::new(BigRational::one())?,
+        };
         let mut packing = Packing::new(&pile, &spacing)?;
         let floor = pile.layers() - 1;
         let places = [(); 8].map(|()| {
@@ -93,7 +112,12 @@ impl Quantity {
                 // On the floor z is 0, and there are no contacts.
                 _ => random.below(floor),
             };
-            let site = piles::site_of(&pile, k, random);
+            let pushing: Vec<_> = pile.horizontal_forces().collect();
+            let site = if pushing.is_empty() || random.once_in(2) {
+                piles::site_of(&pile, k, random)
+            } else {
+                random.of(&pushing).0.site
+            };
             (site, piles::direction(&pile, random))
         });
         let mut targets = Vec::new();
@@ -115,7 +139,7 @@ impl Quantity {
             packing = piles::resized(packing, self.measure(), target, random)?;
             match self {
                 Self::Weight => weights(&packing, places[0].0, tally)?,
-                Self::Filled => filled(&packing, tally)?,
+                Self::Filled | Self::FilledStacking => filled(&packing, places[0].0.k, tally)?,
                 _ => {
                     for place in places {
                         for exact in self.surds(&packing, place)? {
@@ -135,7 +159,11 @@ impl Quantity {
         (site, direction): (Site, Direction),
     ) -> Result<Vec<Surd>, Error> {
         Ok(match self {
-            Self::Contact | Self::Filled => vec![packing.contact(site, direction)?],
+            Self::Contact | Self::Filled | Self::FilledStacking => {
+                vec![packing.contact(site, direction)?]
+            }
+            #[cfg(feature = "horizontal")]
+            Self::Elastic => elastic(packing, (site, direction))?,
             Self::ContactVector => packing.contact_vector(site, direction)?.into(),
             Self::ContactPoint => packing.contact_point(site, direction)?.into(),
             Self::Position => packing.position(site)?.into(),
@@ -162,49 +190,86 @@ fn weights(packing: &Packing<'_>, site: Site, tally: &mut Tally) -> Result<(), E
     Ok(())
 }
 
-/// The contacts below the last layer that has any: along α in its first row, along γ of each row.
-fn filled(packing: &Packing<'_>, tally: &mut Tally) -> Result<(), Error> {
-    let k = packing.pile().layers() - 2;
-    let mut exact = Vec::new();
-    for i in 0..=k {
-        exact.push(packing.contact(Site { i, j: 0, k }, Direction::Alpha)?);
+/// A contact between layers, if there is one, and those between neighbours that push.
+#[cfg(feature = "horizontal")]
+fn elastic(
+    packing: &Packing<'_>,
+    (site, direction): (Site, Direction),
+) -> Result<Vec<Surd>, Error> {
+    let mut surds = Vec::new();
+    if site.k + 1 < packing.pile().layers() {
+        surds.push(packing.contact(site, direction)?);
+        surds.extend(packing.contact_vector(site, direction)?);
     }
-    for j in 0..=k {
-        exact.push(packing.contact(Site { i: 0, j, k }, Direction::Gamma)?);
+    let horizontal = packing.pile().horizontal_forces();
+    for (contact, force) in horizontal.filter(|(contact, _)| contact.site == site) {
+        let packed = packing.packed_horizontal(contact, force)?;
+        surds.push(packed.force);
+        surds.extend(packed.vector);
+        surds.extend(packed.point);
     }
-    filled_as::<f64>(packing, &exact, tally)?;
-    filled_as::<f32>(packing, &exact, tally)
+    Ok(surds)
+}
+
+/// Which contacts of a layer are judged: along α of its first row, along γ of the first and β of the last sphere of each.
+fn judged(packing: &Packing<'_>, k: i128) -> Result<Vec<(usize, Site, Direction)>, Error> {
+    let mut judged = Vec::new();
+    let mut place = 0;
+    for row in packing.pile().rows(Selection::Layer(k))? {
+        let sites: Vec<Site> = row.into_iter().collect();
+        if place == 0 {
+            let first = sites.iter().enumerate();
+            judged.extend(first.map(|(place, site)| (place, *site, Direction::Alpha)));
+        }
+        let last = place + sites.len() - 1;
+        judged.push((place, sites[0], Direction::Gamma));
+        judged.push((last, sites[sites.len() - 1], Direction::Beta));
+        place = last + 1;
+    }
+    Ok(judged)
+}
+
+/// Contacts below a layer.
+fn filled(packing: &Packing<'_>, k: i128, tally: &mut Tally) -> Result<(), Error> {
+    let judged = judged(packing, k)?;
+    let exact = judged
+        .into_iter()
+        .map(|(place, site, direction)| Ok((place, direction, packing.contact(site, direction)?)))
+        .collect::<Result<Vec<_>, Error>>()?;
+    filled_as::<f64>(packing, k, &exact, tally)?;
+    filled_as::<f32>(packing, k, &exact, tally)
 }
 
 fn filled_as<F: Float>(
     packing: &Packing<'_>,
-    exact: &[Surd],
+    k: i128,
+    exact: &[(usize, Direction, Surd)],
     tally: &mut Tally,
 ) -> Result<(), Error> {
-    let k = packing.pile().layers() - 2;
-    let mut layers = match packing.layers::<F>(Selection::Layer(k)) {
+    match forces_of_layer::<F>(packing, k) {
+        // One force is beyond the floats then, and so is the greatest.
         Err(Error::Overflow { .. }) => {
-            // Then one force is beyond the floats, and so is the greatest.
-            let greatest = exact.iter().max().into_iter();
-            greatest.for_each(|exact| tally.meet_float(None::<F>, exact));
-            return Ok(());
+            let all = packing.magnitudes(Selection::Layer(k))?;
+            let all = all.map(|contact| Ok(contact?.force));
+            let all = all.collect::<Result<Vec<_>, Error>>()?;
+            let greatest = all.iter().max_by_key(|force| force.square());
+            tally.meet_float(None::<F>, greatest.expect("a contact"));
         }
-        layers => layers?,
-    };
+        forces => {
+            let forces = forces?;
+            for (place, direction, exact) in exact {
+                tally.meet_float(Some(forces[direction.index()][*place]), exact);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All forces of a layer on the next, filled in by direction.
+fn forces_of_layer<F: Float>(packing: &Packing<'_>, k: i128) -> Result<[Vec<F>; 3], Error> {
+    let mut layers = packing.layers::<F>(Selection::Layer(k))?;
     let layer = layers.next_layer()?.expect("the layer asked for");
     let mut forces = [(); 3].map(|()| vec![F::zero(); layer.spheres()]);
     layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
-    let [alpha, _, gamma] = forces;
-    let row = usize::try_from(k + 1).unwrap_or(0);
-    let mut rounded = alpha[..row].to_vec();
-    // The first sphere of each row.
-    let mut first = 0;
-    for length in (1..=row).rev() {
-        rounded.push(gamma[first]);
-        first += length;
-    }
-    for (got, exact) in rounded.into_iter().zip(exact) {
-        tally.meet_float(Some(got), exact);
-    }
-    Ok(())
+    Ok(forces)
 }
