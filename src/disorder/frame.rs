@@ -86,7 +86,7 @@ impl<'p> Frame<'p> {
         let size = Size::new(least, greatest, reach, steps);
         // Three lines, two signs, two layers; after so many changes of a first sign that is given there is one sign only.
         let signs = if load.classes > 1 {
-            piles.stackings.first().signs().len()
+            piles.stackings.first_signs().len()
         } else {
             2
         };

@@ -12,7 +12,7 @@ use super::frame::{Frame, Load};
 use super::number::{Number, Part};
 use super::piles::RandomPiles;
 use super::place::Place;
-use super::stackings::{FirstSign, check_fault_probability};
+use super::stackings::check_fault_probability;
 use super::transfer::{Spot, Transfer, shares};
 use super::width::{Width, bits_of_sources};
 use crate::Error;
@@ -309,9 +309,9 @@ impl RandomPiles {
 
     /// How many signs the first step can have: each begins with a share of one.
     pub(super) fn firsts(&self) -> NonZeroI64 {
-        match self.stackings.first() {
-            FirstSign::Random if self.stackings.steps() > 0 => TWO,
-            FirstSign::Random | FirstSign::Plus | FirstSign::Minus => ONE,
+        match self.stackings.first_signs() {
+            [_, _] => TWO,
+            _ => ONE,
         }
     }
 }

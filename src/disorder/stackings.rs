@@ -224,12 +224,18 @@ impl RandomStackings {
         if i128::from(faults) > self.most_faults() {
             return BigUint::zero();
         }
-        if self.layers == 1 {
-            return BigUint::one();
-        }
         let of = self.most_faults().unsigned_abs();
         let stackings = binomial(BigUint::from(of), BigUint::from(faults));
-        stackings * BigUint::from(self.first.signs().len())
+        stackings * BigUint::from(self.first_signs().len())
+    }
+
+    /// Returns the signs that a stacking can begin with, each as likely: of a single layer there is one stacking.
+    pub(super) const fn first_signs(&self) -> &'static [Sign] {
+        if self.layers == 1 {
+            FirstSign::Plus.signs()
+        } else {
+            self.first.signs()
+        }
     }
 
     /// Returns the probabilities that the bottom layer has the registry 0, 1, 2 at the fault probability `q`: that s ≡ 0,

@@ -73,17 +73,11 @@ impl<T: Number, S: Share<T>> Transfer<'_, T, S> {
     /// [`Error::Bug`].
     pub(super) fn run(&self) -> Result<Vec<Spot<T>>, Error> {
         let frame = self.frame;
-        let first = frame.piles.stackings.first().signs();
         let mut walk = Walk::new(
             self.classes,
             frame.steps,
             frame.plus(),
-            // Of a single layer there is one stacking.
-            if frame.steps == 0 {
-                &[Sign::Plus]
-            } else {
-                first
-            },
+            frame.piles.stackings.first_signs(),
             frame.starts(),
         )?;
         let mut layer = self.empty();

@@ -249,13 +249,7 @@ impl Tally {
 
     /// How many first signs there are, each as likely.
     fn first_signs(&self) -> BigInt {
-        let stackings = self.ensemble.stackings();
-        // A single layer has no sign.
-        if stackings.steps() == 0 {
-            BigInt::one()
-        } else {
-            stackings.first().signs().len().into()
-        }
+        self.ensemble.stackings().first_signs().len().into()
     }
 }
 
