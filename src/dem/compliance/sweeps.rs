@@ -2,7 +2,7 @@
 
 use super::{NoCompliance, SoftContact};
 use crate::dem::numbered::nearest;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::lattice::{Direction, Sign, Site};
 use crate::scalar::Surd;
 use crate::shape::Selection;
@@ -209,16 +209,14 @@ impl Frame {
 
 /// So many zeros, where there is room for them.
 fn zeros<T: Clone + Default>(count: usize) -> Result<Vec<T>, Error> {
-    let mut zeros = Vec::new();
-    let room = zeros.try_reserve_exact(count);
-    room.map_err(|_| Error::TooLarge {
-        quantity: "the displacements of all spheres",
-        needed: count.into(),
-        limit: isize::MAX as u64 / 24,
-        remedy: "use fewer layers, or a smaller top or base",
-    })?;
-    zeros.resize(count, T::default());
-    Ok(zeros)
+    let bytes = size_of::<T>();
+    refuse_beyond_memory(
+        "the displacements of all spheres",
+        &count.into(),
+        (isize::MAX as u64 / bytes as u64, bytes),
+        "use fewer layers, or a smaller top or base",
+    )?;
+    Ok(vec![T::default(); count])
 }
 
 fn dot(a: &Arrow, b: &Arrow) -> f64 {

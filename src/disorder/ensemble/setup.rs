@@ -14,7 +14,7 @@ use super::sums::Sums;
 use super::survivors::Survivors;
 use super::{Choice, Ensemble, Shard};
 use crate::Error;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Region, Sign};
 
@@ -126,7 +126,7 @@ impl Task {
             bits => bits / 64 + 5,
         };
         let numbers = BigUint::from(spheres.iter().sum::<u128>() * NUMBERS);
-        refuse_beyond_memory(&(numbers * words))?;
+        refuse_too_many(&(numbers * words))?;
         Ok(Self {
             steps,
             order,
@@ -238,8 +238,8 @@ fn power_of_three(exponent: usize) -> BigInt {
 /// What is kept for each sphere of each layer: what comes down to it and what it passes on, three numbers each.
 const NUMBERS: u128 = 6;
 
-fn refuse_beyond_memory(words: &BigUint) -> Result<(), Error> {
-    crate::error::refuse_beyond_memory(
+fn refuse_too_many(words: &BigUint) -> Result<(), Error> {
+    refuse_beyond_memory(
         "the layers of one stacking",
         words,
         (MOST_WORDS, size_of::<u64>()),
@@ -256,7 +256,7 @@ fn sizes(ensemble: &Ensemble) -> Result<Vec<u128>, Error> {
         let layers = (0..=k).map(|plus| top.grown(plus, k - plus).site_count());
         let most = layers.max().ok_or_else(|| bug("a layer has a region"))?;
         numbers += &most * NUMBERS;
-        refuse_beyond_memory(&numbers)?;
+        refuse_too_many(&numbers)?;
         sizes.push(
             most.to_u128()
                 .ok_or_else(|| bug("what is below the limit fits"))?,
