@@ -115,15 +115,19 @@ fn swept() -> Vec<Pile> {
 #[test]
 fn of_the_base() {
     for pile in piles().into_iter().chain(swept()) {
-        let BaseExtremes {
-            normal_min,
-            normal_max,
-            max_shear_ratio,
-            ..
-        } = pile.base_extremes().unwrap();
-        let found = [normal_min, normal_max, max_shear_ratio.square()];
-        assert_eq!(found, over_all(&pile), "{}", pile.shape().stacking());
+        are_those_over_all(&pile);
     }
+}
+
+fn are_those_over_all(pile: &Pile) {
+    let BaseExtremes {
+        normal_min,
+        normal_max,
+        max_shear_ratio,
+        ..
+    } = pile.base_extremes().unwrap();
+    let found = [normal_min, normal_max, max_shear_ratio.square()];
+    assert_eq!(found, over_all(pile), "{}", pile.shape().stacking());
 }
 
 /// Lines only grow within a run: the least contact is where they begin, and a pull only where the sign changes.
@@ -255,14 +259,7 @@ fn of_a_base_with_one_other_sphere() {
             ]);
         }
         for pile in changed {
-            let BaseExtremes {
-                normal_min,
-                normal_max,
-                max_shear_ratio,
-                ..
-            } = pile.base_extremes().unwrap();
-            let found = [normal_min, normal_max, max_shear_ratio.square()];
-            assert_eq!(found, over_all(&pile), "{stacking}");
+            are_those_over_all(&pile);
         }
     }
 }

@@ -84,6 +84,14 @@ fn far_from_the_axis_too() {
     }
 }
 
+/// Near it, where one float differs from the next.
+#[test]
+fn of_many_digits() {
+    let sin_phi = ratio(412_345_678_901_234_567, 1_000_000_000_000_000_003);
+    let pile = Pile::isosceles(9, sin_phi).unwrap();
+    rows_agree(&pile, pile.rows(Selection::All).unwrap());
+}
+
 /// Layers lie one as far below the other as the next, whichever way they lean.
 #[test]
 fn heights_are_those_of_layers() {

@@ -181,6 +181,7 @@ fn equal_functions_are_equal() {
     );
     assert_ne!(x, y);
     assert_ne!(x, P::one());
+    assert_ne!(constant(1, 2) * &x, constant(1, 3) * &x);
 }
 
 #[test]
