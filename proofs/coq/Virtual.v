@@ -1,0 +1,406 @@
+(** Virtual work of a whole pile with horizontal contacts, and the bounds that follow from it, with their signs. *)
+
+From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
+From Cannonpile Require Import Directions Sums Formulas Balance Straight Floor Stackings Regions Horizontal.
+
+Import ListNotations.
+Open Scope Q_scope.
+
+(** ** Sums over spheres *)
+
+(** The sum over what a list holds. *)
+Fixpoint over {A} (l : list A) (f : A -> Q) : Q :=
+  match l with
+  | [] => 0
+  | x :: rest => f x + over rest f
+  end.
+
+Lemma over_of_same : forall A (l : list A) f g, (forall x, In x l -> f x == g x) -> over l f == over l g.
+Proof.
+  intros A l f g. induction l as [|x l IH]; intros H; cbn [over]; [reflexivity|].
+  rewrite (H x) by (left; reflexivity). rewrite IH by (intros; apply H; right; assumption). reflexivity.
+Qed.
+
+Lemma over_of_sum : forall A (l : list A) f g, over l (fun x => f x + g x) == over l f + over l g.
+Proof. intros A l f g. induction l as [|x l IH]; cbn [over]; [ring|]. rewrite IH. ring. Qed.
+
+Lemma over_of_multiple : forall A (l : list A) c f, over l (fun x => c * f x) == c * over l f.
+Proof. intros A l c f. induction l as [|x l IH]; cbn [over]; [ring|]. rewrite IH. ring. Qed.
+
+Lemma over_of_nothing : forall A (l : list A), over l (fun _ => 0) == 0.
+Proof. intros A l. induction l as [|x l IH]; cbn [over]; [ring|]. rewrite IH. ring. Qed.
+
+Lemma over_is_not_negative : forall A (l : list A) f, (forall x, In x l -> 0 <= f x) -> 0 <= over l f.
+Proof.
+  intros A l f. induction l as [|x l IH]; intros H; cbn [over]; [lra|].
+  assert (0 <= f x) by (apply H; left; reflexivity).
+  assert (0 <= over l f) by (apply IH; intros; apply H; right; assumption). lra.
+Qed.
+
+Lemma over_in_any_order : forall A B (l : list A) (m : list B) f,
+  over l (fun x => over m (fun y => f x y)) == over m (fun y => over l (fun x => f x y)).
+Proof.
+  intros A B l m f. induction l as [|x l IH]; cbn [over]; [symmetry; apply over_of_nothing|].
+  rewrite IH, over_of_sum. reflexivity.
+Qed.
+
+(** A site (i, j) of a layer. *)
+Definition site : Type := Z * Z.
+
+Definition same_site : forall p r : site, {p = r} + {p <> r}.
+Proof. decide equality; apply Z.eq_dec. Defined.
+
+Definition holds (l : list site) (p : site) : bool := member l (fst p) (snd p).
+
+Lemma holds_iff : forall l p, holds l p = true <-> In p l.
+Proof. intros l [i j]. apply member_iff. Qed.
+
+(** One term alone. *)
+Lemma over_one : forall (l : list site) p f, NoDup l ->
+  over l (fun r => if same_site r p then f r else 0) == if holds l p then f p else 0.
+Proof.
+  intros l p f. induction l as [|r l IH]; intros N; cbn [over].
+  - destruct p. reflexivity.
+  - inversion N as [|r' l' H N']; subst. rewrite IH by assumption.
+    destruct (same_site r p) as [E | E].
+    + subst r. replace (holds (p :: l) p) with true by (symmetry; apply holds_iff; left; reflexivity).
+      replace (holds l p) with false by (symmetry; apply not_true_iff_false; rewrite holds_iff; exact H). ring.
+    + replace (holds (r :: l) p) with (holds l p); [ring|].
+      apply eq_true_iff_eq. rewrite !holds_iff. simpl. tauto.
+Qed.
+
+(** What pairs of sites add, one [there] of the other, is summed over either. *)
+Lemma over_moved : forall (l m : list site) there back f, NoDup l -> NoDup m ->
+  (forall p r : site, there r = p <-> r = back p) ->
+  over l (fun p => if holds m (back p) then f (back p) p else 0)
+  == over m (fun r => if holds l (there r) then f r (there r) else 0).
+Proof.
+  intros l m there back f Hl Hm H.
+  transitivity (over l (fun p => over m (fun r => if same_site r (back p) then f r p else 0))).
+  - apply over_of_same. intros p _. rewrite (over_one m (back p) (fun r => f r p)) by assumption. reflexivity.
+  - rewrite over_in_any_order. apply over_of_same. intros r _.
+    rewrite <- (over_one l (there r) (fun p => f r p)) by assumption. apply over_of_same. intros p _.
+    destruct (same_site r (back p)) as [E | E], (same_site p (there r)) as [F | F]; try reflexivity.
+    + apply H in E. congruence.
+    + symmetry in F. apply H in F. contradiction.
+Qed.
+
+(** ** The pile
+
+    Any stacking below any finite top layer (Stackings.v), with forces f of the sloping contacts and X of the horizontal
+    ones: X k x i j is the force with which (i, j) of layer k and the next sphere along the axis x press each other. *)
+Inductive axis := AB | AG | GB.
+
+Definition from (x : axis) : direction := match x with AB | AG => Alpha | GB => Gamma end.
+Definition to (x : axis) : direction := match x with AB | GB => Beta | AG => Gamma end.
+
+(** p + d_b - d_a, and p - d_b + d_a. *)
+Definition next (x : axis) (p : site) : site :=
+  support Plus (above_in Plus (from x) (fst p) (snd p)) (to x).
+Definition last (x : axis) (p : site) : site :=
+  support Plus (above_in Plus (to x) (fst p) (snd p)) (from x).
+
+Lemma next_and_last : forall x p r, next x r = p <-> r = last x p.
+Proof.
+  intros x [i j] [a b]. unfold next, last, support, above_in.
+  destruct x; cbn [from to descent fst snd]; (split; intros E; injection E; intros; f_equal; lia).
+Qed.
+
+Section Pile.
+Variable top : list site.
+Variable step : nat -> sign.
+
+(** The spheres of a layer, each once. *)
+Definition spheres (k : nat) : list site := nodup same_site (layer top step k).
+
+Lemma spheres_are : forall k p, In p (spheres k) <-> In p (layer top step k).
+Proof. intros. apply nodup_In. Qed.
+
+Lemma spheres_once : forall k, NoDup (spheres k).
+Proof. intros. apply NoDup_nodup. Qed.
+
+Lemma holds_spheres : forall k p, holds (spheres k) p = holds (layer top step k) p.
+Proof. intros. apply eq_true_iff_eq. rewrite !holds_iff. apply spheres_are. Qed.
+
+(** The sum over all spheres of L layers. *)
+Definition over_spheres (L : nat) (f : nat -> Z -> Z -> Q) : Q :=
+  total L (fun k => over (spheres k) (fun p => f k (fst p) (snd p))).
+
+Variable f : nat -> Z -> Z -> three Q.
+Variable X : nat -> axis -> Z -> Z -> Q.
+Variable w : nat -> Z -> Z -> Q.
+
+(** Two spheres of a layer touch if both are there. *)
+Definition touches (k : nat) (x : axis) (i j : Z) : bool := holds (layer top step k) (next x (i, j)).
+
+(** With what the next sphere along an axis pushes, and the last. *)
+Definition by_next (k : nat) (i j : Z) (x : axis) : Q := if touches k x i j then X k x i j else 0.
+Definition by_last (k : nat) (i j : Z) (x : axis) : Q :=
+  let p := last x (i, j) in if holds (layer top step k) p then X k x (fst p) (snd p) else 0.
+
+Definition six (by_axis : axis -> Q) : pushes := {| ab := by_axis AB; ag := by_axis AG; gb := by_axis GB |}.
+
+(** Newton's law for a sphere of weight w mg: what its supports, the spheres above, its weight and its neighbours push it
+    with is nothing, in all components. *)
+Definition in_balance_beside (k : nat) (i j : Z) : Prop :=
+  plus_vector
+    (unbalanced (f k i j) (directions_under (1 # 2) (step k)) (arriving top step f k i j)
+       (directions_under (1 # 2) (step_above step k)) (force (w k i j) (weight (increments (1 # 2)))))
+    (push (six (by_next k i j)) (six (by_last k i j))) =v= nothing.
+
+(** Forces that balance all spheres of L layers; the next layer is the floor. *)
+Definition equilibrium (L : nat) : Prop :=
+  forall k i j, (k < L)%nat -> In (i, j) (layer top step k) -> in_balance_beside k i j.
+
+(** No contact pulls. *)
+Definition no_pull (L : nat) : Prop :=
+  forall k i j, (k < L)%nat -> In (i, j) (layer top step k) ->
+    (forall d, 0 <= on d (f k i j)) /\ (forall x, touches k x i j = true -> 0 <= X k x i j).
+
+(** What a sphere passes on, from its balance. *)
+Lemma newton_beside : forall sigma tau g n up x y,
+  plus_vector
+    (unbalanced up (directions_under (1 # 2) tau) g (directions_under (1 # 2) sigma)
+       (force n (weight (increments (1 # 2)))))
+    (push x y) =v= nothing ->
+  let turned := transferred sigma tau g in
+  let h := pushed_by x y in
+  up =3= Three (beside turned.(alpha) n h.(alpha) tau) (beside turned.(beta) n h.(beta) tau)
+               (beside turned.(gamma) n h.(gamma) tau).
+Proof.
+  intros sigma tau [a b c] n [u v z] [x1 x2 x3] [y1 y2 y3] H.
+  destruct sigma, tau; unfold directions_under, transferred, pushed_by, push, plus_three, minus_three,
+    combination, plus_vector, one_on in *; cbn [ab ag gb] in *;
+    formulas_in H; destruct H as (Hx & Hy & Hz); formulas; repeat split; lra.
+Qed.
+
+(** ** The sum of all works
+
+    For any numbers phi: D of a sphere's contacts, Tphi being taken off of their supports, and c of its contacts with the
+    next ones. *)
+Variable phi : nat -> Z -> Z -> three Q.
+
+(** T phi: what phi is for the contacts above a sphere. *)
+Definition felt (k : nat) (p : site) : three Q :=
+  transferred (step_above step k) (step k) (phi k (fst p) (snd p)).
+
+Definition drop (k : nat) (i j : Z) (d : direction) : Q :=
+  lowered (on d (phi k i j)) (on d (felt (S k) (support (step k) (i, j) d))).
+
+Definition squeeze (k : nat) (x : axis) (i j : Z) : Q :=
+  let p := next x (i, j) in compression (phi k i j) (phi k (fst p) (snd p)) (from x) (to x) (step k).
+
+Definition sloping_work (k : nat) (i j : Z) : Q := dot (f k i j) (Three (drop k i j Alpha) (drop k i j Beta) (drop k i j Gamma)).
+
+Definition of_axis (k : nat) (x : axis) (i j : Z) : Q :=
+  if touches k x i j then X k x i j * squeeze k x i j else 0.
+Definition horizontal_work (k : nat) (i j : Z) : Q := of_axis k AB i j + of_axis k AG i j + of_axis k GB i j.
+
+Definition work_of_weight (k : nat) (i j : Z) : Q := w k i j * sum (phi k i j).
+
+(** What the forces that arrive on a layer do there. *)
+Definition arriving_work (k : nat) : Q :=
+  over (spheres k) (fun p => dot (arriving top step f k (fst p) (snd p)) (felt k p)).
+
+(** The horizontal contacts of a layer along an axis: what they do at their two spheres is X c. *)
+Lemma work_along_an_axis : forall k x,
+  over (spheres k) (fun p => times (step k)
+    (dot (phi k (fst p) (snd p)) (pushed (by_next k (fst p) (snd p) x) (from x) (to x) true)
+     + dot (phi k (fst p) (snd p)) (pushed (by_last k (fst p) (snd p) x) (from x) (to x) false)))
+  == over (spheres k) (fun p => of_axis k x (fst p) (snd p)).
+Proof.
+  intros k x.
+  pose (there := fun r p : site => times (step k)
+    (dot (phi k (fst p) (snd p)) (pushed (X k x (fst r) (snd r)) (from x) (to x) false))).
+  transitivity (over (spheres k) (fun p => times (step k)
+      (dot (phi k (fst p) (snd p)) (pushed (by_next k (fst p) (snd p) x) (from x) (to x) true)))
+    + over (spheres k) (fun p => if holds (spheres k) (last x p) then there (last x p) p else 0)).
+  - rewrite <- over_of_sum. apply over_of_same. intros [i j] _. cbn [fst snd]. unfold by_last.
+    rewrite holds_spheres. unfold there. cbn [fst snd].
+    destruct (holds (layer top step k) (last x (i, j))), (step k), x; unfold times, dot; cbn [from to]; formulas; ring.
+  - rewrite (over_moved (spheres k) (spheres k) (next x) (last x)); [|apply spheres_once..|apply next_and_last].
+    rewrite <- over_of_sum. apply over_of_same. intros [i j] _. cbn [fst snd].
+    unfold of_axis, by_next, touches. rewrite holds_spheres. unfold there. cbn [fst snd].
+    destruct (holds (layer top step k) (next x (i, j))).
+    + assert (W := work_of_a_horizontal_contact (from x) (to x) (step k) (phi k i j)
+        (phi k (fst (next x (i, j))) (snd (next x (i, j)))) (X k x i j)).
+      unfold squeeze. rewrite (Qmult_comm (X k x i j)). rewrite <- W by (destruct x; discriminate).
+      destruct (step k); unfold times; ring.
+    + destruct (step k), x; unfold times, dot; cbn [from to]; formulas; ring.
+Qed.
+
+(** Of one sphere. *)
+Lemma work_of_six : forall sigma psi x y,
+  times sigma (dot psi (pushed_by (six x) (six y))) ==
+  times sigma (dot psi (pushed (x AB) Alpha Beta true) + dot psi (pushed (y AB) Alpha Beta false))
+  + times sigma (dot psi (pushed (x AG) Alpha Gamma true) + dot psi (pushed (y AG) Alpha Gamma false))
+  + times sigma (dot psi (pushed (x GB) Gamma Beta true) + dot psi (pushed (y GB) Gamma Beta false)).
+Proof. intros [] [] x y; unfold times, dot, pushed_by, six, plus_three; cbn [ab ag gb]; formulas; ring. Qed.
+
+Lemma dot_of_same : forall psi g h, g =3= h -> dot psi g == dot psi h.
+Proof. intros psi g h (A & B & C). unfold dot. formulas. rewrite A, B, C. reflexivity. Qed.
+
+(** A layer: its balances times phi. *)
+Lemma work_of_a_layer : forall k,
+  (forall i j, In (i, j) (layer top step k) -> in_balance_beside k i j) ->
+  over (spheres k) (fun p => dot (phi k (fst p) (snd p)) (f k (fst p) (snd p)))
+  + over (spheres k) (fun p => horizontal_work k (fst p) (snd p))
+  == arriving_work k + over (spheres k) (fun p => work_of_weight k (fst p) (snd p)).
+Proof.
+  intros k H. unfold horizontal_work. rewrite !over_of_sum. rewrite <- !work_along_an_axis.
+  unfold arriving_work. rewrite <- !over_of_sum. apply over_of_same. intros [i j] Hp. cbn [fst snd].
+  apply spheres_are in Hp. specialize (H i j Hp). apply newton_beside in H. cbv zeta in H.
+  assert (W := work_of_a_sphere (step_above step k) (step k) (phi k i j) (arriving top step f k i j) (w k i j)
+    (pushed_by (six (by_next k i j)) (six (by_last k i j)))).
+  cbv zeta in W. unfold felt, work_of_weight. cbn [fst snd]. rewrite <- W. clear W.
+  rewrite (dot_of_same _ _ _ H). rewrite work_of_six. reflexivity.
+Qed.
+
+(** What arrives from a layer along a line. *)
+Definition arriving_along (k : nat) (d : direction) : Q :=
+  over (spheres (S k)) (fun p => on d (arriving top step f (S k) (fst p) (snd p)) * on d (felt (S k) p)).
+
+Lemma arriving_by_lines : forall k,
+  arriving_work (S k) == arriving_along k Alpha + arriving_along k Beta + arriving_along k Gamma.
+Proof.
+  intros k. unfold arriving_work, arriving_along. rewrite <- !over_of_sum. apply over_of_same. intros p _. reflexivity.
+Qed.
+
+Lemma support_and_above : forall sigma d p r,
+  support sigma r d = p <-> r = above_in sigma d (fst p) (snd p).
+Proof.
+  intros sigma d [i j] [a b]. unfold support, above_in.
+  destruct sigma, d; cbn [descent fst snd]; (split; intros E; injection E; intros; f_equal; lia).
+Qed.
+
+Lemma supports_are_there : forall k p d, In p (layer top step k) -> In (support (step k) p d) (layer top step (S k)).
+Proof.
+  intros k p d H. cbn [layer]. apply in_flat_map. exists p. split; [exact H|]. destruct d; simpl; tauto.
+Qed.
+
+(** It is what the contacts above give. *)
+Lemma arriving_is_given : forall k d, arriving_along k d ==
+  over (spheres k) (fun r => on d (f k (fst r) (snd r)) * on d (felt (S k) (support (step k) r d))).
+Proof.
+  intros k d. unfold arriving_along.
+  transitivity (over (spheres (S k)) (fun p => if holds (spheres k) (above_in (step k) d (fst p) (snd p))
+    then (let r := above_in (step k) d (fst p) (snd p) in on d (f k (fst r) (snd r)) * on d (felt (S k) p)) else 0)).
+  - apply over_of_same. intros [i j] _. rewrite holds_spheres. unfold holds. cbn [fst snd].
+    assert (R : on d (arriving top step f (S k) i j) =
+      let (a, b) := above_in (step k) d i j in if member (layer top step k) a b then on d (f k a b) else 0)
+      by (destruct d; reflexivity).
+    rewrite R. destruct (above_in (step k) d i j) as [a b]. cbn [fst snd].
+    destruct (member (layer top step k) a b); [reflexivity | ring].
+  - rewrite (over_moved (spheres (S k)) (spheres k) (fun r => support (step k) r d)
+      (fun p => above_in (step k) d (fst p) (snd p)) (fun r p => on d (f k (fst r) (snd r)) * on d (felt (S k) p)));
+      [|apply spheres_once..|intros; apply support_and_above].
+    apply over_of_same. intros r H. rewrite holds_spheres.
+    replace (holds (layer top step (S k)) (support (step k) r d)) with true; [reflexivity|].
+    symmetry. apply holds_iff. apply supports_are_there. apply spheres_are. exact H.
+Qed.
+
+(** The sloping contacts of a layer: what is given above less what arrives below. *)
+Lemma work_of_slopes : forall k,
+  over (spheres k) (fun p => sloping_work k (fst p) (snd p)) + arriving_work (S k)
+  == over (spheres k) (fun p => dot (phi k (fst p) (snd p)) (f k (fst p) (snd p))).
+Proof.
+  intros k. rewrite arriving_by_lines, !arriving_is_given. rewrite <- !over_of_sum. apply over_of_same.
+  intros [i j] _. cbn [fst snd]. unfold sloping_work, drop, dot. formulas. ring.
+Qed.
+
+Lemma nothing_arrives_on_top : arriving_work 0 == 0.
+Proof.
+  unfold arriving_work. rewrite <- (over_of_nothing _ (spheres 0)). apply over_of_same. intros p _.
+  unfold dot. cbn [arriving]. formulas. ring.
+Qed.
+
+(** Virtual work, for any phi and any forces in equilibrium under any weights: the work of all sloping contacts, of all
+    horizontal ones, and of what arrives on the floor, is the work of the weights. *)
+Theorem work_on_the_floor : forall L, equilibrium L ->
+  over_spheres L sloping_work + over_spheres L horizontal_work + arriving_work L == over_spheres L work_of_weight.
+Proof.
+  intros L. induction L as [|L IH]; intros E.
+  - unfold over_spheres. cbn [total]. rewrite nothing_arrives_on_top. ring.
+  - assert (B := work_of_a_layer L (fun i j => E L i j (Nat.lt_succ_diag_r L))).
+    specialize (IH (fun k i j H => E k i j (Nat.lt_lt_succ_r _ _ H))).
+    assert (S := work_of_slopes L). unfold over_spheres in *. cbn [total]. lra.
+Qed.
+
+(** With phi = 0 on the floor: sum of f D + sum of X c = sum of w phi. *)
+Theorem virtual_work : forall L, equilibrium L ->
+  (forall i j, In (i, j) (layer top step L) -> phi L i j =3= each 0) ->
+  over_spheres L sloping_work + over_spheres L horizontal_work == over_spheres L work_of_weight.
+Proof.
+  intros L E Z. rewrite <- (work_on_the_floor L E).
+  assert (A : arriving_work L == 0).
+  { unfold arriving_work. rewrite <- (over_of_nothing _ (spheres L)). apply over_of_same. intros [i j] H.
+    apply spheres_are in H. destruct (Z i j H) as (a & b & c). cbn [fst snd]. unfold felt, dot. cbn [fst snd].
+    destruct (step_above step L), (step L); unfold transferred; formulas;
+      cbn [each alpha beta gamma] in a, b, c; rewrite a, b, c; ring. }
+  rewrite A. ring.
+Qed.
+
+(** Where no contact pulls, and no D and no c is negative, the weights work more than what arrives. *)
+Lemma over_spheres_is_not_negative : forall L F,
+  (forall k i j, (k < L)%nat -> In (i, j) (layer top step k) -> 0 <= F k i j) -> 0 <= over_spheres L F.
+Proof.
+  intros L F H. unfold over_spheres. induction L as [|L IH]; cbn [total]; [lra|].
+  assert (0 <= over (spheres L) (fun p => F L (fst p) (snd p))).
+  { apply over_is_not_negative. intros [i j] Hp. apply spheres_are in Hp. apply H; [lia | exact Hp]. }
+  assert (0 <= total L (fun k => over (spheres k) (fun p => F k (fst p) (snd p)))) by (apply IH; intros; apply H; [lia | assumption]).
+  lra.
+Qed.
+
+Lemma over_spheres_of_opposite : forall L F, over_spheres L (fun k i j => - F k i j) == - over_spheres L F.
+Proof.
+  intros L F. unfold over_spheres. induction L as [|L IH]; cbn [total]; [ring|]. rewrite IH.
+  assert (E : over (spheres L) (fun p => - F L (fst p) (snd p)) == - (1) * over (spheres L) (fun p => F L (fst p) (snd p))).
+  { rewrite <- over_of_multiple. apply over_of_same. intros. ring. }
+  rewrite E. ring.
+Qed.
+
+Theorem no_more_than_the_weights : forall L, equilibrium L -> no_pull L ->
+  (forall k i j d, (k < L)%nat -> In (i, j) (layer top step k) -> 0 <= drop k i j d) ->
+  (forall k i j x, (k < L)%nat -> In (i, j) (layer top step k) -> touches k x i j = true -> 0 <= squeeze k x i j) ->
+  arriving_work L <= over_spheres L work_of_weight.
+Proof.
+  intros L E P D C. rewrite <- (work_on_the_floor L E).
+  assert (0 <= over_spheres L sloping_work).
+  { apply over_spheres_is_not_negative. intros k i j Hk Hi. destruct (P k i j Hk Hi) as [F _].
+    unfold sloping_work, dot, by_line, sum. cbn [alpha beta gamma].
+    assert (A := Qmult_le_0_compat _ _ (F Alpha) (D k i j Alpha Hk Hi)).
+    assert (B := Qmult_le_0_compat _ _ (F Beta) (D k i j Beta Hk Hi)).
+    assert (G := Qmult_le_0_compat _ _ (F Gamma) (D k i j Gamma Hk Hi)). cbn [on] in A, B, G. lra. }
+  assert (0 <= over_spheres L horizontal_work).
+  { apply over_spheres_is_not_negative. intros k i j Hk Hi. destruct (P k i j Hk Hi) as [_ F].
+    assert (A : forall x, 0 <= of_axis k x i j).
+    { intros x. unfold of_axis. destruct (touches k x i j) eqn:T; [|lra].
+      apply Qmult_le_0_compat; [apply F | apply C]; assumption. }
+    unfold horizontal_work. assert (A1 := A AB). assert (A2 := A AG). assert (A3 := A GB). lra. }
+  lra.
+Qed.
+
+Theorem no_less_than_the_weights : forall L, equilibrium L -> no_pull L ->
+  (forall k i j d, (k < L)%nat -> In (i, j) (layer top step k) -> drop k i j d <= 0) ->
+  (forall k i j x, (k < L)%nat -> In (i, j) (layer top step k) -> touches k x i j = true -> squeeze k x i j <= 0) ->
+  over_spheres L work_of_weight <= arriving_work L.
+Proof.
+  intros L E P D C. rewrite <- (work_on_the_floor L E).
+  assert (S : 0 <= over_spheres L (fun k i j => - sloping_work k i j)).
+  { apply over_spheres_is_not_negative. intros k i j Hk Hi. destruct (P k i j Hk Hi) as [F _].
+    assert (N : forall d, 0 <= on d (f k i j) * - drop k i j d).
+    { intros d. apply Qmult_le_0_compat; [apply F|]. specialize (D k i j d Hk Hi). lra. }
+    assert (A := N Alpha). assert (B := N Beta). assert (G := N Gamma).
+    unfold sloping_work, dot, by_line, sum. cbn [alpha beta gamma on] in *. lra. }
+  assert (H : 0 <= over_spheres L (fun k i j => - horizontal_work k i j)).
+  { apply over_spheres_is_not_negative. intros k i j Hk Hi. destruct (P k i j Hk Hi) as [_ F].
+    assert (A : forall x, 0 <= - of_axis k x i j).
+    { intros x. unfold of_axis. destruct (touches k x i j) eqn:T; [|lra].
+      assert (0 <= X k x i j * - squeeze k x i j).
+      { apply Qmult_le_0_compat; [apply F; assumption|]. specialize (C k i j x Hk Hi T). lra. }
+      lra. }
+    unfold horizontal_work. assert (A1 := A AB). assert (A2 := A AG). assert (A3 := A GB). lra. }
+  rewrite over_spheres_of_opposite in S, H. lra.
+Qed.
+
+End Pile.
