@@ -404,3 +404,103 @@ Proof.
 Qed.
 
 End Pile.
+
+(** ** Bounds of what rests on a sphere of the floor *)
+
+Section Bound.
+Variable top : list site.
+Variable step : nat -> sign.
+Variable f : nat -> Z -> Z -> three Q.
+Variable X : nat -> axis -> Z -> Z -> Q.
+Variable w : nat -> Z -> Z -> Q.
+Variable K : nat.
+Variable p : site.
+Hypothesis on_the_floor : In p (layer top step K).
+Hypothesis in_equilibrium : equilibrium top step f X w K.
+Hypothesis nothing_pulls : no_pull top step f X K.
+
+(** What rests on it: what the spheres of the last free layer pass on to it. *)
+Definition rests : Q := sum (arriving top step f K (fst p) (snd p)).
+
+Definition truth (b : bool) : Q := if b then 1 else 0.
+Definition is (p r : site) : bool := if same_site r p then true else false.
+
+(** A field on the free spheres, K layers of them, is a certificate if D of its contacts is at least (at most) 1 where they
+    lead to p, 0 elsewhere, and no c is negative (positive). *)
+Variable psi : nat -> Z -> Z -> three Q.
+
+Definition excess (k : nat) (i j : Z) (d : direction) : Q :=
+  if (S k =? K)%nat then lowered (on d (psi k i j)) (truth (is p (support (step k) (i, j) d))) else drop step psi k i j d.
+
+Definition certifies (sigma : sign) : Prop :=
+  (forall k i j d, (k < K)%nat -> In (i, j) (layer top step k) -> 0 <= times sigma (excess k i j d)) /\
+  (forall k i j x, (k < K)%nat -> In (i, j) (layer top step k) -> touches top step k x i j = true ->
+    0 <= times sigma (squeeze step psi k x i j)).
+
+(** That p sinks by 1 with the field is the same. *)
+Definition with_floor (k : nat) (i j : Z) : three Q :=
+  if (k =? K)%nat then each (truth (is p (i, j))) else psi k i j.
+
+Lemma is_iff : forall r, is p r = true <-> r = p.
+Proof. intros r. unfold is. destruct (same_site r p); split; congruence. Qed.
+
+Lemma felt_of_floor : forall r, felt step with_floor K r =3= each (truth (is p r)).
+Proof.
+  intros [i j]. unfold felt, with_floor. rewrite Nat.eqb_refl. cbn [fst snd].
+  destruct (step_above step K), (step K); unfold transferred; by_components.
+Qed.
+
+Lemma drop_with_floor : forall k i j d, (k < K)%nat -> drop step with_floor k i j d == excess k i j d.
+Proof.
+  intros k i j d H. unfold excess, drop.
+  assert (E : with_floor k i j = psi k i j)
+    by (unfold with_floor; destruct (Nat.eqb_spec k K); [lia | reflexivity]).
+  rewrite E. destruct (Nat.eqb_spec (S k) K) as [F | F].
+  - rewrite F. destruct (felt_of_floor (support (step k) (i, j) d)) as (a & b & c).
+    unfold lowered. apply Qplus_comp; [reflexivity|]. apply Qopp_comp. destruct d; cbn [on]; assumption.
+  - unfold felt, with_floor. destruct (Nat.eqb_spec (S k) K); [contradiction | reflexivity].
+Qed.
+
+Lemma squeeze_with_floor : forall k x i j, (k < K)%nat -> squeeze step with_floor k x i j = squeeze step psi k x i j.
+Proof. intros. unfold squeeze, with_floor. destruct (Nat.eqb_spec k K); [lia | reflexivity]. Qed.
+
+Lemma weights_with_floor :
+  over_spheres top step K (work_of_weight w with_floor) == over_spheres top step K (work_of_weight w psi).
+Proof.
+  apply total_of_same. intros k H. apply over_of_same. intros r _. unfold work_of_weight, with_floor.
+  destruct (Nat.eqb_spec k K); [lia | reflexivity].
+Qed.
+
+Lemma what_rests : arriving_work top step f with_floor K == rests.
+Proof.
+  unfold arriving_work, rests.
+  transitivity (over (spheres top step K) (fun r =>
+    if same_site r p then sum (arriving top step f K (fst r) (snd r)) else 0)).
+  - apply over_of_same. intros r _. rewrite (dot_of_same _ _ _ (felt_of_floor r)). unfold is, truth, dot.
+    destruct (same_site r p); formulas; ring.
+  - rewrite (over_one (spheres top step K) p (fun r => sum (arriving top step f K (fst r) (snd r)))) by apply spheres_once.
+    replace (holds (spheres top step K) p) with true; [reflexivity|].
+    symmetry. rewrite holds_spheres. apply holds_iff. exact on_the_floor.
+Qed.
+
+(** Weak duality: no more than the work of the weights rests on p. *)
+Theorem at_most_the_weights : certifies Plus -> rests <= over_spheres top step K (work_of_weight w psi).
+Proof.
+  intros [D C]. rewrite <- weights_with_floor, <- what_rests.
+  apply (no_more_than_the_weights top step f X w with_floor K); try assumption.
+  - intros. rewrite drop_with_floor by assumption. apply (D k i j d); assumption.
+  - intros. rewrite squeeze_with_floor by assumption. apply (C k i j x); assumption.
+Qed.
+
+(** And no less. *)
+Theorem at_least_the_weights : certifies Minus -> over_spheres top step K (work_of_weight w psi) <= rests.
+Proof.
+  intros [D C]. rewrite <- weights_with_floor, <- what_rests.
+  apply (no_less_than_the_weights top step f X w with_floor K); try assumption.
+  - intros. rewrite drop_with_floor by assumption.
+    assert (A : 0 <= times Minus (excess k i j d)) by (apply D; assumption). cbn [times] in A. lra.
+  - intros. rewrite squeeze_with_floor by assumption.
+    assert (A : 0 <= times Minus (squeeze step psi k x i j)) by (apply C; assumption). cbn [times] in A. lra.
+Qed.
+
+End Bound.
