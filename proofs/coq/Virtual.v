@@ -504,3 +504,89 @@ Proof.
 Qed.
 
 End Bound.
+
+(** ** The straight pile under one sphere, of spheres of mg *)
+
+Definition apex : list site := [(0, 0)%Z].
+Definition straight (k : nat) : sign := Plus.
+Definition mg (k : nat) (i j : Z) : Q := 1.
+
+(** Its layers are those of Straight.v. *)
+Lemma layers_of_straight : forall k i j, In (i, j) (layer apex straight k) <-> occupied k i j = true.
+Proof.
+  intros k. induction k as [|k IH]; intros i j; rewrite occupied_iff.
+  - cbn [layer]. simpl. split.
+    + intros [E | []]. injection E. intros. subst. lia.
+    + intros H. left. f_equal; lia.
+  - cbn [layer]. rewrite in_flat_map, Nat2Z.inj_succ. split.
+    + intros ([a b] & H & E). apply IH, occupied_iff in H. unfold support, straight in E. cbn [descent fst snd In] in E.
+      destruct E as [E | [E | [E | []]]]; injection E; intros; subst; lia.
+    + intros H.
+      assert (C : (i + j <= Z.of_nat k \/ (0 < i /\ i + j = Z.succ (Z.of_nat k)) \/ (i = 0 /\ 0 < j))%Z) by lia.
+      destruct C as [C | [C | C]].
+      * exists (i, j). split; [apply IH, occupied_iff; lia|]. left. unfold support. cbn. f_equal; lia.
+      * exists (i - 1, j)%Z. split; [apply IH, occupied_iff; lia|]. right. left. unfold support. cbn. f_equal; lia.
+      * exists (i, j - 1)%Z. split; [apply IH, occupied_iff; lia|]. right. right. left. unfold support. cbn. f_equal; lia.
+Qed.
+
+Lemma holds_straight : forall k p, holds (layer apex straight k) p = occupied k (fst p) (snd p).
+Proof. intros k [i j]. apply eq_true_iff_eq. rewrite holds_iff. apply layers_of_straight. Qed.
+
+(** Forces that balance K layers of it above a floor, of which none pulls. *)
+Definition balanced_beside (f : nat -> Z -> Z -> three Q) (X : nat -> axis -> Z -> Z -> Q) (K : nat) : Prop :=
+  equilibrium apex straight f X mg K /\ no_pull apex straight f X K.
+
+(** What rests on a sphere of its floor, in f0. *)
+Definition rests_on (f : nat -> Z -> Z -> three Q) (K : nat) (p : site) : Q := rests apex straight f K p.
+
+Definition sum_of (K : nat) (psi : nat -> Z -> Z -> three Q) : Q :=
+  over_spheres apex straight K (fun k i j => sum (psi k i j)).
+
+(** A certificate of a straight pile, and what it bounds. *)
+Definition lowers (K : nat) (p : site) (psi : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) (d : direction) : Q :=
+  let r := support Plus (i, j) d in
+  on d (psi k i j) - if (S k =? K)%nat then truth (is p r) else on d (psi (S k) (fst r) (snd r)).
+
+Definition presses (psi : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) (x : axis) : Q :=
+  let r := psi k (fst (next x (i, j))) (snd (next x (i, j))) in
+  (on (to x) (psi k i j) - on (to x) r) + (on (from x) r - on (from x) (psi k i j)).
+
+Definition certificate (sigma : sign) (K : nat) (p : site) (psi : nat -> Z -> Z -> three Q) : Prop :=
+  (forall k i j d, (k < K)%nat -> occupied k i j = true -> 0 <= times sigma (lowers K p psi k i j d)) /\
+  (forall k i j x, (k < K)%nat -> occupied k i j = true ->
+    occupied k (fst (next x (i, j))) (snd (next x (i, j))) = true -> 0 <= times sigma (presses psi k i j x)).
+
+Lemma certificates_certify : forall sigma K p psi,
+  certificate sigma K p psi -> certifies apex straight K p psi sigma.
+Proof.
+  intros sigma K p psi [D C]. split.
+  - intros k i j d Hk H. apply layers_of_straight in H. specialize (D k i j d Hk H).
+    unfold excess, drop, lowers, felt, lowered in *. destruct (S k =? K)%nat; exact D.
+  - intros k i j x Hk H T. apply layers_of_straight in H. specialize (C k i j x Hk H).
+    unfold touches in T. rewrite holds_straight in T.
+    specialize (C T). clear T. unfold squeeze, presses, straight in *.
+    destruct sigma, x; unfold times in *; cbn [from to on] in *; formulas; formulas_in C; lra.
+Qed.
+
+Lemma works_of_mg : forall K psi, over_spheres apex straight K (work_of_weight mg psi) == sum_of K psi.
+Proof.
+  intros K psi. apply total_of_same. intros k _. apply over_of_same. intros p _. unfold work_of_weight, mg. ring.
+Qed.
+
+Theorem at_most : forall f X K p psi, balanced_beside f X K -> occupied K (fst p) (snd p) = true ->
+  certificate Plus K p psi -> rests_on f K p <= sum_of K psi.
+Proof.
+  intros f X K [i j] psi [E P] H C. rewrite <- works_of_mg.
+  apply (at_most_the_weights apex straight f X mg K (i, j)); try assumption.
+  - apply layers_of_straight. exact H.
+  - apply certificates_certify. exact C.
+Qed.
+
+Theorem at_least : forall f X K p psi, balanced_beside f X K -> occupied K (fst p) (snd p) = true ->
+  certificate Minus K p psi -> sum_of K psi <= rests_on f K p.
+Proof.
+  intros f X K [i j] psi [E P] H C. rewrite <- works_of_mg.
+  apply (at_least_the_weights apex straight f X mg K (i, j)); try assumption.
+  - apply layers_of_straight. exact H.
+  - apply certificates_certify. exact C.
+Qed.
