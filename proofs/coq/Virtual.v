@@ -590,3 +590,130 @@ Proof.
   - apply layers_of_straight. exact H.
   - apply certificates_certify. exact C.
 Qed.
+
+(** ** Corners *)
+
+(** The sphere of layer k on the edge along which only one line goes on. *)
+Definition corner (edge : direction) (k : nat) : site :=
+  match edge with Alpha => (0, 0)%Z | Beta => (Z.of_nat k, 0%Z) | Gamma => (0%Z, Z.of_nat k) end.
+
+(** A field that is not 0 on an edge only. *)
+Definition along_the_edge (edge : direction) (phi : nat -> three Q) (k : nat) (i j : Z) : three Q :=
+  if is (corner edge k) (i, j) then phi k else each 0.
+
+(** 1 along the edge; and along all lines, but at the apex. *)
+Definition least_field (edge : direction) : nat -> Z -> Z -> three Q :=
+  along_the_edge edge (fun _ => corner_field edge false).
+Definition greatest_field (edge : direction) : nat -> Z -> Z -> three Q :=
+  along_the_edge edge (fun k => corner_field edge (0 <? k)%nat).
+
+Lemma is_pair : forall a b i j, is (a, b) (i, j) = ((i =? a) && (j =? b))%Z.
+Proof.
+  intros. apply eq_true_iff_eq. rewrite is_iff, andb_true_iff, !Z.eqb_eq.
+  split; [intros E; injection E; auto | intros [E F]; congruence].
+Qed.
+
+Lemma corners_are_there : forall edge k, occupied k (fst (corner edge k)) (snd (corner edge k)) = true.
+Proof. intros [] k; apply occupied_iff; cbn [corner fst snd]; lia. Qed.
+
+Lemma sum_along_the_edge : forall edge phi K, sum_of K (along_the_edge edge phi) == total K (fun k => sum (phi k)).
+Proof.
+  intros edge phi K. apply total_of_same. intros k _.
+  transitivity (over (spheres apex straight k) (fun p => if same_site p (corner edge k) then sum (phi k) else 0)).
+  - apply over_of_same. intros [i j] _. unfold along_the_edge, is. cbn [fst snd].
+    destruct (same_site (i, j) (corner edge k)); [reflexivity | formulas; ring].
+  - rewrite (over_one (spheres apex straight k) (corner edge k) (fun _ => sum (phi k))) by apply spheres_once.
+    rewrite holds_spheres, holds_straight, corners_are_there. reflexivity.
+Qed.
+
+(** Whether numbers are equal, one question after the other, and what cannot be. *)
+Ltac ask :=
+  repeat match goal with
+         | |- context [(?a =? ?b)%Z] => destruct (Z.eqb_spec a b); try (exfalso; lia)
+         | |- context [(?a <=? ?b)%Z] => destruct (Z.leb_spec a b); try (exfalso; lia)
+         | |- context [(?a =? ?b)%nat] => destruct (Nat.eqb_spec a b); try (exfalso; lia)
+         | |- context [(?a <? ?b)%nat] => destruct (Nat.ltb_spec a b); try (exfalso; lia)
+         end.
+
+Ltac on_corners :=
+  unfold lowers, presses, along_the_edge, support, next, above_in;
+  cbn [from to descent fst snd corner]; unfold support; cbn [from to descent fst snd];
+  rewrite ?is_pair; ask; cbn [andb truth corner_field on times each alpha beta gamma]; lra.
+
+Lemma least_certificate : forall edge K, certificate Minus K (corner edge K) (least_field edge).
+Proof.
+  intros edge K. unfold least_field. split.
+  - intros k i j d Hk H. apply occupied_iff in H. destruct edge, d; on_corners.
+  - intros k i j x Hk H N. apply occupied_iff in H, N. unfold next, support, above_in in N.
+    destruct edge, x; cbn [from to descent fst snd] in N; on_corners.
+Qed.
+
+Lemma greatest_certificate : forall edge K, certificate Plus K (corner edge K) (greatest_field edge).
+Proof.
+  intros edge K. unfold greatest_field. split.
+  - intros k i j d Hk H. apply occupied_iff in H. destruct edge, d; on_corners.
+  - intros k i j x Hk H N. apply occupied_iff in H, N. unfold next, support, above_in in N.
+    destruct edge, x; cbn [from to descent fst snd] in N; on_corners.
+Qed.
+
+(** At least K f0 rest on a corner below K layers, however the spheres press each other. *)
+Theorem least_on_a_corner : forall edge f X K, balanced_beside f X K ->
+  least_on_corner (n_of K) <= rests_on f K (corner edge K).
+Proof.
+  intros edge f X K H. assert (B := at_least f X K _ _ H (corners_are_there edge K) (least_certificate edge K)).
+  unfold least_field in B. rewrite sum_along_the_edge in B.
+  assert (E : total K (fun _ => sum (corner_field edge false)) == least_on_corner (n_of K)).
+  { clear. unfold least_on_corner. induction K as [|K IH]; cbn [total]; [reflexivity|].
+    rewrite IH, n_of_S. destruct edge; formulas; ring. }
+  rewrite E in B. exact B.
+Qed.
+
+(** And at most 3K - 2. *)
+Theorem greatest_on_a_corner : forall edge f X K, (1 <= K)%nat -> balanced_beside f X K ->
+  rests_on f K (corner edge K) <= greatest_on_corner (n_of K).
+Proof.
+  intros edge f X K H1 H. assert (B := at_most f X K _ _ H (corners_are_there edge K) (greatest_certificate edge K)).
+  unfold greatest_field in B. rewrite sum_along_the_edge in B.
+  assert (E : total K (fun k => sum (corner_field edge (0 <? k)%nat)) == greatest_on_corner (n_of K)).
+  { clear - H1. induction K as [|K IH]; [lia|]. cbn [total]. destruct K as [|K].
+    - cbn [total Nat.ltb Nat.leb]. unfold n_of. cbn [Z.of_nat]. destruct edge; formulas; reflexivity.
+    - rewrite IH by lia. cbn [Nat.ltb Nat.leb]. unfold greatest_on_corner. rewrite (n_of_S (S K)). destruct edge; formulas; ring. }
+  rewrite E in B. exact B.
+Qed.
+
+(** ** Inside
+
+    A sphere of the floor with a, b, c spheres above it on its lines. *)
+Definition with_at_least (m n : Z) (x y : Z) : bool := ((m <=? x) && (n <=? y))%Z.
+
+Definition inner_field (a b c : nat) (k : nat) (i j : Z) : three Q :=
+  let least := Three (Z.of_nat a) (Z.of_nat b) (Z.of_nat c) in
+  let n := Integers.above i j (Z.of_nat k) in
+  Three (truth (with_at_least least.(beta) least.(gamma) n.(beta) n.(gamma)))
+        (truth (with_at_least least.(gamma) least.(alpha) n.(gamma) n.(alpha)))
+        (truth (with_at_least least.(alpha) least.(beta) n.(alpha) n.(beta))).
+
+Lemma truth_grows : forall a b, (a = true -> b = true) -> 0 <= truth b - truth a.
+Proof. intros [] [] H; cbn [truth]; try lra; specialize (H eq_refl); discriminate. Qed.
+
+Lemma truth_is_not_negative : forall a, 0 <= truth a.
+Proof. intros []; cbn [truth]; lra. Qed.
+
+Lemma with_at_least_iff : forall m n x y, with_at_least m n x y = true <-> (m <= x /\ n <= y)%Z.
+Proof. intros. unfold with_at_least. rewrite andb_true_iff, !Z.leb_le. tauto. Qed.
+
+Definition inner_site (b c : nat) : site := (Z.of_nat b, Z.of_nat c).
+
+Lemma inner_certificate : forall a b c, certificate Plus (a + b + c) (inner_site b c) (inner_field a b c).
+Proof.
+  intros a b c. split.
+  - intros k i j d Hk H. apply occupied_iff in H. unfold lowers, inner_field, inner_site, support.
+    cbn [times]. destruct (Nat.eqb_spec (S k) (a + b + c)) as [E | E]; destruct d;
+      cbn [on descent fst snd Integers.above alpha beta gamma];
+      apply truth_grows; rewrite ?is_pair, ?andb_true_iff, ?Z.eqb_eq, !with_at_least_iff; lia.
+  - intros k i j x Hk H N. apply occupied_iff in H, N. unfold next, support, above_in in N.
+    assert (P : forall u v, 0 <= u -> 0 <= v -> 0 <= u + v) by (intros; lra).
+    unfold presses, inner_field, next, support, above_in. cbn [times].
+    destruct x; cbn [from to descent fst snd] in N; cbn [from to on descent fst snd Integers.above alpha beta gamma];
+      (apply P; apply truth_grows; rewrite !with_at_least_iff; lia).
+Qed.
