@@ -717,3 +717,120 @@ Proof.
     destruct x; cbn [from to descent fst snd] in N; cbn [from to on descent fst snd Integers.above alpha beta gamma];
       (apply P; apply truth_grows; rewrite !with_at_least_iff; lia).
 Qed.
+
+(** A layer, row by row. *)
+Lemma total_of_nothing : forall n, total n (fun _ => 0) == 0.
+Proof. induction n as [|n IH]; cbn [total]; [reflexivity|]. rewrite IH. ring. Qed.
+
+Lemma total_of_one : forall n (z : Z) x, (0 <= z < Z.of_nat n)%Z ->
+  total n (fun m => if (Z.of_nat m =? z)%Z then x else 0) == x.
+Proof.
+  intros n z x. induction n as [|n IH]; intros H; [lia|]. cbn [total].
+  destruct (Z.eqb_spec (Z.of_nat n) z) as [E | E].
+  - transitivity (total n (fun _ => 0) + x); [|rewrite total_of_nothing; ring].
+    apply Qplus_comp; [|reflexivity]. apply total_of_same. intros m Hm.
+    destruct (Z.eqb_spec (Z.of_nat m) z); [lia | reflexivity].
+  - rewrite IH by lia. ring.
+Qed.
+
+Lemma over_total : forall A (l : list A) n (f : A -> nat -> Q),
+  over l (fun p => total n (f p)) == total n (fun m => over l (fun p => f p m)).
+Proof.
+  intros A l n f. induction n as [|n IH]; cbn [total]; [apply over_of_nothing|].
+  rewrite over_of_sum, IH. reflexivity.
+Qed.
+
+Lemma by_rows : forall k F, over (spheres apex straight k) F
+  == total (S k) (fun j => total (S k - j) (fun i => F (Z.of_nat i, Z.of_nat j))).
+Proof.
+  intros k F.
+  transitivity (over (spheres apex straight k) (fun p => total (S k) (fun j => total (S k - j) (fun i =>
+    if same_site p (Z.of_nat i, Z.of_nat j) then F (Z.of_nat i, Z.of_nat j) else 0)))).
+  - apply over_of_same. intros [x y] H. apply spheres_are, layers_of_straight, occupied_iff in H. symmetry.
+    transitivity (total (S k) (fun j => if (Z.of_nat j =? y)%Z then F (x, y) else 0)); [|apply total_of_one; lia].
+    apply total_of_same. intros j Hj. destruct (Z.eqb_spec (Z.of_nat j) y) as [E | E].
+    + transitivity (total (S k - j) (fun i => if (Z.of_nat i =? x)%Z then F (x, y) else 0)); [|apply total_of_one; lia].
+      apply total_of_same. intros i _. destruct (same_site (x, y) (Z.of_nat i, Z.of_nat j)) as [S | S].
+      * rewrite <- S. injection S. intros. destruct (Z.eqb_spec (Z.of_nat i) x); [reflexivity | lia].
+      * destruct (Z.eqb_spec (Z.of_nat i) x); [exfalso; apply S; congruence | reflexivity].
+    + rewrite <- (total_of_nothing (S k - j)). apply total_of_same. intros i _.
+      destruct (same_site (x, y) (Z.of_nat i, Z.of_nat j)) as [S | S]; [exfalso; congruence | reflexivity].
+  - rewrite over_total. apply total_of_same. intros j Hj. rewrite over_total. apply total_of_same. intros i Hi.
+    rewrite (over_one (spheres apex straight k) (Z.of_nat i, Z.of_nat j) (fun _ => F (Z.of_nat i, Z.of_nat j)))
+      by apply spheres_once.
+    rewrite holds_spheres, holds_straight. cbn [fst snd].
+    replace (occupied k (Z.of_nat i) (Z.of_nat j)) with true by (symmetry; apply occupied_iff; lia). reflexivity.
+Qed.
+
+(** A part of a layer that is a layer k' further up, moved by (u, v). *)
+Lemma moved_layer : forall k k' u v here,
+  (forall i j, occupied k i j = true -> here i j = occupied k' (i - u) (j - v)) ->
+  (forall i j, occupied k' i j = true -> occupied k (i + u) (j + v) = true) ->
+  over (spheres apex straight k) (fun p => truth (here (fst p) (snd p)))
+  == over (spheres apex straight k') (fun _ => 1).
+Proof.
+  intros k k' u v here H T.
+  pose (there := fun p : site => ((fst p + u)%Z, (snd p + v)%Z)).
+  pose (back := fun p : site => ((fst p - u)%Z, (snd p - v)%Z)).
+  transitivity (over (spheres apex straight k) (fun p => if holds (spheres apex straight k') (back p) then 1 else 0)).
+  - apply over_of_same. intros [i j] P. apply spheres_are, layers_of_straight in P.
+    rewrite holds_spheres, holds_straight. cbn [fst snd]. rewrite H by exact P. reflexivity.
+  - rewrite (over_moved _ _ there back (fun _ _ => 1)); [|apply spheres_once..|].
+    + apply over_of_same. intros [i j] P. apply spheres_are, layers_of_straight in P.
+      rewrite holds_spheres, holds_straight. unfold there. cbn [fst snd]. rewrite T by exact P. reflexivity.
+    + intros [x y] [i j]. unfold there, back. cbn [fst snd].
+      split; intros E; injection E; intros; f_equal; lia.
+Qed.
+
+Lemma no_part : forall k here, (forall i j, occupied k i j = true -> here i j = false) ->
+  over (spheres apex straight k) (fun p => truth (here (fst p) (snd p))) == 0.
+Proof.
+  intros k here H. rewrite <- (over_of_nothing _ (spheres apex straight k)). apply over_of_same. intros [i j] P.
+  apply spheres_are, layers_of_straight in P. cbn [fst snd]. rewrite H by exact P. reflexivity.
+Qed.
+
+(** So below s layers without any, l layers have the spheres of a pile. *)
+Lemma moved_pile : forall l s u v (here : nat -> Z -> Z -> bool),
+  (forall k i j, (s <= k)%nat -> occupied k i j = true -> here k i j = occupied (k - s) (i - u) (j - v)) ->
+  (forall k i j, (s <= k)%nat -> occupied (k - s) i j = true -> occupied k (i + u) (j + v) = true) ->
+  (forall k i j, (k < s)%nat -> occupied k i j = true -> here k i j = false) ->
+  over_spheres apex straight (l + s) (fun k i j => truth (here k i j)) == spheres_3 (n_of l).
+Proof.
+  intros l s u v here H T N. rewrite <- spheres_of_a_pile. unfold over_spheres, total_over_pile.
+  induction l as [|l IH].
+  - cbn [Nat.add total]. rewrite <- (total_of_nothing s). apply total_of_same. intros k Hk.
+    apply no_part. intros. apply N; assumption.
+  - cbn [Nat.add total]. rewrite IH. apply Qplus_comp; [reflexivity|].
+    rewrite (moved_layer (l + s) l u v).
+    + apply by_rows.
+    + intros i j P. rewrite H by (try exact P; lia). rewrite Nat.add_sub. reflexivity.
+    + intros i j P. apply T; [lia|]. rewrite Nat.add_sub. exact P.
+Qed.
+
+Lemma sum_of_inner : forall a b c,
+  sum_of (a + b + c) (inner_field a b c) == greatest_inside (Three (n_of a) (n_of b) (n_of c)).
+Proof.
+  intros a b c.
+  rewrite <- inner_greatest. cbv zeta. rewrite !spheres_of_a_pile.
+  rewrite <- (moved_pile a (b + c) (Z.of_nat b) (Z.of_nat c) (fun k i j =>
+    with_at_least (Z.of_nat b) (Z.of_nat c) i j)).
+  rewrite <- (moved_pile b (a + c) 0 (Z.of_nat c) (fun k i j =>
+    with_at_least (Z.of_nat c) (Z.of_nat a) j (Z.of_nat k - i - j))).
+  rewrite <- (moved_pile c (a + b) (Z.of_nat b) 0 (fun k i j =>
+    with_at_least (Z.of_nat a) (Z.of_nat b) (Z.of_nat k - i - j) i)).
+  1: replace (b + (a + c))%nat with (a + b + c)%nat by lia;
+    replace (c + (a + b))%nat with (a + b + c)%nat by lia; rewrite Nat.add_assoc;
+    unfold sum_of, over_spheres; rewrite <- !total_of_sum; apply total_of_same; intros k _;
+    rewrite <- !over_of_sum; apply over_of_same; intros p _; reflexivity.
+  all: intros k i j Hk P; rewrite occupied_iff in *;
+    try (apply eq_true_iff_eq; rewrite occupied_iff, with_at_least_iff); 
+    try (apply not_true_iff_false; rewrite with_at_least_iff); lia.
+Qed.
+
+(** At most the sum of C(n_l + 2, 3) rests on a sphere of the floor with n_l spheres above it on its lines. *)
+Theorem greatest_on_any_sphere : forall a b c f X, balanced_beside f X (a + b + c) ->
+  rests_on f (a + b + c) (inner_site b c) <= greatest_inside (Three (n_of a) (n_of b) (n_of c)).
+Proof.
+  intros a b c f X H. rewrite <- sum_of_inner. apply (at_most f X); [exact H | | apply inner_certificate].
+  apply occupied_iff. cbn [inner_site fst snd]. lia.
+Qed.
