@@ -834,3 +834,325 @@ Proof.
   intros a b c f X H. rewrite <- sum_of_inner. apply (at_most f X); [exact H | | apply inner_certificate].
   apply occupied_iff. cbn [inner_site fst snd]. lia.
 Qed.
+
+(** ** Edges
+
+    A sphere of the floor with k spheres above it along a, j along b and none along the third line. *)
+Definition same_line (a b : direction) : bool :=
+  match a, b with Alpha, Alpha | Beta, Beta | Gamma, Gamma => true | _, _ => false end.
+
+Definition placed (a b : direction) (x y : Z) : site :=
+  let on_line d := if same_line a d then x else if same_line b d then y else 0%Z in
+  (on_line Beta, on_line Gamma).
+
+(** The spheres on which the field is 1: along a, along b, along the third line. *)
+Definition along_first (k j c x y : Z) : bool := ((y =? j) && (x <? k) || (j <? y) && (x + y <? j + c))%Z.
+Definition along_second (j c x y : Z) : bool := ((c <=? x) && (y <=? j))%Z.
+Definition along_third (k j c x y : Z) : bool :=
+  along_first k j c x y && (1 <=? x)%Z || along_second j c x y && (1 <=? y)%Z.
+
+Definition along_line (a b : direction) (k j c : nat) (d : direction) (x y : Z) : bool :=
+  let '(k, j, c) := (Z.of_nat k, Z.of_nat j, Z.of_nat c) in
+  if same_line a d then along_first k j c x y
+  else if same_line b d then along_second j c x y else along_third k j c x y.
+
+Definition edge_part (a b : direction) (k j c : nat) (d : direction) (m : nat) (p : site) : bool :=
+  let n := Integers.above (fst p) (snd p) (Z.of_nat m) in
+  (on a n + on b n =? Z.of_nat m)%Z && along_line a b k j c d (on a n) (on b n).
+
+Definition edge_field (a b : direction) (k j c m : nat) (i l : Z) : three Q :=
+  let part d := truth (edge_part a b k j c d m (i, l)) in Three (part Alpha) (part Beta) (part Gamma).
+
+Lemma on_edge_field : forall a b k j c m i l d,
+  on d (edge_field a b k j c m i l) = truth (edge_part a b k j c d m (i, l)).
+Proof. intros. destruct d; reflexivity. Qed.
+
+Lemma truth_grows_together : forall a b c d,
+  (b = true -> a = true \/ c = true) -> (d = true -> a = true \/ c = true) ->
+  (b = true -> d = true -> a = true /\ c = true) -> 0 <= truth a - truth b + (truth c - truth d).
+Proof. intros [] [] [] []; cbn [truth]; intros A B C; try lra; intuition discriminate. Qed.
+
+Ltac parts :=
+  unfold along_third, along_first, along_second;
+  rewrite ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?Z.eqb_eq, ?Z.ltb_lt, ?Z.leb_le.
+
+(** D and c by lines, whichever two of the three the first two are: x and y are the counts along these. *)
+Section Signs.
+Variables k j c m below x y x' y' : Z.
+Hypothesis Hc : (1 <= c <= k)%Z.
+Hypothesis Hx : (0 <= x)%Z.
+Hypothesis Hy : (0 <= y)%Z.
+Hypothesis Hm : (x + y <= m)%Z.
+
+Definition of_edge (part : Z -> Z -> bool) (m x y : Z) : Q := truth ((x + y =? m)%Z && part x y).
+
+Lemma first_lowers : below = (m + 1)%Z -> x' = (x + 1)%Z -> y' = y ->
+  0 <= of_edge (along_first k j c) m x y - of_edge (along_first k j c) below x' y'.
+Proof. intros. apply truth_grows. parts. lia. Qed.
+
+Lemma second_lowers : below = (m + 1)%Z -> x' = x -> y' = (y + 1)%Z ->
+  0 <= of_edge (along_second j c) m x y - of_edge (along_second j c) below x' y'.
+Proof. intros. apply truth_grows. parts. lia. Qed.
+
+Lemma third_lowers : below = (m + 1)%Z -> x' = x -> y' = y ->
+  0 <= of_edge (along_third k j c) m x y - of_edge (along_third k j c) below x' y'.
+Proof. intros. apply truth_grows. rewrite !andb_true_iff, !Z.eqb_eq. lia. Qed.
+
+Lemma first_to_second_presses : x' = (x - 1)%Z -> y' = (y + 1)%Z -> (1 <= x)%Z ->
+  0 <= (of_edge (along_second j c) m x y - of_edge (along_second j c) m x' y')
+       + (of_edge (along_first k j c) m x' y' - of_edge (along_first k j c) m x y).
+Proof. intros. apply truth_grows_together; parts; lia. Qed.
+
+Lemma first_to_third_presses : x' = (x - 1)%Z -> y' = y -> (1 <= x)%Z ->
+  0 <= (of_edge (along_third k j c) m x y - of_edge (along_third k j c) m x' y')
+       + (of_edge (along_first k j c) m x' y' - of_edge (along_first k j c) m x y).
+Proof. intros. apply truth_grows_together; parts; lia. Qed.
+
+Lemma second_to_third_presses : x' = x -> y' = (y - 1)%Z -> (1 <= y)%Z ->
+  0 <= (of_edge (along_third k j c) m x y - of_edge (along_third k j c) m x' y')
+       + (of_edge (along_second j c) m x' y' - of_edge (along_second j c) m x y).
+Proof. intros. apply truth_grows_together; parts; lia. Qed.
+
+End Signs.
+
+(** The same contact from its other end. *)
+Lemma from_the_other_end : forall a b c d, 0 <= a - b + (c - d) -> 0 <= c - d + (a - b).
+Proof. intros. lra. Qed.
+
+Ltac by_counts :=
+  unfold edge_part, along_line; cbn [same_line fst snd on Integers.above alpha beta gamma].
+
+Ltac lowering :=
+  lazymatch goal with
+  | |- 0 <= truth (_ && along_first _ _ _ _ _) - _ => apply first_lowers
+  | |- 0 <= truth (_ && along_second _ _ _ _) - _ => apply second_lowers
+  | |- 0 <= truth (_ && along_third _ _ _ _ _) - _ => apply third_lowers
+  end.
+
+Ltac pressing :=
+  lazymatch goal with
+  | |- 0 <= truth (_ && along_first _ _ _ _ _) - _ + _ => apply from_the_other_end; pressing
+  | |- 0 <= truth (_ && along_second _ _ _ _) - _ + (truth (_ && along_third _ _ _ _ _) - _) =>
+      apply from_the_other_end; pressing
+  | |- 0 <= _ + (truth (_ && along_second _ _ _ _) - _) => apply second_to_third_presses
+  | |- 0 <= truth (_ && along_second _ _ _ _) - _ + _ => apply first_to_second_presses
+  | |- 0 <= truth (_ && along_third _ _ _ _ _) - _ + _ => apply first_to_third_presses
+  end.
+
+Lemma edge_certificate : forall a b k j c, a <> b -> (1 <= c <= k)%nat ->
+  certificate Plus (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) (edge_field a b k j c).
+Proof.
+  intros a b k j c D Hc. split.
+  - intros m i l d Hm H. apply occupied_iff in H. unfold lowers, support. rewrite on_edge_field. cbn [times].
+    destruct (Nat.eqb_spec (S m) (k + j)) as [E | E].
+    + apply truth_grows. unfold placed.
+      destruct a, b; try congruence; destruct d; cbn [descent fst snd]; by_counts; rewrite is_pair; parts; lia.
+    + rewrite on_edge_field.
+      destruct a, b; try congruence; destruct d; cbn [descent fst snd]; by_counts;
+        lowering; lia.
+  - intros m i l x Hm H N. apply occupied_iff in H, N.
+    unfold presses. rewrite !on_edge_field. cbn [times].
+    unfold next, support, above_in in *.
+    destruct a, b; try congruence; destruct x; cbn [from to descent fst snd] in N |- *; by_counts;
+      pressing; lia.
+Qed.
+
+(** The row of a layer that is on the edge, as a sum. *)
+Lemma over_edge : forall a b m (F : Z -> Z -> bool), a <> b ->
+  over (spheres apex straight m) (fun p =>
+    let n := Integers.above (fst p) (snd p) (Z.of_nat m) in
+    truth ((on a n + on b n =? Z.of_nat m)%Z && F (on a n) (on b n)))
+  == total (S m) (fun y => truth (F (Z.of_nat m - Z.of_nat y)%Z (Z.of_nat y))).
+Proof.
+  intros a b m F D.
+  pose (at_row := fun y : nat => placed a b (Z.of_nat m - Z.of_nat y) (Z.of_nat y)).
+  transitivity (over (spheres apex straight m) (fun p => total (S m) (fun y =>
+    if same_site p (at_row y) then truth (F (Z.of_nat m - Z.of_nat y)%Z (Z.of_nat y)) else 0))).
+  - apply over_of_same. intros [i l] H. apply spheres_are, layers_of_straight, occupied_iff in H. cbv zeta. cbn [fst snd].
+    set (n := Integers.above i l (Z.of_nat m)).
+    assert (I : forall y : nat, (i, l) = at_row y <-> (on a n + on b n = Z.of_nat m /\ Z.of_nat y = on b n)%Z).
+    { intros y. unfold n, at_row, placed.
+      destruct a, b; try congruence; cbn [same_line on Integers.above alpha beta gamma];
+        (split; [intros E; injection E; intros; lia | intros; f_equal; lia]). }
+    destruct (Z.eqb_spec (on a n + on b n) (Z.of_nat m)) as [E | E].
+    + symmetry. cbn [andb].
+      transitivity (total (S m) (fun y => if (Z.of_nat y =? on b n)%Z then truth (F (on a n) (on b n)) else 0)).
+      * apply total_of_same. intros y _.
+        destruct (same_site (i, l) (at_row y)) as [S | S]; [apply I in S | rewrite I in S];
+          destruct (Z.eqb_spec (Z.of_nat y) (on b n)) as [R | R]; try reflexivity; try (exfalso; tauto).
+        rewrite R. replace (Z.of_nat m - on b n)%Z with (on a n) by lia. reflexivity.
+      * apply total_of_one. unfold n in *. destruct a, b; try congruence; cbn [on Integers.above alpha beta gamma] in *; lia.
+    + cbn [andb truth]. symmetry. rewrite <- (total_of_nothing (S m)). apply total_of_same. intros y _.
+      destruct (same_site (i, l) (at_row y)) as [S | S]; [apply I in S; exfalso; tauto | reflexivity].
+  - rewrite over_total. apply total_of_same. intros y Hy.
+    rewrite (over_one (spheres apex straight m) (at_row y) (fun _ => truth (F (Z.of_nat m - Z.of_nat y)%Z (Z.of_nat y))))
+      by apply spheres_once.
+    rewrite holds_spheres, holds_straight.
+    replace (occupied m (fst (at_row y)) (snd (at_row y))) with true; [reflexivity|].
+    symmetry. unfold at_row, placed. cbn [fst snd]. apply occupied_iff.
+    destruct a, b; try congruence; cbn [same_line]; lia.
+Qed.
+
+(** All rows of an edge, by rows along a. *)
+Lemma rows_along : forall K (F : Z -> Z -> Q),
+  total K (fun m => total (S m) (fun y => F (Z.of_nat m - Z.of_nat y)%Z (Z.of_nat y)))
+  == total K (fun y => total (K - y) (fun x => F (Z.of_nat x) (Z.of_nat y))).
+Proof.
+  intros K F. induction K as [|K IH]; [reflexivity|].
+  cbn [total] in IH |- *. rewrite IH.
+  transitivity (total K (fun y => total (K - y) (fun x => F (Z.of_nat x) (Z.of_nat y)) + F (Z.of_nat K - Z.of_nat y)%Z (Z.of_nat y))
+    + F (Z.of_nat K - Z.of_nat K)%Z (Z.of_nat K)).
+  - rewrite total_of_sum. ring.
+  - apply Qplus_comp.
+    + apply total_of_same. intros y Hy. replace (S K - y)%nat with (S (K - y)) by lia. cbn [total].
+      rewrite Nat2Z.inj_sub by lia. reflexivity.
+    + replace (S K - K)%nat with 1%nat by lia. cbn [total]. change (Z.of_nat 0) with 0%Z. rewrite Z.sub_diag. ring.
+Qed.
+
+(** How many of a row are from one place on up to another. *)
+Lemma count_from_to : forall n lo hi (F : nat -> bool), (lo <= hi <= n)%nat ->
+  (forall x, (x < n)%nat -> (F x = true <-> (lo <= x < hi)%nat)) ->
+  total n (fun x => truth (F x)) == n_of hi - n_of lo.
+Proof.
+  intros n lo hi F. revert lo hi. induction n as [|n IH]; intros lo hi H E.
+  - assert (lo = 0%nat) by lia. assert (hi = 0%nat) by lia. subst. reflexivity.
+  - cbn [total]. specialize (E n (Nat.lt_succ_diag_r n)) as En.
+    destruct (F n) eqn:Fn; cbn [truth].
+    + assert (lo <= n < hi)%nat by (apply En; reflexivity). assert (hi = S n) by lia. subst hi.
+      rewrite (IH lo n) by (try lia; intros; rewrite E by lia; lia). rewrite n_of_S. ring.
+    + assert (N : ~ (lo <= n < hi)%nat) by (intros N; apply En in N; discriminate).
+      destruct (Nat.eq_dec lo (S n)) as [L | L].
+      * assert (hi = S n) by lia. subst.
+        rewrite (IH n n) by (try lia; intros; rewrite E by lia; lia). ring.
+      * destruct (Nat.eq_dec hi (S n)) as [M | M].
+        -- assert (lo = hi) by lia. lia.
+        -- rewrite (IH lo hi) by (try lia; intros; rewrite E by lia; lia). ring.
+Qed.
+
+Lemma total_in_two : forall a b f, total (a + b) f == total a f + total b (fun m => f (a + m)%nat).
+Proof.
+  intros a b f. induction b as [|b IH]; [rewrite Nat.add_0_r; cbn [total]; ring|].
+  rewrite Nat.add_succ_r. cbn [total]. rewrite IH. ring.
+Qed.
+
+Lemma total_counting_down : forall n A, total n (fun y => A - n_of y) == A * n_of n - n_of n * (n_of n - 1) * (1 # 2).
+Proof.
+  intros n A. apply (total_is (fun y => A - y) (fun x => A * x - x * (x - 1) * (1 # 2)));
+    [intros ? ? ?; congruent | ring | intros; ring].
+Qed.
+
+(** The three sums over a row y: below j, at j, and above it. *)
+Section Rows.
+Variables k j c : nat.
+Hypothesis Hj : (1 <= j)%nat.
+Hypothesis Hc : (1 <= c <= k)%nat.
+
+Definition row (part : Z -> Z -> bool) (y : nat) : Q :=
+  total (k + j - y) (fun x => truth (part (Z.of_nat x) (Z.of_nat y))).
+
+Let first := along_first (Z.of_nat k) (Z.of_nat j) (Z.of_nat c).
+Let second := along_second (Z.of_nat j) (Z.of_nat c).
+Let third := along_third (Z.of_nat k) (Z.of_nat j) (Z.of_nat c).
+
+Ltac counted lo hi :=
+  unfold row; rewrite (count_from_to _ lo hi);
+  [| lia |
+   intros; unfold first, second, third, along_third, along_first, along_second;
+   rewrite ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?Z.eqb_eq, ?Z.ltb_lt, ?Z.leb_le; lia].
+
+Lemma rows_of_first : total (k + j) (row first) == n_of k + (n_of c - 1) * n_of c * (1 # 2).
+Proof.
+  replace (k + j)%nat with (j + (1 + ((c - 1) + (k - c))))%nat by lia. rewrite !total_in_two.
+  assert (A : total j (row first) == 0).
+  { rewrite <- (total_of_nothing j). apply total_of_same. intros y Hy. counted 0%nat 0%nat. ring. }
+  assert (B : total 1 (fun m => row first (j + m)) == n_of k).
+  { cbn [total]. counted 0%nat k. rewrite n_of_0. ring. }
+  assert (C : total (c - 1) (fun m => row first (j + (1 + m))) == total (c - 1) (fun m => n_of c - 1 - n_of m)).
+  { apply total_of_same. intros y Hy. counted 0%nat (c - 1 - y)%nat. rewrite !n_of_sub by lia. rewrite n_of_0.
+    change (n_of 1) with 1. ring. }
+  assert (D : total (k - c) (fun m => row first (j + (1 + (c - 1 + m)))) == 0).
+  { rewrite <- (total_of_nothing (k - c)). apply total_of_same. intros y Hy. counted 0%nat 0%nat. ring. }
+  rewrite A, B, C, D, total_counting_down, n_of_sub by lia. change (n_of 1) with 1. ring.
+Qed.
+
+Lemma rows_of_second : total (k + j) (row second)
+  == (n_of k + n_of j - n_of c) * (n_of j + 1) - (n_of j + 1) * n_of j * (1 # 2).
+Proof.
+  replace (k + j)%nat with (S j + (k - 1))%nat by lia. rewrite !total_in_two.
+  assert (A : total (S j) (row second) == total (S j) (fun y => n_of k + n_of j - n_of c - n_of y)).
+  { apply total_of_same. intros y Hy. counted c (k + j - y)%nat. rewrite n_of_sub by lia.
+    unfold n_of at 1. rewrite Nat2Z.inj_add, inject_Z_plus. fold (n_of k) (n_of j). ring. }
+  assert (B : total (k - 1) (fun m => row second (S j + m)) == 0).
+  { rewrite <- (total_of_nothing (k - 1)). apply total_of_same. intros y Hy. counted 0%nat 0%nat. ring. }
+  rewrite A, B, total_counting_down, n_of_S. ring.
+Qed.
+
+Lemma rows_of_third : total (k + j) (row third)
+  == (n_of k + n_of j - n_of c) * (n_of j - 1) - n_of j * (n_of j - 1) * (1 # 2)
+     + (n_of k - 1) + (n_of c - 1) * (n_of c - 2) * (1 # 2).
+Proof.
+  replace (k + j)%nat with (1 + ((j - 1) + (1 + ((c - 1) + (k - c)))))%nat by lia. rewrite !total_in_two.
+  assert (Z : total 1 (row third) == 0).
+  { cbn [total]. counted 0%nat 0%nat. ring. }
+  assert (A : total (j - 1) (fun m => row third (1 + m)) == total (j - 1) (fun y => n_of k + n_of j - n_of c - 1 - n_of y)).
+  { apply total_of_same. intros y Hy. counted c (k + j - (1 + y))%nat. rewrite n_of_sub by lia.
+    unfold n_of at 1. rewrite Nat2Z.inj_add, inject_Z_plus. fold (n_of k) (n_of j).
+    change (1 + y)%nat with (S y). rewrite n_of_S. ring. }
+  assert (B : total 1 (fun m => row third (1 + (j - 1 + m))) == n_of k - 1).
+  { cbn [total]. counted 1%nat k. change (n_of 1) with 1. ring. }
+  assert (C : total (c - 1) (fun m => row third (1 + (j - 1 + (1 + m)))) == total (c - 1) (fun m => n_of c - 2 - n_of m)).
+  { apply total_of_same. intros y Hy. counted 1%nat (c - 1 - y)%nat. rewrite !n_of_sub by lia.
+    change (n_of 1) with 1. ring. }
+  assert (D : total (k - c) (fun m => row third (1 + (j - 1 + (1 + (c - 1 + m))))) == 0).
+  { rewrite <- (total_of_nothing (k - c)). apply total_of_same. intros y Hy. counted 0%nat 0%nat. ring. }
+  rewrite Z, A, B, C, D, !total_counting_down, !n_of_sub by lia. change (n_of 1) with 1. ring.
+Qed.
+
+End Rows.
+
+Lemma sum_of_edge : forall a b k j c, a <> b -> (1 <= j)%nat -> (1 <= c <= k)%nat ->
+  sum_of (k + j) (edge_field a b k j c) == greatest_on_edge (n_of k) (n_of j) (n_of c).
+Proof.
+  intros a b k j c D Hj Hc.
+  assert (R : forall d, over_spheres apex straight (k + j) (fun m i l => truth (edge_part a b k j c d m (i, l)))
+    == total (k + j) (row k j (along_line a b k j c d))).
+  { intros d. unfold row. rewrite <- (rows_along (k + j) (fun x y => truth (along_line a b k j c d x y))).
+    apply total_of_same. intros m _. rewrite <- (over_edge a b m (along_line a b k j c d) D).
+    apply over_of_same. intros [i l] _. reflexivity. }
+  transitivity (total (k + j) (row k j (along_line a b k j c Alpha)) + total (k + j) (row k j (along_line a b k j c Beta))
+    + total (k + j) (row k j (along_line a b k j c Gamma))).
+  - rewrite <- !R. unfold sum_of, over_spheres. rewrite <- !total_of_sum. apply total_of_same. intros m _.
+    rewrite <- !over_of_sum. apply over_of_same. intros p _. reflexivity.
+  - assert (A := rows_of_first k j c Hj Hc). assert (B := rows_of_second k j c Hj Hc).
+    assert (C := rows_of_third k j c Hj Hc).
+    destruct a, b; try congruence; unfold along_line; cbn [same_line];
+      match goal with |- ?s == _ => ring_simplify s end; rewrite A, B, C; formulas; ring.
+Qed.
+
+(** For every c. *)
+Theorem greatest_on_an_edge_for : forall a b k j c f X, a <> b -> (1 <= j)%nat -> (1 <= c <= k)%nat ->
+  balanced_beside f X (k + j) ->
+  rests_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) <= greatest_on_edge (n_of k) (n_of j) (n_of c).
+Proof.
+  intros a b k j c f X D Hj Hc H. rewrite <- (sum_of_edge a b k j c D Hj Hc).
+  apply (at_most f X); [exact H | | apply edge_certificate; assumption].
+  apply occupied_iff. unfold placed. destruct a, b; try congruence; cbn [same_line fst snd]; lia.
+Qed.
+
+(** The bound is that for c = min(j+1, k): 2(j+1)(k-1) + 1 rest on it at most, and 2k^2 for k = j. *)
+Theorem greatest_on_an_edge : forall a b k j f X, a <> b -> (1 <= j <= k)%nat -> balanced_beside f X (k + j) ->
+  let rests := rests_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) in
+  rests <= greatest_on_edge (n_of k) (n_of j) (n_of (Nat.min (j + 1) k)) /\
+  ((j < k)%nat -> rests <= 2 * (n_of j + 1) * (n_of k - 1) + 1) /\
+  (j = k -> rests <= 2 * n_of k * n_of k).
+Proof.
+  intros a b k j f X D Hj H. cbv zeta.
+  assert (B := greatest_on_an_edge_for a b k j (Nat.min (j + 1) k) f X D (proj1 Hj)). specialize (B ltac:(lia) H).
+  destruct (edge_greatest_is (n_of k) (n_of j)) as [E F].
+  split; [exact B|]. split; intros C.
+  - rewrite Nat.min_l in B by lia. rewrite <- E.
+    assert (R : greatest_on_edge (n_of k) (n_of j) (n_of (j + 1)) == greatest_on_edge (n_of k) (n_of j) (n_of j + 1)).
+    { rewrite Nat.add_1_r. formulas. rewrite n_of_S. reflexivity. }
+    rewrite <- R. exact B.
+  - subst j. rewrite Nat.min_r in B by lia. rewrite <- F. exact B.
+Qed.
