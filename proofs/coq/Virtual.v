@@ -30,6 +30,9 @@ Proof. intros A l c f. induction l as [|x l IH]; cbn [over]; [ring|]. rewrite IH
 Lemma over_of_nothing : forall A (l : list A), over l (fun _ => 0) == 0.
 Proof. intros A l. induction l as [|x l IH]; cbn [over]; [ring|]. rewrite IH. ring. Qed.
 
+Lemma total_of_nothing : forall n, total n (fun _ => 0) == 0.
+Proof. induction n as [|n IH]; cbn [total]; [reflexivity|]. rewrite IH. ring. Qed.
+
 Lemma over_is_not_negative : forall A (l : list A) f, (forall x, In x l -> 0 <= f x) -> 0 <= over l f.
 Proof.
   intros A l f. induction l as [|x l IH]; intros H; cbn [over]; [lra|].
@@ -340,14 +343,14 @@ Proof.
   rewrite A. ring.
 Qed.
 
-(** Where no contact pulls, and no D and no c is negative, the weights work more than what arrives. *)
 Lemma over_spheres_is_not_negative : forall L F,
   (forall k i j, (k < L)%nat -> In (i, j) (layer top step k) -> 0 <= F k i j) -> 0 <= over_spheres L F.
 Proof.
   intros L F H. unfold over_spheres. induction L as [|L IH]; cbn [total]; [lra|].
   assert (0 <= over (spheres L) (fun p => F L (fst p) (snd p))).
   { apply over_is_not_negative. intros [i j] Hp. apply spheres_are in Hp. apply H; [lia | exact Hp]. }
-  assert (0 <= total L (fun k => over (spheres k) (fun p => F k (fst p) (snd p)))) by (apply IH; intros; apply H; [lia | assumption]).
+  assert (0 <= total L (fun k => over (spheres k) (fun p => F k (fst p) (snd p))))
+    by (apply IH; intros; apply H; [lia | assumption]).
   lra.
 Qed.
 
@@ -359,6 +362,8 @@ Proof.
   rewrite E. ring.
 Qed.
 
+(** Where no contact pulls, and no D and no c is negative, what arrives works no more than the weights; and no less, where
+    none is positive. *)
 Theorem no_more_than_the_weights : forall L, equilibrium L -> no_pull L ->
   (forall k i j d, (k < L)%nat -> In (i, j) (layer top step k) -> 0 <= drop k i j d) ->
   (forall k i j x, (k < L)%nat -> In (i, j) (layer top step k) -> touches k x i j = true -> 0 <= squeeze k x i j) ->
@@ -405,6 +410,37 @@ Qed.
 
 End Pile.
 
+(** With phi = 1 everywhere nothing is lowered or squeezed: whatever the horizontal contacts push, in any stacking, the floor
+    bears the weight, 3 f0 for a sphere of mg. *)
+Theorem the_weight_arrives_beside : forall top step f X w L, equilibrium top step f X w L ->
+  over (spheres top step L) (fun p => sum (arriving top step f L (fst p) (snd p)))
+  == over_spheres top step L (fun k i j => 3 * w k i j).
+Proof.
+  intros top step f X w L E.
+  assert (W := work_on_the_floor top step f X w (fun _ _ _ => each 1) L E).
+  assert (T : forall k p, felt step (fun _ _ _ => each 1) k p =3= each 1).
+  { intros k p. unfold felt. destruct (step_above step k), (step k); unfold transferred; by_components. }
+  assert (S : over_spheres top step L (sloping_work step f (fun _ _ _ => each 1)) == 0).
+  { rewrite <- (total_of_nothing L). apply total_of_same. intros k _. rewrite <- (over_of_nothing _ (spheres top step k)).
+    apply over_of_same. intros [i j] _. cbn [fst snd]. unfold sloping_work, drop, dot.
+    destruct (T (S k) (support (step k) (i, j) Alpha)) as (a & _ & _).
+    destruct (T (S k) (support (step k) (i, j) Beta)) as (_ & b & _).
+    destruct (T (S k) (support (step k) (i, j) Gamma)) as (_ & _ & c).
+    formulas. rewrite a, b, c. formulas. ring. }
+  assert (H : over_spheres top step L (horizontal_work top step X (fun _ _ _ => each 1)) == 0).
+  { rewrite <- (total_of_nothing L). apply total_of_same. intros k _. rewrite <- (over_of_nothing _ (spheres top step k)).
+    apply over_of_same. intros [i j] _. cbn [fst snd].
+    assert (A : forall x, of_axis top step X (fun _ _ _ => each 1) k x i j == 0).
+    { intros x. unfold of_axis, squeeze. destruct (touches top step k x i j); [|reflexivity].
+      destruct x, (step k); cbn [from to]; formulas; ring. }
+    unfold horizontal_work. rewrite !A. ring. }
+  rewrite S, H in W.
+  transitivity (arriving_work top step f (fun _ _ _ => each 1) L).
+  - apply over_of_same. intros p _. rewrite (dot_of_same _ _ _ (T L p)). unfold dot. formulas. ring.
+  - transitivity (over_spheres top step L (work_of_weight w (fun _ _ _ => each 1))); [rewrite <- W; ring|].
+    apply total_of_same. intros k _. apply over_of_same. intros p _. unfold work_of_weight. formulas. ring.
+Qed.
+
 (** ** Bounds of what rests on a sphere of the floor *)
 
 Section Bound.
@@ -423,14 +459,14 @@ Hypothesis nothing_pulls : no_pull top step f X K.
 Definition rests : Q := sum (arriving top step f K (fst p) (snd p)).
 
 Definition truth (b : bool) : Q := if b then 1 else 0.
-Definition is (p r : site) : bool := if same_site r p then true else false.
+Definition is_at (p r : site) : bool := if same_site r p then true else false.
 
 (** A field on the free spheres, K layers of them, is a certificate if D of its contacts is at least (at most) 1 where they
     lead to p, 0 elsewhere, and no c is negative (positive). *)
 Variable psi : nat -> Z -> Z -> three Q.
 
 Definition excess (k : nat) (i j : Z) (d : direction) : Q :=
-  if (S k =? K)%nat then lowered (on d (psi k i j)) (truth (is p (support (step k) (i, j) d))) else drop step psi k i j d.
+  if (S k =? K)%nat then lowered (on d (psi k i j)) (truth (is_at p (support (step k) (i, j) d))) else drop step psi k i j d.
 
 Definition certifies (sigma : sign) : Prop :=
   (forall k i j d, (k < K)%nat -> In (i, j) (layer top step k) -> 0 <= times sigma (excess k i j d)) /\
@@ -439,12 +475,12 @@ Definition certifies (sigma : sign) : Prop :=
 
 (** That p sinks by 1 with the field is the same. *)
 Definition with_floor (k : nat) (i j : Z) : three Q :=
-  if (k =? K)%nat then each (truth (is p (i, j))) else psi k i j.
+  if (k =? K)%nat then each (truth (is_at p (i, j))) else psi k i j.
 
-Lemma is_iff : forall r, is p r = true <-> r = p.
-Proof. intros r. unfold is. destruct (same_site r p); split; congruence. Qed.
+Lemma is_iff : forall r, is_at p r = true <-> r = p.
+Proof. intros r. unfold is_at. destruct (same_site r p); split; congruence. Qed.
 
-Lemma felt_of_floor : forall r, felt step with_floor K r =3= each (truth (is p r)).
+Lemma felt_of_floor : forall r, felt step with_floor K r =3= each (truth (is_at p r)).
 Proof.
   intros [i j]. unfold felt, with_floor. rewrite Nat.eqb_refl. cbn [fst snd].
   destruct (step_above step K), (step K); unfold transferred; by_components.
@@ -476,7 +512,7 @@ Proof.
   unfold arriving_work, rests.
   transitivity (over (spheres top step K) (fun r =>
     if same_site r p then sum (arriving top step f K (fst r) (snd r)) else 0)).
-  - apply over_of_same. intros r _. rewrite (dot_of_same _ _ _ (felt_of_floor r)). unfold is, truth, dot.
+  - apply over_of_same. intros r _. rewrite (dot_of_same _ _ _ (felt_of_floor r)). unfold is_at, truth, dot.
     destruct (same_site r p); formulas; ring.
   - rewrite (over_one (spheres top step K) p (fun r => sum (arriving top step f K (fst r) (snd r)))) by apply spheres_once.
     replace (holds (spheres top step K) p) with true; [reflexivity|].
@@ -545,7 +581,7 @@ Definition sum_of (K : nat) (psi : nat -> Z -> Z -> three Q) : Q :=
 (** A certificate of a straight pile, and what it bounds. *)
 Definition lowers (K : nat) (p : site) (psi : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) (d : direction) : Q :=
   let r := support Plus (i, j) d in
-  on d (psi k i j) - if (S k =? K)%nat then truth (is p r) else on d (psi (S k) (fst r) (snd r)).
+  on d (psi k i j) - if (S k =? K)%nat then truth (is_at p r) else on d (psi (S k) (fst r) (snd r)).
 
 Definition presses (psi : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) (x : axis) : Q :=
   let r := psi k (fst (next x (i, j))) (snd (next x (i, j))) in
@@ -599,7 +635,7 @@ Definition corner (edge : direction) (k : nat) : site :=
 
 (** A field that is not 0 on an edge only. *)
 Definition along_the_edge (edge : direction) (phi : nat -> three Q) (k : nat) (i j : Z) : three Q :=
-  if is (corner edge k) (i, j) then phi k else each 0.
+  if is_at (corner edge k) (i, j) then phi k else each 0.
 
 (** 1 along the edge; and along all lines, but at the apex. *)
 Definition least_field (edge : direction) : nat -> Z -> Z -> three Q :=
@@ -607,7 +643,7 @@ Definition least_field (edge : direction) : nat -> Z -> Z -> three Q :=
 Definition greatest_field (edge : direction) : nat -> Z -> Z -> three Q :=
   along_the_edge edge (fun k => corner_field edge (0 <? k)%nat).
 
-Lemma is_pair : forall a b i j, is (a, b) (i, j) = ((i =? a) && (j =? b))%Z.
+Lemma is_pair : forall a b i j, is_at (a, b) (i, j) = ((i =? a) && (j =? b))%Z.
 Proof.
   intros. apply eq_true_iff_eq. rewrite is_iff, andb_true_iff, !Z.eqb_eq.
   split; [intros E; injection E; auto | intros [E F]; congruence].
@@ -620,7 +656,7 @@ Lemma sum_along_the_edge : forall edge phi K, sum_of K (along_the_edge edge phi)
 Proof.
   intros edge phi K. apply total_of_same. intros k _.
   transitivity (over (spheres apex straight k) (fun p => if same_site p (corner edge k) then sum (phi k) else 0)).
-  - apply over_of_same. intros [i j] _. unfold along_the_edge, is. cbn [fst snd].
+  - apply over_of_same. intros [i j] _. unfold along_the_edge, is_at. cbn [fst snd].
     destruct (same_site (i, j) (corner edge k)); [reflexivity | formulas; ring].
   - rewrite (over_one (spheres apex straight k) (corner edge k) (fun _ => sum (phi k))) by apply spheres_once.
     rewrite holds_spheres, holds_straight, corners_are_there. reflexivity.
@@ -677,7 +713,8 @@ Proof.
   assert (E : total K (fun k => sum (corner_field edge (0 <? k)%nat)) == greatest_on_corner (n_of K)).
   { clear - H1. induction K as [|K IH]; [lia|]. cbn [total]. destruct K as [|K].
     - cbn [total Nat.ltb Nat.leb]. unfold n_of. cbn [Z.of_nat]. destruct edge; formulas; reflexivity.
-    - rewrite IH by lia. cbn [Nat.ltb Nat.leb]. unfold greatest_on_corner. rewrite (n_of_S (S K)). destruct edge; formulas; ring. }
+    - rewrite IH by lia. cbn [Nat.ltb Nat.leb]. unfold greatest_on_corner. rewrite (n_of_S (S K)).
+      destruct edge; formulas; ring. }
   rewrite E in B. exact B.
 Qed.
 
@@ -719,9 +756,6 @@ Proof.
 Qed.
 
 (** A layer, row by row. *)
-Lemma total_of_nothing : forall n, total n (fun _ => 0) == 0.
-Proof. induction n as [|n IH]; cbn [total]; [reflexivity|]. rewrite IH. ring. Qed.
-
 Lemma total_of_one : forall n (z : Z) x, (0 <= z < Z.of_nat n)%Z ->
   total n (fun m => if (Z.of_nat m =? z)%Z then x else 0) == x.
 Proof.
@@ -1000,7 +1034,8 @@ Lemma rows_along : forall K (F : Z -> Z -> Q),
 Proof.
   intros K F. induction K as [|K IH]; [reflexivity|].
   cbn [total] in IH |- *. rewrite IH.
-  transitivity (total K (fun y => total (K - y) (fun x => F (Z.of_nat x) (Z.of_nat y)) + F (Z.of_nat K - Z.of_nat y)%Z (Z.of_nat y))
+  transitivity (total K (fun y => total (K - y) (fun x => F (Z.of_nat x) (Z.of_nat y))
+      + F (Z.of_nat K - Z.of_nat y)%Z (Z.of_nat y))
     + F (Z.of_nat K - Z.of_nat K)%Z (Z.of_nat K)).
   - rewrite total_of_sum. ring.
   - apply Qplus_comp.
