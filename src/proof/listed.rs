@@ -228,6 +228,11 @@ const NAMED: &[Named] = &[
             "Horizontal.work_of_a_sphere",
             "Horizontal.work_of_a_sloping_contact",
             "Horizontal.work_of_a_horizontal_contact",
+            "Virtual.work_on_the_floor",
+            "Virtual.virtual_work",
+            "Virtual.at_most_the_weights",
+            "Virtual.at_least_the_weights",
+            "Virtual.the_weight_arrives_beside",
         ],
         &[],
     ),
@@ -249,11 +254,16 @@ const NAMED: &[Named] = &[
     ("settlement", &["Horizontal.settlement"], &[]),
     ("elastic-monotone", &["Regions.monotone"], &[]),
     ("no-dip", &["Regions.no_dip"], &[]),
-    ("corner-least", &["Horizontal.corner_least"], &[]),
+    (
+        "corner-least",
+        &["Horizontal.corner_least", "Virtual.least_on_a_corner"],
+        &[],
+    ),
     (
         "corner-greatest",
         &[
             "Horizontal.corner_greatest",
+            "Virtual.greatest_on_a_corner",
             "Horizontal.greatest_is_attained",
             "Horizontal.neighbour_of_the_edge",
         ],
@@ -274,12 +284,18 @@ const NAMED: &[Named] = &[
         &[
             "Horizontal.inner_greatest",
             "Horizontal.greatest_at_a_centre",
+            "Virtual.greatest_on_any_sphere",
         ],
         &[],
     ),
     (
         "edge-greatest",
-        &["Horizontal.edge_greatest", "Horizontal.edge_greatest_is"],
+        &[
+            "Horizontal.edge_greatest",
+            "Horizontal.edge_greatest_is",
+            "Virtual.greatest_on_an_edge_for",
+            "Virtual.greatest_on_an_edge",
+        ],
         &[],
     ),
     (
