@@ -578,6 +578,9 @@ Definition rests_on (f : nat -> Z -> Z -> three Q) (K : nat) (p : site) : Q := r
 Definition sum_of (K : nat) (psi : nat -> Z -> Z -> three Q) : Q :=
   over_spheres apex straight K (fun k i j => sum (psi k i j)).
 
+Lemma truth_is_not_negative : forall a, 0 <= truth a.
+Proof. intros []; cbn [truth]; lra. Qed.
+
 (** A certificate of a straight pile, and what it bounds. *)
 Definition lowers (K : nat) (p : site) (psi : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) (d : direction) : Q :=
   let r := support Plus (i, j) d in
@@ -625,6 +628,78 @@ Proof.
   apply (at_least_the_weights apex straight f X mg K (i, j)); try assumption.
   - apply layers_of_straight. exact H.
   - apply certificates_certify. exact C.
+Qed.
+
+(** ** There are such forces
+
+    What balances the spheres of the straight pile beside their neighbours. *)
+Lemma arriving_is_received : forall f k i j, arriving apex straight f k i j = received f k i j.
+Proof.
+  intros f [|m] i j; [reflexivity|].
+  assert (E : forall a b, member (layer apex straight m) a b = occupied m a b)
+    by (intros a b; exact (holds_straight m (a, b))).
+  unfold arriving, received, above_in, above_on, straight. cbn [descent]. rewrite !E. reflexivity.
+Qed.
+
+Lemma plus_vector_of_same : forall u v w, u =v= v -> plus_vector u w =v= plus_vector v w.
+Proof.
+  intros u v w (a & b & c). unfold plus_vector. repeat split; cbn [along_x along_y along_z]; apply Qplus_comp;
+    try assumption; reflexivity.
+Qed.
+
+Lemma all_steps_are_plus : forall k, step_above straight k = Plus.
+Proof. intros []; reflexivity. Qed.
+
+Lemma balanced_if : forall f X k i j,
+  let g := received f k i j in
+  let h := pushed_by (six (by_next apex straight X k i j)) (six (by_last apex straight X k i j)) in
+  f k i j =3= Three (beside g.(alpha) 1 h.(alpha) Plus) (beside g.(beta) 1 h.(beta) Plus)
+                    (beside g.(gamma) 1 h.(gamma) Plus) ->
+  in_balance_beside apex straight f X mg k i j.
+Proof.
+  intros f X k i j g h H. unfold in_balance_beside. rewrite arriving_is_received.
+  assert (B := horizontal_balance Plus Plus g 1 (six (by_next apex straight X k i j)) (six (by_last apex straight X k i j))).
+  cbv zeta in B. rewrite <- B. apply plus_vector_of_same.
+  rewrite (all_steps_are_plus k). change (straight k) with Plus. change (mg k i j) with 1.
+  apply unbalanced_of_same; [exact H | reflexivity | reflexivity].
+Qed.
+
+(** Nobody pushes: the paper's closed form is one such state, so that no bound is about nothing. *)
+Definition paper_forces (k : nat) (i j : Z) : three Q := closed_form (1 # 2) (q i) (q j) (n_of k).
+Definition no_push (k : nat) (x : axis) (i j : Z) : Q := 0.
+
+Lemma no_push_adds_nothing : forall k i j,
+  pushed_by (six (by_next apex straight no_push k i j)) (six (by_last apex straight no_push k i j)) =3= each 0.
+Proof.
+  intros k i j.
+  assert (E : forall x, by_next apex straight no_push k i j x = 0)
+    by (intros x; unfold by_next, no_push; destruct (touches apex straight k x i j); reflexivity).
+  assert (F : forall x, by_last apex straight no_push k i j x = 0)
+    by (intros x; unfold by_last, no_push; destruct (holds (layer apex straight k) (last x (i, j))); reflexivity).
+  unfold pushed_by, six, plus_three. cbn [ab ag gb]. rewrite !E, !F. by_components.
+Qed.
+
+Lemma paper_forces_arrive : forall k i j, occupied k i j = true ->
+  received paper_forces k i j =3= brought (1 # 2) (q i) (q j) (n_of k).
+Proof.
+  intros k i j H. apply (received_of_closed_form (1 # 2) paper_forces k i j H).
+  intros m a b _ _. unfold paper_forces. reflexivity.
+Qed.
+
+Lemma beside_of_same : forall u v h h', u =3= v -> h =3= h' ->
+  Three (beside u.(alpha) 1 h.(alpha) Plus) (beside u.(beta) 1 h.(beta) Plus) (beside u.(gamma) 1 h.(gamma) Plus)
+  =3= Three (beside v.(alpha) 1 h'.(alpha) Plus) (beside v.(beta) 1 h'.(beta) Plus) (beside v.(gamma) 1 h'.(gamma) Plus).
+Proof. intros u v h h' (a & b & c) (x & y & z). repeat split; formulas; congruent. Qed.
+
+Theorem closed_form_is_balanced_beside : forall K, balanced_beside paper_forces no_push K.
+Proof.
+  intros K. split.
+  - intros k i j _ H. apply layers_of_straight in H. apply balanced_if. cbv zeta.
+    rewrite (beside_of_same _ _ _ _ (paper_forces_arrive k i j H) (no_push_adds_nothing k i j)).
+    unfold paper_forces, closed_form. by_components.
+  - intros k i j _ H. apply layers_of_straight in H. split.
+    + intros d. apply Qlt_le_weak. apply straight_piles_stand; [reflexivity | exact H].
+    + intros. unfold no_push. lra.
 Qed.
 
 (** ** Corners *)
@@ -704,6 +779,16 @@ Proof.
   rewrite E in B. exact B.
 Qed.
 
+(** The paper's closed form reaches it. *)
+Theorem least_is_reached : forall edge K,
+  rests_on paper_forces K (corner edge K) == least_on_corner (n_of K).
+Proof.
+  intros edge K. unfold rests_on, rests. rewrite arriving_is_received.
+  destruct (paper_forces_arrive K (fst (corner edge K)) (snd (corner edge K)) (corners_are_there edge K)) as (a & b & c).
+  unfold sum. rewrite a, b, c. clear a b c. unfold brought.
+  destruct edge; cbn [corner fst snd]; fold (n_of K); change (q 0) with 0; formulas; ring.
+Qed.
+
 (** And at most 3K - 2. *)
 Theorem greatest_on_a_corner : forall edge f X K, (1 <= K)%nat -> balanced_beside f X K ->
   rests_on f K (corner edge K) <= greatest_on_corner (n_of K).
@@ -716,6 +801,109 @@ Proof.
     - rewrite IH by lia. cbn [Nat.ltb Nat.leb]. unfold greatest_on_corner. rewrite (n_of_S (S K)).
       destruct edge; formulas; ring. }
   rewrite E in B. exact B.
+Qed.
+
+(** It is reached, too: the spheres of an edge push their neighbours with 1. What all pass on then, in whole numbers: 3n + 1
+    along the edge, nothing from its neighbours along it, and nothing along other lines from the edge below the apex. *)
+Definition same_line (a b : direction) : bool :=
+  match a, b with Alpha, Alpha | Beta, Beta | Gamma, Gamma => true | _, _ => false end.
+
+Definition edge_push (edge : direction) (k : nat) (x : axis) (i j : Z) : Q :=
+  truth (same_line edge (from x) && is_at (corner edge k) (i, j)
+         || same_line edge (to x) && is_at (corner edge k) (next x (i, j))).
+
+Definition whole_forces (edge : direction) (k : nat) (i j : Z) : three Z :=
+  let n := Integers.above i j (Z.of_nat k) in
+  let e := on edge n in
+  let off := (Z.of_nat k - e)%Z in
+  let line d := (if same_line edge d then if off =? 0 then 3 * e + 1 else if off =? 1 then 0 else e + 1
+                 else if off =? 0 then if e =? 0 then 1 else 0
+                 else if (off =? on d n) && (e =? 0) then on d n + 2 else on d n + 1)%Z in
+  Three (line Alpha) (line Beta) (line Gamma).
+
+Definition edge_forces (edge : direction) (k : nat) (i j : Z) : three Q := map inject_Z (whole_forces edge k i j).
+
+Definition whole_received (edge : direction) (k : nat) (i j : Z) : three Z :=
+  match k with
+  | O => each 0%Z
+  | S m =>
+    let along d := let (a, b) := above_on d i j in if occupied m a b then on d (whole_forces edge m a b) else 0%Z in
+    Three (along Alpha) (along Beta) (along Gamma)
+  end.
+
+Definition whole_pushed (edge : direction) (k : nat) (i j : Z) : three Z :=
+  let n := Integers.above i j (Z.of_nat k) in
+  let off := (Z.of_nat k - on edge n)%Z in
+  let line d := (if off =? 0 then if Z.of_nat k =? 0 then 0 else if same_line edge d then -2 else 1
+                 else if off =? 1 then if same_line edge d then 1 else - on d n else 0)%Z in
+  Three (line Alpha) (line Beta) (line Gamma).
+
+Lemma whole_balance : forall edge k i j d, occupied k i j = true ->
+  on d (whole_forces edge k i j) = (on d (whole_received edge k i j) + 1 - on d (whole_pushed edge k i j))%Z.
+Proof.
+  intros edge [|m] i j d H; apply occupied_iff in H.
+  - assert (i = 0%Z) by lia. assert (j = 0%Z) by lia. subst. destruct edge, d; reflexivity.
+  - unfold whole_forces, whole_received, whole_pushed, above_on, occupied, whole_forces. rewrite Nat2Z.inj_succ in *.
+    destruct edge, d; cbn [descent on same_line Integers.above alpha beta gamma]; ask; cbn [andb]; lia.
+Qed.
+
+Lemma edge_forces_arrive : forall edge k i j,
+  received (edge_forces edge) k i j =3= map inject_Z (whole_received edge k i j).
+Proof.
+  intros edge [|m] i j; [repeat split; reflexivity|].
+  unfold received, whole_received, edge_forces, above_on. cbn [descent].
+  repeat split; cbn [map alpha beta gamma on];
+    match goal with |- (if ?b then _ else _) == _ => destruct b; reflexivity end.
+Qed.
+
+Lemma edge_pushes : forall edge k i j, occupied k i j = true ->
+  pushed_by (six (by_next apex straight (edge_push edge) k i j)) (six (by_last apex straight (edge_push edge) k i j))
+  =3= map inject_Z (whole_pushed edge k i j).
+Proof.
+  intros edge k i j H. apply occupied_iff in H.
+  unfold pushed_by, six, plus_three, by_next, by_last, touches, edge_push, next, last, support, above_in, whole_pushed.
+  destruct edge; cbn [ab ag gb from to descent fst snd corner same_line on Integers.above alpha beta gamma andb orb];
+    rewrite !holds_straight, !is_pair; unfold occupied; cbn [fst snd];
+    ask; cbn [andb orb truth map alpha beta gamma]; repeat split; formulas; try reflexivity.
+  all: try (match goal with |- _ == q ?e => replace e with 1%Z by lia; reflexivity
+                          | |- _ == q ?e => replace e with (-1)%Z by lia; reflexivity
+                          | |- _ == q ?e => replace e with 0%Z by lia; reflexivity end).
+Qed.
+
+Lemma beside_of_whole : forall a b c, a = (b + 1 - c)%Z -> q a == beside (q b) 1 (q c) Plus.
+Proof.
+  intros a b c H. subst. unfold beside, passed_on, Z.sub. rewrite !inject_Z_plus, inject_Z_opp. reflexivity.
+Qed.
+
+Theorem edge_pushes_balance : forall edge K, balanced_beside (edge_forces edge) (edge_push edge) K.
+Proof.
+  intros edge K. split.
+  - intros k i j _ H. apply layers_of_straight in H. apply balanced_if. cbv zeta.
+    rewrite (beside_of_same _ _ _ _ (edge_forces_arrive edge k i j) (edge_pushes edge k i j H)).
+    unfold edge_forces. repeat split; cbn [map alpha beta gamma]; apply beside_of_whole;
+      [exact (whole_balance edge k i j Alpha H) | exact (whole_balance edge k i j Beta H)
+      | exact (whole_balance edge k i j Gamma H)].
+  - intros k i j _ H. apply layers_of_straight, occupied_iff in H. split.
+    + intros d. change 0 with (q 0). unfold edge_forces.
+      assert (N : (0 <= on d (whole_forces edge k i j))%Z).
+      { unfold whole_forces. destruct edge, d; cbn [on same_line Integers.above alpha beta gamma];
+          ask; cbn [andb]; lia. }
+      destruct d; cbn [map on alpha beta gamma] in *; rewrite <- Zle_Qle; exact N.
+    + intros x _. apply truth_is_not_negative.
+Qed.
+
+Theorem greatest_is_reached : forall edge K, (1 <= K)%nat ->
+  rests_on (edge_forces edge) K (corner edge K) == greatest_on_corner (n_of K).
+Proof.
+  intros edge [|m] H; [lia|]. unfold rests_on, rests. rewrite arriving_is_received.
+  destruct (edge_forces_arrive edge (S m) (fst (corner edge (S m))) (snd (corner edge (S m)))) as (a & b & c).
+  unfold sum. rewrite a, b, c. clear. cbn [map alpha beta gamma]. rewrite <- !inject_Z_plus.
+  transitivity (q (3 * Z.of_nat m + 1)).
+  - apply inject_Z_injective. unfold whole_received, above_on, occupied, whole_forces.
+    destruct edge; cbn [corner fst snd descent alpha beta gamma on same_line Integers.above];
+      rewrite ?Nat2Z.inj_succ; ask; cbn [andb]; lia.
+  - unfold greatest_on_corner. rewrite n_of_S. unfold n_of. rewrite inject_Z_plus, inject_Z_mult.
+    change (q 3) with 3. change (q 1) with 1. ring.
 Qed.
 
 (** ** Inside
@@ -732,9 +920,6 @@ Definition inner_field (a b c : nat) (k : nat) (i j : Z) : three Q :=
 
 Lemma truth_grows : forall a b, (a = true -> b = true) -> 0 <= truth b - truth a.
 Proof. intros [] [] H; cbn [truth]; try lra; specialize (H eq_refl); discriminate. Qed.
-
-Lemma truth_is_not_negative : forall a, 0 <= truth a.
-Proof. intros []; cbn [truth]; lra. Qed.
 
 Lemma with_at_least_iff : forall m n x y, with_at_least m n x y = true <-> (m <= x /\ n <= y)%Z.
 Proof. intros. unfold with_at_least. rewrite andb_true_iff, !Z.leb_le. tauto. Qed.
@@ -872,9 +1057,6 @@ Qed.
 (** ** Edges
 
     A sphere of the floor with k spheres above it along a, j along b and none along the third line. *)
-Definition same_line (a b : direction) : bool :=
-  match a, b with Alpha, Alpha | Beta, Beta | Gamma, Gamma => true | _, _ => false end.
-
 Definition placed (a b : direction) (x y : Z) : site :=
   let on_line d := if same_line a d then x else if same_line b d then y else 0%Z in
   (on_line Beta, on_line Gamma).
