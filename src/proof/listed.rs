@@ -219,6 +219,7 @@ const NAMED: &[Named] = &[
         &[
             "Horizontal.neighbours_touch",
             "Horizontal.horizontal_balance",
+            "Virtual.closed_form_is_balanced_beside",
         ],
         &[],
     ),
@@ -243,6 +244,9 @@ const NAMED: &[Named] = &[
             "Horizontal.field_lowers_by_the_force",
             "Horizontal.field_opens",
             "Horizontal.field_of_discs",
+            "Virtual.energy_of_a_state",
+            "Virtual.closed_form_is_the_elastic_state",
+            "Virtual.elastic_state_is_unique",
         ],
         &[],
     ),
@@ -256,16 +260,22 @@ const NAMED: &[Named] = &[
     ("no-dip", &["Regions.no_dip"], &[]),
     (
         "corner-least",
-        &["Horizontal.corner_least", "Virtual.least_on_a_corner"],
+        &[
+            "Horizontal.corner_least",
+            "Bounds.least_on_a_corner",
+            "Bounds.least_is_reached",
+        ],
         &[],
     ),
     (
         "corner-greatest",
         &[
             "Horizontal.corner_greatest",
-            "Virtual.greatest_on_a_corner",
             "Horizontal.greatest_is_attained",
             "Horizontal.neighbour_of_the_edge",
+            "Bounds.greatest_on_a_corner",
+            "Bounds.edge_pushes_balance",
+            "Bounds.greatest_is_reached",
         ],
         &[],
     ),
@@ -284,7 +294,7 @@ const NAMED: &[Named] = &[
         &[
             "Horizontal.inner_greatest",
             "Horizontal.greatest_at_a_centre",
-            "Virtual.greatest_on_any_sphere",
+            "Bounds.greatest_on_any_sphere",
         ],
         &[],
     ),
@@ -293,8 +303,8 @@ const NAMED: &[Named] = &[
         &[
             "Horizontal.edge_greatest",
             "Horizontal.edge_greatest_is",
-            "Virtual.greatest_on_an_edge_for",
-            "Virtual.greatest_on_an_edge",
+            "Bounds.greatest_on_an_edge_for",
+            "Bounds.greatest_on_an_edge",
         ],
         &[],
     ),
