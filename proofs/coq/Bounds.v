@@ -1,11 +1,13 @@
 (** Bounds of what rests on a sphere of the floor of the straight pile, however its spheres press each other sideways: at a
-    corner, anywhere, and on an edge. Each is the work of the weights on a field whose signs are all proved. *)
+    corner, anywhere, and on an edge. Each is the work of the weights on a field whose signs are all proved. What rests on a
+    sphere is G in f0; the floor bears 1 + G/3 mg under it. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
 From Cannonpile Require Import Directions Sums Formulas Balance Straight Floor Stackings Regions Horizontal Virtual.
 
 Import ListNotations.
 Open Scope Q_scope.
+Set Default Proof Using "Type".
 
 (** ** Corners *)
 
@@ -169,10 +171,11 @@ Proof.
   unfold pushed_by, six, plus_three, by_next, by_last, touches, edge_push, next, last, support, above_in, whole_pushed.
   destruct edge; cbn [ab ag gb from to descent fst snd corner same_line on Integers.above alpha beta gamma andb orb];
     rewrite !holds_straight, !is_pair; unfold occupied; cbn [fst snd];
-    ask; cbn [andb orb truth map alpha beta gamma]; repeat split; formulas; try reflexivity.
-  all: try (match goal with |- _ == q ?e => replace e with 1%Z by lia; reflexivity
-                          | |- _ == q ?e => replace e with (-1)%Z by lia; reflexivity
-                          | |- _ == q ?e => replace e with 0%Z by lia; reflexivity end).
+    ask; cbn [andb orb truth map alpha beta gamma]; repeat split; formulas;
+    first [reflexivity
+          | match goal with
+            | |- _ == q ?e => first [replace e with 1%Z by lia | replace e with (-1)%Z by lia | replace e with 0%Z by lia]
+            end; reflexivity].
 Qed.
 
 Lemma beside_of_whole : forall a b c, a = (b + 1 - c)%Z -> q a == beside (q b) 1 (q c) Plus.
@@ -347,7 +350,7 @@ Proof.
     unfold sum_of, over_spheres; rewrite <- !total_of_sum; apply total_of_same; intros k _;
     rewrite <- !over_of_sum; apply over_of_same; intros p _; reflexivity.
   all: intros k i j Hk P; rewrite occupied_iff in *;
-    try (apply eq_true_iff_eq; rewrite occupied_iff, with_at_least_iff); 
+    try (apply eq_true_iff_eq; rewrite occupied_iff, with_at_least_iff);
     try (apply not_true_iff_false; rewrite with_at_least_iff); lia.
 Qed.
 
@@ -409,30 +412,30 @@ Definition of_edge (part : Z -> Z -> bool) (m x y : Z) : Q := truth ((x + y =? m
 
 Lemma first_lowers : below = (m + 1)%Z -> x' = (x + 1)%Z -> y' = y ->
   0 <= of_edge (along_first k j c) m x y - of_edge (along_first k j c) below x' y'.
-Proof. intros. apply truth_grows. parts. lia. Qed.
+Proof using Hc Hx Hy Hm. intros. apply truth_grows. parts. lia. Qed.
 
 Lemma second_lowers : below = (m + 1)%Z -> x' = x -> y' = (y + 1)%Z ->
   0 <= of_edge (along_second j c) m x y - of_edge (along_second j c) below x' y'.
-Proof. intros. apply truth_grows. parts. lia. Qed.
+Proof using Hx Hy Hm. intros. apply truth_grows. parts. lia. Qed.
 
 Lemma third_lowers : below = (m + 1)%Z -> x' = x -> y' = y ->
   0 <= of_edge (along_third k j c) m x y - of_edge (along_third k j c) below x' y'.
-Proof. intros. apply truth_grows. rewrite !andb_true_iff, !Z.eqb_eq. lia. Qed.
+Proof using Hc Hx Hy Hm. intros. apply truth_grows. rewrite !andb_true_iff, !Z.eqb_eq. lia. Qed.
 
 Lemma first_to_second_presses : x' = (x - 1)%Z -> y' = (y + 1)%Z -> (1 <= x)%Z ->
   0 <= (of_edge (along_second j c) m x y - of_edge (along_second j c) m x' y')
        + (of_edge (along_first k j c) m x' y' - of_edge (along_first k j c) m x y).
-Proof. intros. apply truth_grows_together; parts; lia. Qed.
+Proof using Hc Hx Hy Hm. intros. apply truth_grows_together; parts; lia. Qed.
 
 Lemma first_to_third_presses : x' = (x - 1)%Z -> y' = y -> (1 <= x)%Z ->
   0 <= (of_edge (along_third k j c) m x y - of_edge (along_third k j c) m x' y')
        + (of_edge (along_first k j c) m x' y' - of_edge (along_first k j c) m x y).
-Proof. intros. apply truth_grows_together; parts; lia. Qed.
+Proof using Hc Hx Hy Hm. intros. apply truth_grows_together; parts; lia. Qed.
 
 Lemma second_to_third_presses : x' = x -> y' = (y - 1)%Z -> (1 <= y)%Z ->
   0 <= (of_edge (along_third k j c) m x y - of_edge (along_third k j c) m x' y')
        + (of_edge (along_second j c) m x' y' - of_edge (along_second j c) m x y).
-Proof. intros. apply truth_grows_together; parts; lia. Qed.
+Proof using Hc Hx Hy Hm. intros. apply truth_grows_together; parts; lia. Qed.
 
 End Signs.
 
@@ -583,7 +586,7 @@ Ltac counted lo hi :=
    rewrite ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?Z.eqb_eq, ?Z.ltb_lt, ?Z.leb_le; lia].
 
 Lemma rows_of_first : total (k + j) (row first) == n_of k + (n_of c - 1) * n_of c * (1 # 2).
-Proof.
+Proof using Hj Hc.
   replace (k + j)%nat with (j + (1 + ((c - 1) + (k - c))))%nat by lia. rewrite !total_in_two.
   assert (A : total j (row first) == 0).
   { rewrite <- (total_of_nothing j). apply total_of_same. intros y Hy. counted 0%nat 0%nat. ring. }
@@ -599,7 +602,7 @@ Qed.
 
 Lemma rows_of_second : total (k + j) (row second)
   == (n_of k + n_of j - n_of c) * (n_of j + 1) - (n_of j + 1) * n_of j * (1 # 2).
-Proof.
+Proof using Hj Hc.
   replace (k + j)%nat with (S j + (k - 1))%nat by lia. rewrite !total_in_two.
   assert (A : total (S j) (row second) == total (S j) (fun y => n_of k + n_of j - n_of c - n_of y)).
   { apply total_of_same. intros y Hy. counted c (k + j - y)%nat. rewrite n_of_sub by lia.
@@ -612,7 +615,7 @@ Qed.
 Lemma rows_of_third : total (k + j) (row third)
   == (n_of k + n_of j - n_of c) * (n_of j - 1) - n_of j * (n_of j - 1) * (1 # 2)
      + (n_of k - 1) + (n_of c - 1) * (n_of c - 2) * (1 # 2).
-Proof.
+Proof using Hj Hc.
   replace (k + j)%nat with (1 + ((j - 1) + (1 + ((c - 1) + (k - c)))))%nat by lia. rewrite !total_in_two.
   assert (Z : total 1 (row third) == 0).
   { cbn [total]. counted 0%nat 0%nat. ring. }

@@ -6,6 +6,9 @@ From Cannonpile Require Import Directions Sums Formulas Balance Straight Stackin
 Import ListNotations.
 Open Scope Q_scope.
 
+(* Within sections too a statement is what it says, whatever its proof uses. *)
+Set Default Proof Using "Type".
+
 (** ** Sums over spheres *)
 
 (** The sum over what a list holds. *)
@@ -278,7 +281,8 @@ Qed.
 
 Lemma supports_are_there : forall k p d, In p (layer top step k) -> In (support (step k) p d) (layer top step (S k)).
 Proof.
-  intros k p d H. cbn [layer]. apply in_flat_map. exists p. split; [exact H|]. destruct d; simpl; tauto.
+  intros k p d H. cbn [layer]. apply in_flat_map. exists p. split; [exact H|].
+  destruct d; [left | right; left | right; right; left]; reflexivity.
 Qed.
 
 (** It is what the contacts above give. *)
@@ -508,7 +512,7 @@ Proof.
 Qed.
 
 Lemma what_rests : arriving_work top step f with_floor K == rests.
-Proof.
+Proof using on_the_floor.
   unfold arriving_work, rests.
   transitivity (over (spheres top step K) (fun r =>
     if same_site r p then sum (arriving top step f K (fst r) (snd r)) else 0)).
@@ -521,7 +525,7 @@ Qed.
 
 (** Weak duality: no more than the work of the weights rests on p. *)
 Theorem at_most_the_weights : certifies Plus -> rests <= over_spheres top step K (work_of_weight w psi).
-Proof.
+Proof using on_the_floor in_equilibrium nothing_pulls.
   intros [D C]. rewrite <- weights_with_floor, <- what_rests.
   apply (no_more_than_the_weights top step f X w with_floor K); try assumption.
   - intros. rewrite drop_with_floor by assumption. apply (D k i j d); assumption.
@@ -530,7 +534,7 @@ Qed.
 
 (** And no less. *)
 Theorem at_least_the_weights : certifies Minus -> over_spheres top step K (work_of_weight w psi) <= rests.
-Proof.
+Proof using on_the_floor in_equilibrium nothing_pulls.
   intros [D C]. rewrite <- weights_with_floor, <- what_rests.
   apply (no_less_than_the_weights top step f X w with_floor K); try assumption.
   - intros. rewrite drop_with_floor by assumption.
