@@ -25,6 +25,8 @@ const BY_HAND: &[(&str, &str)] = &[
         "Horizontal.v",
         include_str!("../../proofs/coq/Horizontal.v"),
     ),
+    ("Virtual.v", include_str!("../../proofs/coq/Virtual.v")),
+    ("Bounds.v", include_str!("../../proofs/coq/Bounds.v")),
     ("Response.v", include_str!("../../proofs/coq/Response.v")),
     ("Mean.v", include_str!("../../proofs/coq/Mean.v")),
     ("Spectrum.v", include_str!("../../proofs/coq/Spectrum.v")),
