@@ -8,7 +8,8 @@ once: where a fault could be, the code asks `mutants::active(NUMBER)`, which is 
 is run once beforehand, and says which of these questions it came by; a fault is then shown to those tests alone, the quickest first,
 until one fails. What does not compile by its types is left out, as cargo-mutants leaves it out ("unviable").
 
-DIR keeps the instrumented copy, its build and all results; a second run goes on where the first one ended.
+DIR keeps the instrumented copy, its build and all results; a second run goes on where the first one ended, and with a greater --most
+shows what survived so far, and is not listed, to more tests.
 `.ci/mutants.survivors` lists the faults that no test can notice, with the reason, a line each; a fault that survives and is not
 listed there, or that is listed and is noticed, makes this fail.
 
@@ -40,6 +41,8 @@ HERE = Path(__file__).parent.parent
 SURVIVORS = HERE / ".ci" / "mutants.survivors"
 # They read, write and draw: their faults are seen, and no number comes from them.
 TOOLS = {"dem", "export", "figure", "main", "scene", "serde", "table", "verify"}
+# Ends of an attack.
+UNNOTICED = ["survives", "survives so far", "not reached"]
 PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 
 # Asked where a fault could be. What is computed while compiling has none.
@@ -296,7 +299,8 @@ class Copy:
     def make(self):
         shutil.rmtree(self.tree, ignore_errors=True)
         self.tree.mkdir(parents=True)
-        archive = subprocess.run(["git", "ls-files", "-z"], cwd=HERE, check=True, capture_output=True).stdout
+        listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+        archive = subprocess.run(listing, cwd=HERE, check=True, capture_output=True).stdout
         for name in filter(None, archive.decode().split("\0")):
             (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(HERE / name, self.tree / name)
@@ -595,6 +599,8 @@ def main():
     copy = Copy(folder, chosen(listed(folder), asked), asked.jobs)
     everything = dict(copy.faults)
     print(f"{len(everything)} faults", flush=True)
+    if not everything:
+        return 0
     if state.exists():
         known = json.loads(state.read_text())
         copy.faults = {number: everything[number] for number in known["viable"]}
@@ -622,15 +628,24 @@ def main():
     if results.exists():
         done = {one["number"]: one for one in map(json.loads, results.read_text().splitlines())}
     attack = Attack(Tests(copy), recorded, asked.most)
+    reasons = survivors()
+
+    def is_to_be_shown(fault):
+        """Also again, to tests that would have taken too long before."""
+        one = done.get(fault.number)
+        if one is None or one["outcome"] != "survives so far":
+            return one is None
+        return asked.most > one["most"] and fault.key not in reasons
+
     # Any part of them is a sample of all.
-    todo = [f for n, f in copy.faults.items() if n not in done or done[n]["outcome"] == "survives so far" and asked.most >= 1e9]
+    todo = [fault for fault in copy.faults.values() if is_to_be_shown(fault)]
     random.Random(2).shuffle(todo)
     with results.open("a") as out, concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
 
         def one(fault):
             if time.monotonic() - began > asked.seconds:
                 return
-            judged = {"number": fault.number, "key": fault.key, "place": fault.place} | attack.judge(fault)
+            judged = {"number": fault.number, "key": fault.key, "place": fault.place, "most": asked.most} | attack.judge(fault)
             with attack.lock:
                 done[fault.number] = judged
                 out.write(json.dumps(judged) + "\n")
@@ -640,24 +655,32 @@ def main():
     raise SystemExit(report(copy, everything, done, asked.least))
 
 
-def report(copy, everything, done, least):
-    """The table by room, and what survives; 1 where the list of survivors does not agree, or fewer than the least are noticed."""
+def survivors():
+    """The reasons of what is listed."""
     reasons = {}
     if SURVIVORS.exists():
         for line in SURVIVORS.read_text().splitlines():
             if line and not line.startswith("#"):
                 key, _, reason = line.partition("\t")
                 reasons[key] = reason
+    return reasons
+
+
+def report(copy, everything, done, least):
+    """The table by room, and what survives; 1 where the list of survivors does not agree, or fewer than the least are noticed."""
+    reasons = survivors()
     table = collections.defaultdict(collections.Counter)
     for number, fault in everything.items():
         outcome = "unviable" if number in copy.unviable else done.get(number, {"outcome": "not run"})["outcome"]
+        if fault.key in reasons and outcome in UNNOTICED:
+            outcome = "listed"
         table[room(fault.file)][outcome] += 1
         table["all"][outcome] += 1
-    columns = ["noticed", "survives", "survives so far", "not reached", "not run", "unviable"]
+    columns = ["noticed", "listed", *UNNOTICED, "not run", "unviable"]
     print("| room | " + " | ".join(columns) + " | noticed of viable |")
     print("|---|" + "--:|" * (len(columns) + 1))
     for name, counts in sorted(table.items(), key=lambda entry: (entry[0] == "all", entry[0])):
-        judged = sum(counts[c] for c in columns[:4])
+        judged = sum(counts[column] for column in columns[:5])
         share = f"{100 * counts['noticed'] / judged:.1f} %" if judged else ""
         print(f"| {name} | " + " | ".join(str(counts[column]) for column in columns) + f" | {share} |")
     wrong = 0
