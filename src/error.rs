@@ -427,3 +427,26 @@ impl Error {
 }
 
 impl core::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// More bytes than addresses, and some that are to be had: the limit that is named has room.
+    #[test]
+    fn what_no_memory_holds_is_refused() {
+        let refused = |needed: u64, bytes| {
+            let needed = BigUint::from(needed);
+            refuse_beyond_memory("numbers", &needed, (u64::MAX, bytes), "use fewer")
+        };
+        for (needed, bytes) in [(1 << 62, 1), (1 << 59, 8), (1 << 63, 16)] {
+            let Err(Error::TooLarge { limit, .. }) = refused(needed, bytes) else {
+                panic!("{needed} of {bytes} bytes are not to be had");
+            };
+            assert!(0 < limit && limit < needed, "{limit}");
+            assert_eq!(refused(limit, bytes), Ok(()));
+        }
+        assert_eq!(refused(0, 8), Ok(()));
+        assert_eq!(refused(1000, 8), Ok(()));
+    }
+}

@@ -244,6 +244,20 @@ fn of_loads_as_great_as_numbers_hold() -> Result<(), Error> {
     Ok(())
 }
 
+/// In units of its denominator it is greater than a machine integer.
+#[test]
+fn of_a_load_with_a_great_denominator() -> Result<(), Error> {
+    let stackings = RandomStackings::new(1, FirstSign::Plus)?;
+    let ensemble = Ensemble::under(Region::SITE, stackings)?.weightless();
+    let load = ratio(3_000_000_000, 1) + ratio(1, 10_000_000_019);
+    let ensemble = ensemble.with_load([0, 0], load)?;
+    let bins = ensemble.with_bins(ratio(1_000_000, 1))?;
+    let tally = bins.run(&Choice::All, Shard::WHOLE)?;
+    let normals = &tally.faults[0].all.normals;
+    assert_eq!((normals.first, normals.counts.len()), (3_000, 1));
+    Ok(())
+}
+
 /// No force of a single sphere is greater than 2, so that 10⁵ bins from −2 to 2 are 1/25000 wide; it bears 1.
 #[test]
 fn as_many_bins_as_there_may_be() -> Result<(), Error> {

@@ -1,7 +1,7 @@
 //! Regions about the greatest coordinates, ±10³⁶: refused beyond, and nothing overflows up to them.
 
 use cannonpile::Error;
-use cannonpile::lattice::{MAX_LAYERS, Region, Sign};
+use cannonpile::lattice::{MAX_LAYERS, Region, Row, Sign};
 use num_bigint::{BigInt, BigUint};
 
 use crate::lattice::region;
@@ -155,4 +155,21 @@ fn a_region_grows_from_one_limit_to_the_other() {
             "{steps}"
         );
     }
+}
+
+/// The last piece is as long as the others where they are even, and there is none after it.
+#[test]
+fn rows_are_cut_into_pieces() {
+    let pieces = |start: i128, end: i128, sites| {
+        let i = start..end;
+        let pieces = Row { k: 5, j: 1, i }.pieces(sites);
+        pieces
+            .map(|piece| (piece.i.start, piece.i.end))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(pieces(-3, 3, 3), [(-3, 0), (0, 3)]);
+    assert_eq!(pieces(-3, 4, 3), [(-3, 0), (0, 3), (3, 4)]);
+    assert_eq!(pieces(2, 4, 3), [(2, 4)]);
+    assert_eq!(pieces(2, 2, 3), []);
+    assert_eq!(pieces(MAX - 1, MAX, 1), [(MAX - 1, MAX)]);
 }
