@@ -53,6 +53,12 @@ Proof.
     plus_vector, one_on; cbn [ab ag gb]; by_components.
 Qed.
 
+(** A direction and itself are no axis. The formulas are defined there too: what they say is this, and nothing above or below asks
+    for it. *)
+Theorem no_axis : forall d away x phi there sigma,
+  pushed x d d away =3= map (Qmult x) (one_on d) /\ compression phi there d d sigma == 0.
+Proof. intros [] [] x [] [] []; (split; [unfold one_on; by_components | formulas; ring]). Qed.
+
 (** ** Virtual work
 
     For any numbers phi: the balance of a sphere times phi, of a sloping contact, and of a horizontal one. Added over all
