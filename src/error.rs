@@ -444,7 +444,8 @@ mod tests {
                 panic!("{needed} of {bytes} bytes are not to be had");
             };
             assert!(0 < limit && limit < needed, "{limit}");
-            assert_eq!(refused(limit, bytes), Ok(()));
+            // Others may take some meanwhile.
+            assert_eq!(refused(limit / 2, bytes), Ok(()));
         }
         assert_eq!(refused(0, 8), Ok(()));
         assert_eq!(refused(1000, 8), Ok(()));
