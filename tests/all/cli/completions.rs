@@ -7,9 +7,9 @@ use super::{refusal, stdout};
 
 const SHELLS: [&str; 5] = ["bash", "zsh", "fish", "elvish", "powershell"];
 
-/// The commands that the help lists.
-fn commands() -> Vec<String> {
-    let help = stdout("--help");
+/// The commands that the help of a command lists, or of none.
+pub(super) fn commands(above: &str) -> Vec<String> {
+    let help = stdout(&format!("{above} --help"));
     let list = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let list = list.take_while(|line| !line.is_empty());
     list.filter_map(|line| line.split_whitespace().next().map(str::to_owned))
@@ -17,7 +17,7 @@ fn commands() -> Vec<String> {
 }
 
 /// The options that the help of a command lists.
-fn options(command: &str) -> Vec<String> {
+pub(super) fn options(command: &str) -> Vec<String> {
     let help = stdout(&format!("{command} --help"));
     let words = help.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
     words
@@ -29,7 +29,7 @@ fn options(command: &str) -> Vec<String> {
 
 #[test]
 fn every_command_and_option_is_named() {
-    let commands = commands();
+    let commands = commands("");
     for expected in [
         "summary",
         "contacts",

@@ -4,35 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
-use super::{cannonpile, stdout};
-
-/// The commands that the help of a command lists.
-fn below(command: &str) -> Vec<String> {
-    let help = stdout(&format!("{command} --help"));
-    let list = help
-        .lines()
-        .skip_while(|line| *line != "Commands:")
-        .skip(1)
-        .take_while(|line| !line.is_empty())
-        .filter_map(|line| line.split_whitespace().next());
-    list.filter(|name| *name != "help")
-        .map(str::to_owned)
-        .collect()
-}
-
-/// Every option that the help of a command has at the beginning of a line.
-fn options(command: &str) -> Vec<String> {
-    let help = stdout(&format!("{command} --help"));
-    let mut options = Vec::new();
-    for line in help.lines().map(str::trim_start) {
-        let line = line.strip_prefix("-h, ").unwrap_or(line);
-        if let Some(name) = line.strip_prefix("--") {
-            let name = name.split([' ', '[', '=']).next().unwrap_or(name);
-            options.push(name.to_owned());
-        }
-    }
-    options
-}
+use super::{cannonpile, completions, stdout};
 
 #[test]
 fn every_command_has_its_page() {
@@ -40,8 +12,13 @@ fn every_command_has_its_page() {
     let folder = folder.path().join("share/man1");
     let listed = stdout(&format!("man {}", folder.display()));
     let mut commands = vec![String::new()];
+    let below = |above| {
+        completions::commands(above)
+            .into_iter()
+            .filter(|name| name != "help")
+    };
     commands.extend(below(""));
-    commands.extend(below("plot").iter().map(|figure| format!("plot {figure}")));
+    commands.extend(below("plot").map(|figure| format!("plot {figure}")));
     assert!(commands.len() > 25, "{commands:?}");
     let mut names = BTreeSet::new();
     for command in &commands {
@@ -49,7 +26,7 @@ fn every_command_has_its_page() {
         let page = fs::read_to_string(folder.join(&name)).expect(&name);
         assert!(page.contains(".TH cannonpile"), "{name}: {page}");
         let text = page.replace('\\', "");
-        for option in options(command) {
+        for option in completions::options(command) {
             assert!(
                 text.contains(&format!("--{option}")),
                 "{name} lacks --{option}"
