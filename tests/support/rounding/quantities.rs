@@ -66,7 +66,7 @@ impl Quantity {
             Self::UnitForce => "unit force, angles",
             Self::Weight => "mass, weight, sizes",
             Self::Filled => "contact forces filled in",
-            Self::FilledStacking => "the same, stackings",
+            Self::FilledStacking => "stackings filled in",
             #[cfg(feature = "horizontal")]
             Self::Elastic => "elastic states",
         }
@@ -106,13 +106,13 @@ impl Quantity {
         };
         let mut packing = Packing::new(&pile, &spacing)?;
         let floor = pile.layers() - 1;
+        let pushing: Vec<_> = pile.horizontal_forces().collect();
         let places = [(); 8].map(|()| {
             let k = match self {
                 Self::OnFloor => floor,
                 // On the floor z is 0, and there are no contacts.
                 _ => random.below(floor),
             };
-            let pushing: Vec<_> = pile.horizontal_forces().collect();
             let site = if pushing.is_empty() || random.once_in(2) {
                 piles::site_of(&pile, k, random)
             } else {
