@@ -10,7 +10,7 @@ until one fails. What does not compile by its types is left out, as cargo-mutant
 
 DIR keeps the instrumented copy, its build and all results; a second run goes on where the first one ended, and with a greater --most
 shows what survived so far, and is not listed, to more tests.
-`.ci/mutants.survivors` lists the faults that no test can notice, with the reason, a line each; a fault that survives and is not
+`.ci/mutants.survivors` lists the faults that no test notices, with the reason, a line each; a fault that survives and is not
 listed there, or that is listed and is noticed, makes this fail.
 
 The examples in the documentation are not among the tests.
