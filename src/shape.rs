@@ -405,8 +405,8 @@ impl Shape {
         })
     }
 
-    /// The counts of [`spheres_above`](Self::spheres_above) along row j of layer k.
-    pub(crate) fn row_counts(&self, run: &Stretch, k: i128, j: i128) -> [Trapezoid; 3] {
+    /// The counts of [`spheres_above`](Self::spheres_above) along a row of layer k from the site (i, j) on.
+    pub(crate) fn row_counts(&self, run: &Stretch, k: i128, site: [i128; 2]) -> [Trapezoid; 3] {
         let nothing = Trapezoid {
             cap: 0,
             rises: None,
@@ -414,7 +414,7 @@ impl Shape {
         };
         let region = self.whole_region(k);
         region.map_or([nothing; 3], |region| {
-            region.row_counts(j, run.sign, k - run.from)
+            region.row_counts(site, run.sign, k - run.from)
         })
     }
 

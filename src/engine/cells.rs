@@ -5,8 +5,8 @@
 //! down to the last layer. So of two passes that follow each other, to o and then to o′, the second may work on row j once
 //! the first has worked on the rows j and j + o′ − o. Passes that wait are therefore made together, row after row: each
 //! pass max(0, o′ − o) rows behind the one before, so that a row of cells is still in the nearest cache when the next
-//! pass comes for it. Threads take bands of rows: within a band each pass leaves out the rows that hang on the next
-//! band, one for each step of o, and what was left out around the seams is made up for afterwards.
+//! pass comes for it. Threads take bands of rows, halves of halves: within a band each pass leaves out the rows that hang
+//! on the other half, one for each step of o, and what was left out around the border is made up for when both are done.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
@@ -15,7 +15,8 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::grid::{Grid, Layer, Moves, Pass, Piece};
 use super::parallel;
-use crate::lattice::{Along, Counts, Slopes};
+use crate::error::bug;
+use crate::lattice::{Along, Counts};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
@@ -156,14 +157,12 @@ fn make_in_bands<V>(
 where
     V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
 {
-    let Some((first, _)) = passes.first() else {
-        return Ok(());
+    let whole = Band {
+        taken: passes.iter().map(|(pass, _)| pass.rows()).collect(),
+        starts: [0; 3],
+        planes: planes.iter_mut().map(Plane::slices_mut).collect(),
     };
-    let make = |band: Band<'_, V>| band.make(grid, passes, &turn, &finish);
-    let (apart, seams) = bands(passes, number);
-    // Where γ is cut beside α and β: between the rows that the first pass takes together.
-    parallel::try_for_each(cut(planes, grid, first.shift, apart), make)?;
-    parallel::try_for_each(cut(planes, grid, first.shift, seams), make)
+    whole.make_in_bands(number, grid, passes, (&turn, &finish))
 }
 
 /// How many bands are worth the work of these passes.
@@ -176,129 +175,120 @@ fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
     if worth < 2 || parallel::threads() < 2 {
         return 1;
     }
-    // More than threads: rows are not of one length, and threads not of one speed.
-    worth.min(4 * parallel::threads())
-}
-
-/// The rows that passes take in one band.
-struct Rows {
-    /// Where the band ends, if another follows: none of its passes takes this row, or one below it.
-    end: i128,
-    /// By pass.
-    taken: Vec<Range<i128>>,
-}
-
-/// The rows that each pass can take in bands by themselves, and then around the seams between them.
-fn bands<V>(passes: &Passes<V>, number: usize) -> (Vec<Rows>, Vec<Rows>) {
-    let whole: Vec<Range<i128>> = passes
-        .iter()
-        .map(|(pass, _)| {
-            let rows = pass.part.y();
-            *rows.start()..rows.end() + 1
-        })
-        .collect();
-    let Some(first) = whole.first().cloned() else {
-        return (Vec::new(), Vec::new());
-    };
+    // More than threads, which are not of one speed. Around a seam a band loses rows, one for each step of the shift.
     let shifts = || passes.iter().map(|(pass, _)| pass.shift);
-    let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
-    // Rows that a band loses on its way, on both sides together; around the seam they are to fit into half of two bands.
-    let lost: i128 = steps.clone().map(i128::abs).sum();
-    let height = first.end - first.start;
-    let most = height / (2 * lost + 2);
-    let number = (number as i128).min(most).max(1);
-    let border = |band: i128| first.start + height * band / number;
-    // What is taken up to a border, by pass, from the side before it and from the side behind it.
-    let before = |border: i128| {
-        let rest = steps.clone().scan(border, |end, step| {
-            *end = (*end).min(*end - step);
-            Some(*end)
-        });
-        core::iter::once(border).chain(rest)
-    };
-    let behind = |border: i128| {
-        let rest = steps.clone().scan(border, |start, step| {
-            *start = (*start).max(*start - step);
-            Some(*start)
-        });
-        core::iter::once(border).chain(rest)
-    };
-    let starts = |band: i128| -> Vec<i128> {
-        if band == 0 {
-            whole.iter().map(|rows| rows.start).collect()
-        } else {
-            behind(border(band)).collect()
-        }
-    };
-    let ends = |band: i128| -> Vec<i128> {
-        if band == number {
-            whole.iter().map(|rows| rows.end).collect()
-        } else {
-            before(border(band)).collect()
-        }
-    };
-    let rows = |end, starts: Vec<i128>, ends: Vec<i128>| Rows {
-        end,
-        taken: starts
-            .into_iter()
-            .zip(ends)
-            .map(|(start, end)| start..end)
-            .collect(),
-    };
-    let apart = (0..number).map(|band| rows(border(band + 1), starts(band), ends(band + 1)));
-    let seams = (1..number).map(|seam| {
-        let end = border(seam).midpoint(border(seam + 1));
-        rows(end, ends(seam), starts(seam))
-    });
-    (apart.collect(), seams.collect())
+    let lost: usize = shifts()
+        .zip(shifts().skip(1))
+        .map(|(o, next)| (o.min(next)..o.max(next)).count())
+        .sum();
+    // Not a default: no passes have no rows.
+    let rows = passes.first().map_or(0, |(pass, _)| pass.rows().count());
+    let most = rows / (2 * lost + 2);
+    worth.min(4 * parallel::threads()).min(most).max(1)
 }
 
-/// The cells of all planes, cut between bands; the last band has all that is behind the one before.
-fn cut<'c, V: Clone>(
-    planes: &'c mut [Plane<V>],
-    grid: &Grid<'_>,
-    shift: i128,
-    bands: Vec<Rows>,
-) -> Vec<Band<'c, V>> {
-    let mut rest: Vec<[&mut [V]; 3]> = planes.iter_mut().map(Plane::slices_mut).collect();
-    let mut starts = [0; 3];
-    let number = bands.len();
-    let cut = bands
-        .into_iter()
-        .enumerate()
-        .map(|(band, Rows { end, taken })| {
-            let begun = starts;
-            if band + 1 < number {
-                let (own, shifted) = (grid.row_start(end), grid.row_start(end + shift));
-                starts = [own, own, shifted];
-            } else {
-                starts = [grid.cells; 3];
-            }
-            let lengths: [usize; 3] = core::array::from_fn(|line| starts[line] - begun[line]);
-            let split_off = |rest: &mut [&'c mut [V]; 3]| {
-                core::array::from_fn(|line| {
-                    let (band, behind) =
-                        core::mem::take(&mut rest[line]).split_at_mut(lengths[line]);
-                    rest[line] = behind;
-                    band
-                })
-            };
-            Band {
-                taken,
-                starts: begun,
-                planes: rest.iter_mut().map(split_off).collect(),
-            }
-        });
-    cut.collect()
-}
-
-/// Rows of a layer with the cells of their lines in every plane, apart from all other rows.
+/// Rows of a layer with the cells of their lines in every plane, and what each pass takes of them.
 struct Band<'c, V> {
     /// By pass.
     taken: Vec<Range<i128>>,
     /// Where the slices begin among all cells.
     starts: [usize; 3],
     planes: Vec<[&'c mut [V]; 3]>,
+}
+
+impl<V> Band<'_, V> {
+    /// Where half of its bands end: before that row of the first pass, which is not its first one.
+    fn border(&self, number: usize, passes: &Passes<V>) -> Option<i128> {
+        let ((pass, _), rows) = (passes.first()?, self.taken.first()?.clone());
+        let sites = |j| {
+            let row = pass.part.row(j);
+            row.end - row.start
+        };
+        let all: i128 = rows.clone().map(sites).sum();
+        let mut before = 0;
+        let mut borders = rows.skip(1);
+        borders.find(|border| {
+            before += sites(border - 1);
+            before * number as i128 >= all * (number / 2) as i128
+        })
+    }
+
+    /// Parts it before a row of the first pass: each pass takes of either part what hangs on that part alone. Returns what
+    /// is left around the border, too, by pass.
+    fn part(
+        &mut self,
+        border: i128,
+        grid: &Grid<'_>,
+        passes: &Passes<V>,
+    ) -> ([Band<'_, V>; 2], Vec<Range<i128>>) {
+        let shifts = || passes.iter().map(|(pass, _)| pass.shift);
+        // Row j hangs on the rows j and j + step of the pass before.
+        let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
+        let around = steps.scan(border..border, |around, step| {
+            around.start = around.start.min(around.start - step);
+            around.end = around.end.max(around.end - step);
+            Some(around.clone())
+        });
+        let around: Vec<_> = core::iter::once(border..border).chain(around).collect();
+        let taken = |of: fn(&Range<i128>, &Range<i128>) -> Range<i128>| {
+            let by_pass = self.taken.iter().zip(&around);
+            by_pass.map(|(rows, around)| of(rows, around)).collect()
+        };
+        let before = taken(|rows, around| rows.start..rows.end.min(around.start));
+        let behind = taken(|rows, around| rows.start.max(around.end)..rows.end);
+        let left = taken(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
+        // γ is cut beside α and β: between the rows that the first pass takes together.
+        let shifted = shifts().next().map_or(border, |shift| border + shift);
+        let own = grid.row_start(border);
+        let starts = [own, own, grid.row_start(shifted)];
+        let mut parts = [(before, self.starts), (behind, starts)].map(|(taken, starts)| Band {
+            taken,
+            starts,
+            planes: Vec::with_capacity(self.planes.len()),
+        });
+        let [alpha, beta, gamma] = [0, 1, 2].map(|line| starts[line] - self.starts[line]);
+        for [a, b, c] in &mut self.planes {
+            let (a, b, c) = (
+                a.split_at_mut(alpha),
+                b.split_at_mut(beta),
+                c.split_at_mut(gamma),
+            );
+            parts[0].planes.push([a.0, b.0, c.0]);
+            parts[1].planes.push([a.1, b.1, c.1]);
+        }
+        (parts, left)
+    }
+}
+
+impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
+    /// Makes all passes over their rows, in so many bands at once where there are threads; then what was left out around the
+    /// borders between them.
+    ///
+    /// # Errors
+    /// As for [`make`](Self::make).
+    fn make_in_bands(
+        mut self,
+        number: usize,
+        grid: &Grid<'_>,
+        passes: &Passes<V>,
+        (turn, finish): (
+            &(impl Fn(&[V; 3]) -> [V; 3] + Send + Sync),
+            &(impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync),
+        ),
+    ) -> Result<(), Error> {
+        let several = number > 1;
+        if let Some(border) = several.then(|| self.border(number, passes)).flatten() {
+            let ([before, behind], left) = self.part(border, grid, passes);
+            let half = number / 2;
+            let (before, behind) = parallel::join(
+                || before.make_in_bands(half, grid, passes, (turn, finish)),
+                || behind.make_in_bands(number - half, grid, passes, (turn, finish)),
+            );
+            before.and(behind)?;
+            self.taken = left;
+        }
+        self.make(grid, passes, turn, finish)
+    }
 }
 
 impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
@@ -325,7 +315,10 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             delays.push(delay);
         }
         let counts = |(pass, _): &(Pass, _)| pass.region.counts(pass.run.sign, pass.k - pass.from);
-        let counts: Vec<Counts> = passes.iter().map(counts).collect();
+        let counts = passes
+            .iter()
+            .map(counts)
+            .collect::<Result<Vec<Counts>, _>>()?;
         let filled = || {
             self.taken
                 .iter()
@@ -370,14 +363,16 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             *cells = cells.start - start..cells.end - start;
         }
         let n = cells[0].len();
-        let counts = counts.in_row(j).map(|count| Slopes::new(count, i.start, n));
-        for (plane, ramps) in self.planes.iter_mut().zip(ramps) {
+        let counts = counts.in_row([i.start, j], n)?;
+        let [alpha, beta, gamma] = counts;
+        for (plane, Ramps([a, b, c])) in self.planes.iter_mut().zip(ramps) {
             let rows = row(plane, cells.clone());
+            let along = [alpha.along(a), beta.along(b), gamma.along(c)];
             if pass.turns {
-                add_and_turn(rows, &counts, ramps, turn);
+                add_and_turn(rows, &along, turn)?;
             } else {
-                for ((row, counts), ramp) in rows.into_iter().zip(&counts).zip(&ramps.0) {
-                    add(row, &counts.along(0..n, ramp));
+                for (row, along) in rows.into_iter().zip(&along) {
+                    add(row, along);
                 }
             }
         }
@@ -394,52 +389,49 @@ pub(super) fn row<'r, V>(
 }
 
 /// Adds to three rows what their counts come to, and turns them.
+///
+/// # Errors
+/// [`Error::Bug`] for a count that has no value.
 fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    mut rows: [&mut [V]; 3],
-    counts: &[Slopes; 3],
-    Ramps(ramps): &Ramps<V>,
+    [alpha, beta, gamma]: [&mut [V]; 3],
+    along @ [a, b, c]: &[Along<'_, V>; 3],
     turn: &impl Fn(&[V; 3]) -> [V; 3],
-) {
-    let n = rows[0].len();
-    let along: [Along<'_, V>; 3] =
-        core::array::from_fn(|line| counts[line].along(0..n, &ramps[line]));
-    let start = along
-        .iter()
-        .fold(0, |start, along| start.max(along.up.len()));
-    let end = along
-        .iter()
-        .fold(n, |end, along| end.min(n - along.down.len()));
-    let [Some(a), Some(b), Some(c)] = along.each_ref().map(|along| along.level) else {
-        return add_then_turn(rows, &along, turn);
+) -> Result<(), Error> {
+    /// So many places are dealt with one by one sooner than in loops of their own.
+    const FEW: usize = 16;
+    let n = alpha.len();
+    let up = a.up.len().max(b.up.len()).max(c.up.len());
+    let down = a.down.len().max(b.down.len()).max(c.down.len());
+    let (Some(level_a), Some(level_b), Some(level_c), true) =
+        (a.level, b.level, c.level, up + down <= FEW)
+    else {
+        add_then_turn([alpha, beta, gamma], along, turn);
+        return Ok(());
     };
-    if start >= end {
-        return add_then_turn(rows, &along, turn);
-    }
-    // Where all three are level, what is added is the same everywhere; on both sides of it there is little, mostly.
-    for (row, along) in rows.iter_mut().zip(&along) {
-        add_outside(row, along, &(start..end));
-    }
-    let [alpha, beta, gamma] = rows;
-    turn_rows(
-        [&mut alpha[..start], &mut beta[..start], &mut gamma[..start]],
-        turn,
-    );
-    turn_rows(
-        [&mut alpha[end..], &mut beta[end..], &mut gamma[end..]],
-        turn,
-    );
-    let level = start..end;
-    let level = [
+    let sum = |x: &V, w| formula::passed_on(x.clone(), w);
+    // Where all three are level, what is added is the same everywhere.
+    let level = up..(n - down).max(up);
+    turn_apart(
         &mut alpha[level.clone()],
         &mut beta[level.clone()],
-        &mut gamma[level],
-    ];
-    turn_rows(level, &|[x, y, z]: &[V; 3]| {
-        let add = |x: &V, w| formula::passed_on(x.clone(), w);
-        turn(&[add(x, a), add(y, b), add(z, c)])
-    });
+        &mut gamma[level.clone()],
+        &|[x, y, z]: &[V; 3]| turn(&[sum(x, level_a), sum(y, level_b), sum(z, level_c)]),
+    );
+    for place in (0..level.start).chain(level.end..n) {
+        let after = n - 1 - place;
+        let (Some(a), Some(b), Some(c)) =
+            (a.at(place, after), b.at(place, after), c.at(place, after))
+        else {
+            return Err(bug("a ramp has a value for each count"));
+        };
+        let (x, y, z) = (&mut alpha[place], &mut beta[place], &mut gamma[place]);
+        [*x, *y, *z] = turn(&[sum(x, a), sum(y, b), sum(z, c)]);
+    }
+    Ok(())
 }
 
+// Kept apart, so that the usual way stays small.
+#[inline(never)]
 fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     mut rows: [&mut [V]; 3],
     along: &[Along<'_, V>; 3],
@@ -448,14 +440,8 @@ fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     for (row, along) in rows.iter_mut().zip(along) {
         add(row, along);
     }
-    turn_rows(rows, turn);
-}
-
-fn turn_rows<V>([a, b, c]: [&mut [V]; 3], turn: &impl Fn(&[V; 3]) -> [V; 3])
-where
-    V: Clone,
-{
-    turn_apart(a, b, c, turn);
+    let [alpha, beta, gamma] = rows;
+    turn_apart(alpha, beta, gamma, turn);
 }
 
 /// Rows in different places, which the compiler knows of parameters.
@@ -477,25 +463,6 @@ fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], along: &Along<'
     add_each(rising, up.iter());
     if let Some(value) = level {
         add_same(same, value);
-    }
-    add_each(falling, down.iter().rev());
-}
-
-/// Adds to a row, but not between these places, where it is level.
-fn add_outside<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    row: &mut [V],
-    along: &Along<'_, V>,
-    level: &Range<usize>,
-) {
-    let (left, rest) = row.split_at_mut(level.start);
-    let (_, right) = rest.split_at_mut(level.len());
-    let Along { up, level, down } = *along;
-    let (rising, same) = left.split_at_mut(up.len());
-    let (same_again, falling) = right.split_at_mut(right.len() - down.len());
-    add_each(rising, up.iter());
-    if let Some(value) = level {
-        add_same(same, value);
-        add_same(same_again, value);
     }
     add_each(falling, down.iter().rev());
 }

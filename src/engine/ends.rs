@@ -43,21 +43,22 @@ impl<T: Algebra> Lines<'_, T> {
             let mut ends = BTreeSet::from([row.i.start, row.i.end - 1]);
             if let Some(run) = run {
                 let steps = k - run.from;
-                for count in self.shape.row_counts(&run, k, row.j) {
+                let start = row.i.start;
+                for count in self.shape.row_counts(&run, k, [start, row.j]) {
                     // A count that does not rise, or fall, is level to the end of the row.
                     let level = (
                         match count.rises {
-                            Some(from) => from + count.cap,
-                            None => row.i.start,
+                            Some(rises) => start - rises + count.cap,
+                            None => start,
                         },
                         match count.falls {
-                            Some(until) => until - count.cap,
+                            Some(falls) => start + falls - count.cap,
                             None => row.i.end - 1,
                         },
                     );
                     ends.extend([level.0, level.1]);
-                    if let (Some(from), Some(until)) = (count.rises, count.falls) {
-                        let top = (from + until).div_euclid(2);
+                    if let (Some(rises), Some(falls)) = (count.rises, count.falls) {
+                        let top = start + (falls - rises).div_euclid(2);
                         ends.extend([top, top + 1]);
                     }
                     if run.index > 0 && count.cap == steps {

@@ -63,6 +63,12 @@ pub(crate) struct Pass {
 }
 
 impl Pass {
+    /// The rows that are kept.
+    pub(super) fn rows(&self) -> Range<i128> {
+        let rows = self.part.y();
+        *rows.start()..rows.end() + 1
+    }
+
     /// No line of the layer has more spheres of the pass on it: not more than steps, nor than sites on a side.
     pub(super) fn greatest_count(&self) -> i128 {
         let widths = self.region.widths();

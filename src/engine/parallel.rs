@@ -14,24 +14,25 @@ pub(crate) fn threads() -> usize {
     1
 }
 
-/// Does two things, at once where there are threads.
-pub(crate) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+/// Does two things, at once where there are threads, and returns what comes of them.
+pub(crate) fn join<A: Send, B: Send>(
+    one: impl FnOnce() -> A + Send,
+    other: impl FnOnce() -> B + Send,
+) -> (A, B) {
     #[cfg(feature = "rayon")]
     {
         let asked = interrupt::current();
         rayon::join(
             || interrupt::within(asked.as_ref(), one),
             || interrupt::within(asked.as_ref(), other),
-        );
+        )
     }
     #[cfg(not(feature = "rayon"))]
-    {
-        one();
-        other();
-    }
+    (one(), other())
 }
 
 /// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
+#[cfg(feature = "ensemble")]
 pub(crate) fn try_for_each<I: Send, E: Send>(
     items: alloc::vec::Vec<I>,
     work: impl Fn(I) -> Result<(), E> + Send + Sync,

@@ -94,11 +94,7 @@ impl<V: Clone + Send + Sync> Table<V> {
         let spheres = self.shape.spheres_in(upper.clone()).to_usize();
         let mut rest = slices;
         let above = split_front(&mut rest, spheres.ok_or_else(too_short)?)?;
-        let (mut first, mut second) = (Ok(()), Ok(()));
-        parallel::join(
-            || first = self.fill(upper, above),
-            || second = self.fill(lower, rest),
-        );
+        let (first, second) = parallel::join(|| self.fill(upper, above), || self.fill(lower, rest));
         first.and(second)
     }
 
@@ -141,13 +137,10 @@ impl<V: Clone + Send + Sync> Table<V> {
             None if shape.layers() == 1 => Sign::Plus,
             None => return Err(bug("a layer of a pile rests on another, or is rested on")),
         };
-        let counts = region.row_counts(row.j, sign, row.k);
+        let counts = region.row_counts([row.i.start, row.j], sign, row.k);
         for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {
             let n = slice.len();
-            write(
-                &Slopes::new(count, row.i.start, n).along(0..n, table),
-                slice,
-            )?;
+            write(&Slopes::new(count.near(), n).along(table), slice)?;
         }
         Ok(())
     }

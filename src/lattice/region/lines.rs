@@ -1,9 +1,11 @@
 //! How many spheres lie on the lines above a site, within a run.
 
 use core::cmp::Ordering;
-use core::ops::{Range, Sub};
+use core::ops::Range;
 
 use super::Region;
+use crate::Error;
+use crate::error::bug;
 use crate::lattice::{Sign, count};
 
 impl Region {
@@ -31,118 +33,151 @@ impl Region {
         bounds.map(|[m, a, b, c]| m.min(a).min(b).min(c))
     }
 
-    /// Returns how [`spheres_above`](Self::spheres_above) goes on along row `j`, within the region.
-    pub(crate) fn row_counts(&self, j: i128, sign: Sign, steps: i128) -> [Trapezoid; 3] {
-        self.counts(sign, steps).in_row(j)
+    /// Returns how [`spheres_above`](Self::spheres_above) goes on along row `j` from the site (i, j) on, within the region.
+    pub(crate) fn row_counts(&self, [i, j]: [i128; 2], sign: Sign, steps: i128) -> [Trapezoid; 3] {
+        let bounds = |i| count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);
+        Trapezoid::between(bounds(i), bounds(i + 1))
     }
 
-    /// Returns how [`spheres_above`](Self::spheres_above) goes on along any row, within the region.
-    pub(crate) fn counts(&self, sign: Sign, steps: i128) -> Counts {
-        let constant = |at_zero| Linear {
-            at_zero,
-            along: [0, 0],
-        };
-        let [i, j] = [[1, 0], [0, 1]].map(|along| Linear { at_zero: 0, along });
-        let (lower, upper) = (self.lower.map(constant), self.upper.map(constant));
-        let bounds = count::bounds_above(&i, &j, &lower, &upper, &constant(steps), sign);
-        Counts { steps, bounds }
-    }
-}
-
-/// What bounds the counts on the lines above the sites of a region, by direction.
-pub(crate) struct Counts {
-    steps: i128,
-    bounds: [[Linear; 4]; 3],
-}
-
-impl Counts {
-    /// Returns how the counts go on along row `j`.
-    #[inline]
-    pub(crate) fn in_row(&self, j: i128) -> [Trapezoid; 3] {
-        self.bounds.each_ref().map(|bounds| {
-            let count = Trapezoid {
-                cap: self.steps,
-                rises: None,
-                falls: None,
-            };
-            bounds
-                .iter()
-                .fold(count, |count, bound| count.bounded_by(bound, j))
+    /// Returns how [`spheres_above`](Self::spheres_above) goes on along any row of a region that fits in memory.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if it does not.
+    pub(crate) fn counts(&self, sign: Sign, steps: i128) -> Result<Counts, Error> {
+        let ([x0, y0, _], [x1, y1, s1]) = (self.lower, self.upper);
+        let [x, y] = [small(x1 - x0)?, small(y1 - y0)?];
+        Ok(Counts {
+            first: [x0, y0],
+            // Of i − x₀, j − y₀ and their sum.
+            lower: [0, 0, small(self.lower[2] - x0 - y0)?],
+            upper: [x, y, small(s1 - x0 - y0)?],
+            steps: small(steps)?,
+            sign,
         })
     }
 }
 
-/// A function of i and j that is linear in both: its value at (0, 0), and by how much it grows along i and j.
-#[derive(Clone, Copy)]
-struct Linear {
-    at_zero: i128,
-    along: [i8; 2],
+/// A number within [`FAR`].
+fn small(n: i128) -> Result<i64, Error> {
+    let small = i64::try_from(n).ok().filter(|n| (-FAR..=FAR).contains(n));
+    small.ok_or_else(|| bug("a layer that is swept fits in memory"))
 }
 
-impl Sub<&Self> for Linear {
-    type Output = Self;
+/// What bounds the counts on the lines above the sites of a region that fits in memory.
+pub(crate) struct Counts {
+    /// The least i and j, which all else is counted from.
+    first: [i128; 2],
+    lower: [i64; 3],
+    upper: [i64; 3],
+    steps: i64,
+    sign: Sign,
+}
 
-    fn sub(self, rhs: &Self) -> Self {
-        let [[i, j], [other_i, other_j]] = [self.along, rhs.along];
-        Self {
-            at_zero: self.at_zero - rhs.at_zero,
-            along: [i - other_i, j - other_j],
+impl Counts {
+    /// Returns how the counts go on from the site (i, j) on, for `n` places.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a site that is far from the region.
+    #[inline]
+    pub(crate) fn in_row(&self, [i, j]: [i128; 2], n: usize) -> Result<[Slopes; 3], Error> {
+        let [i, j] = [small(i - self.first[0])?, small(j - self.first[1])?];
+        let Self {
+            lower,
+            upper,
+            steps,
+            ..
+        } = self;
+        let bounds = |i, sign| count::bounds_above(&i, &j, lower, upper, steps, sign);
+        let counts = |sign| Trapezoid::between(bounds(i, sign), bounds(i + 1, sign));
+        // The compiler knows of either sign which bounds rise, and which fall.
+        let [a, b, c] = match self.sign {
+            Sign::Plus => counts(Sign::Plus),
+            Sign::Minus => counts(Sign::Minus),
+        };
+        Ok([Slopes::new(a, n), Slopes::new(b, n), Slopes::new(c, n)])
+    }
+}
+
+/// min(cap, rises + p, falls − p): how a count runs along a row, p places from where it is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Trapezoid<N = i128> {
+    pub(crate) cap: N,
+    pub(crate) rises: Option<N>,
+    pub(crate) falls: Option<N>,
+}
+
+impl<N: Copy + Ord> Trapezoid<N> {
+    /// From what bounds the counts at one place and at the next: each bound rises by one along the row, falls by one, or is
+    /// level, as the first of each count is.
+    #[inline]
+    fn between([a, b, c]: [[N; 4]; 3], [a_next, b_next, c_next]: [[N; 4]; 3]) -> [Self; 3] {
+        let count = |[cap, x, y, z]: [N; 4], [_, x_next, y_next, z_next]: [N; 4]| {
+            let level = Self {
+                cap,
+                rises: None,
+                falls: None,
+            };
+            let count = level.bounded_by(x, x_next).bounded_by(y, y_next);
+            count.bounded_by(z, z_next)
+        };
+        [count(a, a_next), count(b, b_next), count(c, c_next)]
+    }
+
+    #[inline]
+    fn bounded_by(self, here: N, next: N) -> Self {
+        let least = |bound: Option<N>| Some(bound.into_iter().fold(here, N::min));
+        match next.cmp(&here) {
+            Ordering::Equal => Self {
+                cap: self.cap.min(here),
+                ..self
+            },
+            Ordering::Greater => Self {
+                rises: least(self.rises),
+                ..self
+            },
+            Ordering::Less => Self {
+                falls: least(self.falls),
+                ..self
+            },
         }
     }
 }
 
-/// min(cap, i − rises, falls − i): how a count runs along a row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Trapezoid {
-    pub(crate) cap: i128,
-    pub(crate) rises: Option<i128>,
-    pub(crate) falls: Option<i128>,
-}
-
 impl Trapezoid {
-    /// The lesser of the count and a function that rises by one along the row, falls by one, or is level.
-    #[inline]
-    fn bounded_by(self, bound: &Linear, j: i128) -> Self {
-        let [along_i, along_j] = bound.along;
-        let at_zero = match along_j {
-            0 => bound.at_zero,
-            1 => bound.at_zero + j,
-            slope => bound.at_zero + i128::from(slope) * j,
-        };
-        match along_i.cmp(&0) {
-            Ordering::Equal => Self {
-                cap: self.cap.min(at_zero),
-                ..self
-            },
-            Ordering::Greater => Self {
-                rises: Some(self.rises.map_or(-at_zero, |from| from.max(-at_zero))),
-                ..self
-            },
-            Ordering::Less => Self {
-                falls: Some(self.falls.map_or(at_zero, |until| until.min(at_zero))),
-                ..self
-            },
+    /// Returns the count as it runs along a row that fits in memory.
+    pub(crate) fn near(self) -> Trapezoid<i64> {
+        #[expect(clippy::cast_possible_truncation, reason = "|n| ≤ FAR")]
+        // Not a default: what is further off than any row is long is on the same side of the row from there.
+        let near = |n: i128| n.clamp(-i128::from(FAR), FAR.into()) as i64;
+        Trapezoid {
+            cap: near(self.cap),
+            rises: self.rises.map(near),
+            falls: self.falls.map(near),
         }
     }
 
     #[cfg(test)]
-    fn at(&self, i: i128) -> i128 {
-        let rise = self.rises.map_or(self.cap, |from| i - from);
-        let fall = self.falls.map_or(self.cap, |until| until - i);
+    fn at(&self, p: i128) -> i128 {
+        let rise = self.rises.map_or(self.cap, |rises| rises + p);
+        let fall = self.falls.map_or(self.cap, |falls| falls - p);
         self.cap.min(rise).min(fall)
     }
 }
 
+/// Further than any row in memory is long; sums of two are numbers.
+const FAR: i64 = i64::MAX / 4;
+
 /// A count along a row: it rises by one from place to place, then it is level, then it falls by one.
 pub(crate) struct Slopes {
-    cap: i64,
-    /// Places along the row where the count would be zero.
-    rises: i64,
-    falls: i64,
-    level: Range<usize>,
+    /// The counts where it rises.
+    up: Range<usize>,
+    /// The count between the slopes; none if there is nothing between them.
+    level: Option<usize>,
+    /// The counts where it falls, from the last of them to the first.
+    down: Range<usize>,
 }
 
-/// Values by count, along a piece of a row.
+/// Values by count, along a row.
 pub(crate) struct Along<'v, V> {
     /// Where the count rises.
     pub(crate) up: &'v [V],
@@ -153,51 +188,49 @@ pub(crate) struct Along<'v, V> {
 }
 
 impl Slopes {
-    /// Of a row of `n` places that begins at `start`; it fits in memory, and so do all counts.
-    pub(crate) fn new(count: Trapezoid, start: i128, n: usize) -> Self {
-        const FAR: i64 = i64::MAX / 4;
-        #[expect(clippy::cast_possible_truncation, reason = "|i| ≤ FAR")]
-        // Not a default: what is further off than any row is long is on the same side of the row from there.
-        let near = |i: i128| i.clamp(-i128::from(FAR), FAR.into()) as i64;
-        let cap = near(count.cap);
-        let rises = count.rises.map_or(-FAR, |from| near(from - start));
-        let falls = count.falls.map_or(FAR, |until| near(until - start));
+    /// Of a row of `n` places, as many as fit in memory, and counts within [`FAR`].
+    #[inline]
+    pub(crate) fn new(Trapezoid { cap, rises, falls }: Trapezoid<i64>, n: usize) -> Self {
+        // Not a default: a count that does not rise, or fall, would be as high as this.
+        let (rises, falls) = (rises.unwrap_or(FAR), falls.unwrap_or(FAR));
         let inside = |place: i64| usize::try_from(place.max(0)).map_or(n, |place| place.min(n));
         // It may fall again before it has risen to the cap.
-        let meet = (rises + falls).div_euclid(2) + 1;
-        let rise = inside(meet.min(rises + cap));
+        let meet = (falls - rises).div_euclid(2) + 1;
+        let rise = inside(meet.min(cap - rises));
         let fall = inside(falls - cap + 1).max(rise);
+        // Not a default: no values are those of a count below zero, and what is shorter than its row is refused.
+        let count = |count: i64| usize::try_from(count).unwrap_or(usize::MAX);
+        let counts = |least: usize, places: usize| least..least.saturating_add(places);
+        // Not a default: no row in memory is as long.
+        let last = falls + 1 - i64::try_from(n).unwrap_or(FAR);
         Self {
-            cap,
-            rises,
-            falls,
-            level: rise..fall,
+            up: counts(count(rises), rise),
+            level: (rise < fall).then_some(count(cap)),
+            down: counts(count(last), n - fall),
         }
     }
 
-    /// `values[count]` along a piece of the row; as many as there are places, unless `values` is too short for a count.
-    pub(crate) fn along<'v, V>(&self, piece: Range<usize>, values: &'v [V]) -> Along<'v, V> {
-        // Not a default: the part of a slope that lies in the piece.
-        let inside = |place: usize| place.clamp(piece.start, piece.end);
-        let (rise, fall) = (inside(self.level.start), inside(self.level.end));
-        // Counts from one place of the row to another, of which the first is the least.
-        let counts = |least: Option<i64>, places: usize| -> &'v [V] {
-            let first = least.and_then(|least| usize::try_from(least).ok());
-            match first.and_then(|first| values.get(first..)) {
-                Some(values) => values.get(..places).unwrap_or(values),
-                // Too few values: the slices are then shorter than the piece, which is refused where they are written.
-                None => &[],
-            }
-        };
-        let place = |place: usize| i64::try_from(place).ok();
-        let cap = usize::try_from(self.cap).ok();
-        let first = place(piece.start).map(|start| start - self.rises);
-        let last = place(piece.end).map(|end| self.falls - end + 1);
+    /// `values[count]` along the row; as many as there are places, unless `values` is too short for a count.
+    #[inline]
+    pub(crate) fn along<'v, V>(&self, values: &'v [V]) -> Along<'v, V> {
+        // Not a default: with too few values the slices are shorter than the row, which is refused where they are written.
+        let counts = |counts: &Range<usize>| values.get(counts.clone()).unwrap_or(&[]);
         Along {
-            up: counts(first, rise - piece.start),
-            level: cap.and_then(|cap| values.get(cap)).filter(|_| rise < fall),
-            down: counts(last, piece.end - fall),
+            up: counts(&self.up),
+            level: self.level.and_then(|count| values.get(count)),
+            down: counts(&self.down),
         }
+    }
+}
+
+impl<'v, V> Along<'v, V> {
+    /// The value at a place of a row that has `after` more behind it; none if there were too few.
+    #[inline]
+    pub(crate) fn at(&self, place: usize, after: usize) -> Option<&'v V> {
+        self.up
+            .get(place)
+            .or_else(|| self.down.get(after))
+            .or(self.level)
     }
 }
 
@@ -207,19 +240,18 @@ mod tests {
 
     use super::*;
 
-    /// The counts along a row, met in two pieces.
+    /// The counts along a row, and again place by place.
     fn met(slopes: &Slopes, length: usize) -> Vec<i128> {
         let counts: Vec<i128> = (0..20).collect();
-        let middle = length / 3;
-        let pieces = [0..middle, middle..length].map(|piece| {
-            let places = piece.len();
-            let Along { up, level, down } = slopes.along(piece, &counts);
-            let same = places - up.len() - down.len();
-            let level = level.map_or_else(Vec::new, |count| alloc::vec![*count; same]);
-            let down: Vec<i128> = down.iter().rev().copied().collect();
-            [up, &level, &down].concat()
-        });
-        pieces.concat()
+        let along = slopes.along(&counts);
+        let Along { up, level, down } = along;
+        let same = length - up.len() - down.len();
+        let level = level.map_or_else(Vec::new, |count| alloc::vec![*count; same]);
+        let down: Vec<i128> = down.iter().rev().copied().collect();
+        let met = [up, &level, &down].concat();
+        let places = (0..length).map(|place| *along.at(place, length - 1 - place).unwrap());
+        assert_eq!(met, places.collect::<Vec<_>>());
+        met
     }
 
     /// A row at a time or a site at a time, it is the same count.
@@ -237,14 +269,18 @@ mod tests {
                 .flat_map(|sign| (0..6).map(move |m| (sign, m)))
             {
                 for row in region.rows(0) {
-                    let counts = region.row_counts(row.j, sign, steps);
+                    let start = [row.i.start, row.j];
+                    let counts = region.row_counts(start, sign, steps);
                     let length = usize::try_from(row.i.end - row.i.start).unwrap();
-                    let along =
-                        counts.map(|count| met(&Slopes::new(count, row.i.start, length), length));
-                    for (place, i) in row.i.enumerate() {
+                    let along = counts.map(|count| met(&Slopes::new(count.near(), length), length));
+                    let slopes = region.counts(sign, steps).unwrap().in_row(start, length);
+                    let in_memory = slopes.unwrap().each_ref().map(|slopes| met(slopes, length));
+                    assert_eq!(in_memory, along);
+                    for (p, i) in (0..).zip(row.i.clone()) {
                         let of_site = region.spheres_above(i, row.j, sign, steps);
+                        let place = usize::try_from(p).unwrap();
                         assert_eq!(
-                            counts.map(|count| count.at(i)),
+                            counts.map(|count| count.at(p)),
                             of_site,
                             "{region} {i} {}",
                             row.j
