@@ -109,7 +109,7 @@ impl Unit {
         let leading = DoubleDouble::new(high * scale) + DoubleDouble::new(low as f64 * scale);
         let product = leading * factor.value;
         // The factor is at most 1.
-        let slack = product.high() * power_of_two(SLACK) + 2.0 * owed * scale;
+        let slack = product.high() * power_of_two(SLACK) + owed * scale;
         let ends = [product.low() - slack, product.low() + slack].map(|low| product.high() + low);
         let negative = (n < 0) != factor.negative;
         float_between(negative, ends, exponent + bits + factor.exponent)
@@ -354,6 +354,42 @@ mod tests {
             }
         }
         assert!(met > 2500);
+    }
+
+    /// Lower limbs as great as an `i64` is, five of them in a sum, owe nearly 5·2^12 of the unit above them: what stands
+    /// there below a tie may be a number above it.
+    #[test]
+    fn limbs_that_wait_for_their_carries_are_owed_in_full() {
+        // Nearly 2^7.5, where the factor is nearly as great as it can be: 1/√2.
+        let great = BigRational::from(BigInt::from(181));
+        let unit = Unit::new(great.into(), 1.into());
+        let units = [(); 3].map(|()| unit.clone());
+        let readout = Readout {
+            combination: [[-1, 2, 2]; 3],
+            own: [(); 3].map(|()| BigInt::zero()),
+        };
+        // Times 181 an odd number of 54 bits: a tie. Of 76 bits and of 113, where the product is as little certain as what
+        // is owed.
+        let odd = ((1_i128 << 53) / 181 + 1) | 1;
+        let ties = [odd << 30, odd << 67].into_iter();
+        let below = |tie| (0..21_000).step_by(250).map(move |below| (tie, below));
+        let cases = ties.flat_map(below);
+        for ((tie, below), sign) in cases.flat_map(|case| [(case, 1), (case, -1)]) {
+            // Twice the upper limbs of β, and five lower ones.
+            let upper = limbs(&((tie - below) / 2 * i128::from(sign)).into(), 2).unwrap();
+            let least = [-sign, sign, sign].map(|sign| sign * i64::MAX);
+            let top_down = [[0, upper[1], 0], [0, upper[0], 0], least];
+            let n = top_down.iter().fold(BigInt::zero(), |n, [a, b, c]| {
+                (n << LIMB) + 2 * (i128::from(*b) + i128::from(*c)) - i128::from(*a)
+            });
+            let top_down = top_down
+                .each_ref()
+                .map(|limbs| limbs.each_ref().map(core::slice::from_ref));
+            let mut out = [[0.0_f64]; 3];
+            let [a, b, c] = &mut out;
+            assert_eq!(readout.write(&units, &top_down, [a, b, c]), Ok(true));
+            assert_eq!(Some(out[0][0]), slowly(&unit, &n), "{below} {sign}");
+        }
     }
 
     /// The two integers between which n units are a float and a half: the leading limbs alone tell neither from the tie.
