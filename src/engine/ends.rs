@@ -148,6 +148,18 @@ mod tests {
         assert!(unlisted > 100, "{unlisted}");
     }
 
+    /// On a base that is cut off at a corner lines rise and fall again before they are as long as the run: to a top of one
+    /// place, or of two.
+    #[test]
+    fn forces_on_a_base_are_linear_between_them() {
+        let cut = Region::new(0..=12, 0..=18, 9..=18).unwrap();
+        let opposite = Region::new(-12..=0, -18..=0, -18..=-9).unwrap();
+        let piles = [(cut, "(9)"), (cut, "(1,8)"), (opposite, "-(9)")];
+        let pile = |(base, runs): (Region, &str)| Pile::on(base, runs.parse().unwrap()).unwrap();
+        let unlisted = are_linear(piles.into_iter().map(pile));
+        assert!(unlisted > 100, "{unlisted}");
+    }
+
     /// How many sites are not listed; each has forces halfway between those beside it.
     fn are_linear(piles: impl IntoIterator<Item = Pile>) -> usize {
         let mut unlisted = 0;

@@ -217,6 +217,17 @@ fn beside_the_ends_of_pieces() {
     }
 }
 
+/// The lines above a base that is cut off at a corner rise and fall along its rows: at one place three of them are as high
+/// as 120, 240 and 240, and nowhere else do they sum to as much.
+#[test]
+fn at_the_top_of_a_line() {
+    let n = 120;
+    let base = Region::new(0..=4 * n, 0..=6 * n, 3 * n..=6 * n).unwrap();
+    let pile = Pile::on(base, format!("({})", 3 * n).parse().unwrap()).unwrap();
+    let normal_max = pile.base_extremes().unwrap().normal_max;
+    assert_eq!(normal_max, ratio((120 + 240 + 240) / 3 + 1, 1));
+}
+
 /// Where a pile fails near the top, the least contact down to there need not be the least of all: none is named.
 #[test]
 fn no_least_contact_is_named_where_not_all_were_looked_at() {
