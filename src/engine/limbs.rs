@@ -531,6 +531,21 @@ mod tests {
         }
     }
 
+    /// Two changes of sign need a bit more than there is in one limb, which the pass to the second makes room for.
+    #[test]
+    fn limbs_grow_with_the_pass_that_turns() {
+        let shape = Shape::under(Region::SITE, "+-++-".parse().unwrap()).unwrap();
+        let grid = Grid::new(&shape, 5, 2).unwrap();
+        let mut planes = Planes::new(&grid, BigInt::from(1) << 61);
+        let one = [1, 1, 1].map(BigInt::from);
+        for (to, limbs) in [(1, 1), (2, 2), (3, 2), (4, 2)] {
+            let pass = grid.pass(to - 1, to).unwrap().unwrap();
+            planes.pass(&grid, &pass, &one).unwrap();
+            planes.catch_up(&grid).unwrap();
+            assert_eq!(planes.limbs.len(), limbs, "{to}");
+        }
+    }
+
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "no force is wider"))]
     fn a_number_that_is_wider_than_was_proved_is_a_bug() {
