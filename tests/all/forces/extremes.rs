@@ -274,3 +274,76 @@ fn of_a_base_with_one_other_sphere() {
         }
     }
 }
+
+/// Loads on the spheres with the greatest ratio and the least normal force, and with the greatest of those that are left:
+/// what they would be without says nothing of others between them.
+#[test]
+fn of_a_base_where_the_extremes_are_loaded() {
+    let row = Region::new(0..=2, 0..=0, 0..=2).unwrap();
+    let pile = Pile::under(row, "++-".parse().unwrap()).unwrap();
+    let loaded = [[0, -1], [2, -1]].into_iter().fold(pile, |pile, [i, j]| {
+        let site = Site { i, j, k: 3 };
+        pile.with_load(site, ratio(1, 1)).unwrap()
+    });
+    are_those_over_all(&loaded);
+}
+
+/// A load on each sphere in turn that is beyond the floats, so that some spheres of a row have one and others none.
+#[test]
+fn of_a_base_half_of_which_is_beyond_the_floats() {
+    let great = BigRational::from_integer(num_bigint::BigInt::from(7).pow(600));
+    let top = Region::new(-1..=1, 0..=2, -1..=2).unwrap();
+    let pile = Pile::under(top, "+--".parse().unwrap()).unwrap();
+    for site in pile.rows(Selection::Layer(1)).unwrap().flatten() {
+        are_those_over_all(&pile.clone().with_load(site, great.clone()).unwrap());
+    }
+}
+
+/// Four bottom spheres of which no other bears anything, but for others with loads beyond all shear. Two of them are pressed
+/// evenly, the others but for parts of 2^−537, 7.28 and 7.32 of them: of the squares of such shears the floats keep no digit
+/// beyond 2^−1074, and say that the first has the greater ratio.
+#[test]
+fn of_ratios_that_are_too_small_for_their_floats() {
+    let power =
+        |exponent: u32| BigRational::from_integer(num_bigint::BigInt::from(2).pow(exponent));
+    let part = power(537).recip();
+    let load = |pile: Pile, [i, j, k]: [i128; 3], load: &BigRational| {
+        pile.with_load(Site { i, j, k }, load.clone()).unwrap()
+    };
+    let row = Region::new(0..=6, 0..=0, 0..=6).unwrap();
+    let mut pile = Pile::under(row, "+-".parse().unwrap())
+        .unwrap()
+        .weightless();
+    let pressed = [
+        (0, ratio(1, 2)),
+        (2, ratio(1, 1)),
+        (4, ratio(1, 1)),
+        (6, ratio(2, 1)),
+    ];
+    for (i, normal) in &pressed {
+        for [i, j] in [[*i, 0], [i + 1, 0], [*i, 1]] {
+            pile = load(pile, [i, j, 1], normal);
+        }
+    }
+    for (at, parts) in [([2, 1, 1], 728), ([5, 0, 1], 732)] {
+        pile = load(pile, at, &(&part * ratio(parts, 100)));
+    }
+    for site in pile
+        .rows(Selection::Base)
+        .unwrap()
+        .flatten()
+        .collect::<Vec<_>>()
+    {
+        if site.j != 0 || pressed.iter().all(|(i, _)| *i != site.i) {
+            pile = load(pile, [site.i, site.j, 2], &power(600));
+        }
+    }
+    are_those_over_all(&pile);
+    let greatest = pile.base_extremes().unwrap().max_shear_ratio.square();
+    // (7.32/3)² parts, and a little less, for the normal force has one too.
+    let parts = greatest / (&part * &part);
+    assert!(
+        ratio(595, 100) < parts && parts < ratio(596, 100),
+        "{parts}"
+    );
+}

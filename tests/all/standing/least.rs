@@ -129,6 +129,14 @@ fn a_light_bottom_sphere_hides_no_other() {
         let case = Case::under(&row, "+-").with_weight((2, j, i), &ratio(0, 1));
         extremes_are_those_of_the_oracle(&case);
     }
+    // Of two that carry as much, and more than all others, it is the first.
+    let top = Bounds {
+        x: (-1, 2),
+        y: (-1, 1),
+        s: (-1, 2),
+    };
+    let case = Case::under(&top, "+-").with_weight((2, 0, 0), &ratio(0, 1));
+    extremes_are_those_of_the_oracle(&case);
 }
 
 /// In units of 2cosφ that are not whole.
