@@ -2,8 +2,9 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Direction, Region, Site};
-use cannonpile::scalar::NearestFloat;
+use cannonpile::scalar::{FixedRational, NearestFloat};
 use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing, Pile};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -207,6 +208,40 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(wrong, Err(Error::Length { needed, given }));
     let floor = forces.layers(Selection::Base).expect("a base").spheres();
     assert_eq!(floor, Ok(0));
+}
+
+/// Small forces, whose denominators are not: where fractions of 32 bits hold no power of 3 beyond the twentieth, layers are
+/// refused, and filled down to there.
+#[test]
+fn small_forces_that_are_no_fractions_of_words_are_refused() {
+    type Fraction = FixedRational<i32>;
+    let pile = Pile::under(Region::SITE, Stacking::hcp(24).expect("layers")).expect("a pile");
+    let (fractions, exact) = (pile.forces::<Fraction>(), pile.forces::<BigRational>());
+    let mut layers = fractions.layers(Selection::All).expect("layers");
+    let (mut filled, mut refused) = (0, 0);
+    while let Some(layer) = layers.next_layer().expect("room") {
+        if layer.is_floor() {
+            break;
+        }
+        let mut forces = slices(&Fraction::FAULT, layer.spheres());
+        match layer.fill(forces.each_mut().map(Vec::as_mut_slice)) {
+            Ok(()) => {
+                let contacts = exact
+                    .contacts(Selection::Layer(layer.k()))
+                    .expect("a layer");
+                let contacts = contacts.map(|contact| contact.expect("a contact").force);
+                let forces = transposed(&forces).into_iter().flatten();
+                let forces = forces.map(|force| force.to_rational().expect("no fault"));
+                assert!(contacts.eq(forces), "{}", layer.k());
+                filled += 1;
+            }
+            Err(error) => {
+                assert!(matches!(error, Error::Overflow { .. }), "{error:?}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(filled > 9 && refused > 2, "{filled} {refused}");
 }
 
 #[test]
