@@ -161,6 +161,35 @@ fn springs_that_nothing_presses_are_open() {
     assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
 }
 
+/// Nor is any whole number of gaps as good as another: the nearest ones press, others do not.
+#[test]
+fn gaps_that_press_are_given_up_for_others() {
+    for (top, stacking, loads) in [
+        (
+            Region::hexagon(1, 2).unwrap(),
+            "++",
+            vec![([0, 0, -1], ratio(1, 3)), ([2, 1, 0], ratio(5, 7))],
+        ),
+        (
+            Region::hexagon(2, 2).unwrap(),
+            "++",
+            vec![([0, -1, 1], ratio(1, 3))],
+        ),
+    ] {
+        let pile = Pile::under(top, stacking.parse().unwrap()).unwrap();
+        let pile = loads.iter().fold(pile, |pile, ([k, i, j], load)| {
+            let site = Site {
+                i: *i,
+                j: *j,
+                k: *k,
+            };
+            pile.with_load(site, load.clone()).unwrap()
+        });
+        let elastic = pile.weightless().elastic(&ratio(1, 1)).unwrap();
+        assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
+    }
+}
+
 /// However soft or stiff horizontal springs are.
 #[test]
 fn the_active_contacts_are_found_at_every_stiffness_ratio() {
