@@ -15,13 +15,12 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::grid::{Grid, Layer, Moves, Pass, Piece};
 use super::parallel;
-use crate::error::bug;
 use crate::lattice::{Along, Counts};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
 /// How many numbers are worth a thread of their own, each time one of them is changed.
-pub(super) const WORTH_A_THREAD: usize = 1 << 13;
+const WORTH_A_THREAD: usize = 1 << 13;
 
 /// Passes that wait for each other, at the most, where nothing else says when.
 const WAITING: usize = 8;
@@ -140,12 +139,16 @@ pub(super) fn make<V>(
 where
     V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
 {
-    let number = threads_worth(passes, planes.len());
-    make_in_bands(number, planes, grid, passes, (turn, finish))
+    let number = bands_worth(passes, planes.len());
+    make_whole(number, planes, grid, passes, (turn, finish))
 }
 
-fn make_in_bands<V>(
-    number: usize,
+/// Makes the passes over whole layers, in so many bands at the most.
+///
+/// # Errors
+/// As for [`make`].
+fn make_whole<V>(
+    number: i128,
     planes: &mut [Plane<V>],
     grid: &Grid<'_>,
     passes: &Passes<V>,
@@ -165,8 +168,8 @@ where
     whole.make_in_bands(number, grid, passes, (&turn, &finish))
 }
 
-/// How many bands are worth the work of these passes.
-fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
+/// Returns how many bands are worth the work of these passes.
+fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
     // Not a default: only whether threads are worth it hangs on it.
     let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
     let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
@@ -175,30 +178,36 @@ fn threads_worth<V>(passes: &Passes<V>, planes: usize) -> usize {
     if worth < 2 || parallel::threads() < 2 {
         return 1;
     }
-    // More than threads, which are not of one speed. Around a seam a band loses rows, one for each step of the shift.
+    let Some((first, _)) = passes.first() else {
+        return 1;
+    };
+    // Around a border a band loses rows, one for each step of the shift.
     let shifts = || passes.iter().map(|(pass, _)| pass.shift);
-    let lost: usize = shifts()
-        .zip(shifts().skip(1))
-        .map(|(o, next)| (o.min(next)..o.max(next)).count())
-        .sum();
-    // Not a default: no passes have no rows.
-    let rows = passes.first().map_or(0, |(pass, _)| pass.rows().count());
-    let most = rows / (2 * lost + 2);
-    worth.min(4 * parallel::threads()).min(most).max(1)
+    let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
+    let lost: i128 = steps.map(i128::abs).sum();
+    let rows = first.rows();
+    let most = (rows.end - rows.start) / (2 * lost + 2);
+    // More than threads, which are not of one speed.
+    (worth.min(4 * parallel::threads()) as i128)
+        .min(most)
+        .max(1)
 }
+
+/// The rows that are taken, by pass.
+type Taken = Vec<Range<i128>>;
 
 /// Rows of a layer with the cells of their lines in every plane, and what each pass takes of them.
 struct Band<'c, V> {
-    /// By pass.
-    taken: Vec<Range<i128>>,
+    taken: Taken,
     /// Where the slices begin among all cells.
     starts: [usize; 3],
     planes: Vec<[&'c mut [V]; 3]>,
 }
 
 impl<V> Band<'_, V> {
-    /// Where half of its bands end: before that row of the first pass, which is not its first one.
-    fn border(&self, number: usize, passes: &Passes<V>) -> Option<i128> {
+    /// Returns where half of its bands end: the row of the first pass behind them, which is not its first one, and the row
+    /// of γ behind them.
+    fn border(&self, number: i128, passes: &Passes<V>) -> Option<[i128; 2]> {
         let ((pass, _), rows) = (passes.first()?, self.taken.first()?.clone());
         let sites = |j| {
             let row = pass.part.row(j);
@@ -206,21 +215,24 @@ impl<V> Band<'_, V> {
         };
         let all: i128 = rows.clone().map(sites).sum();
         let mut before = 0;
-        let mut borders = rows.skip(1);
-        borders.find(|border| {
+        let border = rows.skip(1).find(|border| {
             before += sites(border - 1);
-            before * number as i128 >= all * (number / 2) as i128
-        })
+            before * number >= all * (number / 2)
+        });
+        border.map(|border| [border, border + pass.shift])
     }
 
-    /// Parts it before a row of the first pass: each pass takes of either part what hangs on that part alone. Returns what
+    /// Splits it before a row of the first pass: each pass takes of either part what hangs on that part alone. Returns what
     /// is left around the border, too, by pass.
-    fn part(
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a row that has no cells.
+    fn split_before(
         &mut self,
-        border: i128,
+        [border, gamma]: [i128; 2],
         grid: &Grid<'_>,
         passes: &Passes<V>,
-    ) -> ([Band<'_, V>; 2], Vec<Range<i128>>) {
+    ) -> Result<([Band<'_, V>; 2], Taken), Error> {
         let shifts = || passes.iter().map(|(pass, _)| pass.shift);
         // Row j hangs on the rows j and j + step of the pass before.
         let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
@@ -230,33 +242,30 @@ impl<V> Band<'_, V> {
             Some(around.clone())
         });
         let around: Vec<_> = core::iter::once(border..border).chain(around).collect();
-        let taken = |of: fn(&Range<i128>, &Range<i128>) -> Range<i128>| {
-            let by_pass = self.taken.iter().zip(&around);
-            by_pass.map(|(rows, around)| of(rows, around)).collect()
+        let by_pass = |of: fn(&Range<i128>, &Range<i128>) -> Range<i128>| {
+            let rows = self.taken.iter().zip(&around);
+            rows.map(|(rows, around)| of(rows, around)).collect()
         };
-        let before = taken(|rows, around| rows.start..rows.end.min(around.start));
-        let behind = taken(|rows, around| rows.start.max(around.end)..rows.end);
-        let left = taken(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
+        let before = by_pass(|rows, around| rows.start..rows.end.min(around.start));
+        let behind = by_pass(|rows, around| rows.start.max(around.end)..rows.end);
+        let left = by_pass(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
         // γ is cut beside α and β: between the rows that the first pass takes together.
-        let shifted = shifts().next().map_or(border, |shift| border + shift);
-        let own = grid.row_start(border);
-        let starts = [own, own, grid.row_start(shifted)];
+        let own = grid.row_start(border)?;
+        let starts = [own, own, grid.row_start(gamma)?];
         let mut parts = [(before, self.starts), (behind, starts)].map(|(taken, starts)| Band {
             taken,
             starts,
             planes: Vec::with_capacity(self.planes.len()),
         });
-        let [alpha, beta, gamma] = [0, 1, 2].map(|line| starts[line] - self.starts[line]);
+        let lengths = [0, 1, 2].map(|line| starts[line] - self.starts[line]);
         for [a, b, c] in &mut self.planes {
-            let (a, b, c) = (
-                a.split_at_mut(alpha),
-                b.split_at_mut(beta),
-                c.split_at_mut(gamma),
-            );
-            parts[0].planes.push([a.0, b.0, c.0]);
-            parts[1].planes.push([a.1, b.1, c.1]);
+            let (a, a_behind) = a.split_at_mut(lengths[0]);
+            let (b, b_behind) = b.split_at_mut(lengths[1]);
+            let (c, c_behind) = c.split_at_mut(lengths[2]);
+            parts[0].planes.push([a, b, c]);
+            parts[1].planes.push([a_behind, b_behind, c_behind]);
         }
-        (parts, left)
+        Ok((parts, left))
     }
 }
 
@@ -268,7 +277,7 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     /// As for [`make`](Self::make).
     fn make_in_bands(
         mut self,
-        number: usize,
+        number: i128,
         grid: &Grid<'_>,
         passes: &Passes<V>,
         (turn, finish): (
@@ -278,13 +287,13 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
     ) -> Result<(), Error> {
         let several = number > 1;
         if let Some(border) = several.then(|| self.border(number, passes)).flatten() {
-            let ([before, behind], left) = self.part(border, grid, passes);
+            let ([before, behind], left) = self.split_before(border, grid, passes)?;
             let half = number / 2;
-            let (before, behind) = parallel::join(
+            let (one, other) = parallel::join(
                 || before.make_in_bands(half, grid, passes, (turn, finish)),
                 || behind.make_in_bands(number - half, grid, passes, (turn, finish)),
             );
-            before.and(behind)?;
+            one.and(other)?;
             self.taken = left;
         }
         self.make(grid, passes, turn, finish)
@@ -345,7 +354,7 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         Ok(())
     }
 
-    /// Makes a pass over row j; where its cells are.
+    /// Makes a pass over row j, and returns where its cells are.
     ///
     /// # Errors
     /// As for [`make`](Self::make).
@@ -363,13 +372,12 @@ impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
             *cells = cells.start - start..cells.end - start;
         }
         let n = cells[0].len();
-        let counts = counts.in_row([i.start, j], n)?;
-        let [alpha, beta, gamma] = counts;
+        let [alpha, beta, gamma] = counts.in_row([i.start, j], n)?;
         for (plane, Ramps([a, b, c])) in self.planes.iter_mut().zip(ramps) {
             let rows = row(plane, cells.clone());
-            let along = [alpha.along(a), beta.along(b), gamma.along(c)];
+            let along = [alpha.along(a)?, beta.along(b)?, gamma.along(c)?];
             if pass.turns {
-                add_and_turn(rows, &along, turn)?;
+                add_and_turn(rows, &along, turn);
             } else {
                 for (row, along) in rows.into_iter().zip(&along) {
                     add(row, along);
@@ -389,14 +397,11 @@ pub(super) fn row<'r, V>(
 }
 
 /// Adds to three rows what their counts come to, and turns them.
-///
-/// # Errors
-/// [`Error::Bug`] for a count that has no value.
 fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     [alpha, beta, gamma]: [&mut [V]; 3],
     along @ [a, b, c]: &[Along<'_, V>; 3],
     turn: &impl Fn(&[V; 3]) -> [V; 3],
-) -> Result<(), Error> {
+) {
     /// So many places are dealt with one by one sooner than in loops of their own.
     const FEW: usize = 16;
     let n = alpha.len();
@@ -405,8 +410,7 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     let (Some(level_a), Some(level_b), Some(level_c), true) =
         (a.level, b.level, c.level, up + down <= FEW)
     else {
-        add_then_turn([alpha, beta, gamma], along, turn);
-        return Ok(());
+        return add_then_turn([alpha, beta, gamma], along, turn);
     };
     let sum = |x: &V, w| formula::passed_on(x.clone(), w);
     // Where all three are level, what is added is the same everywhere.
@@ -419,15 +423,13 @@ fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
     );
     for place in (0..level.start).chain(level.end..n) {
         let after = n - 1 - place;
-        let (Some(a), Some(b), Some(c)) =
-            (a.at(place, after), b.at(place, after), c.at(place, after))
-        else {
-            return Err(bug("a ramp has a value for each count"));
-        };
         let (x, y, z) = (&mut alpha[place], &mut beta[place], &mut gamma[place]);
-        [*x, *y, *z] = turn(&[sum(x, a), sum(y, b), sum(z, c)]);
+        [*x, *y, *z] = turn(&[
+            sum(x, a.at(place, after, level_a)),
+            sum(y, b.at(place, after, level_b)),
+            sum(z, c.at(place, after, level_c)),
+        ]);
     }
-    Ok(())
 }
 
 // Kept apart, so that the usual way stays small.
@@ -561,7 +563,7 @@ mod tests {
 
     /// All passes of a pile, so many at a time, in so many bands, with something added when rows are finished. The numbers
     /// stay small, and no turn is like another.
-    fn swept(shape: &Shape, at_a_time: usize, number: usize, finished: i64) -> Plane<i64> {
+    fn swept(shape: &Shape, at_a_time: usize, number: i128, finished: i64) -> Plane<i64> {
         let last = shape.layers() - 1;
         let grid = Grid::new(shape, last, 1).unwrap();
         let mut plane = [Plane::new(&grid, &0)];
@@ -584,7 +586,7 @@ mod tests {
             }
         };
         for passes in passes.chunks(at_a_time) {
-            make_in_bands(number, &mut plane, &grid, passes, (turn, finish)).unwrap();
+            make_whole(number, &mut plane, &grid, passes, (turn, finish)).unwrap();
         }
         let [plane] = plane;
         plane

@@ -197,11 +197,15 @@ impl<'p> Grid<'p> {
         (cells.end <= end).then_some(cells)
     }
 
-    /// Returns the first cell of row j of the last layer, and of a row behind all the end of the cells.
-    pub(super) fn row_start(&self, j: i128) -> usize {
+    /// Returns the first cell of row j of the last layer.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if it has no such row.
+    pub(super) fn row_start(&self, j: i128) -> Result<usize, Error> {
         let row = usize::try_from(j - self.first_row).ok();
         let row = row.and_then(|row| self.rows.get(row));
-        row.map_or(self.cells, |(_, cell)| *cell)
+        row.map(|(_, cell)| *cell)
+            .ok_or_else(|| bug("every row of a layer goes on to the last one"))
     }
 
     /// Returns the cells of a row of sites of a layer, by direction.

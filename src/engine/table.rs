@@ -140,7 +140,7 @@ impl<V: Clone + Send + Sync> Table<V> {
         let counts = region.row_counts([row.i.start, row.j], sign, row.k);
         for ((count, table), slice) in counts.into_iter().zip(&self.tables).zip(slices) {
             let n = slice.len();
-            write(&Slopes::new(count.near(), n).along(table), slice)?;
+            write(&Slopes::new(count.near(), n).along(table)?, slice)?;
         }
         Ok(())
     }

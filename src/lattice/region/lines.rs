@@ -57,9 +57,10 @@ impl Region {
     }
 }
 
-/// A number within [`FAR`].
+/// A number within [`LONG`].
 fn small(n: i128) -> Result<i64, Error> {
-    let small = i64::try_from(n).ok().filter(|n| (-FAR..=FAR).contains(n));
+    let small = i64::try_from(n).ok();
+    let small = small.filter(|n| (-LONG..=LONG).contains(n));
     small.ok_or_else(|| bug("a layer that is swept fits in memory"))
 }
 
@@ -146,9 +147,9 @@ impl<N: Copy + Ord> Trapezoid<N> {
 impl Trapezoid {
     /// Returns the count as it runs along a row that fits in memory.
     pub(crate) fn near(self) -> Trapezoid<i64> {
-        #[expect(clippy::cast_possible_truncation, reason = "|n| ≤ FAR")]
+        #[expect(clippy::cast_possible_truncation, reason = "|n| ≤ LONG")]
         // Not a default: what is further off than any row is long is on the same side of the row from there.
-        let near = |n: i128| n.clamp(-i128::from(FAR), FAR.into()) as i64;
+        let near = |n: i128| n.clamp(-i128::from(LONG), LONG.into()) as i64;
         Trapezoid {
             cap: near(self.cap),
             rises: self.rises.map(near),
@@ -164,15 +165,18 @@ impl Trapezoid {
     }
 }
 
-/// Further than any row in memory is long; sums of two are numbers.
+/// No row in memory is as long.
+const LONG: i64 = FAR / 16;
+
+/// Where a count that does not rise, or fall, would: further off than sums of a few that are no more than [`LONG`].
 const FAR: i64 = i64::MAX / 4;
 
 /// A count along a row: it rises by one from place to place, then it is level, then it falls by one.
 pub(crate) struct Slopes {
     /// The counts where it rises.
     up: Range<usize>,
-    /// The count between the slopes; none if there is nothing between them.
-    level: Option<usize>,
+    /// The count between the slopes, of as many as one; none if there is nothing between them.
+    level: Range<usize>,
     /// The counts where it falls, from the last of them to the first.
     down: Range<usize>,
 }
@@ -188,7 +192,7 @@ pub(crate) struct Along<'v, V> {
 }
 
 impl Slopes {
-    /// Of a row of `n` places, as many as fit in memory, and counts within [`FAR`].
+    /// Of a row of `n` places, as many as fit in memory, and sums of a few numbers within [`LONG`].
     #[inline]
     pub(crate) fn new(Trapezoid { cap, rises, falls }: Trapezoid<i64>, n: usize) -> Self {
         // Not a default: a count that does not rise, or fall, would be as high as this.
@@ -198,39 +202,48 @@ impl Slopes {
         let meet = (falls - rises).div_euclid(2) + 1;
         let rise = inside(meet.min(cap - rises));
         let fall = inside(falls - cap + 1).max(rise);
-        // Not a default: no values are those of a count below zero, and what is shorter than its row is refused.
-        let count = |count: i64| usize::try_from(count).unwrap_or(usize::MAX);
-        let counts = |least: usize, places: usize| least..least.saturating_add(places);
+        let counts = |least: i64, places: usize| {
+            // Not a default: there are no values for a count below zero, which is refused.
+            let least = usize::try_from(least).unwrap_or(usize::MAX);
+            if places == 0 {
+                0..0
+            } else {
+                least..least.saturating_add(places)
+            }
+        };
         // Not a default: no row in memory is as long.
         let last = falls + 1 - i64::try_from(n).unwrap_or(FAR);
         Self {
-            up: counts(count(rises), rise),
-            level: (rise < fall).then_some(count(cap)),
-            down: counts(count(last), n - fall),
+            up: counts(rises, rise),
+            level: counts(cap, usize::from(rise < fall)),
+            down: counts(last, n - fall),
         }
     }
 
-    /// `values[count]` along the row; as many as there are places, unless `values` is too short for a count.
+    /// Returns `values[count]` along the row: as many as there are places.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if a count has no value.
     #[inline]
-    pub(crate) fn along<'v, V>(&self, values: &'v [V]) -> Along<'v, V> {
-        // Not a default: with too few values the slices are shorter than the row, which is refused where they are written.
-        let counts = |counts: &Range<usize>| values.get(counts.clone()).unwrap_or(&[]);
-        Along {
-            up: counts(&self.up),
-            level: self.level.and_then(|count| values.get(count)),
-            down: counts(&self.down),
+    pub(crate) fn along<'v, V>(&self, values: &'v [V]) -> Result<Along<'v, V>, Error> {
+        let of = |counts: &Range<usize>| values.get(counts.clone());
+        match (of(&self.up), of(&self.level), of(&self.down)) {
+            (Some(up), Some(level), Some(down)) => Ok(Along {
+                up,
+                level: level.first(),
+                down,
+            }),
+            _ => Err(bug("every count along a row has its value")),
         }
     }
 }
 
 impl<'v, V> Along<'v, V> {
-    /// The value at a place of a row that has `after` more behind it; none if there were too few.
+    /// Returns the value at a place of a row that has `after` more behind it, with `level` between the slopes.
     #[inline]
-    pub(crate) fn at(&self, place: usize, after: usize) -> Option<&'v V> {
-        self.up
-            .get(place)
-            .or_else(|| self.down.get(after))
-            .or(self.level)
+    pub(crate) fn at(&self, place: usize, after: usize, level: &'v V) -> &'v V {
+        let slope = self.up.get(place).or_else(|| self.down.get(after));
+        slope.unwrap_or(level)
     }
 }
 
@@ -243,13 +256,14 @@ mod tests {
     /// The counts along a row, and again place by place.
     fn met(slopes: &Slopes, length: usize) -> Vec<i128> {
         let counts: Vec<i128> = (0..20).collect();
-        let along = slopes.along(&counts);
+        let along = slopes.along(&counts).unwrap();
         let Along { up, level, down } = along;
+        let between = level.unwrap_or(&-1);
         let same = length - up.len() - down.len();
         let level = level.map_or_else(Vec::new, |count| alloc::vec![*count; same]);
         let down: Vec<i128> = down.iter().rev().copied().collect();
         let met = [up, &level, &down].concat();
-        let places = (0..length).map(|place| *along.at(place, length - 1 - place).unwrap());
+        let places = (0..length).map(|place| *along.at(place, length - 1 - place, between));
         assert_eq!(met, places.collect::<Vec<_>>());
         met
     }
