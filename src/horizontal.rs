@@ -28,6 +28,7 @@ mod exact;
 mod network;
 mod program;
 mod run;
+mod springs;
 mod stand;
 mod straight;
 mod symmetry;

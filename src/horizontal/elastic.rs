@@ -1,16 +1,16 @@
 //! The state of springs that only push.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::exact::{Equation, near};
-use super::network::{Column, MOST_CERTIFIED, Network};
+use super::network::{MOST_CERTIFIED, Network};
 use super::program::{Aim, Closeness, Program, accepted, of_formulas};
+use super::springs::{Springs, State};
 use crate::certificate::{Certificate, Claim};
 use crate::engine::check_interrupt;
+use crate::error::bug;
 use crate::lattice::{Site, count};
 use crate::{Culprit, Error, Pile, formula};
 
@@ -45,12 +45,13 @@ impl Pile {
     ///
     /// Straight piles of equal weights bear what they bear without horizontal contacts
     /// ([`paper`](crate::paper#elastic-state)), of any number of layers. For others it is tested whether they do, in time
-    /// proportional to the number of spheres; if not, a quadratic program says which contacts push, and the forces that
-    /// follow are exact. The horizontal forces that a pile was given are left out of it.
+    /// proportional to the number of spheres; if not, a quadratic program in floats guesses which contacts push, and from
+    /// there an active-set method in rationals goes on to those that do (Goldfarb & Idnani 1983), which ends whatever the
+    /// weights are. The horizontal forces that a pile was given are left out of it.
     ///
     /// # Errors
     /// [`Error::NotPositive`] of a stiffness ratio; [`Error::NoHorizontalContacts`]; [`Error::CannotStand`];
-    /// [`Error::TooLarge`]; [`Error::NotSolved`] if the contacts that push were not found.
+    /// [`Error::TooLarge`].
     ///
     /// # Examples
     /// ```
@@ -131,16 +132,12 @@ fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Er
         network: Network::above(pile, pile.layers() - 1, most)?,
         stiffness_ratio,
     };
-    let none = Pushing {
-        horizontal: Vec::new(),
-        open: Vec::new(),
-    };
-    let alone = springs.certificate(&none, &[]);
-    if alone.check().is_ok() {
-        return Ok(alone);
+    let mut state = springs.without_horizontal()?;
+    if !state.is_least_energy() {
+        springs.network.check_size()?;
+        state = springs.least_energy(guess(&springs)?)?;
     }
-    springs.network.check_size()?;
-    springs.with_horizontal()
+    accepted(certificate(&springs, &state), springs.network.weights.len())
 }
 
 /// That the paper's pile bears what it bears without horizontal contacts.
@@ -171,172 +168,49 @@ fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
     }
 }
 
-/// A pile of springs: κ = 1, κ′ the stiffness ratio.
-struct Springs<'p> {
-    network: Network<'p>,
-    stiffness_ratio: &'p BigRational,
+/// The gaps of contacts, zero where they are shut, by a quadratic program in floats; if that finds nothing, any
+/// gaps of all horizontal ones.
+fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
+    let network = &springs.network;
+    let sloping = network.weights.len();
+    // In units of √(κ′/κ) horizontal forces are as soft as the others.
+    // Not a default: what is too great for a float is too great for a guess.
+    let ratio = springs.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
+    // Not a default: beyond these ratios which forces push hardly changes, and what is guessed is made exact.
+    let unit = ratio.clamp(1e-6, 1e6).sqrt();
+    let unit = BigRational::from_float(unit).ok_or_else(|| bug("a stiffness ratio is a number"))?;
+    let mut columns = network.columns.clone();
+    for (_, coefficient) in columns.iter_mut().skip(sloping).flatten() {
+        *coefficient *= &unit;
+    }
+    let program = Program {
+        columns: columns.as_slice().into(),
+        sums: network.weights.clone(),
+        aim: Aim::Squares,
+    };
+    let (program, _) = program.scaled();
+    let Some(guess) = program.guess(Closeness::Tight) else {
+        check_interrupt()?;
+        if network.pile.cannot_stand() {
+            return Err(Error::CannotStand);
+        }
+        let gap = |contact| f64::from(u8::from(contact >= sloping));
+        return Ok((0..network.columns.len()).map(gap).collect());
+    };
+    let contacts = guess.positive.iter().zip(&guess.slacks);
+    Ok(contacts
+        .map(|(positive, slack)| if *positive { 0.0 } else { *slack })
+        .collect())
 }
 
-/// Which horizontal contacts push, and which sloping ones are open: unknowns of the network.
-struct Pushing {
-    horizontal: Vec<usize>,
-    open: Vec<usize>,
-}
-
-/// The answer of all springs to some force, or to a gap in a contact.
-struct Answer {
-    /// Of the sloping contacts, by unknown.
-    forces: Vec<BigRational>,
-    /// By equation.
-    field: Vec<BigRational>,
-}
-
-impl Springs<'_> {
-    /// The forces that these sums of the equations ask for without horizontal contacts, and the field for D = f.
-    fn answer(&self, sums: Vec<BigRational>) -> Answer {
-        let forces = self.network.sloping(sums);
-        let field = self.network.field_of(forces.clone());
-        Answer { forces, field }
+/// The certificate of a state of springs.
+fn certificate(springs: &Springs<'_>, state: &State) -> Certificate {
+    Certificate {
+        pile: springs.network.pile.clone(),
+        claim: Claim::Elastic {
+            stiffness_ratio: springs.stiffness_ratio.clone(),
+        },
+        horizontal: springs.network.horizontal(&state.forces).collect(),
+        field: springs.network.field(&state.field).collect(),
     }
-
-    /// κ′ c of a horizontal contact.
-    fn compression(&self, unknown: usize, field: &[BigRational]) -> BigRational {
-        self.stiffness_ratio * along(&self.network.columns[unknown], field)
-    }
-
-    /// The forces X of these contacts and the gaps μ = f − D of these, one after the other, for which κ′ c = X and f = 0.
-    /// The forces are unique; gaps that are not, of open contacts of spheres that nothing presses, are such that nothing
-    /// is compressed there.
-    fn solved(&self, pushing: &Pushing, guess: &[f64]) -> Option<Vec<BigRational>> {
-        let equations = self.network.weights.len();
-        let zeros = || vec![BigRational::zero(); equations];
-        let of_pushing = pushing.horizontal.iter().map(|unknown| {
-            let mut sums = zeros();
-            for (equation, coefficient) in &self.network.columns[*unknown] {
-                sums[*equation] -= coefficient;
-            }
-            self.answer(sums)
-        });
-        let of_open = pushing.open.iter().map(|unknown| {
-            let mut drops = zeros();
-            drops[*unknown] = -BigRational::one();
-            Answer {
-                forces: zeros(),
-                field: self.network.field_of(drops),
-            }
-        });
-        let answers = of_pushing.chain(of_open).map(|answer| {
-            check_interrupt().ok()?;
-            Some(answer)
-        });
-        let answers: Vec<Answer> = answers.collect::<Option<_>>()?;
-        let alone = self.answer(self.network.weights.clone());
-        let mut system: Vec<Equation> = Vec::new();
-        for (own, unknown) in pushing.horizontal.iter().enumerate() {
-            check_interrupt().ok()?;
-            let coefficients = answers.iter().enumerate().map(|(number, answer)| {
-                let itself = BigRational::from_integer(i32::from(number == own).into());
-                (number, self.compression(*unknown, &answer.field) - itself)
-            });
-            let coefficients = coefficients.filter(|(_, coefficient)| !coefficient.is_zero());
-            system.push((
-                coefficients.collect(),
-                -self.compression(*unknown, &alone.field),
-            ));
-        }
-        for unknown in &pushing.open {
-            let coefficients = answers
-                .iter()
-                .map(|answer| answer.forces[*unknown].clone())
-                .enumerate();
-            let coefficients = coefficients.filter(|(_, coefficient)| !coefficient.is_zero());
-            system.push((coefficients.collect(), -alone.forces[*unknown].clone()));
-        }
-        near(system, guess, |solution| {
-            let is_signed = !solution.iter().any(Signed::is_negative);
-            is_signed && self.certificate(pushing, solution).check().is_ok()
-        })
-    }
-
-    /// The certificate of these X and μ.
-    fn certificate(&self, pushing: &Pushing, solution: &[BigRational]) -> Certificate {
-        let Network {
-            weights,
-            contacts,
-            pile,
-            ..
-        } = &self.network;
-        let (horizontal, gaps) = solution.split_at(pushing.horizontal.len());
-        let unknowns = pushing.horizontal.iter().copied();
-        let sums = self.network.sums_with(unknowns.zip(horizontal));
-        let mut drops = self.network.sloping(sums);
-        for (unknown, gap) in pushing.open.iter().zip(gaps) {
-            drops[*unknown] -= gap;
-        }
-        let field = self.network.field_of(drops);
-        let bearing = pushing
-            .horizontal
-            .iter()
-            .zip(horizontal)
-            .filter(|(_, force)| !force.is_zero());
-        Certificate {
-            pile: (*pile).clone(),
-            claim: Claim::Elastic {
-                stiffness_ratio: self.stiffness_ratio.clone(),
-            },
-            horizontal: bearing
-                .map(|(unknown, force)| (contacts[unknown - weights.len()], force.clone()))
-                .collect(),
-            field: self.network.field(&field).collect(),
-        }
-    }
-
-    /// The state in which horizontal contacts push, by a quadratic program.
-    fn with_horizontal(&self) -> Result<Certificate, Error> {
-        let network = &self.network;
-        let equations = network.weights.len();
-        let unsolved = || Error::NotSolved { equations };
-        // In units of √(κ′/κ) horizontal forces are as soft as the others.
-        // Not a default: what is too great for a float is too great for a guess.
-        let ratio = self.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
-        // Not a default: beyond these ratios which forces push hardly changes, and what is guessed is made exact.
-        let unit = ratio.clamp(1e-6, 1e6).sqrt();
-        let exact_unit = BigRational::from_float(unit).ok_or_else(unsolved)?;
-        let mut columns = network.columns.clone();
-        for (_, coefficient) in columns.iter_mut().skip(equations).flatten() {
-            *coefficient *= &exact_unit;
-        }
-        let program = Program {
-            columns: columns.as_slice().into(),
-            sums: network.weights.clone(),
-            aim: Aim::Squares,
-        };
-        let (program, scale) = program.scaled();
-        let Some(guess) = program.guess(Closeness::Tight) else {
-            return Err(network.pile.unsolved(equations));
-        };
-        let positive = |unknown: &usize| guess.positive[*unknown];
-        let pushing = Pushing {
-            horizontal: (equations..network.columns.len())
-                .filter(positive)
-                .collect(),
-            open: (0..equations)
-                .filter(|unknown| !positive(unknown))
-                .collect(),
-        };
-        let float_scale = scale.to_f64().ok_or_else(unsolved)?;
-        let forces = pushing.horizontal.iter().map(|u| guess.unknowns[*u] * unit);
-        let gaps = pushing.open.iter().map(|u| guess.slacks[*u]);
-        let numbers = forces.chain(gaps).map(|number| number * float_scale);
-        let numbers: Vec<f64> = numbers.collect();
-        let solution = self.solved(&pushing, &numbers).ok_or_else(unsolved)?;
-        accepted(self.certificate(&pushing, &solution), equations)
-    }
-}
-
-fn along(column: &Column, field: &[BigRational]) -> BigRational {
-    column
-        .iter()
-        .map(|(equation, coefficient)| coefficient * &field[*equation])
-        .sum()
 }

@@ -5,13 +5,15 @@ use core::num::NonZeroI64;
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
+use num_traits::{ToPrimitive, Zero};
 
 use crate::engine::check_interrupt;
 use crate::scalar::{Algebra, Field, FixedRational};
 
 /// The greatest denominators to which free numbers are rounded, one after the other.
 const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
+
+const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 
 /// An equation: coefficients by unknown, and what they sum to.
 pub(super) type Equation<T = BigRational> = (BTreeMap<usize, T>, T);
@@ -69,6 +71,21 @@ pub(super) fn near(
         }
     }
     None
+}
+
+/// Returns changes of the unknowns, as many as equations, that change no sum: all others are made up of them. `None` if an end
+/// was asked for.
+pub(super) fn changes_of_nothing(mut equations: Vec<Equation>) -> Option<Vec<Vec<BigRational>>> {
+    for (_, sum) in &mut equations {
+        sum.set_zero();
+    }
+    let unknowns = equations.len();
+    let triangular = Triangular::of(equations).ok()?;
+    let free = triangular.free(unknowns).into_iter().map(|unknown| {
+        let one = |other: usize| (i64::from(other == unknown), ONE);
+        triangular.solution(&(0..unknowns).map(one).collect::<Vec<_>>())
+    });
+    free.collect()
 }
 
 /// An equation in machine words.
@@ -138,6 +155,14 @@ impl<T: Field> Triangular<T> {
             solved.push((pivot, (coefficients, sum)));
         }
         Ok(Self(solved))
+    }
+
+    /// Which of so many unknowns it gives by none.
+    fn free(&self, unknowns: usize) -> Vec<usize> {
+        let given: BTreeSet<usize> = self.0.iter().map(|(pivot, _)| *pivot).collect();
+        (0..unknowns)
+            .filter(|unknown| !given.contains(unknown))
+            .collect()
     }
 
     /// With what is free as it is given: numerators and denominators. `None` if a number of it is a fault.

@@ -160,20 +160,6 @@ impl<'p> Network<'p> {
         above.collect()
     }
 
-    /// What is left of the sums of the equations when horizontal forces have been given, by unknown.
-    pub(super) fn sums_with<'f>(
-        &self,
-        horizontal: impl Iterator<Item = (usize, &'f BigRational)>,
-    ) -> Vec<BigRational> {
-        let mut sums = self.weights.clone();
-        for (unknown, force) in horizontal {
-            for (equation, coefficient) in &self.columns[unknown] {
-                sums[*equation] -= coefficient * force;
-            }
-        }
-        sums
-    }
-
     /// The sloping forces for these sums of the equations, without horizontal ones: from the top, since an equation has one
     /// that is in none before it.
     pub(super) fn sloping(&self, mut sums: Vec<BigRational>) -> Vec<BigRational> {

@@ -251,7 +251,7 @@ pub(super) fn criteria(facts: &Facts<'_, '_>, title: &CardTitle) -> Vec<Criterio
 pub(super) fn bibtex() -> String {
     format!(
         "@unpublished{{oron-herrmann-1998,\n  author = {{G. Oron and H. J. Herrmann}},\n  title  = {{Contact forces in regular \
-         {{3D}} granular pile}},\n  year   = {{1998}}\n}}\n@software{{cannonpile,\n  title   = {{cannonpile: exact contact \
+         {{3D}} granular pile}},\n  year   = {{1998}}\n}}\n@software{{cannonpile,\n  author  = {{{{The cannonpile developers}}}},\n  title   = {{cannonpile: exact contact \
          forces in regular piles of spheres}},\n  version = {{{}}},\n  year    = {{2026}}\n}}",
         env!("CARGO_PKG_VERSION")
     )

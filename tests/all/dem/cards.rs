@@ -1,6 +1,7 @@
 //! Benchmark cards: every number is found again by somebody else, and what is written is what readers can read.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::str::FromStr;
 
 use cannonpile::Pile;
@@ -498,6 +499,29 @@ fn pages_have_whole_tables_with_the_same_numbers() {
         ("```\n", "code goes on"),
     ] {
         assert!(tables(broken).is_err(), "{why}");
+    }
+}
+
+/// A card cites what README and CITATION.cff cite.
+#[test]
+fn there_is_one_way_to_cite() {
+    let cases = cases();
+    let (card, _) = cards(cases.first().expect("a case"));
+    let cite = card["cite"].as_str().expect("text");
+    let file = |name: &str| {
+        let path = format!("{}/{name}", env!("CARGO_MANIFEST_DIR"));
+        fs::read_to_string(path).expect("a file")
+    };
+    let (readme, citation) = (file("README.md"), file("CITATION.cff"));
+    let entries: Vec<&str> = cite.split_inclusive("\n}").map(str::trim).collect();
+    assert_eq!(entries.len(), 2, "{cite}");
+    for entry in &entries {
+        assert!(readme.contains(entry), "{entry}");
+    }
+    let fields = entries[1].lines().filter_map(|line| line.split_once(" = "));
+    for (key, value) in fields.filter(|(key, _)| key.trim() != "year") {
+        let value = value.trim_matches(['{', '}', ',']);
+        assert!(citation.contains(value), "{key}: {value}");
     }
 }
 

@@ -190,6 +190,22 @@ fn gaps_that_press_are_given_up_for_others() {
     }
 }
 
+/// Some contacts bear nothing and have no gap either, so that floats cannot say which are open.
+#[test]
+fn contacts_between_open_and_shut_are_decided_exactly() {
+    let base = Region::new(-6..=0, -3..=3, -5..=2).unwrap();
+    let mut pile = Pile::on(base, "---".parse().unwrap()).unwrap();
+    for ([k, i, j], weight) in [([0, -2, 0], 0), ([2, -4, 2], 0), ([2, -1, 1], 5)] {
+        pile = pile
+            .with_weight(Site { i, j, k }, ratio(weight, 1))
+            .unwrap();
+    }
+    for stiffness in [ratio(1, 9), ratio(1, 1), ratio(9, 2)] {
+        let elastic = pile.elastic(&stiffness).unwrap();
+        assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
+    }
+}
+
 /// However soft or stiff horizontal springs are.
 #[test]
 fn the_active_contacts_are_found_at_every_stiffness_ratio() {

@@ -1,7 +1,7 @@
 //! All forces of a pile whose horizontal contacts push, and linear programs over them: exact, dense, slow.
 //!
 //! The forces are affine in those of the horizontal contacts: [`Balance`] is solved without any, and with a push of 1 in
-//! each. What only pushes is a polytope, and the simplex method with Bland's rule finds its corners. No duality comes
+//! each. What only pushes is a polytope, and the simplex method finds its corners. No duality comes
 //! in, no certificate, no float.
 
 use std::collections::BTreeMap;
@@ -175,7 +175,8 @@ impl Corner {
         self
     }
 
-    /// To where Σ cost x is least. Bland's rule: of all unknowns that may come in or go out the first.
+    /// To where Σ cost x is least: along the steepest edge, and while that leads nowhere by Bland's rule, of all unknowns that
+    /// may come in or go out the first, which does not go round in circles.
     fn descend(&mut self, cost: impl Fn(usize) -> BigRational) {
         let mut objective = vec![BigRational::zero(); 1 + self.free.len()];
         for (entry, unknown) in objective[1..].iter_mut().zip(&self.free) {
@@ -186,10 +187,16 @@ impl Corner {
         }
         let last = self.rows.len();
         self.rows.push(objective);
+        let mut moved = true;
         loop {
-            let downhill = |column: &usize| self.rows[last][1 + column].is_negative();
-            let entering = (0..self.free.len()).filter(downhill);
-            let Some(column) = entering.min_by_key(|column| self.free[*column]) else {
+            let slope = |column: &usize| &self.rows[last][1 + column];
+            let entering = (0..self.free.len()).filter(|column| slope(column).is_negative());
+            let entering = if moved {
+                entering.min_by(|one, other| slope(one).cmp(slope(other)))
+            } else {
+                entering.min_by_key(|column| self.free[*column])
+            };
+            let Some(column) = entering else {
                 break;
             };
             let falling = (0..last).filter(|row| self.rows[*row][1 + column].is_negative());
@@ -197,7 +204,9 @@ impl Corner {
                 let row_of = &self.rows[*row];
                 (-&row_of[0] / &row_of[1 + column], self.basic[*row])
             });
-            self.pivot(leaving.expect("forces are bounded by the weight"), column);
+            let leaving = leaving.expect("forces are bounded by the weight");
+            moved = !self.rows[leaving][0].is_zero();
+            self.pivot(leaving, column);
         }
         self.rows.pop();
     }
