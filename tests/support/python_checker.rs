@@ -30,17 +30,20 @@ static CHECKER: OnceLock<Option<Mutex<Checker>>> = OnceLock::new();
 /// What its exit status would be of this file: 0 accepted, 1 refused, 2 no certificate. `None` if somebody said that there is no
 /// Python to ask.
 pub(crate) fn status(certificate: &[u8]) -> Option<u8> {
+    verdict(certificate).map(|(status, _)| status)
+}
+
+/// The [`status`], and what it says, in one line.
+pub(crate) fn verdict(certificate: &[u8]) -> Option<(u8, String)> {
     let checker = CHECKER.get_or_init(|| Checker::start().map(Mutex::new));
     let mut checker = checker
         .as_ref()?
         .lock()
         .unwrap_or_else(PoisonError::into_inner);
     let answer = checker.ask(certificate);
-    let status = answer
-        .split(' ')
-        .next()
-        .and_then(|status| status.parse().ok());
-    Some(status.unwrap_or_else(|| panic!("the checker in Python fell silent: {answer:?}")))
+    let verdict = answer.trim_end().split_once(' ');
+    let verdict = verdict.and_then(|(status, said)| Some((status.parse().ok()?, said.into())));
+    Some(verdict.unwrap_or_else(|| panic!("the checker in Python fell silent: {answer:?}")))
 }
 
 impl Checker {

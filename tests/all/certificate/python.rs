@@ -17,6 +17,7 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 use super::{all, bare, extreme};
 use crate::support::answers::ratio;
+use crate::support::python_checker;
 
 fn script() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/check_certificate.py")
@@ -37,36 +38,25 @@ fn left_out() -> bool {
     true
 }
 
-/// What both checkers say of a certificate, which are to agree: whether it is accepted.
-fn agreed(certificate: &Certificate, folder: &Path) -> bool {
+fn file(certificate: &Certificate) -> Vec<u8> {
     let mut file = Vec::new();
     write_certificate(certificate, &mut file).expect("a text");
-    let path = folder.join("certificate.json");
-    fs::write(&path, &file).expect("a file");
-    let output = Command::new("python3")
-        .arg(script())
-        .arg(&path)
-        .output()
-        .expect("python3 runs");
-    let said = String::from_utf8(output.stdout).expect("text");
-    let context = || {
-        let errors = String::from_utf8_lossy(&output.stderr);
-        format!("{said}{errors}{}", String::from_utf8_lossy(&file))
-    };
+    file
+}
+
+/// What both checkers say of a certificate, which are to agree: whether it is accepted.
+fn agreed(certificate: &Certificate) -> bool {
+    let file = file(certificate);
+    let (status, said) = python_checker::verdict(&file).expect("python3");
+    let context = || format!("{said}\n{}", String::from_utf8_lossy(&file));
     let refusal = match certificate.check() {
         Ok(()) => {
-            let status = output.status.code();
-            assert_eq!(
-                (status, said.as_str()),
-                (Some(0), "accepted\n"),
-                "{}",
-                context()
-            );
+            assert_eq!((status, said.as_str()), (0, "accepted"), "{}", context());
             return true;
         }
         Err(refusal) => refusal,
     };
-    assert_eq!(output.status.code(), Some(1), "{refusal}: {}", context());
+    assert_eq!(status, 1, "{refusal}: {}", context());
     // Both go from the top, row by row: where only forces are concerned, the number they stop at is the same.
     let number = match &*refusal {
         Refusal::HorizontalPulls { .. } if certificate.horizontal.len() > 1 => return false,
@@ -212,14 +202,44 @@ impl Chance {
     }
 }
 
+/// As a program, on a file: it says what it says elsewhere line by line, and exits accordingly.
+#[test]
+fn the_program_says_the_same_of_a_file() {
+    if left_out() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("certificate.json");
+    let accepted = all().remove(0);
+    let mut refused = accepted.clone();
+    refused.claim = match accepted.claim {
+        Claim::Stands => Claim::CannotStand,
+        _ => Claim::Stands,
+    };
+    for (text, status) in [
+        (file(&accepted), 0),
+        (file(&refused), 1),
+        (b"{}".to_vec(), 2),
+    ] {
+        fs::write(&path, &text).expect("a file");
+        let program = Command::new("python3").arg(script()).arg(&path).output();
+        let output = program.expect("python3 runs");
+        let said = String::from_utf8([output.stdout, output.stderr].concat()).expect("text");
+        let said = said.replace(path.to_str().expect("text"), "-");
+        let one_line = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let verdict = python_checker::verdict(&text).expect("python3");
+        assert_eq!((status, one_line), verdict);
+        assert_eq!(output.status.code(), Some(status.into()));
+    }
+}
+
 #[test]
 fn what_holds_is_accepted_by_both() {
     if left_out() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
     for certificate in all() {
-        assert!(agreed(&certificate, folder.path()), "{certificate:?}");
+        assert!(agreed(&certificate), "{certificate:?}");
     }
 }
 
@@ -228,13 +248,12 @@ fn what_is_changed_has_one_verdict() {
     if left_out() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
     let (mut chance, all) = (Chance::new(), all());
     let mut accepted = 0;
     for turn in 0..80 {
         let mut certificate = all[turn % all.len()].clone();
         chance.change(&mut certificate);
-        accepted += i32::from(agreed(&certificate, folder.path()));
+        accepted += i32::from(agreed(&certificate));
     }
     assert!((5..75).contains(&accepted), "{accepted}");
 }
@@ -244,11 +263,10 @@ fn random_piles_have_one_verdict() {
     if left_out() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
     let mut chance = Chance::new();
     let mut accepted = 0;
     for _ in 0..80 {
-        accepted += i32::from(agreed(&chance.certificate(), folder.path()));
+        accepted += i32::from(agreed(&chance.certificate()));
     }
     assert!((5..75).contains(&accepted), "{accepted}");
 }
@@ -259,11 +277,10 @@ fn the_census_is_accepted_by_both() {
     if left_out() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
     let census = cannonpile::horizontal::census::under_one_sphere(7, true).unwrap();
     for entry in census.map(Result::unwrap) {
-        assert!(agreed(&entry.certificate, folder.path()), "{entry:?}");
+        assert!(agreed(&entry.certificate), "{entry:?}");
     }
     let long = Pile::under(Region::SITE, "(1,40,3)".parse().unwrap()).unwrap();
-    assert!(agreed(&long.equilibrium().unwrap(), folder.path()));
+    assert!(agreed(&long.equilibrium().unwrap()));
 }
