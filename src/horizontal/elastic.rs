@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::network::{MOST_CERTIFIED, Network};
+use super::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
 use super::program::{Aim, Closeness, Program, accepted, of_formulas};
 use super::springs::{Springs, State};
 use crate::certificate::{Certificate, Claim};
@@ -51,7 +51,7 @@ impl Pile {
     ///
     /// # Errors
     /// [`Error::NotPositive`] of a stiffness ratio; [`Error::NoHorizontalContacts`]; [`Error::CannotStand`];
-    /// [`Error::TooLarge`].
+    /// [`Error::TooLarge`]; as for [`standing`](Self::standing).
     ///
     /// # Examples
     /// ```
@@ -127,16 +127,28 @@ fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Er
     if pile.is_paper_pile() && pile.sphere_count() <= MOST_CERTIFIED.into() {
         return of_formulas(of_straight(pile, stiffness_ratio));
     }
-    let most = u64::from(MOST_CERTIFIED * pile.dimension().number());
+    // What pulls without horizontal contacts needs them, and a program.
+    let pulls = pile.first_failure()?.is_some();
+    let most = if pulls {
+        MOST_EQUATIONS
+    } else {
+        u64::from(MOST_CERTIFIED * pile.dimension().number())
+    };
     let springs = Springs {
         network: Network::above(pile, pile.layers() - 1, most)?,
         stiffness_ratio,
     };
-    let mut state = springs.without_horizontal()?;
-    if !state.is_least_energy() {
+    let alone = if pulls {
+        None
+    } else {
+        Some(springs.without_horizontal()?).filter(State::is_least_energy)
+    };
+    let state = if let Some(state) = alone {
+        state
+    } else {
         springs.network.check_size()?;
-        state = springs.least_energy(guess(&springs)?)?;
-    }
+        springs.least_energy(guess(&springs)?)?
+    };
     accepted(certificate(&springs, &state), springs.network.weights.len())
 }
 
