@@ -195,13 +195,18 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
     for (_, coefficient) in columns.iter_mut().skip(sloping).flatten() {
         *coefficient *= &unit;
     }
-    let program = Program {
-        columns: columns.as_slice().into(),
-        sums: network.weights.clone(),
-        aim: Aim::Squares,
+    let by_program = |sums: Vec<BigRational>| {
+        let program = Program {
+            columns: columns.as_slice().into(),
+            sums,
+            aim: Aim::Squares,
+        };
+        let (program, _) = program.scaled();
+        program.guess(Closeness::Tight)
     };
-    let (program, _) = program.scaled();
-    let Some(guess) = program.guess(Closeness::Tight) else {
+    let guess = with_light_spheres(&network.weights).and_then(by_program);
+    let guess = guess.or_else(|| by_program(network.weights.clone()));
+    let Some(guess) = guess else {
         check_interrupt()?;
         if network.pile.cannot_stand() {
             return Err(Error::CannotStand);
@@ -213,6 +218,22 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
     Ok(contacts
         .map(|(positive, slack)| if *positive { 0.0 } else { *slack })
         .collect())
+}
+
+/// The weights, with a thousandth of the least for each sphere that weighs nothing: floats can tell then which of its contacts
+/// are open. `None` if all weigh something, or nothing does.
+fn with_light_spheres(weights: &[BigRational]) -> Option<Vec<BigRational>> {
+    let least = weights.iter().filter(|weight| !weight.is_zero()).min()?;
+    let light = least / BigRational::from_integer(1000.into());
+    let heavier = |weight: &BigRational| {
+        if weight.is_zero() {
+            light.clone()
+        } else {
+            weight.clone()
+        }
+    };
+    let is_needed = weights.iter().any(Zero::is_zero);
+    is_needed.then(|| weights.iter().map(heavier).collect())
 }
 
 /// The certificate of a state of springs.

@@ -206,6 +206,18 @@ fn contacts_between_open_and_shut_are_decided_exactly() {
     }
 }
 
+/// Most spheres weigh nothing and bear nothing.
+#[test]
+fn contacts_of_light_spheres_are_decided_too() {
+    let base = Region::new(-3..=3, -3..=2, -2..=4).unwrap();
+    let mut pile = Pile::on(base, "--+".parse().unwrap()).unwrap().weightless();
+    for ([k, i, j], load) in [([2, -1, 0], ratio(5, 4)), ([3, -2, 2], ratio(7, 1))] {
+        pile = pile.with_load(Site { i, j, k }, load).unwrap();
+    }
+    let elastic = pile.elastic(&ratio(4, 7)).unwrap();
+    assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
+}
+
 /// However soft or stiff horizontal springs are.
 #[test]
 fn the_active_contacts_are_found_at_every_stiffness_ratio() {
