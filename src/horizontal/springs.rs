@@ -71,20 +71,54 @@ impl Springs<'_> {
         let open = contacts.map(|(contact, _)| contact).collect();
         let mut system = self.system(open)?;
         self.shut_idle(&mut system, guess)?;
+        let mut state = self.state(&system, Cause::Weights)?;
+        // Shutting contacts one by one is quicker as a rule, but where it opens as many without a force it may go in circles.
+        let mut patience = self.network.columns.len();
+        while let (None, Some(contact)) = (state.pulling(), state.overlapping(&system.open)) {
+            if patience == 0 {
+                break;
+            }
+            patience -= 1;
+            state = self.pressed(contact, state.forces, &mut system)?;
+        }
         loop {
-            let state = self.state(&system, Cause::Weights)?;
             let overlapping = |contact: &&usize| state.gaps[**contact].is_negative();
             let overlapping: Vec<usize> = system.open.iter().filter(overlapping).copied().collect();
             for contact in &overlapping {
                 self.shut(*contact, &mut system)?;
             }
-            if !overlapping.is_empty() {
-                continue;
+            if overlapping.is_empty() {
+                match state.pulling() {
+                    Some(contact) => self.open_wider(contact, &mut system)?,
+                    None => return Ok(state),
+                }
             }
-            match state.pulling() {
-                Some(contact) => self.open_wider(contact, &mut system)?,
-                None => return Ok(state),
+            state = self.state(&system, Cause::Weights)?;
+        }
+    }
+
+    /// The state once an overlapping contact has been shut, from forces of which none pulls: on the way there each contact that
+    /// would begin to pull is opened. The energy is no greater than before.
+    fn pressed(
+        &self,
+        overlapping: usize,
+        mut forces: Vec<BigRational>,
+        system: &mut System,
+    ) -> Result<State, Error> {
+        self.shut(overlapping, system)?;
+        loop {
+            let state = self.state(system, Cause::Weights)?;
+            let changes = forces.iter().zip(&state.forces).enumerate();
+            let pulling = changes.filter(|(_, (_, after))| after.is_negative());
+            let first =
+                pulling.map(|(contact, (before, after))| (before / (before - after), contact));
+            let Some((share, contact)) = first.min() else {
+                return Ok(state);
+            };
+            for (force, after) in forces.iter_mut().zip(&state.forces) {
+                *force += &share * (after - &*force);
             }
+            self.open(contact, system)?;
         }
     }
 
@@ -298,6 +332,16 @@ impl State {
             .iter()
             .chain(&self.gaps)
             .all(|number| !number.is_negative())
+    }
+
+    /// Of some open contacts the one whose ends overlap most.
+    fn overlapping(&self, open: &BTreeSet<usize>) -> Option<usize> {
+        let overlapping = open
+            .iter()
+            .filter(|contact| self.gaps[**contact].is_negative());
+        overlapping
+            .min_by_key(|contact| &self.gaps[**contact])
+            .copied()
     }
 
     /// The contact that pulls most.

@@ -216,6 +216,17 @@ fn contacts_of_light_spheres_are_decided_too() {
     }
     let elastic = pile.elastic(&ratio(4, 7)).unwrap();
     assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
+
+    // Here contacts without a force are opened and shut for each other, one by one.
+    let base = Region::new(-2..=4, -2..=4, -2..=4).unwrap();
+    let pile = Pile::on(base, "+++-".parse().unwrap())
+        .unwrap()
+        .weightless();
+    let [top, below] = [[0, 1, -1], [3, 1, 3]].map(|[k, i, j]| Site { i, j, k });
+    let pile = pile.with_weight(top, ratio(5, 4)).unwrap();
+    let pile = pile.with_load(below, ratio(6, 1)).unwrap();
+    let elastic = pile.elastic(&ratio(1, 4)).unwrap();
+    assert_eq!(elastic.certificate().unwrap().check(), Ok(()));
 }
 
 /// However soft or stiff horizontal springs are.
