@@ -54,7 +54,7 @@ struct System {
     open: BTreeSet<usize>,
     /// By unknown: the horizontal contacts that are shut, whose force is unknown, and the sloping ones that are open, whose gap
     /// is; the rest follows from above and from below. A row says that a contact's gap or force is zero, without what a cause
-    /// adds: it has a coefficient for each unknown, as great as that of its own unknown in the other's row (reciprocity).
+    /// adds; its coefficients are by unknown, and symmetric (reciprocity).
     rows: BTreeMap<usize, BTreeMap<usize, BigRational>>,
 }
 
@@ -76,28 +76,27 @@ impl Springs<'_> {
         let mut system = self.system(open)?;
         self.shut_idle(&mut system, guess)?;
         let mut state = self.state(&system, Cause::Weights)?;
-        // Shutting contacts one by one is quicker as a rule, but where it opens as many without a force it may go in circles.
-        let mut patience = self.network.columns.len();
-        while let (None, Some(contact)) = (state.pulling(), state.overlapping(&system.open)) {
-            if patience == 0 {
-                break;
-            }
-            patience -= 1;
-            state = self.pressed(contact, state.forces, &mut system)?;
-        }
+        // Where contacts without a force are opened and shut for each other primal steps might go in circles.
+        let mut primal_steps = self.network.columns.len();
         loop {
-            let overlapping = |contact: &&usize| state.gaps[**contact].is_negative();
-            let overlapping: Vec<usize> = system.open.iter().filter(overlapping).copied().collect();
-            for contact in &overlapping {
-                self.shut(*contact, &mut system)?;
-            }
-            if overlapping.is_empty() {
-                match state.pulling() {
-                    Some(contact) => self.open_wider(contact, &mut system)?,
-                    None => return Ok(state),
+            let overlapping = state.overlapping(&system.open);
+            match (overlapping.first(), state.pulling()) {
+                (None, None) => return Ok(state),
+                (None, Some(contact)) => {
+                    self.open_wider(contact, &mut system)?;
+                    state = self.state(&system, Cause::Weights)?;
+                }
+                (Some(contact), None) if primal_steps > 0 => {
+                    primal_steps -= 1;
+                    state = self.pressed(*contact, state.forces, &mut system)?;
+                }
+                (Some(_), _) => {
+                    for contact in overlapping {
+                        self.shut(contact, &mut system)?;
+                    }
+                    state = self.state(&system, Cause::Weights)?;
                 }
             }
-            state = self.state(&system, Cause::Weights)?;
         }
     }
 
@@ -229,9 +228,9 @@ impl Springs<'_> {
                 row.insert(contact, coefficient);
             }
         }
-        for (contact, coefficient) in row.iter().filter(|(contact, _)| **contact != unknown) {
-            if let Some(row) = system.rows.get_mut(contact) {
-                row.insert(unknown, coefficient.clone());
+        for (contact, other) in &mut system.rows {
+            if let Some(coefficient) = row.get(contact) {
+                other.insert(unknown, coefficient.clone());
             }
         }
         system.rows.insert(unknown, row);
@@ -338,14 +337,14 @@ impl State {
             .all(|number| !number.is_negative())
     }
 
-    /// Of some open contacts the one whose ends overlap most.
-    fn overlapping(&self, open: &BTreeSet<usize>) -> Option<usize> {
-        let overlapping = open
-            .iter()
-            .filter(|contact| self.gaps[**contact].is_negative());
+    /// Those of some open contacts whose ends overlap, most first.
+    fn overlapping(&self, open: &BTreeSet<usize>) -> Vec<usize> {
+        let overlapping = open.iter().copied();
+        let mut overlapping: Vec<usize> = overlapping
+            .filter(|c| self.gaps[*c].is_negative())
+            .collect();
+        overlapping.sort_by(|one, other| self.gaps[*one].cmp(&self.gaps[*other]));
         overlapping
-            .min_by_key(|contact| &self.gaps[**contact])
-            .copied()
     }
 
     /// The contact that pulls most.
