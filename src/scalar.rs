@@ -81,6 +81,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 // What is divided by in formulas. Unwrapped by the compiler: zero would not build.
+pub(crate) const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 pub(crate) const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 

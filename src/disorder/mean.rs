@@ -17,10 +17,7 @@ use super::transfer::{Spot, Transfer, shares};
 use super::width::{Width, bits_of_sources};
 use crate::Error;
 use crate::error::bug;
-use crate::scalar::{Algebra, Field, TWO};
-
-/// One, as a divisor. Unwrapped by the compiler: zero would not build.
-const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
+use crate::scalar::{Algebra, Field, ONE, TWO};
 
 /// What is at one place of the bottom layer, in the mean over all stackings.
 ///

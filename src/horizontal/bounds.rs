@@ -214,6 +214,7 @@ impl<'p> Solver<'p> {
         };
         let (program, scale) = program.scaled();
         let equations = network.weights.len();
+        let not_solved = || Error::NotSolved { equations };
         let mut outer = None;
         // No closer than it takes.
         for closeness in [Closeness::Loose, Closeness::Tight] {
@@ -240,7 +241,7 @@ impl<'p> Solver<'p> {
                     let normal = self.normal_of(&field);
                     let both =
                         self.certificate(end, normal.clone(), Some(horizontal), field.clone());
-                    if let Ok(certificate) = accepted(both, equations) {
+                    if let Ok(certificate) = accepted(both, not_solved) {
                         return Ok(NormalBound {
                             normal,
                             attained: true,
@@ -262,7 +263,7 @@ impl<'p> Solver<'p> {
         Ok(NormalBound {
             normal,
             attained: false,
-            certificate: Some(accepted(certificate, equations)?),
+            certificate: Some(accepted(certificate, not_solved)?),
         })
     }
 

@@ -8,12 +8,10 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 use crate::engine::check_interrupt;
-use crate::scalar::{Algebra, Field, FixedRational};
+use crate::scalar::{Algebra, Field, FixedRational, ONE};
 
 /// The greatest denominators to which free numbers are rounded, one after the other.
 const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
-
-const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 
 /// An equation: coefficients by unknown, and what they sum to.
 pub(super) type Equation<T = BigRational> = (BTreeMap<usize, T>, T);

@@ -240,13 +240,16 @@ fn floats(numbers: &[BigRational]) -> Option<Vec<f64>> {
 /// Returns a certificate if the checker accepts it.
 ///
 /// # Errors
-/// [`Error::TooLarge`] if it would not fit into memory; [`Error::NotSolved`] if it is refused.
-pub(super) fn accepted(certificate: Certificate, equations: usize) -> Result<Certificate, Error> {
+/// [`Error::TooLarge`] if it would not fit into memory; `refused` if it is refused.
+pub(super) fn accepted(
+    certificate: Certificate,
+    refused: impl FnOnce() -> Error,
+) -> Result<Certificate, Error> {
     match certificate.check() {
         Ok(()) => Ok(certificate),
         Err(refusal) => Err(match *refusal {
             Refusal::Pile(error) => error,
-            _ => Error::NotSolved { equations },
+            _ => refused(),
         }),
     }
 }
@@ -275,11 +278,12 @@ mod tests {
     fn a_refusal_says_whether_the_pile_is_too_large() {
         let claimed = |layers, claim| Pile::triangular(layers).unwrap().certified(claim);
         let stands = claimed(4, Claim::Stands);
-        assert_eq!(accepted(stands.clone(), 7), Ok(stands));
-        let refused = accepted(claimed(4, Claim::CannotStand), 7);
-        assert_eq!(refused, Err(Error::NotSolved { equations: 7 }));
+        let refused = || Error::NotSolved { equations: 7 };
+        assert_eq!(accepted(stands.clone(), refused), Ok(stands));
+        let cannot_stand = accepted(claimed(4, Claim::CannotStand), refused);
+        assert_eq!(cannot_stand, Err(refused()));
         // Four and a half million spheres.
-        let large = accepted(claimed(300, Claim::Stands), 7);
+        let large = accepted(claimed(300, Claim::Stands), refused);
         assert!(matches!(large, Err(Error::TooLarge { .. })), "{large:?}");
     }
 }

@@ -155,6 +155,7 @@ impl Pile {
     fn equilibrium_above(&self, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
         let network = Network::above(self, floor, MOST_EQUATIONS)?;
         let (equations, unknowns) = (network.weights.len(), network.columns.len());
+        let not_solved = || Error::NotSolved { equations };
         let pulls = network.columns[..equations].iter();
         let pulls = pulls.map(|column| {
             column
@@ -171,9 +172,7 @@ impl Pile {
             aim: Aim::Cost(cost.collect()),
         };
         let (program, scale) = program.scaled();
-        let mut guess = program
-            .guess(Closeness::Tight)
-            .ok_or(Error::NotSolved { equations })?;
+        let mut guess = program.guess(Closeness::Tight).ok_or_else(not_solved)?;
         // What is said is checked, whatever floats say.
         let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
         // What cannot stand cannot with more below it; what stands does so as far as it was looked at.
@@ -203,10 +202,7 @@ impl Pile {
                     ..pile.certified(Claim::CannotStand)
                 })
         };
-        accepted(
-            certificate.ok_or(Error::NotSolved { equations })?,
-            equations,
-        )
+        accepted(certificate.ok_or_else(not_solved)?, not_solved)
     }
 }
 
