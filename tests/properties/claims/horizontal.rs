@@ -321,7 +321,7 @@ mod planted {
 
     #[test]
     fn the_simplex_finds_the_corners() {
-        let first = Corner::first(2, rows()).unwrap();
+        let first = Corner::first(2, &rows()).unwrap();
         for (cost, x) in [
             ([0, -1, -1], [2, 3]),
             ([0, -3, -1], [3, 1]),
@@ -332,11 +332,11 @@ mod planted {
         }
         let mut none = rows();
         none.push(affine(&[1, -1, -1]));
-        assert!(Corner::first(2, none).is_none());
+        assert!(Corner::first(2, &none).is_none());
         // x + y = 2: nothing inside.
         let mut thin = rows();
         thin.push(affine(&[2, -1, -1]));
-        let corner = Corner::first(2, thin).unwrap();
+        let corner = Corner::first(2, &thin).unwrap();
         assert_eq!(corner.lowest(&affine(&[0, -1, 0])).x(), affine(&[2, 0]));
     }
 

@@ -4,8 +4,11 @@
 //! each. What only pushes is a polytope, and the simplex method finds its corners. No duality comes
 //! in, no certificate, no float.
 
+use core::iter::once;
 use std::collections::BTreeMap;
 
+use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -44,7 +47,7 @@ impl States {
             pushed.push(*place, *step, &ratio(1, 1));
             forces(&pushed)
         });
-        let all: Vec<Forces> = core::iter::once(forces(pile)).chain(pushed).collect();
+        let all: Vec<Forces> = once(forces(pile)).chain(pushed).collect();
         let sloping = all[0].below.keys().flat_map(|place| {
             let all = &all;
             (0..3).map(move |m| all.iter().map(|one| one.below[place][m].clone()).collect())
@@ -62,7 +65,7 @@ impl States {
 
     /// Where no contact pulls; `None` if there is no such state.
     pub(crate) fn pushing(&self) -> Option<Corner> {
-        Corner::first(self.contacts.len(), self.sloping.clone())
+        Corner::first(self.contacts.len(), &self.sloping)
     }
 
     /// Whether no contact pulls.
@@ -111,23 +114,28 @@ pub(crate) fn of_discs(pile: &Balance) -> Forces {
 }
 
 /// A corner of the x ≥ 0 where every row b + Σ a x is ≥ 0: `basic` unknowns as affine functions of the others, which are
-/// zero there. Unknown 0 is an auxiliary one, 1 … n are x, the rest are the rows.
+/// zero there. Unknown 0 is an auxiliary one, 1 … n are x, the rest are the rows times a positive number.
+///
+/// Integers over one denominator: no fraction is ever reduced (Edmonds 1967, Bareiss 1968).
 #[derive(Clone, Debug)]
 pub(crate) struct Corner {
     unknowns: usize,
     basic: Vec<usize>,
     free: Vec<usize>,
-    rows: Vec<Affine>,
+    rows: Vec<Vec<BigInt>>,
+    /// Positive.
+    denominator: BigInt,
 }
 
 impl Corner {
     /// Any corner: all rows are lifted by unknown 0, and that is made zero. `None` if it cannot be.
-    pub(crate) fn first(unknowns: usize, rows: Vec<Affine>) -> Option<Self> {
+    pub(crate) fn first(unknowns: usize, rows: &[Affine]) -> Option<Self> {
         let mut corner = Self {
             unknowns,
             basic: (unknowns + 1..).take(rows.len()).collect(),
             free: (1..=unknowns).collect(),
-            rows,
+            rows: rows.iter().map(integers).collect(),
+            denominator: BigInt::one(),
         };
         let negative = |row: &usize| corner.rows[*row][0].is_negative();
         let below = (0..corner.rows.len()).filter(negative);
@@ -136,10 +144,10 @@ impl Corner {
         };
         corner.free.push(0);
         for row in &mut corner.rows {
-            row.push(BigRational::one());
+            row.push(BigInt::one());
         }
         corner.pivot(lowest, unknowns);
-        corner.descend(|unknown| ratio(i64::from(unknown == 0), 1));
+        corner.descend(|unknown| BigInt::from(u8::from(unknown == 0)));
         if let Some(row) = corner.basic.iter().position(|unknown| *unknown == 0) {
             if !corner.rows[row][0].is_zero() {
                 return None;
@@ -163,7 +171,7 @@ impl Corner {
                 .checked_sub(1)
                 .and_then(|unknown| x.get_mut(unknown))
             {
-                x.clone_from(&row[0]);
+                *x = BigRational::new(row[0].clone(), self.denominator.clone());
             }
         }
         x
@@ -171,19 +179,24 @@ impl Corner {
 
     /// The corner where b + Σ a x is least.
     pub(crate) fn lowest(mut self, affine: &Affine) -> Self {
-        self.descend(|unknown| affine.get(unknown).cloned().unwrap_or_default());
+        let costs = integers(affine);
+        self.descend(|unknown| costs.get(unknown).cloned().unwrap_or_default());
         self
     }
 
     /// To where Σ cost x is least: along the steepest edge, and while that leads nowhere by Bland's rule, of all unknowns that
     /// may come in or go out the first, which does not go round in circles.
-    fn descend(&mut self, cost: impl Fn(usize) -> BigRational) {
-        let mut objective = vec![BigRational::zero(); 1 + self.free.len()];
-        for (entry, unknown) in objective[1..].iter_mut().zip(&self.free) {
-            *entry = cost(*unknown);
-        }
+    fn descend(&mut self, cost: impl Fn(usize) -> BigInt) {
+        let free = self
+            .free
+            .iter()
+            .map(|unknown| cost(*unknown) * &self.denominator);
+        let mut objective: Vec<BigInt> = once(BigInt::zero()).chain(free).collect();
         for (unknown, row) in self.basic.iter().zip(&self.rows) {
-            add(&mut objective, &cost(*unknown), row);
+            let cost = cost(*unknown);
+            for (entry, what) in objective.iter_mut().zip(row).filter(|_| !cost.is_zero()) {
+                *entry += &cost * what;
+            }
         }
         let last = self.rows.len();
         self.rows.push(objective);
@@ -200,9 +213,12 @@ impl Corner {
                 break;
             };
             let falling = (0..last).filter(|row| self.rows[*row][1 + column].is_negative());
-            let leaving = falling.min_by_key(|row| {
-                let row_of = &self.rows[*row];
-                (-&row_of[0] / &row_of[1 + column], self.basic[*row])
+            let leaving = falling.min_by(|one, other| {
+                let [first, second] = [one, other].map(|row| &self.rows[*row]);
+                // Both slopes are negative.
+                let reach =
+                    (&second[0] * &first[1 + column]).cmp(&(&first[0] * &second[1 + column]));
+                reach.then(self.basic[*one].cmp(&self.basic[*other]))
             });
             let leaving = leaving.expect("forces are bounded by the weight");
             moved = !self.rows[leaving][0].is_zero();
@@ -215,24 +231,39 @@ impl Corner {
     fn pivot(&mut self, row: usize, column: usize) {
         core::mem::swap(&mut self.basic[row], &mut self.free[column]);
         let mut solved = core::mem::take(&mut self.rows[row]);
-        let pivot = -core::mem::replace(&mut solved[1 + column], ratio(-1, 1));
-        for entry in &mut solved {
-            *entry /= &pivot;
-        }
+        let pivot = core::mem::replace(&mut solved[1 + column], -&self.denominator);
+        // The new denominator is positive.
+        let flip = |entry: &mut BigInt, is_flipped| {
+            if is_flipped {
+                *entry = -core::mem::take(entry);
+            }
+        };
         for other in self.rows.iter_mut().filter(|other| !other.is_empty()) {
             let factor = core::mem::take(&mut other[1 + column]);
-            add(other, &factor, &solved);
+            for (entry, what) in other.iter_mut().zip(&solved) {
+                *entry *= &pivot;
+                if !factor.is_zero() {
+                    *entry -= &factor * what;
+                }
+                *entry /= &self.denominator;
+                flip(entry, pivot.is_negative());
+            }
+        }
+        for entry in &mut solved {
+            flip(entry, pivot.is_positive());
         }
         self.rows[row] = solved;
+        self.denominator = pivot.abs();
     }
 }
 
-/// Adds a multiple.
-fn add(to: &mut Affine, factor: &BigRational, what: &Affine) {
-    if factor.is_zero() {
-        return;
-    }
-    for (entry, what) in to.iter_mut().zip(what).filter(|(_, what)| !what.is_zero()) {
-        *entry += factor * what;
-    }
+/// The smallest positive multiple of integers.
+fn integers(affine: &Affine) -> Vec<BigInt> {
+    let denominator = affine
+        .iter()
+        .fold(BigInt::one(), |least, entry| least.lcm(entry.denom()));
+    let scaled = affine
+        .iter()
+        .map(|entry| entry.numer() * (&denominator / entry.denom()));
+    scaled.collect()
 }
