@@ -27,7 +27,7 @@ fn errors_at_the_limits_are_those_of_the_table() {
     for (measured, written) in measured.lines().zip(table.lines()) {
         assert_eq!(
             measured, written,
-            "if that is right, renew the table: STRESS_TABLE_RENEW=1 cargo test --test suite stress_table"
+            "if that is right, renew the table: STRESS_TABLE_RENEW=1 cargo test --test all stress_table"
         );
     }
     assert_eq!(measured.lines().count(), table.lines().count());

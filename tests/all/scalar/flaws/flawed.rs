@@ -1,5 +1,6 @@
 //! A scalar with exact arithmetic but for one planted fault.
 
+use core::cell::Cell;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 use core::num::NonZeroI64;
@@ -10,89 +11,116 @@ use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
 
-/// The operations of a scalar: all right, unless a fault overrides one.
-pub(crate) trait Fault: Clone + Debug + PartialEq + Send + Sync {
-    const CLAIMS: Exactness = Exactness::Exact;
-
-    fn zero() -> Q {
-        Q::zero()
-    }
-    fn one() -> Q {
-        Q::one()
-    }
-    fn add(a: &Q, b: &Q) -> Q {
-        a + b
-    }
-    fn sub(a: &Q, b: &Q) -> Q {
-        a - b
-    }
-    fn mul(a: &Q, b: &Q) -> Q {
-        a * b
-    }
-    fn neg(a: &Q) -> Q {
-        -a
-    }
-    fn integer(n: i128) -> Q {
-        Q::from_integer(n.into())
-    }
-    fn rational(r: &Q) -> Q {
-        r.clone()
-    }
-    fn div_int(a: &Q, n: i64) -> Q {
-        a / BigInt::from(n)
-    }
-    fn div(a: &Q, b: &Q) -> Option<Q> {
-        (!b.is_zero()).then(|| a / b)
-    }
+/// The operations of a scalar.
+#[derive(Clone, Copy)]
+pub(crate) struct Operations {
+    pub(crate) zero: fn() -> Q,
+    pub(crate) one: fn() -> Q,
+    pub(crate) add: fn(&Q, &Q) -> Q,
+    pub(crate) sub: fn(&Q, &Q) -> Q,
+    pub(crate) mul: fn(&Q, &Q) -> Q,
+    pub(crate) neg: fn(&Q) -> Q,
+    pub(crate) integer: fn(i128) -> Q,
+    pub(crate) rational: fn(&Q) -> Q,
+    pub(crate) div_int: fn(&Q, i64) -> Q,
+    pub(crate) div: fn(&Q, &Q) -> Option<Q>,
     /// Of a numerator and a denominator.
-    fn ratio(n: &Q, d: &Q) -> Option<Q> {
-        (!d.is_zero()).then(|| n / d)
-    }
-    fn is_defined(_: &Q) -> bool {
-        true
-    }
-    fn sign(a: &Q) -> RealSign {
-        RealEmbeddable::sign(a)
-    }
-    fn enclosure(a: &Q) -> Enclosure {
-        Enclosure::point(a.clone())
-    }
+    pub(crate) ratio: fn(&Q, &Q) -> Option<Q>,
+    pub(crate) is_defined: fn(&Q) -> bool,
+    pub(crate) sign: fn(&Q) -> RealSign,
+    pub(crate) enclosure: fn(&Q) -> Enclosure,
 }
 
-/// A rational whose arithmetic has the fault F.
+impl Operations {
+    /// Without a fault.
+    pub(crate) const RIGHT: Self = Self {
+        zero: Q::zero,
+        one: Q::one,
+        add: |a, b| a + b,
+        sub: |a, b| a - b,
+        mul: |a, b| a * b,
+        neg: |a| -a,
+        integer: |n| Q::from_integer(n.into()),
+        rational: Q::clone,
+        div_int: |a, n| a / BigInt::from(n),
+        div: |a, b| (!b.is_zero()).then(|| a / b),
+        ratio: |n, d| (!d.is_zero()).then(|| n / d),
+        is_defined: |_| true,
+        sign: RealEmbeddable::sign,
+        enclosure: |a| Enclosure::point(a.clone()),
+    };
+}
+
+thread_local! {
+    /// Of all flawed numbers: a test has one fault, and the laws are compiled once for all faults.
+    static OPERATIONS: Cell<Operations> = const { Cell::new(Operations::RIGHT) };
+}
+
+/// The flawed numbers of this thread compute so.
+pub(crate) fn from_now_on(operations: Operations) {
+    OPERATIONS.set(operations);
+}
+
+fn operations() -> Operations {
+    OPERATIONS.get()
+}
+
+/// How exact a flawed scalar claims to be.
+pub(crate) trait Claim: Clone + Debug + PartialEq + Send + Sync {
+    const EXACTNESS: Exactness;
+}
+
+macro_rules! claims {
+    ($($name:ident = $exactness:expr;)*) => {$(
+        #[derive(Clone, Debug, PartialEq)]
+        pub(crate) struct $name;
+
+        impl Claim for $name {
+            const EXACTNESS: Exactness = $exactness;
+        }
+    )*};
+}
+claims! {
+    Exact = Exactness::Exact;
+    Double = Exactness::Rounded { bits: 53 };
+    ExactOrFault = Exactness::ExactOrFault;
+    Enclosed = Exactness::Enclosure;
+}
+
+/// A rational whose arithmetic is what it is at that moment.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Flawed<F>(Q, PhantomData<F>);
+pub(crate) struct Flawed<C>(Q, PhantomData<C>);
 
 /// A number of the flawed scalar.
-pub(crate) fn flawed<F>(value: Q) -> Flawed<F> {
+pub(crate) fn flawed<C>(value: Q) -> Flawed<C> {
     Flawed(value, PhantomData)
 }
 
-impl<F: Fault> Add<&Self> for Flawed<F> {
+impl<C: Claim> Add<&Self> for Flawed<C> {
     type Output = Self;
 
     fn add(self, rhs: &Self) -> Self {
-        flawed(F::add(&self.0, &rhs.0))
+        flawed((operations().add)(&self.0, &rhs.0))
     }
 }
 
-impl<F: Fault> Sub<&Self> for Flawed<F> {
+impl<C: Claim> Sub<&Self> for Flawed<C> {
     type Output = Self;
 
     fn sub(self, rhs: &Self) -> Self {
-        flawed(F::sub(&self.0, &rhs.0))
+        flawed((operations().sub)(&self.0, &rhs.0))
     }
 }
 
-impl<F: Fault> Mul<&Self> for Flawed<F> {
+impl<C: Claim> Mul<&Self> for Flawed<C> {
     type Output = Self;
 
     fn mul(self, rhs: &Self) -> Self {
-        flawed(F::mul(&self.0, &rhs.0))
+        flawed((operations().mul)(&self.0, &rhs.0))
     }
 }
 
-impl<F: Fault> Add for Flawed<F> {
+impl<C: Claim> Add for Flawed<C> {
     type Output = Self;
 
     fn add(self, rhs: Self) -> Self {
@@ -100,7 +128,7 @@ impl<F: Fault> Add for Flawed<F> {
     }
 }
 
-impl<F: Fault> Mul for Flawed<F> {
+impl<C: Claim> Mul for Flawed<C> {
     type Output = Self;
 
     fn mul(self, rhs: Self) -> Self {
@@ -108,17 +136,17 @@ impl<F: Fault> Mul for Flawed<F> {
     }
 }
 
-impl<F: Fault> Neg for Flawed<F> {
+impl<C: Claim> Neg for Flawed<C> {
     type Output = Self;
 
     fn neg(self) -> Self {
-        flawed(F::neg(&self.0))
+        flawed((operations().neg)(&self.0))
     }
 }
 
-impl<F: Fault> Zero for Flawed<F> {
+impl<C: Claim> Zero for Flawed<C> {
     fn zero() -> Self {
-        flawed(F::zero())
+        flawed((operations().zero)())
     }
 
     fn is_zero(&self) -> bool {
@@ -126,34 +154,34 @@ impl<F: Fault> Zero for Flawed<F> {
     }
 }
 
-impl<F: Fault> One for Flawed<F> {
+impl<C: Claim> One for Flawed<C> {
     fn one() -> Self {
-        flawed(F::one())
+        flawed((operations().one)())
     }
 }
 
-impl<F: Fault> Ring for Flawed<F> {
+impl<C: Claim> Ring for Flawed<C> {
     fn from_i128(n: i128) -> Self {
-        flawed(F::integer(n))
+        flawed((operations().integer)(n))
     }
 }
 
-impl<F: Fault> Algebra for Flawed<F> {
+impl<C: Claim> Algebra for Flawed<C> {
     type Numerator = Self;
 
-    const EXACTNESS: Exactness = F::CLAIMS;
+    const EXACTNESS: Exactness = C::EXACTNESS;
     const NAME: &'static str = "Flawed";
 
     fn from_rational(r: &Q) -> Self {
-        flawed(F::rational(r))
+        flawed((operations().rational)(r))
     }
 
     fn div_int(self, n: NonZeroI64) -> Self {
-        flawed(F::div_int(&self.0, n.get()))
+        flawed((operations().div_int)(&self.0, n.get()))
     }
 
     fn is_defined(&self) -> bool {
-        F::is_defined(&self.0)
+        (operations().is_defined)(&self.0)
     }
 
     fn numerators<const N: usize>(values: &[Q; N]) -> ([Self; N], Self) {
@@ -161,22 +189,22 @@ impl<F: Fault> Algebra for Flawed<F> {
     }
 
     fn from_ratio(n: Self, d: &Self) -> Option<Self> {
-        F::ratio(&n.0, &d.0).map(flawed)
+        (operations().ratio)(&n.0, &d.0).map(flawed)
     }
 }
 
-impl<F: Fault> Field for Flawed<F> {
+impl<C: Claim> Field for Flawed<C> {
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
-        F::div(&self.0, &divisor.0).map(flawed)
+        (operations().div)(&self.0, &divisor.0).map(flawed)
     }
 }
 
-impl<F: Fault> RealEmbeddable for Flawed<F> {
+impl<C: Claim> RealEmbeddable for Flawed<C> {
     fn sign(&self) -> RealSign {
-        F::sign(&self.0)
+        (operations().sign)(&self.0)
     }
 
     fn enclosure(&self) -> Option<Enclosure> {
-        Some(F::enclosure(&self.0))
+        Some((operations().enclosure)(&self.0))
     }
 }
