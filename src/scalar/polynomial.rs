@@ -12,7 +12,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, Zero, pow};
 
 use super::{Algebra, Exactness, Ring};
 
@@ -287,11 +287,18 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn substitute(&self, symbol: Symbol, value: &Self) -> Self {
+        if !(self.is_defined() && value.is_defined()) {
+            return Self::fault();
+        }
         // Horner in the one symbol, over coefficients that are polynomials in the others.
-        self.coefficients(symbol)
-            .into_iter()
-            .rev()
-            .fold(Self::zero(), |sum, coefficient| sum * value + &coefficient)
+        let (mut sum, mut last) = (Self::zero(), 0);
+        for (power, coefficient) in self.coefficients(symbol).into_iter().rev() {
+            if !sum.is_zero() {
+                sum = sum * &pow(value.clone(), (last - power) as usize);
+            }
+            (sum, last) = (sum + &coefficient, power);
+        }
+        sum * &pow(value.clone(), last as usize)
     }
 
     /// Returns the value in any scalar, for given values of the symbols; `None` if one has no value, and for the
@@ -323,9 +330,7 @@ impl Polynomial {
             let mut term = T::from_rational(&coefficient);
             for (symbol, power) in &monomial.0 {
                 let value = value_of(*symbol)?;
-                for _ in 0..*power {
-                    term = term * value;
-                }
+                term = term * &pow(value.clone(), *power as usize);
             }
             sum = sum + &term;
         }
@@ -363,18 +368,17 @@ impl Polynomial {
         Some(quotient)
     }
 
-    /// Returns the coefficients of the powers of `symbol`, from the constant up, as polynomials in the others.
-    pub(crate) fn coefficients(&self, symbol: Symbol) -> Vec<Self> {
-        let top = self.degree_in(symbol);
-        (0..=top)
-            .map(|power| {
-                let terms = self
-                    .terms
-                    .iter()
-                    .filter(|(monomial, _)| monomial.power(symbol) == power);
-                let terms = terms.map(|(monomial, n)| (monomial.without(symbol), n.clone()));
-                Self::canonical(terms.collect(), self.denominator.clone())
-            })
+    /// Returns the coefficients of the powers of `symbol` that occur, as polynomials in the others; none of the fault.
+    pub(crate) fn coefficients(&self, symbol: Symbol) -> BTreeMap<u32, Self> {
+        let mut by_power: BTreeMap<u32, BTreeMap<Monomial, BigInt>> = BTreeMap::new();
+        for (monomial, n) in &self.terms {
+            let terms = by_power.entry(monomial.power(symbol)).or_default();
+            terms.insert(monomial.without(symbol), n.clone());
+        }
+        let coefficient = |terms| Self::canonical(terms, self.denominator.clone());
+        by_power
+            .into_iter()
+            .map(|(power, terms)| (power, coefficient(terms)))
             .collect()
     }
 

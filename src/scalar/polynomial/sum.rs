@@ -27,35 +27,31 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn sum(&self, symbol: Symbol, from: &Self, to: &Self) -> Self {
-        let coefficients = self.coefficients(symbol);
+        if ![self, from, to].into_iter().all(Self::is_defined) {
+            return Self::fault();
+        }
         let end = to.clone() + &Self::one();
-        let (ends, starts) = (
-            power_sums(&end, coefficients.len()),
-            power_sums(from, coefficients.len()),
-        );
-        let powers = ends
+        let degree = self.degree_in(symbol);
+        let (ends, starts) = (power_sums(&end, degree), power_sums(from, degree));
+        self.coefficients(symbol)
             .into_iter()
-            .zip(&starts)
-            .map(|(end, start)| end - start);
-        coefficients
-            .into_iter()
-            .zip(powers)
-            .fold(Self::zero(), |sum, (coefficient, power)| {
-                sum + &(coefficient * &power)
+            .fold(Self::zero(), |sum, (power, coefficient)| {
+                let [end, start] = [&ends, &starts].map(|sums| &sums[power as usize]);
+                sum + &(coefficient * &(end.clone() - start))
             })
     }
 }
 
-/// Returns S_p(n) = 0^p + 1^p + … + (n−1)^p for p = 0 … `count` − 1.
+/// Returns S_p(n) = 0^p + 1^p + … + (n−1)^p for p = 0 … `degree`.
 ///
 /// From n^(p+1) = Σ_{m ≤ p} C(p+1, m) S_m(n): S_p = (n^(p+1) − Σ_{m < p} C(p+1, m) S_m)/(p+1).
-fn power_sums(n: &Polynomial, count: usize) -> Vec<Polynomial> {
-    let mut sums: Vec<Polynomial> = Vec::with_capacity(count);
+fn power_sums(n: &Polynomial, degree: u32) -> Vec<Polynomial> {
+    let mut sums: Vec<Polynomial> = Vec::new();
     let mut power = Polynomial::one();
     let mut divisor = NonZeroU32::MIN;
     // C(p+1, m) for m = 0 … p, a row of Pascal's triangle.
     let mut row: Vec<Polynomial> = Vec::from([Polynomial::one()]);
-    for _ in 0..count {
+    for _ in 0..=degree {
         power = power * n;
         let known = row
             .iter()

@@ -369,9 +369,40 @@ fn faults_are_equal_to_nothing() {
         assert!(!sum.is_defined());
     }
     assert!(
-        !(fault * &P::zero()).is_defined() && power.evaluate(&[(Symbol("x"), 1.0)]) == Some(1.0)
+        !(fault.clone() * &P::zero()).is_defined()
+            && power.evaluate(&[(Symbol("x"), 1.0)]) == Some(1.0)
     );
     assert!(x != y && x != constant(1, 2) && constant(1, 2) != constant(1, 3));
+    // Put in where its symbol does not occur, and summed to or from.
+    let nothing = P::zero();
+    for of_fault in [
+        fault.substitute(Symbol("y"), &x),
+        x.substitute(Symbol("y"), &fault),
+        nothing.substitute(Symbol("x"), &fault),
+        fault.sum(Symbol("y"), &nothing, &x),
+        nothing.sum(Symbol("y"), &fault, &x),
+        nothing.sum(Symbol("y"), &x, &fault),
+    ] {
+        assert!(!of_fault.is_defined());
+    }
+}
+
+/// No power is written out one by one.
+#[test]
+fn the_greatest_powers_have_values() {
+    let [x, y, _, _] = symbols();
+    let high = (0..31).fold(x.clone(), |power, _| power.clone() * &power) + &y;
+    for (value, expected) in [(-1, 5), (0, 4), (1, 5)] {
+        let at_point = high.substitute(Symbol("x"), &constant(value, 1));
+        assert_eq!(at_point, y.clone() + &constant(i64::from(value != 0), 1));
+        let values = [(Symbol("x"), ratio(value, 1)), (Symbol("y"), ratio(4, 1))];
+        assert_eq!(high.evaluate(&values), Some(ratio(expected, 1)));
+    }
+    assert_eq!(high.substitute(Symbol("x"), &x), high);
+    assert_eq!(
+        high.substitute(Symbol("y"), &-(high.clone() - &y)),
+        P::zero()
+    );
 }
 
 #[test]
