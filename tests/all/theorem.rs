@@ -4,9 +4,22 @@ mod faults;
 mod numbers;
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use self::faults::Fault;
-use cannonpile::theorem::{self, Formulas, Listing, ProofKind};
+use cannonpile::theorem::{self, Formulas, Listing, Proof, ProofKind, Theorem};
+
+/// Every theorem with what becomes of its proof, for each fault: for all tests once.
+static ATTEMPTS: LazyLock<Vec<(Fault, Vec<Attempt>)>> = LazyLock::new(|| {
+    let attempts = |fault: Fault| {
+        let attempts = theorem::all().map(|theorem| (theorem, theorem.prove_for(&fault.formulas)));
+        let attempts = attempts.collect();
+        (fault, attempts)
+    };
+    faults::all().into_iter().map(attempts).collect()
+});
+
+type Attempt = (&'static Theorem, Proof);
 
 #[test]
 fn every_theorem_holds() {
@@ -115,19 +128,14 @@ fn statements_name_their_subject_and_method() {
 #[test]
 fn faults_are_refused() {
     let mut otherwise = Vec::new();
-    for Fault {
-        what,
-        field,
-        formulas,
-        refused_by,
-    } in faults::all()
-    {
-        let failing: Vec<_> = theorem::all()
-            .filter(|theorem| !theorem.prove_for(&formulas).holds())
-            .map(|theorem| theorem.name)
+    for (fault, attempts) in ATTEMPTS.iter() {
+        let failing: Vec<_> = attempts
+            .iter()
+            .filter(|(_, proof)| !proof.holds())
+            .map(|(theorem, _)| theorem.name)
             .collect();
-        if failing.is_empty() || failing != refused_by {
-            otherwise.push(format!("{what} ({field}): {failing:?}"));
+        if failing.is_empty() || failing != fault.refused_by {
+            otherwise.push(format!("{} ({}): {failing:?}", fault.what, fault.field));
         }
     }
     assert!(otherwise.is_empty(), "{}", otherwise.join("\n"));
@@ -173,16 +181,13 @@ fn every_formula_is_put_wrong() {
 #[test]
 fn every_step_refuses_a_fault() {
     let (mut refused, mut idle) = (BTreeSet::new(), Vec::new());
-    for fault in faults::all() {
-        for theorem in theorem::all() {
-            let proof = theorem.prove_for(&fault.formulas);
-            let steps = proof.steps.into_iter().enumerate();
-            refused.extend(
-                steps
-                    .filter(|(_, step)| !step.holds())
-                    .map(|(n, _)| (theorem.name, n)),
-            );
-        }
+    for (theorem, proof) in ATTEMPTS.iter().flat_map(|(_, attempts)| attempts) {
+        let failing = proof
+            .steps
+            .iter()
+            .enumerate()
+            .filter(|(_, step)| !step.holds());
+        refused.extend(failing.map(|(n, _)| (theorem.name, n)));
     }
     for theorem in theorem::all() {
         for (n, step) in theorem.prove().steps.iter().enumerate() {
@@ -213,23 +218,20 @@ fn the_first_fault_of_each_theorem_is_refused() {
 /// The printed proof says that it fails, where it does.
 #[test]
 fn a_refuted_proof_is_listed_as_such() {
-    for fault in faults::all() {
-        for theorem in theorem::all() {
-            let proof = theorem.prove_for(&fault.formulas);
-            let [short, whole] = [false, true].map(|whole| {
-                Listing {
-                    theorem,
-                    proof: &proof,
-                    whole,
-                }
-                .to_string()
-            });
-            for text in [short, whole] {
-                let failures = proof.steps.iter().filter(|step| !step.holds()).count();
-                let verdicts = text.matches("FAILS").count();
-                let expected = failures + usize::from(failures > 0);
-                assert_eq!(verdicts, expected, "{text}");
+    for (theorem, proof) in ATTEMPTS.iter().flat_map(|(_, attempts)| attempts) {
+        let [short, whole] = [false, true].map(|whole| {
+            Listing {
+                theorem,
+                proof,
+                whole,
             }
+            .to_string()
+        });
+        for text in [short, whole] {
+            let failures = proof.steps.iter().filter(|step| !step.holds()).count();
+            let verdicts = text.matches("FAILS").count();
+            let expected = failures + usize::from(failures > 0);
+            assert_eq!(verdicts, expected, "{text}");
         }
     }
 }
