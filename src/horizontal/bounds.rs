@@ -241,14 +241,16 @@ impl<'p> Solver<'p> {
                     let normal = self.normal_of(&field);
                     let both =
                         self.certificate(end, normal.clone(), Some(horizontal), field.clone());
-                    if let Ok(certificate) = accepted(both, not_solved) {
-                        return Ok(NormalBound {
-                            normal,
-                            attained: true,
-                            certificate: Some(certificate),
-                        });
+                    match accepted(both, not_solved) {
+                        Err(Error::NotSolved { .. }) => outer = Some(field),
+                        accepted => {
+                            return Ok(NormalBound {
+                                normal,
+                                attained: true,
+                                certificate: Some(accepted?),
+                            });
+                        }
                     }
-                    outer = Some(field);
                 }
                 (None, field) => outer = field.or(outer),
                 (Some(_), None) => {}
