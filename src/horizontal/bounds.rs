@@ -242,7 +242,10 @@ impl<'p> Solver<'p> {
                     let both =
                         self.certificate(end, normal.clone(), Some(horizontal), field.clone());
                     match accepted(both, not_solved) {
-                        Err(Error::NotSolved { .. }) => outer = Some(field),
+                        // One side takes less memory.
+                        Err(Error::NotSolved { .. } | Error::TooLarge { .. }) => {
+                            outer = Some(field);
+                        }
                         accepted => {
                             return Ok(NormalBound {
                                 normal,

@@ -287,22 +287,28 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn substitute(&self, symbol: Symbol, value: &Self) -> Self {
-        if !(self.is_defined() && value.is_defined()) {
+        if !value.is_defined() {
             return Self::fault();
         }
+        // Nothing times a power beyond all bounds is nothing.
+        let times_power = |sum: Self, power: u32| match usize::try_from(power) {
+            _ if sum.is_zero() => sum,
+            Ok(power) => sum * &pow(value.clone(), power),
+            Err(_) => Self::fault(),
+        };
         // Horner in the one symbol, over coefficients that are polynomials in the others.
-        let (mut sum, mut last) = (Self::zero(), 0);
+        let (mut sum, mut last) = (Self::zero(), self.degree_in(symbol));
         for (power, coefficient) in self.coefficients(symbol).into_iter().rev() {
-            if !sum.is_zero() {
-                sum = sum * &pow(value.clone(), (last - power) as usize);
-            }
-            (sum, last) = (sum + &coefficient, power);
+            (sum, last) = (times_power(sum, last - power) + &coefficient, power);
         }
-        sum * &pow(value.clone(), last as usize)
+        times_power(sum, last)
     }
 
     /// Returns the value in any scalar, for given values of the symbols; `None` if one has no value, and for the
     /// fault.
+    ///
+    /// A term is multiplied by its powers one after the other; those beyond 64 are squared up first, and may leave the range of a
+    /// scalar where the whole term would not.
     ///
     /// # Examples
     /// ```
@@ -330,7 +336,11 @@ impl Polynomial {
             let mut term = T::from_rational(&coefficient);
             for (symbol, power) in &monomial.0 {
                 let value = value_of(*symbol)?;
-                term = term * &pow(value.clone(), *power as usize);
+                if *power <= 64 {
+                    term = (0..*power).fold(term, |term, _| term * value);
+                } else {
+                    term = term * &pow(value.clone(), usize::try_from(*power).ok()?);
+                }
             }
             sum = sum + &term;
         }
@@ -368,8 +378,12 @@ impl Polynomial {
         Some(quotient)
     }
 
-    /// Returns the coefficients of the powers of `symbol` that occur, as polynomials in the others; none of the fault.
+    /// Returns the coefficients of the powers of `symbol` that occur, as polynomials in the others; of
+    /// the fault, the fault.
     pub(crate) fn coefficients(&self, symbol: Symbol) -> BTreeMap<u32, Self> {
+        if !self.is_defined() {
+            return [(0, Self::fault())].into();
+        }
         let mut by_power: BTreeMap<u32, BTreeMap<Monomial, BigInt>> = BTreeMap::new();
         for (monomial, n) in &self.terms {
             let terms = by_power.entry(monomial.power(symbol)).or_default();

@@ -27,7 +27,7 @@ impl Polynomial {
     /// ```
     #[must_use]
     pub fn sum(&self, symbol: Symbol, from: &Self, to: &Self) -> Self {
-        if ![self, from, to].into_iter().all(Self::is_defined) {
+        if !(from.is_defined() && to.is_defined()) {
             return Self::fault();
         }
         let end = to.clone() + &Self::one();

@@ -163,9 +163,11 @@ fn exponential(x: &P, order: usize) -> P {
 
 /// What a polynomial has below the power of t of this order.
 fn lowest(p: &P, order: usize) -> P {
-    let coefficients = p.coefficients(Symbol("t")).into_iter();
-    let terms = coefficients.filter(|(n, _)| (*n as usize) < order);
-    sum(terms.map(|(n, coefficient)| coefficient * &power(&symbol("t"), n as usize)))
+    let coefficients = p.coefficients(Symbol("t"));
+    let terms = (0..order)
+        .zip(0..)
+        .filter_map(|(n, power)| Some((n, coefficients.get(&power)?)));
+    sum(terms.map(|(n, coefficient)| coefficient.clone() * &power(&symbol("t"), n)))
 }
 
 /// Q of y/λ, times λ³, with the sums T₁, T₂ and S.

@@ -387,6 +387,19 @@ fn faults_are_equal_to_nothing() {
     }
 }
 
+/// A float that is too great squared, in a term that is not.
+#[test]
+fn terms_are_multiplied_one_by_one() {
+    let [x, y, _, _] = symbols();
+    let term = x * &y * &y;
+    for (at_x, at_y, expected) in [(0.0, 1e200, 0.0), (1e300, 1e-200, 1e-100)] {
+        let value: f64 = term
+            .evaluate(&[(Symbol("x"), at_x), (Symbol("y"), at_y)])
+            .expect("values");
+        assert!((value - expected).abs() <= 1e-12 * expected, "{value}");
+    }
+}
+
 /// No power is written out one by one.
 #[test]
 fn the_greatest_powers_have_values() {
@@ -399,6 +412,11 @@ fn the_greatest_powers_have_values() {
         assert_eq!(high.evaluate(&values), Some(ratio(expected, 1)));
     }
     assert_eq!(high.substitute(Symbol("x"), &x), high);
+    // x³ − y^(2³¹) x² where x is that power: (x − x) x², whose x² would be beyond all powers.
+    let power = high.clone() - &y;
+    let power = power.substitute(Symbol("x"), &y);
+    let cancels = x.clone() * &x * &x - &(power.clone() * &x * &x);
+    assert_eq!(cancels.substitute(Symbol("x"), &power), P::zero());
     assert_eq!(
         high.substitute(Symbol("y"), &-(high.clone() - &y)),
         P::zero()

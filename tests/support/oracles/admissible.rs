@@ -245,6 +245,7 @@ impl Corner {
                 if !factor.is_zero() {
                     *entry -= &factor * what;
                 }
+                // Without a remainder: entries are minors of the first rows.
                 *entry /= &self.denominator;
                 flip(entry, pivot.is_negative());
             }
@@ -257,7 +258,7 @@ impl Corner {
     }
 }
 
-/// The smallest positive multiple of integers.
+/// The numbers times their least common denominator.
 fn integers(affine: &Affine) -> Vec<BigInt> {
     let denominator = affine
         .iter()

@@ -87,7 +87,7 @@ claims! {
     Enclosed = Exactness::Enclosure;
 }
 
-/// A rational whose arithmetic is what it is at that moment.
+/// A rational whose operations are those that were last set on this thread.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Flawed<C>(Q, PhantomData<C>);
 
