@@ -36,11 +36,6 @@ pub(super) fn faults() -> Vec<Fault> {
             let [damping, _] = (RIGHT.wave)(q);
             [damping, int(0)]
         } => ["mean-spectrum"];
-        "beyond all powers": wave = |q| {
-            let [damping, dispersion] = (RIGHT.wave)(q);
-            let beyond = (0..32).fold(q.clone(), |power, _| power.clone() * &power);
-            [damping, dispersion + &beyond]
-        } => ["mean-spectrum"];
         "a fault with 1 − q": registry_excess = |x, y, q| (RIGHT.registry_excess)(x, y, &(P::one() - q)) => ["registry"];
         "the layers exchanged": registry_excess = |x, y, q| (RIGHT.registry_excess)(y, x, q) => ["registry"];
         "as if a layer knew one above only": registry_excess = |_, y, q| (RIGHT.registry_excess)(&int(0), y, q) => ["registry"];
