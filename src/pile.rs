@@ -14,7 +14,7 @@ use crate::Error;
 use crate::formula;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, HorizontalContact, Region, Site, count};
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::{Algebra, Ring, sum_of};
 use crate::shape::{Numbering, Rows, Selection, Shape};
 use crate::stacking::Stacking;
 
@@ -324,7 +324,7 @@ impl Pile {
         let ordinary =
             self.loading.ordinary() * BigRational::from_integer(self.sphere_count().into());
         let extras = self.loading.extras().map(|(_, extra)| extra);
-        extras.fold(ordinary, |sum, extra| sum + extra)
+        ordinary + sum_of(extras)
     }
 
     /// The weight of one sphere, without the load on it, in mg: 1 unless it was given another.

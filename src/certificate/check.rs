@@ -5,7 +5,6 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -13,6 +12,7 @@ use super::{Certificate, Claim, Extreme, Refusal, Relation};
 use crate::error::{bug, refuse_beyond_memory};
 use crate::formula::{self, tripled_half_turn};
 use crate::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
+use crate::scalar::common_multiple;
 use crate::{Error, Pile};
 
 /// The most words of 64 bits that the numbers of a direction may take.
@@ -103,9 +103,7 @@ impl Certificate {
         let (mut common, mut longest) = (BigInt::one(), 0);
         for number in balanced.chain(self.field.values().flatten()) {
             longest = longest.max(number.numer().bits());
-            if !common.is_multiple_of(number.denom()) {
-                common = common.lcm(number.denom());
-            }
+            common = common_multiple(common, number.denom());
             let needed = &spheres * ((common.bits() + longest + turns) / 64 + 1);
             refuse_beyond_memory(
                 "a check of every sphere",

@@ -5,7 +5,6 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -13,6 +12,7 @@ use super::place::Place;
 use super::stackings::RandomStackings;
 use crate::Error;
 use crate::lattice::{Dimension, Region, Site};
+use crate::scalar::common_denominator;
 
 /// The piles of all stackings of an ensemble, alike in what they grow from and in what acts on them.
 ///
@@ -244,8 +244,7 @@ impl RandomPiles {
 
     /// The least common denominator of the loads.
     pub(super) fn denominator(&self) -> BigInt {
-        let denominators = self.loads.values().map(BigRational::denom);
-        denominators.fold(BigInt::one(), |common, denominator| common.lcm(denominator))
+        common_denominator(self.loads.values())
     }
 
     /// What a sphere weighs, in mg.

@@ -111,8 +111,13 @@ impl Loading {
 
     /// The weight of a sphere.
     pub(crate) fn weight(&self, site: Site) -> BigRational {
-        let special = self.weights.get(&site).filter(|_| !self.weightless);
-        special.cloned().unwrap_or_else(|| self.ordinary())
+        let special = self.special(site).cloned();
+        special.unwrap_or_else(|| self.ordinary())
+    }
+
+    /// The weight of a sphere that was given one, if spheres weigh anything.
+    fn special(&self, site: Site) -> Option<&BigRational> {
+        self.weights.get(&site).filter(|_| !self.weightless)
     }
 
     /// What is put on a sphere.
@@ -142,14 +147,18 @@ impl Loading {
 
     /// The spheres on which more or less acts than an ordinary weight, with the difference.
     pub(crate) fn extras(&self) -> impl Iterator<Item = (Site, BigRational)> + '_ {
-        let special = self
-            .weights
-            .keys()
-            .filter(|site| !self.loads.contains_key(site));
-        let sites = self.loads.keys().chain(special).copied();
-        sites
-            .map(|site| (site, self.total(site) - self.ordinary()))
-            .filter(|(_, extra)| !extra.is_zero())
+        let loaded = self.loads.iter().map(|(site, load)| {
+            let extra = match self.special(*site) {
+                Some(weight) => weight - self.ordinary() + load,
+                None => load.clone(),
+            };
+            (*site, extra)
+        });
+        let others = self.weights.keys().filter_map(|site| {
+            let weight = self.special(*site)?;
+            (!self.loads.contains_key(site)).then(|| (*site, weight - self.ordinary()))
+        });
+        loaded.chain(others).filter(|(_, extra)| !extra.is_zero())
     }
 }
 

@@ -3,14 +3,14 @@
 use alloc::collections::BTreeMap;
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 use super::Loading;
 use crate::formula;
 use crate::geometry::Vector;
 use crate::lattice::{Dimension, Site};
+use crate::scalar::{common_denominator, common_multiple};
 use crate::shape::Shape;
 
 /// The system of equations of a pile, paper, (4) and (5): its sites and steps, what an ordinary sphere adds to its three
@@ -62,28 +62,26 @@ impl System<'_> {
     /// Returns the common denominator D of all increments, and of all extra weights and loads times increments and forces of
     /// horizontal contacts.
     pub(crate) fn denominator(&self) -> BigInt {
-        let per_line = self.increments.iter();
-        let own = per_line.fold(BigInt::one(), |d, w| d.lcm(w.denom()));
-        let weights = self.loading.extras().map(|(_, weight)| weight);
-        let forces = self.loading.horizontal().map(|(_, force)| force.clone());
-        own * weights
-            .chain(forces)
-            .fold(BigInt::one(), |d, w| d.lcm(w.denom()))
+        let own = common_denominator(&self.increments);
+        let forces = self.loading.horizontal().map(|(_, force)| force);
+        let extras = self.loading.extras();
+        own * extras.fold(common_denominator(forces), |common, (_, weight)| {
+            common_multiple(common, weight.denom())
+        })
     }
 
     /// Returns the greatest increment of an ordinary sphere, and the sum of all extra weights and loads, and of what
     /// horizontal contacts add to lines, without their signs, both times the common denominator.
     pub(crate) fn magnitudes(&self) -> [BigInt; 2] {
-        let scale = BigRational::from_integer(self.denominator());
-        let weights = self.loading.extras().map(|(_, extra)| extra);
-        let pushes = self.loading.pushes().values().flatten().cloned();
-        let extras = weights.chain(pushes).map(|extra| extra.abs());
-        let extras = extras.fold(BigRational::zero(), |sum, extra| sum + extra);
+        let denominator = self.denominator();
+        // Integers: the denominator is a multiple of all.
+        let over = |value: &BigRational| value.numer().abs() * (&denominator / value.denom());
+        let weights = self.loading.extras().map(|(_, extra)| over(&extra));
+        let pushes = self.loading.pushes().values().flatten().map(over);
+        let extras = weights.chain(pushes).sum();
         let per_line = self.increments.iter();
-        let greatest = per_line.fold(BigRational::zero(), |most, w| most.max(w.clone()));
-        let ordinary = greatest * self.loading.ordinary();
-        // Integers: the scale is a multiple of all denominators.
-        [ordinary, extras].map(|value| (value * &scale).to_integer())
+        let ordinary = per_line.map(|w| over(&formula::force(self.loading.ordinary(), w)));
+        [ordinary.fold(BigInt::zero(), BigInt::max), extras]
     }
 
     /// Whether every direction has a place in a layer: the third line of a disc carries nothing and has none.

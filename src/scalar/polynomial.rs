@@ -14,7 +14,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
-use super::{Algebra, Exactness, Ring};
+use super::{Algebra, Exactness, Ring, common_multiple};
 
 /// A symbol of a [`Polynomial`], known by its name.
 ///
@@ -433,7 +433,7 @@ impl Polynomial {
         if !(self.is_defined() && other.is_defined()) {
             return Self::fault();
         }
-        let denominator = self.denominator.lcm(&other.denominator);
+        let denominator = common_multiple(self.denominator.clone(), &other.denominator);
         let own = &denominator / &self.denominator;
         let theirs = &denominator / &other.denominator * sign;
         if !own.is_one() {

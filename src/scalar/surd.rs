@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 use core::fmt;
 use core::ops::{Mul, Neg};
 
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -186,8 +186,11 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn square(&self) -> BigRational {
-        let radicand = BigRational::from_integer(self.radicand.clone().into());
-        &self.coefficient * &self.coefficient * radicand
+        let (p, q) = (self.coefficient.numer(), self.coefficient.denom());
+        let (n, denom) = (BigInt::from(self.radicand.clone()), q * q);
+        // p and q have no common factor, and n is short, mostly.
+        let common = (&denom % &n).gcd(&n);
+        BigRational::new_raw(p * p * (n / &common), denom / common)
     }
 
     /// Returns the sign, always known.

@@ -1,7 +1,6 @@
 //! The forces of all contacts, and those on the floor.
 
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 
 use super::places::{
@@ -9,6 +8,7 @@ use super::places::{
 };
 use super::{PileArrays, overflow};
 use crate::dem::numbered::{nearest, rounded};
+use crate::scalar::common_multiple;
 use crate::shape::Selection;
 use crate::table::{columns, slices};
 use crate::{Error, NearestLayers, Packing, Quantity};
@@ -94,7 +94,9 @@ impl<'p> PileArrays<'p> {
         let mut found = [(); 3].map(|()| vec![BigInt::default(); spheres]);
         let sloping = layers.fill(slices(&mut found))?;
         let horizontal = || self.pile.horizontal_forces().map(|(_, force)| force);
-        let denominator = horizontal().fold(sloping.clone(), |lcm, force| lcm.lcm(force.denom()));
+        let denominator = horizontal().fold(sloping.clone(), |common, force| {
+            common_multiple(common, force.denom())
+        });
         let factor = &denominator / sloping;
         let columns = found[..lines].iter().map(|column| {
             let numerators = column.iter().map(|n| fitted(n * &factor));

@@ -3,15 +3,13 @@
 use std::collections::HashMap;
 
 use num_bigint::{BigInt, BigUint};
-use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::One;
 use serde_json::{Value, json};
 
 use super::parts::floats;
 use crate::Error;
 use crate::dem::numbered::nearest;
-use crate::scalar::Surd;
+use crate::scalar::{Surd, common_denominator};
 
 /// The most digits that the numbers of one kind have together.
 const MAX_DIGITS: u64 = 30_000_000;
@@ -65,8 +63,7 @@ impl Quantity {
 
     /// The list: numerators over one denominator, and the floats nearest to the multiples and to these in N.
     pub(super) fn to_json(&self) -> Result<Value, Error> {
-        let denominators = self.numbers.iter().map(BigRational::denom);
-        let denominator = denominators.fold(BigInt::one(), |lcm, d| lcm.lcm(d));
+        let denominator = common_denominator(&self.numbers);
         // 0.302 digits a bit.
         let digits = self.numbers.iter();
         let bits = digits.map(|x| x.numer().bits() + denominator.bits() - x.denom().bits());
@@ -106,6 +103,8 @@ impl Quantity {
 
 #[cfg(test)]
 mod tests {
+    use num_traits::One;
+
     use super::*;
 
     fn quantity(numbers: impl IntoIterator<Item = BigRational>) -> Quantity {

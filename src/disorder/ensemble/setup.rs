@@ -3,7 +3,6 @@
 use alloc::vec::Vec;
 
 use num_bigint::{BigInt, BigUint};
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
@@ -17,6 +16,7 @@ use crate::Error;
 use crate::error::{bug, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Region, Sign};
+use crate::scalar::common_denominator;
 
 /// The most words of 64 bits that a walk keeps: the numbers of a layer for each layer.
 const MOST_WORDS: u64 = 50_000_000;
@@ -113,7 +113,7 @@ impl Task {
         }
         let own = formula::force(weight, &increment);
         let denominators = top_own.iter().chain([&own, ensemble.bins()]);
-        let scale = denominators.fold(BigInt::one(), |scale, number| scale.lcm(number.denom()));
+        let scale = common_denominator(denominators);
         let times = |number: &BigRational| (number * &scale).to_integer();
         let width = times(ensemble.bins());
         // Sums of three on the way, and their tripled half-turn; three widths for the normal forces.
