@@ -14,7 +14,7 @@ use num_traits::{One, Signed};
 use crate::engine::{Meter, Method};
 use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Ring, Surd};
+use crate::scalar::{Ring, Surd, product};
 use crate::{Culprit, Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
@@ -548,7 +548,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// ```
     pub fn contact_point(&self, site: Site, direction: Direction) -> Result<[Surd; 3], Error> {
         let point = self.point(site, direction)?;
-        Ok(on_basis(self.roots.lengths(), point, &self.diameter()))
+        Ok(on_basis(self.roots.lengths(), &point, &self.diameter()))
     }
 
     /// The centre of a sphere.
@@ -573,7 +573,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     pub fn position(&self, site: Site) -> Result<[Surd; 3], Error> {
         Ok(on_basis(
             self.roots.lengths(),
-            self.centre(site)?,
+            &self.centre(site)?,
             &self.diameter(),
         ))
     }
@@ -626,7 +626,7 @@ impl<'p, M: Meter> Packing<'p, M> {
             z: force.normal,
         };
         let [shear_x, shear_y, normal] =
-            on_basis(self.roots.forces(), force, &self.sphere_weight());
+            on_basis(self.roots.forces(), &force, &self.sphere_weight());
         FloorForce {
             site,
             normal,
@@ -648,8 +648,8 @@ impl<'p, M: Meter> Packing<'p, M> {
         multiple: &BigRational,
     ) -> Result<[Surd; 3], Error> {
         let along = upwards(self.forces.contact_direction(site, direction)?);
-        let unit = multiple * &self.weight_per_sum;
-        Ok(on_basis(self.roots.forces(), along, &unit))
+        let unit = product(multiple, &self.weight_per_sum);
+        Ok(on_basis(self.roots.forces(), &along, &unit))
     }
 
     /// The centre of a sphere, in 2R and the symbolic basis, z up from the bottom layer.
@@ -721,11 +721,11 @@ fn upwards(v: Vector<BigRational>) -> Vector<BigRational> {
 }
 
 /// The components of a vector in the symbolic basis times a rational unit, as numbers.
-fn on_basis(basis: [&Surd; 3], v: Vector<BigRational>, unit: &BigRational) -> [Surd; 3] {
+fn on_basis(basis: [&Surd; 3], v: &Vector<BigRational>, unit: &BigRational) -> [Surd; 3] {
     let [sin, across, cos] = basis;
     [
-        sin.scaled(&(v.x * unit)),
-        across.scaled(&(v.y * unit)),
-        cos.scaled(&(v.z * unit)),
+        sin.scaled(&product(&v.x, unit)),
+        across.scaled(&product(&v.y, unit)),
+        cos.scaled(&product(&v.z, unit)),
     ]
 }

@@ -70,7 +70,7 @@ pub use interval::Interval;
 pub use nearest::NearestFloat;
 pub(crate) use nearest::float_between;
 pub use polynomial::{Polynomial, Symbol};
-pub(crate) use rational::{common_denominator, common_multiple, sum_of};
+pub(crate) use rational::{common_denominator, common_multiple, product, sum_of};
 pub use surd::Surd;
 
 use core::fmt::Debug;

@@ -4,7 +4,7 @@ use super::on_basis;
 use crate::engine::Meter;
 use crate::forces::{NearestLayers, Units};
 use crate::lattice::{Direction, HorizontalContact, Link, Site};
-use crate::scalar::{NearestFloat, Surd};
+use crate::scalar::{NearestFloat, Surd, product};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing};
 use num_rational::BigRational;
@@ -185,8 +185,12 @@ impl<'p, M: Meter> Packing<'p, M> {
             site,
             direction: axis.into(),
             force: self.magnitude(force),
-            vector: on_basis(self.roots.forces(), along, &(force * &self.weight_per_sum)),
-            point: on_basis(self.roots.lengths(), halfway, half_a_diameter),
+            vector: on_basis(
+                self.roots.forces(),
+                &along,
+                &product(force, &self.weight_per_sum),
+            ),
+            point: on_basis(self.roots.lengths(), &halfway, half_a_diameter),
         })
     }
 

@@ -2,10 +2,10 @@
 
 use core::num::NonZeroI64;
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, Zero, pow};
 
 use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
 
@@ -41,6 +41,72 @@ pub(crate) fn sum_of(numbers: impl IntoIterator<Item = BigRational>) -> BigRatio
     BigRational::new(numerator, denominator)
 }
 
+/// Returns the remainder of a division by a word that is not zero.
+fn remainder(x: &BigUint, word: u64) -> u64 {
+    let digits = x.iter_u64_digits().rev();
+    let rest = digits.fold(0, |high, digit| {
+        (high << 64 | u128::from(digit)) % u128::from(word)
+    });
+    #[expect(clippy::cast_possible_truncation, reason = "less than a word")]
+    let rest = rest as u64;
+    rest
+}
+
+/// Divides a number that is not zero by three as often as that leaves no rest, `most` times at most; returns how often, and what is left.
+///
+/// The denominators of a pile are powers of three, one for each change of sign, times those of the loads. How many threes a number
+/// shares with them is seen in its remainder by 3⁴⁰, the greatest power in a machine word, which takes one pass over its words; a
+/// divisor that is looked for takes as many passes as there are bits.
+fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
+    const A_WORD: usize = 40;
+    let word = pow(3_u64, A_WORD);
+    debug_assert!(!x.is_zero(), "zero has threes without end");
+    let mut threes = 0;
+    loop {
+        let mut remainder = remainder(&x, word);
+        let most_here = A_WORD.min(most - threes);
+        let mut found = if remainder == 0 { most_here } else { 0 };
+        while found < most_here && remainder.is_multiple_of(3) {
+            remainder /= 3;
+            found += 1;
+        }
+        if found > 0 {
+            x /= pow(3_u64, found);
+            threes += found;
+        }
+        if found < A_WORD {
+            return (threes, x);
+        }
+    }
+}
+
+/// Returns n/d in lowest terms, for a denominator that is not zero.
+fn quotient(n: BigInt, d: &BigInt) -> BigRational {
+    if n.is_zero() || d.is_one() {
+        return BigRational::from_integer(n);
+    }
+    let sign = n.sign() * d.sign();
+    let (threes, rest) = without_threes(d.magnitude().clone(), usize::MAX);
+    let (shared, mut n) = without_threes(n.into_parts().1, threes);
+    let mut d = d.magnitude() / pow(BigUint::from(3_u32), shared);
+    if !rest.is_one() {
+        // One step of Euclid first: the divisor that is left works on numbers no longer than what loads brought into the
+        // denominator, however long n is.
+        let divisor = match u64::try_from(&rest) {
+            Ok(rest) => remainder(&n, rest).gcd(&rest).into(),
+            Err(_) => (&n % &rest).gcd(&rest),
+        };
+        n /= &divisor;
+        d /= divisor;
+    }
+    BigRational::new_raw(BigInt::from_biguint(sign, n), d.into())
+}
+
+/// Returns a·b. `Ratio` looks for common factors of the products, which takes longer than all the rest.
+pub(crate) fn product(a: &BigRational, b: &BigRational) -> BigRational {
+    quotient(a.numer() * b.numer(), &(a.denom() * b.denom()))
+}
+
 impl Ring for BigRational {
     fn from_i128(n: i128) -> Self {
         Self::from_integer(n.into())
@@ -72,14 +138,7 @@ impl Algebra for BigRational {
     }
 
     fn from_ratio(n: BigInt, d: &BigInt) -> Option<Self> {
-        if d.is_zero() {
-            return None;
-        }
-        // One step of Euclid first: the gcd that is left works on numbers no longer than d, which here
-        // is short, however long n is.
-        let divisor = (&n % d).gcd(d);
-        let divisor = if d.is_negative() { -divisor } else { divisor };
-        Some(Self::new_raw(n / &divisor, d / &divisor))
+        (!d.is_zero()).then(|| quotient(n, d))
     }
 }
 
@@ -108,6 +167,26 @@ impl RealEmbeddable for BigRational {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// With as many threes on both sides as words hold, one less and one more, and with other divisors beside them.
+    #[test]
+    fn quotients_are_in_lowest_terms() {
+        let others = [1_i64, -1, 2, -10, 1 << 62, 3_i64.pow(20) + 1];
+        let threes = [0, 1, 2, 39, 40, 41, 79, 80, 81, 200];
+        let numbers: Vec<BigInt> = threes
+            .iter()
+            .flat_map(|k| others.map(|other| pow(BigInt::from(3), *k) * other))
+            .collect();
+        for n in numbers.iter().chain([&BigInt::zero()]) {
+            for d in &numbers {
+                let divided = BigRational::from_ratio(n.clone(), d).unwrap();
+                let expected = BigRational::new(n.clone(), d.clone());
+                let parts = |x: &BigRational| (x.numer().clone(), x.denom().clone());
+                assert_eq!(parts(&divided), parts(&expected), "{n} / {d}");
+            }
+            assert_eq!(BigRational::from_ratio(n.clone(), &BigInt::zero()), None);
+        }
+    }
 
     #[test]
     fn sums_have_the_denominators_that_are_needed() {

@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::nearest::{nearest_ratio, nearest_root, screened};
-use super::{NearestFloat, RealSign};
+use super::{NearestFloat, RealSign, product};
 use crate::Error;
 
 /// An exact number c·√n, with c rational and n a positive integer.
@@ -338,16 +338,6 @@ impl Surd {
             self.square()
         }
     }
-}
-
-/// Returns a·b. In lowest terms once the factors across are out: `Ratio` looks for others all the same, which takes longer than
-/// all the rest.
-fn product(a: &BigRational, b: &BigRational) -> BigRational {
-    // Not zero: no denominator is.
-    let (left, right) = (a.numer().gcd(b.denom()), b.numer().gcd(a.denom()));
-    let numer = (a.numer() / &left) * (b.numer() / &right);
-    let denom = (a.denom() / right) * (b.denom() / left);
-    BigRational::new_raw(numer, denom)
 }
 
 /// Returns (root, rest) with `n` = root²·rest: the squares of small primes are in the root, and what the others make up if
