@@ -3,7 +3,9 @@
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
-use cannonpile::{BaseExtremes, ContactForce, Pile};
+use cannonpile::{BaseExtremes, ContactForce, FloorForce, Pile};
+use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -78,12 +80,21 @@ fn over_all(pile: &Pile) -> [BigRational; 3] {
         .collect();
     let normals = || on_floor.iter().map(|force| force.normal.clone());
     let loaded = on_floor.iter().filter(|force| !force.normal.is_zero());
-    let ratios = loaded.map(|force| {
-        let shear2 =
-            &force.shear_x * &force.shear_x + ratio(3, 1) * &force.shear_y * &force.shear_y;
-        shear2 / (&force.normal * &force.normal)
+    // In integers over one denominator a sphere, which divides out; in lowest terms the greatest alone.
+    let squares = loaded.map(|force| {
+        let FloorForce {
+            normal,
+            shear_x,
+            shear_y,
+            ..
+        } = force;
+        let d = normal.denom().lcm(shear_x.denom()).lcm(shear_y.denom());
+        let [n, x, y] = [normal, shear_x, shear_y].map(|part| part.numer() * (&d / part.denom()));
+        (&x * &x + &y * &y * 3, &n * &n)
     });
-    [normals().min(), normals().max(), ratios.max()].map(Option::unwrap_or_default)
+    let steepest = squares.max_by(|(a, b): &(BigInt, BigInt), (c, d)| (a * d).cmp(&(c * b)));
+    let ratio = steepest.map(|(shear2, normal2)| BigRational::new(shear2, normal2));
+    [normals().min(), normals().max(), ratio].map(Option::unwrap_or_default)
 }
 
 /// Piles whose base is swept, with loads: on the floor, so great that floats are of no use, or nothing but loads.
@@ -100,7 +111,7 @@ fn swept() -> Vec<Pile> {
         let sites: Vec<Site> = pile.shape().sites().collect();
         let last = sites[sites.len() - 9];
         let loaded = |site, load| pile.clone().with_load(site, load).unwrap();
-        let great = BigRational::from_integer(num_bigint::BigInt::from(7).pow(150));
+        let great = BigRational::from_integer(BigInt::from(7).pow(150));
         piles.extend([
             loaded(last, ratio(1000, 3)),
             loaded(sites[0], ratio(1, 1)).weightless(),
@@ -245,7 +256,7 @@ fn no_least_contact_is_named_where_not_all_were_looked_at() {
 /// decides what it is.
 #[test]
 fn of_a_base_with_one_other_sphere() {
-    let tiny = BigRational::from_integer(num_bigint::BigInt::from(7).pow(200)).recip();
+    let tiny = BigRational::from_integer(BigInt::from(7).pow(200)).recip();
     for (top, stacking) in [
         (Region::SITE, "+-+-+"),
         (Region::hexagon(2, 1).unwrap(), "-++-"),
@@ -291,7 +302,7 @@ fn of_a_base_where_the_extremes_are_loaded() {
 /// A load on each sphere in turn that is beyond the floats, so that some spheres of a row have one and others none.
 #[test]
 fn of_a_base_half_of_which_is_beyond_the_floats() {
-    let great = BigRational::from_integer(num_bigint::BigInt::from(7).pow(600));
+    let great = BigRational::from_integer(BigInt::from(7).pow(600));
     let top = Region::new(-1..=1, 0..=2, -1..=2).unwrap();
     let pile = Pile::under(top, "+--".parse().unwrap()).unwrap();
     for site in pile.rows(Selection::Layer(1)).unwrap().flatten() {
