@@ -59,7 +59,13 @@ fn stress_table(with_deep: bool) {
     }
     if with_deep {
         for layers in Deep::LAYERS {
-            print!("\n{}", Deep::measured(layers));
+            let measured = Deep::measured(layers).to_string();
+            print!("\n{measured}");
+            let written = include_str!("../tests/support/stress/deep.md");
+            assert!(
+                written.contains(&measured),
+                "not in tests/support/stress/deep.md"
+            );
         }
     }
 }

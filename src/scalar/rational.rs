@@ -55,12 +55,12 @@ fn remainder(x: &BigUint, word: u64) -> u64 {
 /// Divides a number that is not zero by three as often as that leaves no rest, `most` times at most; returns how often, and what is left.
 ///
 /// The denominators of a pile are powers of three, one for each change of sign, times those of the loads. How many threes a number
-/// shares with them is seen in its remainder by 3⁴⁰, the greatest power in a machine word, which takes one pass over its words; a
-/// divisor that is looked for takes as many passes as there are bits.
+/// shares with them is seen in its remainder by 3⁴⁰, the greatest power in a machine word: forty in a pass over its words, where a divisor
+/// that is looked for takes a pass a bit.
 fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
     const A_WORD: usize = 40;
     let word = pow(3_u64, A_WORD);
-    debug_assert!(!x.is_zero(), "zero has threes without end");
+    assert!(!x.is_zero(), "zero has threes without end");
     let mut threes = 0;
     loop {
         let mut remainder = remainder(&x, word);
@@ -171,18 +171,38 @@ mod tests {
     /// With as many threes on both sides as words hold, one less and one more, and with other divisors beside them.
     #[test]
     fn quotients_are_in_lowest_terms() {
-        let others = [1_i64, -1, 2, -10, 1 << 62, 3_i64.pow(20) + 1];
+        let power = |n: i64, k: usize| pow(BigInt::from(n), k);
+        // What is left of a denominator is one, a word, or longer.
+        let others = [
+            power(1, 1),
+            power(-1, 1),
+            power(10, 1),
+            power(2, 64) - 1,
+            power(2, 64),
+            power(7, 40),
+            power(-7, 50) * 2,
+        ];
         let threes = [0, 1, 2, 39, 40, 41, 79, 80, 81, 200];
-        let numbers: Vec<BigInt> = threes
-            .iter()
-            .flat_map(|k| others.map(|other| pow(BigInt::from(3), *k) * other))
-            .collect();
+        let numbers = threes.map(|k| others.each_ref().map(|other| power(3, k) * other));
+        let numbers = numbers.as_flattened();
+        // `==` does not tell lowest terms.
+        let parts = |x: &BigRational| (x.numer().clone(), x.denom().clone());
         for n in numbers.iter().chain([&BigInt::zero()]) {
-            for d in &numbers {
+            for d in numbers {
                 let divided = BigRational::from_ratio(n.clone(), d).unwrap();
                 let expected = BigRational::new(n.clone(), d.clone());
-                let parts = |x: &BigRational| (x.numer().clone(), x.denom().clone());
                 assert_eq!(parts(&divided), parts(&expected), "{n} / {d}");
+                // A factor may be in other terms.
+                let [a, b] = [[n, d], [d, n]].map(|[n, d]| {
+                    let d = if d.is_zero() {
+                        BigInt::one()
+                    } else {
+                        d.clone()
+                    };
+                    BigRational::new_raw(n.clone(), d)
+                });
+                let expected = BigRational::new(a.numer() * b.numer(), a.denom() * b.denom());
+                assert_eq!(parts(&product(&a, &b)), parts(&expected), "{a} {b}");
             }
             assert_eq!(BigRational::from_ratio(n.clone(), &BigInt::zero()), None);
         }

@@ -127,7 +127,12 @@ fn is_brute_force(case: &Case, selection: Selection) {
         } = &passed[usize::try_from(k).unwrap()];
         let numerator = &numerators[&(j, i)][contact.direction.index()];
         let over = &d * pow(BigInt::from(3), below.changes);
-        assert!(is_quotient(&contact.force, numerator, &over));
+        let force = &contact.force;
+        assert!(
+            is_quotient(force, numerator, &over),
+            "{} {force}",
+            contact.site
+        );
         if n % 499 == 0 {
             let one = forces.contact(contact.site, contact.direction);
             assert_eq!(one, Ok(contact.force));
@@ -142,7 +147,8 @@ fn is_brute_force(case: &Case, selection: Selection) {
         let Site { i, j, k } = force.site;
         let above: BigInt = front.received[&(j, i)].iter().sum();
         let normal = above + weight((k, j, i)) * &unit * 3;
-        assert!(is_quotient(&force.normal, &normal, &(&d * &unit * 3)));
+        let is_brute = is_quotient(&force.normal, &normal, &(&d * &unit * 3));
+        assert!(is_brute, "{} {}", force.site, force.normal);
     }
 }
 
