@@ -22,8 +22,8 @@ use crate::{Error, formula};
 /// How many numbers are worth a thread of their own, each time one of them is changed.
 const WORTH_A_THREAD: usize = 1 << 13;
 
-/// Passes that wait for each other, at the most, where nothing else says when.
-const WAITING: usize = 8;
+/// Passes that wait for each other, at the most, where nothing else says when: enough to be worth waking a thread for.
+const WAITING: usize = 16;
 
 /// A number for each line of a layer, by direction, in the cells of the last layer.
 #[derive(Clone, Debug)]
@@ -187,10 +187,8 @@ fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
     let lost: i128 = steps.map(i128::abs).sum();
     let rows = first.rows();
     let most = (rows.end - rows.start) / (2 * lost + 2);
-    // More than threads, which are not of one speed.
-    (worth.min(4 * parallel::threads()) as i128)
-        .min(most)
-        .max(1)
+    // No more than threads: around each border rows are left, which one thread makes up for.
+    (worth.min(parallel::threads()) as i128).min(most).max(1)
 }
 
 /// The rows that are taken, by pass.

@@ -66,7 +66,7 @@ fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
         let mut remainder = remainder(&x, word);
         let most_here = A_WORD.min(most - threes);
         let mut found = if remainder == 0 { most_here } else { 0 };
-        while found < most_here && remainder.is_multiple_of(3) {
+        while found < most_here && remainder % 3 == 0 {
             remainder /= 3;
             found += 1;
         }
