@@ -28,6 +28,8 @@ CHANGES = [
     (re.compile(r"(?<=\()(-?\d+), (-?\d+)(?=\)%Z)"), lambda m: f"{int(m[1]) + 1}, {m[2]}"),
     (re.compile(r"\.\((alpha|beta|gamma|along_x|along_y|along_z)\)"), lambda m: f".({NEXT[m[1]]})"),
 ]
+# What a direction is compressed by against itself is nothing, however often it is taken.
+NOTHING = re.compile(r"\|\s+(\w+),\s+\1,\s+\w+\s+=>\s+(?=\(- )")
 NEXT = dict(alpha="beta", beta="gamma", gamma="alpha", along_x="along_y", along_y="along_z", along_z="along_x")
 
 
@@ -39,8 +41,12 @@ def definitions(text):
 
 def variants(body):
     """The body with one change, for each place that can be changed, in their order."""
+    nothing = {found.end() for found in NOTHING.finditer(body)}
     places = sorted(
-        ((found.start(), found.end(), becomes(found)) for what, becomes in CHANGES for found in what.finditer(body)),
+        (found.start(), found.end(), becomes(found))
+        for what, becomes in CHANGES
+        for found in what.finditer(body)
+        if found.start() not in nothing
     )
     # A definition that only names a parameter.
     if not places:
