@@ -33,14 +33,14 @@ fn errors_at_the_limits_are_those_of_the_table() {
     assert_eq!(measured.lines().count(), table.lines().count());
 }
 
-/// After more changes the other scalars take minutes, and after a thousand the exact forces half a minute: the bench `rounding` measures
-/// them, with `-- --stress`. Without optimization even these take long.
+/// After a thousand changes the other scalars take minutes: the bench `rounding` measures them, with `-- --stress`. Without
+/// optimization even the exact forces do.
 #[cfg(not(debug_assertions))]
 #[test]
 fn errors_after_many_changes_of_sign_are_those_of_the_table() {
     use crate::support::stress::deep::Deep;
 
-    let [_, in_floats, in_all] = Deep::LAYERS;
+    let [in_floats, in_all] = Deep::LAYERS;
     let mut deep = Deep::new(in_floats);
     deep.measure_floats();
     // What it is of, and the table.

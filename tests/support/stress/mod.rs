@@ -5,7 +5,7 @@
 //! | `cases` | the piles |
 //! | `forces` | what is asked of each, in any scalar |
 //! | `errors` | errors in units in the last place, exactly |
-//! | `deep`, `deep.md` | 250, 500 and a thousand changes of sign, apart because they take long; as they were measured last |
+//! | `deep`, `deep.md` | 250 and a thousand changes of sign, apart because they take long; as they were measured last |
 //! | `table` | the table and what every row must keep |
 //! | `table.md` | the table as it was measured last |
 
