@@ -60,6 +60,8 @@ fn remainder(x: &BigUint, word: u64) -> u64 {
 fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
     const A_WORD: usize = 40;
     let word = pow(3_u64, A_WORD);
+    // Only a `Ratio` that was put together wrongly has a denominator of zero: it panics here as in its own operators, which is said in
+    // the guarantees, and would else have no end.
     assert!(!x.is_zero(), "zero has threes without end");
     let mut threes = 0;
     loop {
