@@ -68,7 +68,8 @@ fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
         let mut remainder = remainder(&x, word);
         let most_here = A_WORD.min(most - threes);
         let mut found = if remainder == 0 { most_here } else { 0 };
-        while found < most_here && remainder % 3 == 0 {
+        // The method of the trait: Rust 1.88 has none of words.
+        while found < most_here && Integer::is_multiple_of(&remainder, &3) {
             remainder /= 3;
             found += 1;
         }
