@@ -15,15 +15,15 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::grid::{Grid, Layer, Moves, Pass, Piece};
 use super::parallel;
-use crate::lattice::{Along, Counts};
+use crate::lattice::{Along, Counts, Region};
 use crate::scalar::{Algebra, Ring};
 use crate::{Error, formula};
 
 /// How many numbers are worth a thread of their own, each time one of them is changed.
 const WORTH_A_THREAD: usize = 1 << 13;
 
-/// Passes that wait for each other, at the most, where nothing else says when: enough to be worth waking a thread for.
-const WAITING: usize = 16;
+/// Passes that wait for each other, at the most, where nothing else says when.
+const WAITING: usize = 8;
 
 /// A number for each line of a layer, by direction, in the cells of the last layer.
 #[derive(Clone, Debug)]
@@ -85,7 +85,8 @@ impl<V: Clone> Plane<V> {
             .collect();
         for (line, numbers) in self.0.iter_mut().enumerate() {
             other.clear();
-            other.reserve_exact(next.cells);
+            // With room for windows to come: memory that grows by little each time leaves gaps that nothing fits in.
+            other.reserve(next.cells);
             other.resize(next.cells, zero.clone());
             for Piece { from, to, length } in moves.rows.iter().filter(|row| row.to.0 == line) {
                 let row = &numbers[from.1..from.1 + length];
@@ -166,6 +167,15 @@ where
         planes: planes.iter_mut().map(Plane::slices_mut).collect(),
     };
     whole.make_in_bands(number, grid, passes, (&turn, &finish))
+}
+
+/// Whether a thread should stand by while so many passes are made on the way down to a layer: where bands of those that wait
+/// for each other are worth threads, again and again.
+pub(super) fn are_worth_one_standing_by(passes: usize, to: &Region) -> bool {
+    // Not a default: only whether threads are worth it hangs on it.
+    let sites = to.site_count().to_usize().unwrap_or(usize::MAX);
+    let numbers = sites.saturating_mul(3 * WAITING);
+    passes > WAITING && numbers >= 2 * WORTH_A_THREAD
 }
 
 /// Returns how many bands are worth the work of these passes.
@@ -556,7 +566,6 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Region;
     use crate::shape::Shape;
 
     /// All passes of a pile, so many at a time, in so many bands, with something added when rows are finished. The numbers

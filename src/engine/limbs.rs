@@ -12,23 +12,26 @@
 //! 2√3·B·D·3^(d−1), and B·D without one.
 //!
 //! # Limbs and carries
-//! A number is Σ x_p 2^(51p), one limb x_p in each of P planes, all of them `i64`. Passes are linear, so they act on
+//! A number is Σ x_p 2^(55p), one limb x_p in each of P planes, all of them `i64`. Passes are linear, so they act on
 //! each plane by itself, in the same loop; only carries lead from one plane to the next, and they can wait.
 //!
-//! Lemma. Right after carrying the lower limbs lie in [−2^50, 2^50). Let M·2^51 bound them after some passes, M = 1/2 at
-//! first. A pass adds an increment's limb, at most 2^50, and turns by 2(b + c) − a.
+//! Lemma. Right after carrying the lower limbs lie in [−2^54, 2^54). Let M·2^55 bound them after some passes, M = 1/2 at
+//! first. A pass adds an increment's limb, at most 2^54, and turns by 2(b + c) − a.
 //!
 //! | after | M | because |
 //! |---|---|---|
 //! | t + 1 passes | 5(M + 1/2) | \|2(b + c) − a\| ≤ 5 max(\|a\|, \|b\|, \|c\|), and no sum on the way is greater |
-//! | 1, 2, 3, 4, 5 passes | 5, 27.5, 140, 702.5, 3515 | |
-//! | 5 passes | 3515 | 3515·2^51 + 2^50 < 2^12·2^51 = 2^63; the sixth would lead to 17578 |
+//! | 1, 2, 3 passes | 5, 27.5, 140 | |
+//! | 3 passes | 140 | 140·2^55 + 2^54 < 2^8·2^55 = 2^63; the fourth would lead to 702.5 |
 //!
-//! So carries are due after every fifth pass. The top limb is the number over 2^(51(P−1)) less what the lower ones still
-//! owe, which is below 2^12. P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(51(P−1)), and 2^62 + 2^12 < 2^63. Right
+//! So carries are due after every third pass. The top limb is the number over 2^(55(P−1)) less what the lower ones still
+//! owe, which is below 2^8. P is the least for which 2√3·B·D·3^(d−1) < 2^62·2^(55(P−1)), and 2^62 + 2^8 < 2^63. Right
 //! after carrying the lower limbs owe less than 1, and no force is greater than √3/2 of that bound: a top limb of 2^62 or
 //! more is an error, and all of them are looked at whenever limbs carry. With one plane nothing is ever carried. d is
 //! the number of changes so far, so there are few planes at the top of a pile and more further down.
+//!
+//! Limbs of 51 bits would bear five passes, of 58 two: for many layers there are as few planes as may be, and for few
+//! layers there is as little to carry, where three passes wait.
 //!
 //! # Passes that wait
 //! Between carries each plane is for itself. Passes wait until carries are due or a number is asked for; then they are
@@ -40,9 +43,8 @@ use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use num_bigint::{BigInt, BigUint};
-use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{Signed, Zero};
 
 use super::cells::{Plane, Ramps, make, row};
 use super::grid::{Grid, Layer, Moves, Pass};
@@ -52,10 +54,10 @@ use crate::formula::{force, tripled_apart};
 use crate::lattice::Direction;
 
 /// The bits of a limb below the top one.
-pub(super) const LIMB: u32 = 51;
+pub(super) const LIMB: u32 = 55;
 
 /// How many passes the lower limbs bear between carries.
-const TURNS: u32 = 5;
+const TURNS: u32 = 3;
 
 /// The invariant that the width of the numbers rests on.
 const WIDE_ENOUGH: &str = "no force is wider than the bound on all forces";
@@ -127,14 +129,20 @@ impl Planes {
         }
     }
 
-    /// Makes room for what the passes that wait lead to. What was the top limb is a lower one then, and carries.
+    /// Makes room for what the passes that wait lead to. What was the top limb is a lower one then, and carries on all lines
+    /// that the first of them goes along; the others bear as many passes as before.
     fn grow(&mut self, grid: &Grid<'_>) -> Result<(), Error> {
+        let had = self.limbs.len();
         let planes = Size::new(&self.bound, self.changes).planes;
-        if planes > self.limbs.len() {
-            self.limbs.resize(planes, Plane::new(grid, &0));
-            self.carry()?;
-            // Those that wait are at most as many as a carry is due after.
-            self.passes = self.waiting.iter().fold(0, |passes, _| passes + 1);
+        let Some((pass, _)) = self.waiting.first().filter(|_| planes > had) else {
+            return Ok(());
+        };
+        self.limbs.resize(planes, Plane::new(grid, &0));
+        let top_and_next = self.limbs[had - 1..=had].iter_mut();
+        let mut top_and_next: Vec<_> = top_and_next.map(Plane::slices_mut).collect();
+        for row in pass.part.rows(pass.k) {
+            let cells = grid.row(row.j, &row.i, pass.shift)?;
+            check(carry_rows(&mut top_and_next, &cells))?;
         }
         Ok(())
     }
@@ -188,7 +196,7 @@ impl Planes {
         planes.all(|plane| plane.carried(one) == plane.carried(other))
     }
 
-    /// Brings the lower limbs into [−2^50, 2^50).
+    /// Brings the lower limbs into [−2^54, 2^54).
     fn carry(&mut self) -> Result<(), Error> {
         self.passes = 0;
         let all = self
@@ -201,7 +209,7 @@ impl Planes {
         check(fits)
     }
 
-    /// Brings the lower limbs of the three lines of one sphere into [−2^50, 2^50).
+    /// Brings the lower limbs of the three lines of one sphere into [−2^54, 2^54).
     fn carry_at(&mut self, cells: [usize; 3]) -> Result<(), Error> {
         let mut planes: Vec<_> = self.limbs.iter_mut().map(Plane::slices_mut).collect();
         let fits = carry_rows(&mut planes, &cells.map(|cell| cell..cell + 1));
@@ -225,7 +233,7 @@ impl Planes {
             let rows = self.slices(&cells);
             for (n, i) in row.i.enumerate() {
                 for direction in Direction::ALL {
-                    // From the top limb down, limbs in [−2^50, 2^50) compare like digits: what is below a limb is less
+                    // From the top limb down, limbs in [−2^54, 2^54) compare like digits: what is below a limb is less
                     // than one of its units.
                     let limbs = rows.iter().map(|row| row[direction.index()][n]);
                     let order = match &least {
@@ -325,7 +333,7 @@ impl Layer<BigRational> for Planes {
     }
 }
 
-/// Brings the lower limbs of some cells into [−2^50, 2^50), and returns whether the top limbs are as small as the width
+/// Brings the lower limbs of some cells into [−2^54, 2^54), and returns whether the top limbs are as small as the width
 /// of the numbers promises.
 fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool {
     for p in 1..planes.len() {
@@ -341,11 +349,11 @@ fn carry_rows(planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]) -> bool
     top.into_iter().flatten().all(|top| are_within_2_62(top))
 }
 
-/// Hands on to the next limbs what is beyond [−2^50, 2^50).
+/// Hands on to the next limbs what is beyond [−2^54, 2^54).
 #[inline(never)]
 fn carry(lower: &mut [i64], upper: &mut [i64]) {
     const HALF: i64 = 1 << (LIMB - 1);
-    // x >> 51 rounded down, by way of x + 2^63: vectors of old processors shift no signed numbers.
+    // x >> 55 rounded down, by way of x + 2^63: vectors of old processors shift no signed numbers.
     const OFFSET: u64 = 1 << 63;
     for (x, next) in lower.iter_mut().zip(upper) {
         let moved = (*x + HALF).cast_unsigned();
@@ -364,24 +372,31 @@ fn value<'a>(top_down: impl Iterator<Item = &'a i64>) -> BigInt {
     top_down.fold(BigInt::zero(), |value, limb| (value << LIMB) + *limb)
 }
 
-/// An integer as limbs, from the lowest up: all but the top one in [−2^50, 2^50). `None` if the top one is none.
+/// An integer as limbs, from the lowest up: all but the top one in [−2^54, 2^54). `None` if the top one is none.
 pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
     const BASE: i64 = 1 << LIMB;
-    let base = BigInt::from(BASE);
-    let mut rest = value.clone();
+    let sign = if value.is_negative() { -1 } else { 1 };
+    let mut words = value.iter_u64_digits();
+    // The next bits of the magnitude, of at most two words, and what the limb below hands on.
+    let (mut bits, mut held, mut carried) = (0_u128, 0, 0);
     let mut limbs = Vec::with_capacity(planes);
     for _ in 1..planes {
-        let (next, digit) = rest.div_mod_floor(&base);
-        let digit = digit.to_i64()?;
-        let (next, limb) = if digit < BASE / 2 {
-            (next, digit)
-        } else {
-            (next + 1, digit - BASE)
-        };
-        limbs.push(limb);
-        rest = next;
+        if held < LIMB {
+            // Not a default: above the highest word there are zeros.
+            bits |= u128::from(words.next().unwrap_or(0)) << held;
+            held += u64::BITS;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "the bits of a limb")]
+        let digit = sign * (bits as i64 & (BASE - 1)) + carried;
+        (bits, held) = (bits >> LIMB, held - LIMB);
+        carried = i64::from(digit >= BASE / 2) - i64::from(digit < -BASE / 2);
+        limbs.push(digit - carried * BASE);
     }
-    limbs.push(rest.to_i64()?);
+    if let Some(word) = words.next() {
+        bits |= u128::from(word) << held;
+    }
+    let top = i128::try_from(bits).ok()? * i128::from(sign) + i128::from(carried);
+    limbs.push(i64::try_from(top).ok().filter(|_| words.next().is_none())?);
     Some(limbs)
 }
 
@@ -399,7 +414,7 @@ mod tests {
         planes
     }
 
-    /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^50.
+    /// As many loads on one line as a limb would not bear without carrying: 2^16 times nearly 2^54.
     #[test]
     fn loads_that_follow_each_other_do_not_fill_a_limb() {
         let shape = Shape::pyramid(2, Dimension::Three).unwrap();
@@ -417,7 +432,7 @@ mod tests {
 
     #[test]
     fn limbs_are_digits_of_the_number() {
-        for power in 0..94 {
+        for power in 0..98 {
             for sign in [1, -1] {
                 let number = (BigInt::from(1) << power) * sign - 1;
                 let limbs = limbs(&number, 2).unwrap();
@@ -451,17 +466,17 @@ mod tests {
         }
     }
 
-    /// The table of the lemma: M in halves, and the sixth pass that would be too much.
+    /// The table of the lemma: M in halves, and the fourth pass that would be too much.
     #[test]
-    fn lower_limbs_bear_five_passes_and_no_more() {
+    fn lower_limbs_bear_three_passes_and_no_more() {
         let half = 1_i128 << (LIMB - 1);
         let bounds = |passes| (0..passes).fold(1, |halves, _| 5 * (halves + 1));
-        assert_eq!(bounds(TURNS), 7030);
+        assert_eq!(bounds(TURNS), 280);
         assert!((bounds(TURNS) + 1) * half < 1 << 63);
         assert!(bounds(TURNS + 1) * half >= 1 << 63);
     }
 
-    /// Five turns of limbs that are as great as limbs can be, each with increments that are, too: 3^5 times as great at
+    /// Three turns of limbs that are as great as limbs can be, each with increments that are, too: 3^3 times as great at
     /// least. Overflow is noticed in a checked run.
     #[test]
     fn great_limbs_do_not_overflow() {
@@ -475,7 +490,7 @@ mod tests {
                 limbs = tripled_apart(&limbs.map(|x| x + x.signum() * (half - 1)));
             }
             let greatest = limbs.iter().map(|x| x.unsigned_abs()).max();
-            assert!(greatest > Some(1 << 57), "{limbs:?}");
+            assert!(greatest > Some(1 << 58), "{limbs:?}");
         }
     }
 
@@ -523,7 +538,7 @@ mod tests {
         let grid = Grid::new(&shape, 8, 2).unwrap();
         let mut planes = two_planes(&grid);
         let one = [1, 1, 1].map(BigInt::from);
-        for (k, waiting) in (0..8).zip([1, 2, 3, 4, 0, 1, 2, 3]) {
+        for (k, waiting) in (0..8).zip([1, 2, 0, 1, 2, 0, 1, 2]) {
             let pass = grid.pass(k, k + 1).unwrap().unwrap();
             planes.pass(&grid, &pass, &one).unwrap();
             assert_eq!(planes.waiting.len(), waiting, "{k}");

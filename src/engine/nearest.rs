@@ -187,9 +187,9 @@ impl Readout {
                     sum + i128::from(line[place]) * i128::from(*factor)
                 })
             };
-            // Limbs that wait for their carries are below 2^12 of the next one's unit.
+            // Limbs that wait for their carries are below 2^8 of the next one's unit.
             let owed = combination.iter().fold(1.0, |owed, factor| {
-                owed + 4096.0 * f64::from(factor.unsigned_abs())
+                owed + 256.0 * f64::from(factor.unsigned_abs())
             });
             for (place, out) in out.iter_mut().enumerate() {
                 match nearest_of(&limb, place, top_down.len(), owed, unit) {
@@ -202,7 +202,7 @@ impl Readout {
     }
 }
 
-/// The float nearest to Σ limb(p)·2^(51p), from the top limb down as far as it takes.
+/// The float nearest to Σ limb(p)·2^(55p), from the top limb down as far as it takes.
 fn nearest_of<F: NearestFloat>(
     limb: &impl Fn(usize, usize) -> i128,
     place: usize,
@@ -210,7 +210,8 @@ fn nearest_of<F: NearestFloat>(
     owed: f64,
     unit: &Unit,
 ) -> Option<F> {
-    const ENOUGH: u128 = 1 << 74;
+    // Times a limb's 2^55, and with one more below 5·2^63, less than 2^126.
+    const ENOUGH: u128 = 1 << 70;
     let (mut leading, mut left) = (0_i128, planes);
     while left > 0 && leading.unsigned_abs() < ENOUGH {
         left -= 1;
@@ -356,7 +357,7 @@ mod tests {
         assert!(met > 2500);
     }
 
-    /// Lower limbs as great as an `i64` is, five of them in a sum, owe nearly 5·2^12 of the unit above them: what stands
+    /// Lower limbs as great as an `i64` is, five of them in a sum, owe nearly 5·2^8 of the unit above them: what stands
     /// there below a tie may be a number above it.
     #[test]
     fn limbs_that_wait_for_their_carries_are_owed_in_full() {
@@ -372,7 +373,7 @@ mod tests {
         // is owed.
         let odd = ((1_i128 << 53) / 181 + 1) | 1;
         let ties = [odd << 30, odd << 67].into_iter();
-        let below = |tie| (0..21_000).step_by(250).map(move |below| (tie, below));
+        let below = |tie| (0..1_320).step_by(15).map(move |below| (tie, below));
         let cases = ties.flat_map(below);
         for ((tie, below), sign) in cases.flat_map(|case| [(case, 1), (case, -1)]) {
             // Twice the upper limbs of β, and five lower ones.

@@ -31,6 +31,39 @@ pub(crate) fn join<A: Send, B: Send>(
     (one(), other())
 }
 
+/// Does something while a thread stands by for what is shared out meanwhile ([`join`]): a thread that sleeps is woken in as
+/// long as a layer takes.
+///
+/// It ends when the work does, or what that thread took on for others. It is the first that another thread takes of what this
+/// one shares out: so none that waits for its own share comes to stand by for itself.
+pub(crate) fn with_one_standing_by<A>(work: impl FnOnce() -> A) -> A {
+    #[cfg(feature = "rayon")]
+    if threads() > 1 {
+        use core::sync::atomic::{AtomicBool, Ordering};
+        /// Set when the work ends, in whatever way.
+        struct Ended<'e>(&'e AtomicBool);
+        impl Drop for Ended<'_> {
+            fn drop(&mut self) {
+                self.0.store(true, Ordering::Release);
+            }
+        }
+        let ended = &AtomicBool::new(false);
+        return rayon::in_place_scope(|scope| {
+            scope.spawn(|_| {
+                while !ended.load(Ordering::Acquire) {
+                    if rayon::yield_now() != Some(rayon::Yield::Executed) {
+                        // Both threads may be on one core.
+                        std::thread::yield_now();
+                    }
+                }
+            });
+            let _ended = Ended(ended);
+            work()
+        });
+    }
+    work()
+}
+
 /// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
 #[cfg(feature = "ensemble")]
 pub(crate) fn try_for_each<I: Send, E: Send>(

@@ -24,9 +24,9 @@ use crate::lattice::{Direction, Region};
 use crate::pile::System;
 use crate::shape::Shape;
 
-/// The layers of a window, unless one run is longer: twice as many as passes wait, so that few cells are copied, and few
-/// are beside the part.
-const LAYERS: i128 = 10;
+/// The layers of a window, unless one run is longer: three times as many as passes wait, so that few cells are copied, and
+/// few are beside the part.
+const LAYERS: i128 = 9;
 
 /// Whether the forces of a pile are the same after a third of a turn.
 pub(crate) fn are_thirds_alike(system: &System<'_>) -> bool {
