@@ -405,7 +405,7 @@ mod tests {
     use super::*;
     use crate::Pile;
     use crate::engine::{Cells, Descent, Lines, exact_sweep, plain_sweep};
-    use crate::lattice::{Dimension, Region};
+    use crate::lattice::{Dimension, Region, Site};
     use crate::shape::Shape;
 
     fn two_planes(grid: &Grid<'_>) -> Planes {
@@ -532,6 +532,25 @@ mod tests {
         compare(&pile);
     }
 
+    /// Lines that begin within a run, with a load, before the pass through it makes room for another limb.
+    #[test]
+    fn loads_of_a_run_are_carried_into_a_new_limb() {
+        let stacking = "-+-----+-+-+".parse().unwrap();
+        let pile = Pile::under(Region::SITE, stacking).unwrap();
+        let corners = pile.shape().layer(4).unwrap().corners();
+        let mut grown = 0;
+        for bits in 40..62 {
+            let load = BigRational::from(BigInt::from(1_i64 << bits));
+            let [i, j] = corners[0];
+            let pile = pile.clone().with_load(Site { i, j, k: 4 }, load).unwrap();
+            let system = pile.system();
+            let planes = |last| system.size_of_sweep(last).planes;
+            grown += usize::from(planes(6) < planes(8));
+            compare(&pile);
+        }
+        assert!(grown > 0);
+    }
+
     #[test]
     fn passes_wait_until_carries_are_due() {
         let shape = Shape::under(Region::SITE, "+-+-+-+-".parse().unwrap()).unwrap();
@@ -577,6 +596,28 @@ mod tests {
         assert_eq!(limbs(&half.into(), 2), Some(alloc::vec![-half, 1]));
         assert_eq!(limbs(&(-half).into(), 2), Some(alloc::vec![-half, 0]));
         assert_eq!(limbs(&(half - 1).into(), 2), Some(alloc::vec![half - 1, 0]));
+    }
+
+    /// From the least to the greatest number that so many limbs are, and no further.
+    #[test]
+    fn what_is_wider_than_its_limbs_is_none() {
+        let half = 1_i64 << (LIMB - 1);
+        for below in 0..5 {
+            let ends = [(-half, i64::MIN), (half - 1, i64::MAX)].map(|(limb, top)| {
+                let mut limbs = alloc::vec![limb; below];
+                limbs.push(top);
+                limbs
+            });
+            let [least, greatest] = ends.each_ref().map(|limbs| value(limbs.iter().rev()));
+            let of = |number: &BigInt| limbs(number, below + 1);
+            assert_eq!([of(&least), of(&greatest)], ends.map(Some));
+            let wider: [BigInt; 2] = [least - 1, greatest + 1];
+            for wider in &wider {
+                for more in [0, 64, 65, 128, 640] {
+                    assert_eq!(of(&(wider << more)), None, "{below} {more}");
+                }
+            }
+        }
     }
 
     #[test]
