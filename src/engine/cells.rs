@@ -297,11 +297,10 @@ impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
         if let Some(border) = several.then(|| self.border(number, passes)).flatten() {
             let ([before, behind], left) = self.split_before(border, grid, passes)?;
             let half = number / 2;
-            let (one, other) = parallel::join(
+            parallel::share(
                 || before.make_in_bands(half, grid, passes, (turn, finish)),
                 || behind.make_in_bands(number - half, grid, passes, (turn, finish)),
-            );
-            one.and(other)?;
+            )?;
             self.taken = left;
         }
         self.make(grid, passes, turn, finish)

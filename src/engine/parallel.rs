@@ -1,7 +1,17 @@
 //! Work on all cores, with the feature `rayon`; one after the other without it.
 
 #[cfg(feature = "rayon")]
+use core::sync::atomic::{AtomicBool, Ordering};
+
+#[cfg(feature = "rayon")]
 use super::interrupt;
+use crate::Error;
+#[cfg(feature = "rayon")]
+use crate::error::bug;
+
+/// How often a thread looks for the end of what it shared, about a microsecond each time, before it sleeps.
+#[cfg(feature = "rayon")]
+const PATIENCE: usize = 200;
 
 /// Whether there may be several.
 pub(crate) const HAS_THREADS: bool = cfg!(feature = "rayon");
@@ -31,7 +41,55 @@ pub(crate) fn join<A: Send, B: Send>(
     (one(), other())
 }
 
-/// Does something while a thread stands by for what is shared out meanwhile ([`join`]): a thread that sleeps is woken in as
+/// Does two things, at once where there are threads: one of them on this thread, also if it is none of theirs, so that none has
+/// to be woken if one stands by ([`with_one_standing_by`]).
+///
+/// # Errors
+/// Those of both.
+pub(crate) fn share(
+    one: impl FnOnce() -> Result<(), Error> + Send,
+    other: impl FnOnce() -> Result<(), Error> + Send,
+) -> Result<(), Error> {
+    #[cfg(feature = "rayon")]
+    if rayon::current_thread_index().is_none() {
+        let asked = interrupt::current();
+        let ended = &AtomicBool::new(false);
+        let mut others = None;
+        let to_others = &mut others;
+        let ones = rayon::in_place_scope(|scope| {
+            scope.spawn(|_| {
+                let _ended = Ended(ended);
+                *to_others = Some(interrupt::within(asked.as_ref(), other));
+            });
+            let ones = one();
+            // It ends soon, if it was begun as soon: this thread would not be woken as soon.
+            let mut looks = 0..PATIENCE;
+            while looks.next().is_some() && !ended.load(Ordering::Acquire) {
+                std::thread::yield_now();
+            }
+            ones
+        });
+        return match others {
+            Some(others) => ones.and(others),
+            None => Err(bug("a scope ends when all of it is done")),
+        };
+    }
+    let (ones, others) = join(one, other);
+    ones.and(others)
+}
+
+/// Set when what it is made for ends, in whatever way.
+#[cfg(feature = "rayon")]
+struct Ended<'e>(&'e AtomicBool);
+
+#[cfg(feature = "rayon")]
+impl Drop for Ended<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+/// Does something while a thread stands by for what is shared meanwhile ([`share`]): a thread that sleeps is woken in as
 /// long as a layer takes.
 ///
 /// It ends when the work does, or what that thread took on for others. It is the first that another thread takes of what this
@@ -39,14 +97,6 @@ pub(crate) fn join<A: Send, B: Send>(
 pub(crate) fn with_one_standing_by<A>(work: impl FnOnce() -> A) -> A {
     #[cfg(feature = "rayon")]
     if threads() > 1 {
-        use core::sync::atomic::{AtomicBool, Ordering};
-        /// Set when the work ends, in whatever way.
-        struct Ended<'e>(&'e AtomicBool);
-        impl Drop for Ended<'_> {
-            fn drop(&mut self) {
-                self.0.store(true, Ordering::Release);
-            }
-        }
         let ended = &AtomicBool::new(false);
         return rayon::in_place_scope(|scope| {
             scope.spawn(|_| {

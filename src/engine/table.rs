@@ -13,6 +13,7 @@ use num_traits::ToPrimitive;
 
 use super::interrupt::check as check_interrupt;
 use super::parallel;
+use super::slices::split_front;
 use crate::Error;
 use crate::error::bug;
 use crate::lattice::{Along, Row, Sign, Slopes};
@@ -184,12 +185,4 @@ fn write<V: Clone>(along: &Along<'_, V>, row: &mut [V]) -> Result<(), Error> {
         *force = value.clone();
     }
     Ok(())
-}
-
-/// Splits the first `n` elements off each slice.
-fn split_front<'a, V>(rest: &mut [&'a mut [V]; 3], n: usize) -> Result<[&'a mut [V]; 3], Error> {
-    match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
-        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
-        _ => Err(too_short()),
-    }
 }

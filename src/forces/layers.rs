@@ -19,9 +19,8 @@ use super::terms::Terms;
 use crate::Error;
 use crate::engine::{
     Cells, Descent, Meter, Method, Plan, Planes, Quantity, Received, Table, exact_sweep,
-    plain_sweep, received_in,
+    fill_layers, plain_sweep, received_in, split_front,
 };
-use crate::error::bug;
 use crate::formula::triples;
 use crate::lattice::Row;
 use crate::pile::System;
@@ -230,11 +229,13 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
         self.ahead = self.above_the_floor();
-        while let Some(layer) = self.next_layer()? {
-            let front = split_front(&mut rest, layer.spheres())?;
-            layer.fill(front)?;
-        }
-        Ok(())
+        fill_layers(rest[0].len(), || {
+            while let Some(layer) = self.next_layer()? {
+                let front = split_front(&mut rest, layer.spheres())?;
+                layer.fill(front)?;
+            }
+            Ok(())
+        })
     }
 
     /// Writes what a table says of all layers still to come into slices.
@@ -284,17 +285,6 @@ fn may_overflow<T: Algebra>(system: &System<'_>, last: i128) -> bool {
     }
     let twice = BigRational::new(system.bound_of_sweep(last) * 2, system.denominator());
     !T::from_rational(&twice).is_defined()
-}
-
-/// Splits the first `n` elements off each slice.
-pub(super) fn split_front<'a, V>(
-    rest: &mut [&'a mut [V]; 3],
-    n: usize,
-) -> Result<[&'a mut [V]; 3], Error> {
-    match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
-        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
-        _ => Err(bug("slices are as long as was checked")),
-    }
 }
 
 /// Errors unless each slice has as many elements as are needed.

@@ -8,13 +8,13 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use num_rational::BigRational;
-use num_traits::{One, ToPrimitive};
+use num_traits::One;
 
 use source::{Asked, Source};
 
-use super::layers::{Layer, Layers, check_lengths, split_front};
+use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
-use crate::engine::{Meter, Table, Unit};
+use crate::engine::{Meter, Table, Unit, fill_layers, split_front};
 use crate::error::bug;
 use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
@@ -184,14 +184,16 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         }
         check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
-        while let Some(layer) = self.next_layer()? {
-            if layer.is_floor() {
-                break;
+        fill_layers(rest[0].len(), || {
+            while let Some(layer) = self.next_layer()? {
+                if layer.is_floor() {
+                    break;
+                }
+                let front = split_front(&mut rest, layer.spheres())?;
+                layer.fill(front)?;
             }
-            let front = split_front(&mut rest, layer.spheres())?;
-            layer.fill(front)?;
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Writes the forces below consecutive spheres of a row into slices, one for each direction: for what is larger than
@@ -447,16 +449,8 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
 
     fn write(&self, asked: Asked, slices: [&mut [F]; 3]) -> Result<(), Error> {
         check_lengths(self.spheres(), &slices)?;
-        let layers = self.layer.layers;
-        let source = layers.source(self.units, asked, self.k())?;
-        let mut rest = slices;
-        for row in self.layer.region.rows(self.k()) {
-            let spheres = (row.i.end - row.i.start).to_usize();
-            let spheres = spheres.ok_or_else(|| bug("a row of a slice fits in memory"))?;
-            let front = split_front(&mut rest, spheres)?;
-            layers.write_row((asked, &source), &row, front)?;
-        }
-        Ok(())
+        let source = self.layer.layers.source(self.units, asked, self.k())?;
+        self.layer.write((asked, &source), slices)
     }
 }
 

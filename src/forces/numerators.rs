@@ -6,9 +6,9 @@ use core::fmt;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::layers::{Layer, Layers, check_lengths, split_front};
+use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
-use crate::engine::{Meter, Table};
+use crate::engine::{Meter, Table, split_front};
 
 /// A way down through the layers of a part of a pile, in integers `V` over a denominator that a layer shares.
 ///

@@ -1,14 +1,15 @@
 //! One layer with its forces.
 
 use core::fmt;
+use core::sync::atomic::{AtomicBool, Ordering};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::below::Below;
-use super::{Layers, Way, check_lengths, split_front};
-use crate::engine::{Cells, Descent, Meter, Table, check_interrupt};
+use super::{Layers, Way, check_lengths};
+use crate::engine::{Cells, Descent, Meter, Table, check_interrupt, fill_rows, split_front};
 use crate::error::bug;
 use crate::lattice::{Region, Site};
 use crate::scalar::{Algebra, Exactness};
@@ -380,21 +381,21 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
             may_overflow: self.layers.may_overflow,
         };
         let [alpha, beta, gamma] = slices;
-        let mut rest = [&mut *alpha, &mut *beta, &mut *gamma];
-        let mut defined = true;
+        let defined = AtomicBool::new(true);
         let carried = sweep.carried_by_rows();
-        for row in self.region.rows(self.k) {
-            check_interrupt()?;
-            let row = carried(&row)?;
-            let out = split_front(&mut rest, row[0].len())?;
-            defined &= below.write(row, out);
-        }
+        let out = [&mut *alpha, &mut *beta, &mut *gamma];
+        fill_rows(&self.region, self.k, out, |row, out| {
+            if !below.write(carried(row)?, out) {
+                defined.store(false, Ordering::Relaxed);
+            }
+            Ok(())
+        })?;
         // Spheres that weigh more or less than the others, or carry loads.
         for site in lines.extras_in(self.k..self.k + 1) {
             let forces = self.layers.terms.contacts(sweep.passed_on(site, ())?)?;
             self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
         }
-        if defined {
+        if defined.into_inner() {
             Ok(())
         } else {
             Err(Error::Overflow {

@@ -2,18 +2,19 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::sync::atomic::{AtomicBool, Ordering};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::Error;
-use crate::engine::{Meter, Readout, Table, Unit, check_interrupt};
+use crate::engine::{Meter, Readout, Table, Unit, check_interrupt, fill_rows, split_front};
 use crate::error::bug;
-use crate::forces::layers::Layers;
+use crate::forces::layers::{Layer, Layers};
 use crate::formula::tripled_half_turn;
 use crate::geometry::Vector;
-use crate::lattice::Row;
+use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
 
 /// The units of forces in layers: what an exact multiple is multiplied by before it is rounded, once.
@@ -155,16 +156,11 @@ impl<M: Meter> Layers<'_, BigRational, M> {
         if let (Some(readout), Some((_, sweep))) = (readout, self.exact_sweep())
             && sweep.nearest_row(row, (readout, units), [&mut *a, &mut *b, &mut *c])?
         {
-            // Spheres that weigh more or less than the others, or carry loads.
             for site in self.terms.lines.extras_in_row(row) {
                 let place = (site.i - row.i.start).to_usize();
                 let place = place.filter(|place| *place < a.len());
                 let place = place.ok_or_else(|| bug("a slice is as long as its row"))?;
-                let one = site.i..site.i + 1;
-                let numbers = self.numbers(asked, &Row { i: one, ..*row })?.into_iter();
-                for numbers in numbers {
-                    [a[place], b[place], c[place]] = nearest((asked, units), &numbers)?;
-                }
+                [a[place], b[place], c[place]] = self.at_extra((asked, units), site)?;
             }
             return Ok(());
         }
@@ -173,6 +169,18 @@ impl<M: Meter> Layers<'_, BigRational, M> {
             [*a, *b, *c] = nearest((asked, units), numbers)?;
         }
         Ok(())
+    }
+
+    /// Returns what was asked for of a sphere that weighs more or less than the others, or carries loads.
+    fn at_extra<F: NearestFloat>(
+        &self,
+        (asked, units): (Asked, &[Unit; 3]),
+        Site { i, j, k }: Site,
+    ) -> Result<[F; 3], Error> {
+        let row = Row { k, j, i: i..i + 1 };
+        let numbers = self.numbers(asked, &row)?.pop();
+        let numbers = numbers.ok_or_else(|| bug("a row of one sphere has its numbers"))?;
+        nearest((asked, units), &numbers)
     }
 
     /// Returns the integers that are rounded for consecutive spheres.
@@ -187,6 +195,46 @@ impl<M: Meter> Layers<'_, BigRational, M> {
             [z, x, y]
         });
         Ok(on_floor.collect())
+    }
+}
+
+impl<M: Meter> Layer<'_, '_, BigRational, M> {
+    /// Writes what was asked for into slices as long as the layer, row after row.
+    pub(super) fn write<F: NearestFloat>(
+        &self,
+        (asked, source): (Asked, &Source<F>),
+        slices: [&mut [F]; 3],
+    ) -> Result<(), Error> {
+        let (layers, k) = (self.layers, self.k());
+        let [a, b, c] = slices;
+        // As limbs, on all cores; if all of them have floats as ordinary spheres.
+        if let Source::Lines {
+            units,
+            readout: Some(readout),
+        } = source
+            && let Some((_, sweep)) = layers.exact_sweep()
+        {
+            let defined = AtomicBool::new(true);
+            fill_rows(&self.region, k, [&mut *a, &mut *b, &mut *c], |row, out| {
+                if !sweep.nearest_row(row, (readout, units), out)? {
+                    defined.store(false, Ordering::Relaxed);
+                }
+                Ok(())
+            })?;
+            if defined.into_inner() {
+                for site in layers.terms.lines.extras_in(k..k + 1) {
+                    let floats = layers.at_extra((asked, units), site)?;
+                    self.put_at(site, floats, [&mut *a, &mut *b, &mut *c])?;
+                }
+                return Ok(());
+            }
+        }
+        let mut rest = [a, b, c];
+        for row in self.region.rows(k) {
+            let front = split_front(&mut rest, row.length()?)?;
+            layers.write_row((asked, source), &row, front)?;
+        }
+        Ok(())
     }
 }
 

@@ -15,6 +15,9 @@ use crate::support::cases::{Bounds, Case, Random, all_signs, repeated};
 use crate::support::compare::agrees;
 use crate::support::oracles::balance::{direction, ratio};
 
+/// The bits of a limb below the top one.
+const LIMB: u32 = 55;
+
 fn plan(case: &Case) -> Plan {
     case.pile.plan(Selection::Base).unwrap()
 }
@@ -42,7 +45,7 @@ fn is_wide_enough(case: &Case, loose: u64) {
     let said = format!("{needed} {bits} {reserved} {planes} {}", case.balance.signs);
     assert!(needed <= bits && bits <= needed + loose, "{said}");
     assert!(bits <= reserved, "{said}");
-    assert!(planes == 1 || bits + 51 > reserved, "{said}");
+    assert!(planes == 1 || bits + u64::from(LIMB) > reserved, "{said}");
 }
 
 #[test]
@@ -171,7 +174,7 @@ fn bare(period: &str, steps: usize) -> Case {
 #[test]
 fn high_stackings_on_both_sides_of_the_first_switches() {
     let mut planes = BTreeSet::new();
-    for (period, most) in [("+-", 100), ("+--", 60)] {
+    for (period, most) in [("+-", 106), ("+--", 60)] {
         for steps in switches(period, most) {
             for steps in [steps - 1, steps, steps + 1] {
                 let case = Case::under(&Bounds::SITE, &repeated(period, steps));
@@ -193,7 +196,13 @@ fn high_stackings_on_both_sides_of_the_first_switches() {
 #[test]
 fn a_load_of_any_power_of_two() {
     let mut planes = BTreeSet::new();
-    for exponent in (0..350).filter(|e| e % 51 < 4 || e % 51 > 6 && e % 51 < 20 || e % 51 == 50) {
+    // From a limb's border on, and about 62 bits, where the first one ends.
+    let near = |e: &u32| {
+        [0..4, 7..20, LIMB - 1..LIMB]
+            .iter()
+            .any(|near| near.contains(&(e % LIMB)))
+    };
+    for exponent in (0..380).filter(near) {
         let load = BigRational::from(power(2, exponent));
         let case = Case::under(&Bounds::SITE, "+-+-");
         for load in [&load - ratio(1, 1), load.clone(), load.recip()] {
@@ -210,14 +219,14 @@ fn a_load_of_any_power_of_two() {
 
 #[test]
 fn limbs_that_are_all_full_or_all_empty() {
-    // Weights of 1 − 2^−n and 2^−n: over 2^n, limbs of 2^48 − 1 and of 0 and 1.
-    for (n, signs) in [
-        (48, "+-+-+-+-+-"),
-        (96, "-+-+-++-+-"),
-        (144, "+-+--+-+"),
-        (240, "+-+-+-+"),
+    // Weights of 1 − 2^−n and 2^−n: over 2^n, limbs of 2^55 − 1 and of 0 and 1.
+    for (limbs, signs) in [
+        (1, "+-+-+-+-+-"),
+        (2, "-+-+-++-+-"),
+        (3, "+-+--+-+"),
+        (5, "+-+-+-+"),
     ] {
-        let least = BigRational::from(power(2, n)).recip();
+        let least = BigRational::from(power(2, limbs * LIMB)).recip();
         let mut case = Case::under(&Bounds::triangle(2), signs);
         for (n, place) in case.balance.clone().places().enumerate() {
             let weight = match n % 3 {
@@ -234,9 +243,9 @@ fn limbs_that_are_all_full_or_all_empty() {
 
 #[test]
 fn many_turns_between_carries() {
-    // A denominator near a power of 2^48 fills the lower limbs of every increment.
-    for n in [48, 96] {
-        let denominator = power(2, n) - 1;
+    // A denominator near a power of 2^55 fills the lower limbs of every increment.
+    for limbs in [1, 2] {
+        let denominator = power(2, limbs * LIMB) - 1;
         let load = BigRational::new(1.into(), denominator);
         let case = Case::under(&Bounds::SITE, &repeated("+-", 23));
         let case = case.with_load((0, 0, 0), &load);

@@ -1,0 +1,141 @@
+//! Slices that the rows of a layer are written into, one after the other.
+
+use core::ops::Range;
+
+use super::interrupt::check as check_interrupt;
+use super::parallel;
+use crate::Error;
+use crate::error::bug;
+use crate::lattice::{Region, Row};
+
+/// From so many spheres on a part of a layer is worth a thread that stands by.
+const WORTH_A_THREAD: usize = 1 << 12;
+
+/// Splits the first `n` elements off each slice.
+///
+/// # Errors
+/// [`Error::Bug`] for slices that are not as long.
+pub(crate) fn split_front<'a, V>(
+    rest: &mut [&'a mut [V]; 3],
+    n: usize,
+) -> Result<[&'a mut [V]; 3], Error> {
+    match rest.each_mut().map(|rest| rest.split_off_mut(..n)) {
+        [Some(a), Some(b), Some(c)] => Ok([a, b, c]),
+        _ => Err(bug("slices are as long as was checked")),
+    }
+}
+
+/// Writes the rows of layer `k` into slices of as many numbers as it has spheres; parts of it at once where there are threads.
+///
+/// # Errors
+/// Those of `write`; [`Error::Bug`] for slices that are not as long.
+pub(crate) fn fill_rows<V: Send>(
+    layer: &Region,
+    k: i128,
+    slices: [&mut [V]; 3],
+    write: impl Fn(&Row, [&mut [V]; 3]) -> Result<(), Error> + Sync,
+) -> Result<(), Error> {
+    let worth = slices[0].len() / WORTH_A_THREAD;
+    let parts = worth.min(parallel::threads()).max(1);
+    let rows = *layer.y().start()..layer.y().end() + 1;
+    fill_parts(parts, (layer, k), rows, slices, &write)
+}
+
+/// Does something that fills slices of so many numbers layer by layer, with a thread standing by where that is worth it.
+pub(crate) fn fill_layers<A>(numbers: usize, fill: impl FnOnce() -> A) -> A {
+    if numbers < 2 * WORTH_A_THREAD {
+        return fill();
+    }
+    parallel::with_one_standing_by(fill)
+}
+
+fn fill_parts<V: Send>(
+    parts: usize,
+    (layer, k): (&Region, i128),
+    rows: Range<i128>,
+    mut slices: [&mut [V]; 3],
+    write: &(impl Fn(&Row, [&mut [V]; 3]) -> Result<(), Error> + Sync),
+) -> Result<(), Error> {
+    let row = |j| Row {
+        k,
+        j,
+        i: layer.row(j),
+    };
+    if parts > 1 {
+        let half = parts / 2;
+        let wanted = slices[0].len() / parts * half;
+        let (mut border, mut spheres) = (rows.start, 0);
+        while spheres < wanted {
+            spheres += row(border).length()?;
+            border += 1;
+        }
+        let before = split_front(&mut slices, spheres)?;
+        return parallel::share(
+            || fill_parts(half, (layer, k), rows.start..border, before, write),
+            || fill_parts(parts - half, (layer, k), border..rows.end, slices, write),
+        );
+    }
+    for row in rows.map(row) {
+        check_interrupt()?;
+        let front = split_front(&mut slices, row.length()?)?;
+        write(&row, front)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use super::*;
+
+    /// Each sphere is written once, in its place, in however many parts.
+    #[test]
+    fn parts_of_a_layer_are_the_layer() {
+        let regions = [
+            Region::SITE,
+            Region::triangle(9).unwrap(),
+            Region::hexagon(7, 4).unwrap(),
+        ];
+        for layer in regions {
+            let sites: Vec<[i128; 3]> = layer.rows(5).flatten().map(|s| [s.i, s.j, s.k]).collect();
+            for parts in 1..12 {
+                let mut numbers = [(); 3].map(|()| alloc::vec![[0; 3]; sites.len()]);
+                let rows = *layer.y().start()..layer.y().end() + 1;
+                let slices = numbers.each_mut().map(Vec::as_mut_slice);
+                fill_parts(parts, (&layer, 5), rows, slices, &|row, slices| {
+                    for (line, slice) in (1..).zip(slices) {
+                        for (site, number) in row.clone().into_iter().zip(slice) {
+                            *number = [site.i, site.j, site.k].map(|x| x * line);
+                        }
+                    }
+                    Ok(())
+                })
+                .unwrap();
+                for (line, numbers) in (1..).zip(numbers) {
+                    let wanted = sites.iter().map(|site| site.map(|x| x * line));
+                    assert!(numbers.into_iter().eq(wanted), "{layer} {parts}");
+                }
+            }
+        }
+    }
+
+    /// Whichever row cannot be written.
+    #[test]
+    fn errors_of_any_part_are_heard() {
+        let layer = Region::triangle(9).unwrap();
+        for parts in 1..6 {
+            let rows = *layer.y().start()..layer.y().end() + 1;
+            let mut numbers = [(); 3].map(|()| alloc::vec![0; 45]);
+            for last in rows.clone() {
+                let slices = numbers.each_mut().map(Vec::as_mut_slice);
+                let write = |row: &Row, _: [&mut [i32]; 3]| {
+                    let written = (row.j != last).then_some(());
+                    written.ok_or(Error::Interrupted)
+                };
+                let filled = fill_parts(parts, (&layer, 5), rows.clone(), slices, &write);
+                assert_eq!(filled, Err(Error::Interrupted), "{parts}");
+            }
+        }
+    }
+}
