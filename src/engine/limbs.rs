@@ -395,7 +395,8 @@ pub(super) fn limbs(value: &BigInt, planes: usize) -> Option<Vec<i64>> {
     if let Some(word) = words.next() {
         bits |= u128::from(word) << held;
     }
-    let top = i128::try_from(bits).ok()? * i128::from(sign) + i128::from(carried);
+    let top = i128::try_from(bits).ok()? * i128::from(sign);
+    let top = top.checked_add(carried.into())?;
     limbs.push(i64::try_from(top).ok().filter(|_| words.next().is_none())?);
     Some(limbs)
 }
@@ -602,7 +603,7 @@ mod tests {
     #[test]
     fn what_is_wider_than_its_limbs_is_none() {
         let half = 1_i64 << (LIMB - 1);
-        for below in 0..5 {
+        for below in 0..9 {
             let ends = [(-half, i64::MIN), (half - 1, i64::MAX)].map(|(limb, top)| {
                 let mut limbs = alloc::vec![limb; below];
                 limbs.push(top);
@@ -611,7 +612,10 @@ mod tests {
             let [least, greatest] = ends.each_ref().map(|limbs| value(limbs.iter().rev()));
             let of = |number: &BigInt| limbs(number, below + 1);
             assert_eq!([of(&least), of(&greatest)], ends.map(Some));
-            let wider: [BigInt; 2] = [least - 1, greatest + 1];
+            // The last two with every bit of two words above the limbs that are cut off, and half a limb below.
+            let bits: BigInt = (BigInt::from(1) << 127) - 1;
+            let bits: BigInt = ((bits * 2 + 1) << (LIMB as usize * below)) / 2;
+            let wider: [BigInt; 4] = [least - 1, greatest + 1, bits.clone(), -bits];
             for wider in &wider {
                 for more in [0, 64, 65, 128, 640] {
                     assert_eq!(of(&(wider << more)), None, "{below} {more}");

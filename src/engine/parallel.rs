@@ -1,17 +1,8 @@
 //! Work on all cores, with the feature `rayon`; one after the other without it.
 
 #[cfg(feature = "rayon")]
-use core::sync::atomic::{AtomicBool, Ordering};
-
-#[cfg(feature = "rayon")]
 use super::interrupt;
 use crate::Error;
-#[cfg(feature = "rayon")]
-use crate::error::bug;
-
-/// How often a thread looks for the end of what it shared, about a microsecond each time, before it sleeps.
-#[cfg(feature = "rayon")]
-const PATIENCE: usize = 200;
 
 /// Whether there may be several.
 pub(crate) const HAS_THREADS: bool = cfg!(feature = "rayon");
@@ -41,8 +32,8 @@ pub(crate) fn join<A: Send, B: Send>(
     (one(), other())
 }
 
-/// Does two things, at once where there are threads: one of them on this thread, also if it is none of theirs, so that none has
-/// to be woken if one stands by ([`with_one_standing_by`]).
+/// Does two things, at once where there are threads: one of them on this thread, also if it is none of the pool's, so that it
+/// need not be woken when the other ends.
 ///
 /// # Errors
 /// Those of both.
@@ -52,66 +43,117 @@ pub(crate) fn share(
 ) -> Result<(), Error> {
     #[cfg(feature = "rayon")]
     if rayon::current_thread_index().is_none() {
+        return standing_by::share_from_outside(one, other);
+    }
+    let (ones, others) = join(one, other);
+    ones.and(others)
+}
+
+/// Does something while a thread of the pool looks out for what is shared meanwhile ([`share`]): one that sleeps is woken in as
+/// long as a layer takes.
+pub(crate) fn with_one_standing_by<A>(work: impl FnOnce() -> A) -> A {
+    #[cfg(feature = "rayon")]
+    if threads() > 1 {
+        return standing_by::during(work);
+    }
+    work()
+}
+
+#[cfg(feature = "rayon")]
+mod standing_by {
+    use alloc::sync::Arc;
+    use core::cell::Cell;
+    use core::sync::atomic::{AtomicBool, Ordering};
+    use std::thread::yield_now;
+
+    use crate::Error;
+    use crate::engine::interrupt;
+    use crate::error::bug;
+
+    std::thread_local! {
+        /// Whether this thread stands by, or works while another does: then it does not stand by for others as well, who would
+        /// keep it from what it waits for.
+        static IS_ENGAGED: Cell<bool> = const { Cell::new(false) };
+    }
+
+    /// How often a thread looks for the end of what it shared, about a microsecond each time, before it sleeps.
+    const PATIENCE: usize = 200;
+
+    /// Set when what it is made for ends, in whatever way.
+    struct Ends<'e>(&'e AtomicBool);
+
+    impl Drop for Ends<'_> {
+        fn drop(&mut self) {
+            self.0.store(true, Ordering::Release);
+        }
+    }
+
+    /// Whether this thread was engaged before; it is, until this is dropped.
+    struct Engaged(bool);
+
+    impl Engaged {
+        fn new() -> Self {
+            Self(IS_ENGAGED.replace(true))
+        }
+    }
+
+    impl Drop for Engaged {
+        fn drop(&mut self) {
+            IS_ENGAGED.set(self.0);
+        }
+    }
+
+    /// Does something while another thread stands by. Nobody waits for that thread, which may have taken on other work, or have
+    /// had no time at all.
+    pub(super) fn during<A>(work: impl FnOnce() -> A) -> A {
+        let _engaged = Engaged::new();
+        let ended = Arc::new(AtomicBool::new(false));
+        let _ends = Ends(&ended);
+        let ended = Arc::clone(&ended);
+        rayon::spawn(move || stand_by(&ended));
+        work()
+    }
+
+    fn stand_by(ended: &AtomicBool) {
+        let engaged = Engaged::new();
+        if engaged.0 {
+            return;
+        }
+        while !ended.load(Ordering::Acquire) {
+            if rayon::yield_now() != Some(rayon::Yield::Executed) {
+                // Both threads may be on one core.
+                yield_now();
+            }
+        }
+    }
+
+    /// Does one thing on this thread, which is none of the pool's, and the other on one that is.
+    pub(super) fn share_from_outside(
+        one: impl FnOnce() -> Result<(), Error>,
+        other: impl FnOnce() -> Result<(), Error> + Send,
+    ) -> Result<(), Error> {
         let asked = interrupt::current();
         let ended = &AtomicBool::new(false);
         let mut others = None;
         let to_others = &mut others;
         let ones = rayon::in_place_scope(|scope| {
             scope.spawn(|_| {
-                let _ended = Ended(ended);
+                let _ends = Ends(ended);
                 *to_others = Some(interrupt::within(asked.as_ref(), other));
             });
             let ones = one();
             // It ends soon, if it was begun as soon: this thread would not be woken as soon.
             let mut looks = 0..PATIENCE;
             while looks.next().is_some() && !ended.load(Ordering::Acquire) {
-                std::thread::yield_now();
+                yield_now();
             }
             ones
         });
-        return match others {
+        match others {
             Some(others) => ones.and(others),
             None => Err(bug("a scope ends when all of it is done")),
-        };
+        }
     }
-    let (ones, others) = join(one, other);
-    ones.and(others)
-}
-
-/// Set when what it is made for ends, in whatever way.
-#[cfg(feature = "rayon")]
-struct Ended<'e>(&'e AtomicBool);
-
-#[cfg(feature = "rayon")]
-impl Drop for Ended<'_> {
-    fn drop(&mut self) {
-        self.0.store(true, Ordering::Release);
-    }
-}
-
-/// Does something while a thread stands by for what is shared meanwhile ([`share`]): a thread that sleeps is woken in as
-/// long as a layer takes.
-///
-/// It ends when the work does, or what that thread took on for others. It is the first that another thread takes of what this
-/// one shares out: so none that waits for its own share comes to stand by for itself.
-pub(crate) fn with_one_standing_by<A>(work: impl FnOnce() -> A) -> A {
-    #[cfg(feature = "rayon")]
-    if threads() > 1 {
-        let ended = &AtomicBool::new(false);
-        return rayon::in_place_scope(|scope| {
-            scope.spawn(|_| {
-                while !ended.load(Ordering::Acquire) {
-                    if rayon::yield_now() != Some(rayon::Yield::Executed) {
-                        // Both threads may be on one core.
-                        std::thread::yield_now();
-                    }
-                }
-            });
-            let _ended = Ended(ended);
-            work()
-        });
-    }
-    work()
 }
 
 /// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
@@ -147,4 +189,79 @@ pub(crate) fn map<I: Send, O: Send>(
             .collect();
     }
     items.into_iter().map(work).collect()
+}
+
+#[cfg(all(test, feature = "rayon"))]
+mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::thread;
+
+    use super::*;
+    use crate::Interrupt;
+
+    fn pool(threads: usize) -> rayon::ThreadPool {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().unwrap()
+    }
+
+    /// 1 + 2 + … + n, by halves of halves, each with somebody standing by.
+    fn sum(numbers: core::ops::Range<u64>) -> u64 {
+        let middle = numbers.start.midpoint(numbers.end);
+        if middle == numbers.start {
+            return middle;
+        }
+        let (mut lower, mut upper) = (0, 0);
+        let shared = with_one_standing_by(|| {
+            share(
+                || {
+                    lower = sum(numbers.start..middle);
+                    Ok(())
+                },
+                || {
+                    upper = sum(middle..numbers.end);
+                    Ok(())
+                },
+            )
+        });
+        assert_eq!(shared, Ok(()));
+        lower + upper
+    }
+
+    #[test]
+    fn what_is_shared_is_done_in_and_outside_of_pools() {
+        for threads in [1, 2, 3] {
+            let pool = pool(threads);
+            assert_eq!(pool.install(|| sum(0..1000)), 499_500);
+            // Others in the same pool at once.
+            let sums = pool.install(|| rayon::join(|| sum(0..1000), || sum(0..2000)));
+            assert_eq!(sums, (499_500, 1_999_000));
+        }
+        // Others from outside at once.
+        thread::scope(|scope| {
+            let sums = [(); 4].map(|()| scope.spawn(|| sum(0..300)));
+            assert!(sums.into_iter().all(|sum| sum.join().unwrap() == 44_850));
+        });
+    }
+
+    #[test]
+    fn errors_panics_and_requests_are_heard_in_both_halves() {
+        let refused = || Err(Error::Interrupted);
+        let check = super::super::interrupt::check;
+        let heard = || {
+            assert_eq!(share(refused, || Ok(())), refused());
+            assert_eq!(share(|| Ok(()), refused), refused());
+            let panics = || panic!("on purpose");
+            let one = catch_unwind(AssertUnwindSafe(|| share(panics, || Ok(()))));
+            let other = catch_unwind(AssertUnwindSafe(|| share(|| Ok(()), panics)));
+            assert!(one.is_err() && other.is_err());
+            let whole = catch_unwind(|| with_one_standing_by(|| panic!("on purpose")));
+            assert!(whole.is_err());
+            let interrupt = Interrupt::new();
+            interrupt.request();
+            assert_eq!(interrupt.during(|| share(|| Ok(()), check)), refused());
+            assert_eq!(interrupt.during(|| share(check, || Ok(()))), refused());
+        };
+        heard();
+        pool(2).install(heard);
+    }
 }

@@ -25,7 +25,7 @@ pub(crate) fn split_front<'a, V>(
     }
 }
 
-/// Writes the rows of layer `k` into slices of as many numbers as it has spheres; parts of it at once where there are threads.
+/// Writes the rows of layer `k` into slices of as many numbers as it has spheres; parts of them at once where there are threads.
 ///
 /// # Errors
 /// Those of `write`; [`Error::Bug`] for slices that are not as long.
@@ -41,7 +41,8 @@ pub(crate) fn fill_rows<V: Send>(
     fill_parts(parts, (layer, k), rows, slices, &write)
 }
 
-/// Does something that fills slices of so many numbers layer by layer, with a thread standing by where that is worth it.
+/// Does something that fills slices of so many numbers layer by layer, by [`fill_rows`], with a thread standing by where that
+/// is worth it.
 pub(crate) fn fill_layers<A>(numbers: usize, fill: impl FnOnce() -> A) -> A {
     if numbers < 2 * WORTH_A_THREAD {
         return fill();
@@ -65,7 +66,7 @@ fn fill_parts<V: Send>(
         let half = parts / 2;
         let wanted = slices[0].len() / parts * half;
         let (mut border, mut spheres) = (rows.start, 0);
-        while spheres < wanted {
+        while spheres < wanted && border < rows.end {
             spheres += row(border).length()?;
             border += 1;
         }
@@ -80,7 +81,11 @@ fn fill_parts<V: Send>(
         let front = split_front(&mut slices, row.length()?)?;
         write(&row, front)?;
     }
-    Ok(())
+    if slices.iter().all(|slice| slice.is_empty()) {
+        Ok(())
+    } else {
+        Err(bug("slices are as long as the layer has spheres"))
+    }
 }
 
 #[cfg(test)]

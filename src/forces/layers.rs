@@ -203,7 +203,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     }
 
     /// Writes the contact forces of all layers still to come into slices, one for each direction, layer after layer, in f₀;
-    /// on all cores with the feature `rayon`.
+    /// with the feature `rayon` on all cores, but for exact numbers after changes of sign, which one thread writes.
     ///
     /// # Errors
     /// [`Error::Length`] for a slice that is not as long as there are [`spheres`](Self::spheres); else as for
@@ -229,13 +229,20 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
         self.ahead = self.above_the_floor();
-        fill_layers(rest[0].len(), || {
+        let (is_plain, spheres) = (matches!(self.way, Way::Plain(_)), rest[0].len());
+        let mut fill = || {
             while let Some(layer) = self.next_layer()? {
                 let front = split_front(&mut rest, layer.spheres())?;
                 layer.fill(front)?;
             }
             Ok(())
-        })
+        };
+        // Exact numbers are written by one thread.
+        if is_plain {
+            fill_layers(spheres, fill)
+        } else {
+            fill()
+        }
     }
 
     /// Writes what a table says of all layers still to come into slices.

@@ -392,6 +392,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         })?;
         // Spheres that weigh more or less than the others, or carry loads.
         for site in lines.extras_in(self.k..self.k + 1) {
+            check_interrupt()?;
             let forces = self.layers.terms.contacts(sweep.passed_on(site, ())?)?;
             self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
         }

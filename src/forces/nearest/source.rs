@@ -223,6 +223,7 @@ impl<M: Meter> Layer<'_, '_, BigRational, M> {
             })?;
             if defined.into_inner() {
                 for site in layers.terms.lines.extras_in(k..k + 1) {
+                    check_interrupt()?;
                     let floats = layers.at_extra((asked, units), site)?;
                     self.put_at(site, floats, [&mut *a, &mut *b, &mut *c])?;
                 }

@@ -26,6 +26,12 @@ fn power(base: u32, exponent: u32) -> BigInt {
     BigInt::from(base).pow(exponent)
 }
 
+/// So many limbs, each as great as one may be after a carry.
+fn full(limbs: u32) -> BigInt {
+    let limb = power(2, LIMB - 1) - 1;
+    (0..limbs).map(|p| &limb * power(2, p * LIMB)).sum()
+}
+
 /// The bits of the greatest number that a sweep meets, sums on the way through a half-turn included.
 fn needed(case: &Case) -> u64 {
     let passed = brute::all(&case.balance);
@@ -219,7 +225,7 @@ fn a_load_of_any_power_of_two() {
 
 #[test]
 fn limbs_that_are_all_full_or_all_empty() {
-    // Weights of 1 − 2^−n and 2^−n: over 2^n, limbs of 2^55 − 1 and of 0 and 1.
+    // Over one denominator, limbs as great as they are after a carry, and of 0 and 1.
     for (limbs, signs) in [
         (1, "+-+-+-+-+-"),
         (2, "-+-+-++-+-"),
@@ -227,11 +233,12 @@ fn limbs_that_are_all_full_or_all_empty() {
         (5, "+-+-+-+"),
     ] {
         let least = BigRational::from(power(2, limbs * LIMB)).recip();
+        let full = &least * BigRational::from(full(limbs));
         let mut case = Case::under(&Bounds::triangle(2), signs);
         for (n, place) in case.balance.clone().places().enumerate() {
             let weight = match n % 3 {
                 0 => continue,
-                1 => ratio(1, 1) - &least,
+                1 => full.clone(),
                 _ => least.clone(),
             };
             case = case.with_weight(place, &weight);
@@ -243,10 +250,9 @@ fn limbs_that_are_all_full_or_all_empty() {
 
 #[test]
 fn many_turns_between_carries() {
-    // A denominator near a power of 2^55 fills the lower limbs of every increment.
+    // A denominator of full limbs fills the lower limbs of every increment.
     for limbs in [1, 2] {
-        let denominator = power(2, limbs * LIMB) - 1;
-        let load = BigRational::new(1.into(), denominator);
+        let load = BigRational::new(1.into(), full(limbs));
         let case = Case::under(&Bounds::SITE, &repeated("+-", 23));
         let case = case.with_load((0, 0, 0), &load);
         assert!(plan(&case).planes > 1);
