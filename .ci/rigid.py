@@ -94,7 +94,7 @@ def main(folder, file=None):
     # What is left of accelerations is weight that the forces do not bear, or bear beside the spheres': by virtual work it moves
     # a normal force by as much, times displacements of a few diameters at most.
     moved = [10 * accelerations.sum() for accelerations in left]
-    require(max(moved) < 1000 * TOLERANCE, f"accelerations may move a normal force by {max(moved)} mg")
+    require(max(moved) < 10_000 * TOLERANCE, f"accelerations may move a normal force by {max(moved)} mg")
     used = []
     for number, sphere in enumerate(piled):
         if not sphere.fixed:
