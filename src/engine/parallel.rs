@@ -191,7 +191,8 @@ pub(crate) fn map<I: Send, O: Send>(
     items.into_iter().map(work).collect()
 }
 
-#[cfg(all(test, feature = "rayon"))]
+#[cfg(feature = "rayon")]
+#[cfg(test)]
 mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind};
     use std::thread;
