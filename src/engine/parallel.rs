@@ -80,7 +80,7 @@ mod standing_by {
     const PATIENCE: usize = 200;
 
     /// Set when what it is made for ends, in whatever way.
-    struct Ends<'e>(&'e AtomicBool);
+    pub(super) struct Ends<'e>(pub(super) &'e AtomicBool);
 
     impl Drop for Ends<'_> {
         fn drop(&mut self) {
@@ -194,6 +194,7 @@ pub(crate) fn map<I: Send, O: Send>(
 #[cfg(feature = "rayon")]
 #[cfg(test)]
 mod tests {
+    use core::sync::atomic::AtomicBool;
     use std::panic::{AssertUnwindSafe, catch_unwind};
     use std::thread;
 
@@ -242,6 +243,18 @@ mod tests {
             let sums = [(); 4].map(|()| scope.spawn(|| sum(0..300)));
             assert!(sums.into_iter().all(|sum| sum.join().unwrap() == 44_850));
         });
+    }
+
+    /// Else a thread would stand by for ever.
+    #[test]
+    fn ends_are_seen_however_work_ends() {
+        let (ended, unwound) = (AtomicBool::new(false), AtomicBool::new(false));
+        drop(standing_by::Ends(&ended));
+        let panicked = catch_unwind(|| {
+            let _ends = standing_by::Ends(&unwound);
+            panic!("on purpose");
+        });
+        assert!(panicked.is_err() && ended.into_inner() && unwound.into_inner());
     }
 
     #[test]

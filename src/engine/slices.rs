@@ -41,13 +41,13 @@ pub(crate) fn fill_rows<V: Send>(
     fill_parts(parts, (layer, k), rows, slices, &write)
 }
 
-/// Does something that fills slices of so many numbers layer by layer, by [`fill_rows`], with a thread standing by where that
-/// is worth it.
-pub(crate) fn fill_layers<A>(numbers: usize, fill: impl FnOnce() -> A) -> A {
-    if numbers < 2 * WORTH_A_THREAD {
-        return fill();
+/// Does something that fills slices of so many numbers layer by layer, with a thread standing by if it does so by
+/// [`fill_rows`], and that is worth it.
+pub(crate) fn fill_layers<A>(by_rows: bool, numbers: usize, fill: impl FnOnce() -> A) -> A {
+    if by_rows && numbers >= 2 * WORTH_A_THREAD {
+        return parallel::with_one_standing_by(fill);
     }
-    parallel::with_one_standing_by(fill)
+    fill()
 }
 
 fn fill_parts<V: Send>(
@@ -123,6 +123,16 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    #[cfg_attr(debug_assertions, should_panic(expected = "slices are as long"))]
+    fn slices_longer_than_the_layer_are_a_bug() {
+        let layer = Region::triangle(9).unwrap();
+        let mut numbers = [(); 3].map(|()| alloc::vec![0; 46]);
+        let slices = numbers.each_mut().map(Vec::as_mut_slice);
+        let filled = fill_rows(&layer, 5, slices, |_, _| Ok(()));
+        assert!(matches!(filled, Err(Error::Bug { .. })));
     }
 
     /// Whichever row cannot be written.

@@ -229,20 +229,15 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
         self.ahead = self.above_the_floor();
-        let (is_plain, spheres) = (matches!(self.way, Way::Plain(_)), rest[0].len());
-        let mut fill = || {
+        // Exact numbers are written by one thread.
+        let by_rows = matches!(self.way, Way::Plain(_));
+        fill_layers(by_rows, rest[0].len(), || {
             while let Some(layer) = self.next_layer()? {
                 let front = split_front(&mut rest, layer.spheres())?;
                 layer.fill(front)?;
             }
             Ok(())
-        };
-        // Exact numbers are written by one thread.
-        if is_plain {
-            fill_layers(spheres, fill)
-        } else {
-            fill()
-        }
+        })
     }
 
     /// Writes what a table says of all layers still to come into slices.

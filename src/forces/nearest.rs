@@ -184,7 +184,8 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         }
         check_lengths(self.spheres()?, &slices)?;
         let mut rest = slices;
-        fill_layers(rest[0].len(), || {
+        let by_rows = self.layers.exact_sweep().is_some();
+        fill_layers(by_rows, rest[0].len(), || {
             while let Some(layer) = self.next_layer()? {
                 if layer.is_floor() {
                     break;
