@@ -596,7 +596,11 @@ def main():
     folder = asked.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     state = folder / "state.json"
-    copy = Copy(folder, chosen(listed(folder), asked), asked.jobs)
+    planted = listed(folder)
+    # Of a line that was rewritten.
+    if stale := sorted(survivors().keys() - {fault.key for fault in planted}):
+        raise SystemExit("listed, but not to be planted:\n" + "\n".join(stale))
+    copy = Copy(folder, chosen(planted, asked), asked.jobs)
     everything = dict(copy.faults)
     print(f"{len(everything)} faults", flush=True)
     if not everything:
@@ -686,11 +690,9 @@ def report(copy, everything, done, least):
     wrong = 0
     for number, one in sorted(done.items()):
         known = one["key"] in reasons
-        if one["outcome"] == "noticed" and known:
-            print(f"NOTICED, though listed: {one['key']}")
-        elif one["outcome"] != "noticed" and not known:
+        if known == (one["outcome"] == "noticed"):
             wrong += 1
-            print(f"{one['outcome'].upper()}: {one['place']}: {one['key']}")
+            print(f"{one['outcome'].upper()}{', though listed' if known else ''}: {one['place']}: {one['key']}")
     return wrong > 0 if least is None else 100 * (len(done) - wrong) < least * len(done)
 
 

@@ -387,6 +387,25 @@ pub(crate) fn refuse_beyond_memory(
     Ok(())
 }
 
+/// So many copies of a value, where there is room for them.
+///
+/// # Errors
+/// [`Error::TooLarge`].
+pub(crate) fn copies<T: Clone>(
+    value: T,
+    count: usize,
+    quantity: &'static str,
+) -> Result<Vec<T>, Error> {
+    let bytes = size_of::<T>().max(1);
+    refuse_beyond_memory(
+        quantity,
+        &count.into(),
+        (isize::MAX as u64 / bytes as u64, bytes),
+        "use fewer layers, or a smaller top or base",
+    )?;
+    Ok(vec![value; count])
+}
+
 /// Whether the allocator gives so many numbers of so many bytes.
 fn is_to_be_had(numbers: u64, bytes: usize) -> bool {
     let mut memory = Vec::<u8>::new();
@@ -449,5 +468,10 @@ mod tests {
         }
         assert_eq!(refused(0, 8), Ok(()));
         assert_eq!(refused(1000, 8), Ok(()));
+        assert_eq!(copies(7_u64, 3, "numbers"), Ok(vec![7; 3]));
+        for many in [usize::MAX, isize::MAX as usize / 8] {
+            let none = copies(7_u64, many, "numbers");
+            assert!(matches!(none, Err(Error::TooLarge { .. })), "{many}");
+        }
     }
 }

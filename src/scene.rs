@@ -44,6 +44,7 @@ pub use toml::SceneFile;
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum State {
     /// Those without horizontal contacts: the paper's.
     #[default]

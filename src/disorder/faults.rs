@@ -226,7 +226,7 @@ impl ByFaults {
     /// ```
     #[must_use]
     pub fn denominator(&self, faults: u32) -> BigInt {
-        pow(BigInt::from(3), faults as usize + 1) * &self.denominator
+        BigInt::from(3).pow(faults) * 3 * &self.denominator
     }
 
     /// Returns the sums, by place and number of faults; those numbers at which no stacking has a sphere are left out.

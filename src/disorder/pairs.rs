@@ -13,7 +13,7 @@ use super::piles::RandomPiles;
 use super::place::Place;
 use super::walk::SIGNS;
 use crate::Error;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond_memory};
 use crate::lattice::Sign;
 use crate::scalar::{Algebra, THREE};
 
@@ -144,14 +144,12 @@ impl RandomPiles {
         let places = (&n * &n + &n) * 3_u32 + 1_u32;
         let loads = BigUint::from(self.loads().len());
         let needed = places.pow(2) * loads.pow(2) * 6_u32;
-        if needed > BigUint::from(MAX_NUMBERS) {
-            return Err(Error::TooLarge {
-                quantity: QUANTITY,
-                needed,
-                limit: MAX_NUMBERS,
-                remedy: "ask for the mean square, or for fewer layers or loads",
-            });
-        }
+        refuse_beyond_memory(
+            QUANTITY,
+            &needed,
+            (MAX_NUMBERS, size_of::<T>()),
+            "ask for the mean square, or for fewer layers or loads",
+        )?;
         let mut layer = self.first_products()?;
         let (same, change) = (T::one() - q, q.clone().div_int(THREE).div_int(THREE));
         for k in 1..=steps {

@@ -78,15 +78,17 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     pub(super) fn new(forces: &Forces<'p, T, M>, part: Selection) -> Result<Self, Error> {
         let (pile, terms) = (forces.pile, forces.terms.clone());
         let floor = pile.layers() - 1;
+        let part = match part {
+            Selection::One(site) => Selection::Layer(pile.shape().check(site)?.k),
+            part => part,
+        };
+        let rows = pile.rows(part)?;
         let ahead = match part {
             Selection::All => 0..floor + 1,
             Selection::Base => floor..floor + 1,
+            // The pile has rows of it, so one more is no overflow.
             Selection::Layer(k) => k..k + 1,
             Selection::One(site) => site.k..site.k + 1,
-        };
-        let rows = match part {
-            Selection::One(site) => pile.rows(Selection::Layer(pile.shape().check(site)?.k))?,
-            part => pile.rows(part)?,
         };
         // Of the contacts there is nothing on the floor; what leads to it is the same.
         let quantity = Quantity::ContactMultiples;

@@ -157,11 +157,14 @@ impl FromStr for Spacing {
     /// ```
     fn from_str(text: &str) -> Result<Self, Error> {
         let ratio: Surd = text.parse()?;
-        match (ratio.to_rational(), ratio.sign()) {
+        let spacing = match (ratio.to_rational(), ratio.sign()) {
             (Some(rational), _) => Self::new(rational),
             (None, RealSign::Positive) => Self::from_square(ratio.square()),
             (None, _) => Err(Error::syntax(text, "a spacing: it must be positive")),
-        }
+        }?;
+        // Its root is looked for anew, and may be written with other squares outside.
+        spacing.ratio().if_short(text)?;
+        Ok(spacing)
     }
 }
 

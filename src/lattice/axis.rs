@@ -237,12 +237,13 @@ impl HorizontalContact {
     /// ```
     #[must_use]
     pub fn neighbour(&self) -> Option<Site> {
-        let [a, b] = self.axis.ends();
-        let step = |site: Site, direction, steps| {
-            let Site { i, j, .. } = site.step(Sign::Plus, direction, steps)?;
-            Some(Site { i, j, ..self.site })
-        };
-        step(step(self.site, b, 1)?, a, -1)
+        // Up one direction and down the other, which may lead past i128 on the way.
+        let [up, down] = self.axis.ends().map(|end| Sign::Plus.descent(end));
+        Some(Site {
+            i: self.site.i.checked_add(down[0] - up[0])?,
+            j: self.site.j.checked_add(down[1] - up[1])?,
+            k: self.site.k,
+        })
     }
 }
 

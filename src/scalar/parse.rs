@@ -5,7 +5,7 @@
 
 use core::str::FromStr;
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{Pow, Signed, Zero};
 
@@ -115,8 +115,30 @@ impl FromStr for Surd {
             "-" => "-1",
             factor => factor.strip_suffix('*').ok_or_else(syntax)?,
         };
-        Self::new(rational(coefficient)?, rational(radicand)?)
+        Self::new(rational(coefficient)?, rational(radicand)?)?.if_short(text)
     }
+}
+
+impl Surd {
+    /// Returns the number if it is printed as one that is read: what is brought together may be longer than its parts.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`], which quotes what was read.
+    pub(crate) fn if_short(self, text: &str) -> Result<Self, Error> {
+        let coefficient = self.coefficient();
+        let [numer, denom] = [coefficient.numer(), coefficient.denom()].map(BigInt::magnitude);
+        if [numer, denom, self.radicand()].into_iter().all(is_short) {
+            Ok(self)
+        } else {
+            Err(Error::syntax(text, SHORTER))
+        }
+    }
+}
+
+/// Whether an integer has no more than [`MOST_DIGITS`].
+fn is_short(n: &BigUint) -> bool {
+    // A digit has more than three bits.
+    n.bits() <= 3 * MOST_DIGITS as u64 || *n < Pow::pow(BigUint::from(10_u32), MOST_DIGITS)
 }
 
 fn fraction(numer: &str, denom: &str) -> Result<BigRational, Expected> {
@@ -219,6 +241,21 @@ mod tests {
             let message = rational(&refused).unwrap_err().to_string();
             assert!(message.ends_with("is not a number of at most 5000 digits"));
             assert!(message.len() < 150, "{message}");
+        }
+    }
+
+    /// 10²⁹⁹⁹ + 9 and 10²⁹⁹⁹ + 7 share no factor, so that the radicand is their product.
+    #[test]
+    fn a_root_is_read_if_what_it_is_printed_as_is_read() {
+        let ends_in = |zeros: usize, digit: char| format!("1{}{digit}", "0".repeat(zeros));
+        for (zeros, is_read) in [(2_498, true), (2_999, false)] {
+            let [numer, denom] = ['9', '7'].map(|digit| ends_in(zeros, digit));
+            let text = format!("-2*sqrt({numer}/{denom})");
+            let read: Result<Surd, Error> = text.parse();
+            assert_eq!(read.is_ok(), is_read, "{zeros}");
+            if let Ok(read) = read {
+                assert_eq!(read.to_string().parse(), Ok(read));
+            }
         }
     }
 

@@ -13,6 +13,7 @@ use crate::scalar::{NearestFloat, Surd};
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Cell {
     /// A count, in all number formats alike.
     Integer(BigInt),

@@ -10,6 +10,7 @@ use crate::{Error, FloorForce, Forces, Method, NearestLayers, Packing, Pile, Pla
 
 /// The units of a table.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Units<'p> {
     /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
     Pile(Box<Forces<'p, BigRational>>),

@@ -91,6 +91,7 @@ impl Refinement {
 
 /// Which error of many contacts is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Norm {
     /// The largest.
     Largest,
@@ -342,9 +343,10 @@ impl Ladder {
                 }
             }
         }
-        rungs.sort_by(|a, b| {
-            let [a, b] = [a, b].map(|rung| refinement.ln_h(rung.parameter));
-            b.total_cmp(&a)
+        // By the parameter itself: two that are next to each other may have one logarithm.
+        rungs.sort_by(|a, b| match refinement {
+            Refinement::Stiffness => a.parameter.total_cmp(&b.parameter),
+            Refinement::TimeStep => b.parameter.total_cmp(&a.parameter),
         });
         let parameters = rungs.iter().map(|rung| rung.parameter);
         match repeated(parameters) {

@@ -8,12 +8,16 @@ use super::refusal::{Fault, Refusal};
 use super::slots::Slots;
 use super::tally::{Judged, Tally};
 use super::unbalanced::{Balance, Unbalanced};
+use crate::Packing;
 use crate::dem::NumberedPile;
-use crate::{Error, Packing};
+use crate::error::refuse_beyond_memory;
 
 /// How many pairs besides the contacts a list may have for each sphere. No more than twelve spheres touch one, and each
 /// pair is listed once: this leaves room for neighbours that do not touch.
 const PAIRS_A_SPHERE: u64 = 20;
+
+/// A force, and a vector.
+const BYTES_A_CONTACT: usize = size_of::<[f64; 4]>();
 
 /// How many times lines may begin anew, before they are no longer told.
 const MOST_RUNS: usize = 1 << 20;
@@ -38,15 +42,13 @@ pub(super) struct Ledger<'p> {
 
 impl<'p> Ledger<'p> {
     pub(super) fn new(packing: &Packing<'p>) -> Result<Self, Refusal> {
-        let contacts = packing.pile().contact_count();
-        if contacts > MAX_ENTRIES.into() {
-            return Err(Refusal::Scene(Error::TooLarge {
-                quantity: "a comparison of all contacts",
-                needed: contacts,
-                limit: MAX_ENTRIES,
-                remedy: "use fewer layers, or a smaller top or base",
-            }));
-        }
+        refuse_beyond_memory(
+            "a comparison of all contacts",
+            &packing.pile().contact_count(),
+            (MAX_ENTRIES, BYTES_A_CONTACT),
+            "use fewer layers, or a smaller top or base",
+        )
+        .map_err(Refusal::Scene)?;
         let numbered = NumberedPile::new(packing)?;
         let slots = Slots::new(&numbered)?;
         Ok(Self {

@@ -5,10 +5,11 @@ use core::num::NonZero;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 
 use super::entry::{Force, Place};
-use super::measured::{Measured, norm};
+use super::measured::{MAX_ENTRIES, Measured, norm};
 use super::refusal::{Fault, Refusal};
 use crate::Error;
 use crate::dem::NumberedPile;
+use crate::error::refuse_beyond_memory;
 
 /// The centres of all spheres of a pile, in a k-d tree.
 pub(super) struct Places {
@@ -17,10 +18,19 @@ pub(super) struct Places {
     radius: f64,
 }
 
+/// A centre, the tree's copy of it, and its number there.
+const BYTES_A_SPHERE: usize = size_of::<[f64; 6]>() + size_of::<u64>();
+
 const TWO: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(1);
 
 impl Places {
     pub(super) fn new(pile: &NumberedPile<'_>, radius: f64) -> Result<Self, Refusal> {
+        refuse_beyond_memory(
+            "the centres of all spheres",
+            &pile.numbering().sphere_count().into(),
+            (MAX_ENTRIES, BYTES_A_SPHERE),
+            "use fewer layers, or a smaller top or base",
+        )?;
         let mut centres = Vec::new();
         for centre in pile.centres()? {
             let (_, centre) = centre?;

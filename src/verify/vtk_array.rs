@@ -7,6 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
 
 use crate::Error;
+use crate::error::refuse_beyond_memory;
 
 /// The most bytes that one array may have.
 const MOST: usize = 1 << 33;
@@ -222,10 +223,18 @@ impl<'f> Coding<'f> {
         Ok(bytes)
     }
 
+    /// The numbers of an array, of eight bytes each, however few they had in the file.
     fn of_bytes(&self, kind: &str, bytes: &[u8]) -> Result<Values, String> {
         macro_rules! numbers {
             ($kind:ty, $values:ident, $to:ty) => {{
                 let parts = bytes.chunks_exact(size_of::<$kind>());
+                refuse_beyond_memory(
+                    "an array",
+                    &parts.len().into(),
+                    (MOST as u64, size_of::<$to>()),
+                    "write only the numbers of the spheres and contacts",
+                )
+                .map_err(|error| error.to_string())?;
                 let numbers = parts.map(|part| {
                     // A chunk has this many bytes.
                     let part = part.try_into().unwrap_or([0; size_of::<$kind>()]);

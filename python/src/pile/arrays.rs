@@ -5,6 +5,7 @@ use cannonpile::dem::PileArrays;
 use num_bigint::BigInt;
 use numpy::{PyArray1, PyArray2};
 use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
 use super::Pile;
@@ -106,6 +107,18 @@ pub(crate) fn base<'py>(
     rows(py, pile.base_places()?, |base| numbers.fill_base(base))
 }
 
+/// So many zeros of any length: MemoryError where there is no room, as NumPy has it.
+fn zeros(contacts: usize) -> PyResult<Vec<BigInt>> {
+    let mut zeros = Vec::new();
+    zeros.try_reserve_exact(contacts).map_err(|_| {
+        PyMemoryError::new_err(format!(
+            "no memory for {contacts} numerators: use fewer layers"
+        ))
+    })?;
+    zeros.resize(contacts, BigInt::ZERO);
+    Ok(zeros)
+}
+
 /// The numerators of the forces of all contacts, and their denominator.
 #[pyfunction]
 pub(crate) fn multiples<'py>(
@@ -121,8 +134,8 @@ pub(crate) fn multiples<'py>(
     match narrow {
         Ok(numerators) => Ok((numerators.into_any(), denominator)),
         Err(error) if error.is_instance_of::<pyo3::exceptions::PyOverflowError>(py) => {
+            let mut numerators = zeros(numbers.contacts())?;
             let (numerators, denominator) = work(py, || {
-                let mut numerators = vec![BigInt::ZERO; numbers.contacts()];
                 let denominator = numbers.fill_multiples(&mut numerators)?;
                 Ok::<_, Error>((numerators, denominator))
             })?;

@@ -8,6 +8,7 @@ use super::places::{
 };
 use super::{PileArrays, overflow};
 use crate::dem::numbered::{nearest, rounded};
+use crate::error::copies;
 use crate::scalar::common_multiple;
 use crate::shape::Selection;
 use crate::table::{columns, slices};
@@ -84,14 +85,14 @@ impl<'p> PileArrays<'p> {
         if self.pile.horizontal_forces().len() == 0 {
             let layers = layers.numerators::<V>()?;
             let spheres = layers.spheres()?;
-            let mut found = [(); 3].map(|()| vec![V::default(); spheres]);
+            let mut found = [zeros::<V>(spheres)?, zeros(spheres)?, zeros(spheres)?];
             let denominator = layers.fill(slices(&mut found))?;
             put_by_direction(&found[..lines], &mut left);
             return Ok(denominator);
         }
         let layers = layers.numerators::<BigInt>()?;
         let spheres = layers.spheres()?;
-        let mut found = [(); 3].map(|()| vec![BigInt::default(); spheres]);
+        let mut found = [zeros(spheres)?, zeros(spheres)?, zeros(spheres)?];
         let sloping = layers.fill(slices(&mut found))?;
         let horizontal = || self.pile.horizontal_forces().map(|(_, force)| force);
         let denominator = horizontal().fold(sloping.clone(), |common, force| {
@@ -179,6 +180,11 @@ impl<'p> PileArrays<'p> {
             None => self.pile.forces::<BigRational>().layers(part)?.nearest(),
         }
     }
+}
+
+/// So many zeros, where there is room for them.
+fn zeros<V: Clone + Default>(count: usize) -> Result<Vec<V>, Error> {
+    copies(V::default(), count, "the numerators of all contact forces")
 }
 
 fn fitted<V: TryFrom<BigInt>>(numerator: BigInt) -> Result<V, Error> {

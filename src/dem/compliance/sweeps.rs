@@ -2,7 +2,7 @@
 
 use super::{NoCompliance, SoftContact};
 use crate::dem::numbered::nearest;
-use crate::error::{bug, refuse_beyond_memory};
+use crate::error::{bug, copies};
 use crate::lattice::{Direction, Sign, Site};
 use crate::scalar::Surd;
 use crate::shape::Selection;
@@ -209,14 +209,7 @@ impl Frame {
 
 /// So many zeros, where there is room for them.
 fn zeros<T: Clone + Default>(count: usize) -> Result<Vec<T>, Error> {
-    let bytes = size_of::<T>();
-    refuse_beyond_memory(
-        "the displacements of all spheres",
-        &count.into(),
-        (isize::MAX as u64 / bytes as u64, bytes),
-        "use fewer layers, or a smaller top or base",
-    )?;
-    Ok(vec![T::default(); count])
+    copies(T::default(), count, "the displacements of all spheres")
 }
 
 fn dot(a: &Arrow, b: &Arrow) -> f64 {

@@ -133,8 +133,12 @@ impl Histogram {
     /// ```
     #[must_use]
     pub fn count(&self, bin: i64) -> BigUint {
-        let place = bin.checked_sub(self.first);
-        let place = place.and_then(|place| usize::try_from(place).ok());
+        self.count_of(bin.into())
+    }
+
+    /// The count of a bin, which may lie beyond `i64`: the first does not, and others follow.
+    pub(crate) fn count_of(&self, bin: i128) -> BigUint {
+        let place = usize::try_from(bin - i128::from(self.first)).ok();
         let count = place.and_then(|place| self.counts.get(place));
         // Not a default: beyond the ends nothing was counted.
         count.cloned().unwrap_or_default()

@@ -12,7 +12,7 @@ impl Region {
     /// Returns how many of the `steps` layers above (i, j), stacked with one sign, have a sphere on each of its lines.
     ///
     /// The least of [`count::bounds_above`], each of which grows by one per step down and vanishes at its surface. None
-    /// outside the region.
+    /// outside the region, or of no steps.
     ///
     /// # Examples
     /// ```
@@ -26,7 +26,7 @@ impl Region {
     #[must_use]
     #[inline]
     pub fn spheres_above(&self, i: i128, j: i128, sign: Sign, steps: i128) -> [i128; 3] {
-        if !self.contains(i, j) {
+        if steps < 1 || !self.contains(i, j) {
             return [0; 3];
         }
         let bounds = count::bounds_above(&i, &j, &self.lower, &self.upper, &steps, sign);

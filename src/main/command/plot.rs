@@ -362,9 +362,12 @@ impl Measured {
         draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
     ) -> Result<Figure, Failure> {
         let (scene, pile) = self.of.scene.read_state()?;
-        self.draw_pile(&scene, &pile, |subject, pile| match scene.state {
-            State::Isostatic => draw(subject, pile),
-            State::Elastic => draw(&subject.clone().with_horizontal_contacts(), pile),
+        self.draw_pile(&scene, &pile, |subject, pile| {
+            if scene.state == State::Elastic {
+                draw(&subject.clone().with_horizontal_contacts(), pile)
+            } else {
+                draw(subject, pile)
+            }
         })
     }
 

@@ -227,7 +227,11 @@ pub fn histogram<'t>(
         .to_vec();
     columns.extend(["all", "standing"].map(|name| Column::measured(name, "")));
     let all = tally.faults.iter().map(|with| binned.histograms(with)[0]);
-    let bins = all.flat_map(|all| (all.first..).zip(&all.counts).map(|(bin, _)| bin));
+    // The last bin may end beyond i64.
+    let bins = all.flat_map(|all| {
+        let first = i128::from(all.first);
+        first..first + all.counts.len() as i128
+    });
     let ends = bins.clone().min().zip(bins.max());
     let mean = move |count: &dyn Fn(&WithFaults) -> BigInt| {
         let faults = tally.faults.iter().zip(&weights);
@@ -237,10 +241,10 @@ pub fn histogram<'t>(
     };
     let standing = mean(&|with| with.standing.stackings.clone().into());
     let width = tally.ensemble.bins();
-    let row = move |bin: i64| -> Row {
-        let end = |bin: i64| Cell::from(width * BigInt::from(bin));
+    let row = move |bin: i128| -> Row {
+        let end = |bin: i128| Cell::from(width * BigInt::from(bin));
         let [all, stand] =
-            [0, 1].map(|of| mean(&|with| binned.histograms(with)[of].count(bin).into()));
+            [0, 1].map(|of| mean(&|with| binned.histograms(with)[of].count_of(bin).into()));
         let stand = if standing.is_zero() {
             Cell::Missing
         } else {

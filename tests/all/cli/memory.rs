@@ -24,6 +24,10 @@ fn more_than_a_process_may_have_is_refused_in_one_line() {
             "mean --layers 80 --symbolic",
             "the mean over random stackings",
         ),
+        (
+            "verify --layers 560 /dev/null",
+            "a comparison of all contacts",
+        ),
     ] {
         let output = within(250_000, arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments}: {output:?}");

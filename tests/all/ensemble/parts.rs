@@ -4,6 +4,8 @@ use cannonpile::Error;
 use cannonpile::disorder::{
     Choice, Ensemble, FirstSign, RandomStackings, Samples, Shard, Tally, Unmergeable, WithFaults,
 };
+use cannonpile::table::{self, Binned, FileFormat, NumberFormat};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::ratio;
@@ -366,6 +368,30 @@ fn bins_that_no_run_can_have_are_refused() -> Result<(), Error> {
     for change in refused {
         assert!(!changed_of(3, &change));
     }
+    Ok(())
+}
+
+/// Bins that no run has are written as they are, though the last one ends beyond all that counts them.
+#[test]
+fn bins_at_the_end_of_the_numbers_are_written() -> Result<(), Box<dyn std::error::Error>> {
+    let mut tally = ensemble("triangle:1", 2)?.run(&Choice::All, Shard::WHOLE)?;
+    for with in &mut tally.faults {
+        let bins = &mut with.all.forces;
+        bins.first = i64::MAX;
+        bins.counts = vec![4_u32.into(); 2];
+    }
+    let table = table::histogram(&tally, Binned::Forces, &ratio(1, 3))?.ok_or("no weights")?;
+    let mut csv = Vec::new();
+    table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+    let csv = String::from_utf8(csv)?;
+    let width = tally.ensemble.bins();
+    let ends = [0, 1, 2].map(|n| width * BigInt::from(i128::from(i64::MAX) + n));
+    let [first, middle, last] = ends.map(|end| end.to_string());
+    let rows: Vec<&str> = csv.lines().skip(1).collect();
+    // Each of two stackings has half the weight, and none changes its sign.
+    let expected = [(&first, &middle), (&middle, &last)];
+    let expected = expected.map(|(from, to)| format!("{from},{to},2,0"));
+    assert_eq!(rows, expected);
     Ok(())
 }
 

@@ -285,6 +285,30 @@ fn layers_refuse_what_is_asked_of_others() {
     assert_eq!(layer.fill_base([&mut a, &mut b, &mut c]), refused);
 }
 
+/// Also where the next layer would be beyond all numbers.
+#[test]
+fn layers_that_no_pile_has_are_refused() {
+    let pile = Pile::triangular(3).expect("a pile");
+    let packing = packing_of(&pile);
+    let (floats, exact) = (pile.forces::<f64>(), pile.forces::<BigRational>());
+    for k in [-1, 3, i128::MIN, i128::MAX] {
+        let part = Selection::Layer(k);
+        for refused in [
+            floats.layers(part).err(),
+            packing.layers::<f64>(part).err(),
+            exact.sum_of_contacts(part).err(),
+        ] {
+            assert!(
+                matches!(refused, Some(Error::LayerOutside { .. })),
+                "{k}: {refused:?}"
+            );
+        }
+        let one = Selection::One(Site { i: 0, j: 0, k });
+        let refused = floats.layers(one).err();
+        assert!(matches!(refused, Some(Error::SiteOutside { .. })), "{k}");
+    }
+}
+
 /// What stands beside a table or a sweep says where it is.
 #[test]
 fn layers_are_shown_by_where_they_are() {

@@ -1,7 +1,7 @@
 //! Regions about the greatest coordinates, ±10³⁶: refused beyond, and nothing overflows up to them.
 
 use cannonpile::Error;
-use cannonpile::lattice::{MAX_LAYERS, Region, Row, Sign};
+use cannonpile::lattice::{Axis, HorizontalContact, MAX_LAYERS, Region, Row, Sign, Site};
 use num_bigint::{BigInt, BigUint};
 
 use crate::lattice::region;
@@ -136,6 +136,29 @@ fn lines_are_counted_at_the_limit() {
     assert_eq!(base.spheres_above(0, 0, Sign::Plus, MAX), [high; 3]);
     assert_eq!(base.spheres_above(0, 0, Sign::Minus, MAX), [-low; 3]);
     assert_eq!(base.spheres_above(0, 0, Sign::Minus, 5), [5; 3]);
+    for steps in [0, -1, -MAX, i128::MIN] {
+        assert_eq!(base.spheres_above(0, 0, Sign::Plus, steps), [0; 3]);
+    }
+}
+
+/// Whatever there is on the way to it.
+#[test]
+fn the_neighbour_of_a_sphere_is_where_a_number_is() {
+    for axis in Axis::ALL {
+        let neighbour = |i, j, k| {
+            let site = Site { i, j, k };
+            HorizontalContact { site, axis }.neighbour()
+        };
+        let Site { i: di, j: dj, .. } = neighbour(0, 0, 0).expect("near");
+        for k in [i128::MIN, i128::MAX] {
+            for end in [i128::MIN, i128::MAX] {
+                let beside = |n: i128, d: i128| n.checked_add(d);
+                let there = beside(end, di).zip(beside(end, dj));
+                let there = there.map(|(i, j)| Site { i, j, k });
+                assert_eq!(neighbour(end, end, k), there, "{axis} {end} {k}");
+            }
+        }
+    }
 }
 
 /// From one end of the places a region grows by more steps than there are coordinates on one side.

@@ -277,6 +277,12 @@ fn no_ladder_is_named() {
     let near = of(&[rung(1e300), rung(1e300_f64.next_up())]).unwrap();
     assert!(near.fit(Norm::Largest).is_err());
     assert_eq!(near.orders(Norm::Largest)[1], None);
+    // Their logarithms are one, and what is between them is seen all the same.
+    for refinement in BOTH {
+        let three = [1e300, 1e300_f64.next_up(), 1e300].map(rung);
+        let twice = Err(NoLadder::Twice { parameter: 1e300 });
+        assert_eq!(Ladder::new(refinement, three), twice);
+    }
 }
 
 #[test]
