@@ -62,7 +62,7 @@ pub use error::WriteError;
 pub use explain::Explanation;
 pub(crate) use file::Aside;
 pub use file::write_aside;
-pub(crate) use folder::write_all;
+pub use folder::write_all;
 pub(crate) use pieces::{columns, in_pieces, slices};
 pub(crate) use progress::Progress;
 pub use rows::{Column, Table};

@@ -8,8 +8,28 @@ use super::{Aside, Pending, WriteError, remove_leftovers};
 
 /// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
 ///
-/// `write` is called once for each file, in their order.
-pub(crate) fn write_all<'f>(
+/// `write` is called once for each file, in their order. All are written aside, as by [`write_aside`](super::write_aside), and
+/// renamed when the last one is complete; where that fails, files and folders that were not there before are removed again.
+///
+/// # Errors
+/// Those of `write`, and [`WriteError::File`] with the path.
+///
+/// # Examples
+/// ```
+/// use cannonpile::table::write_all;
+///
+/// let folder = tempfile::tempdir()?;
+/// let folder = folder.path().join("runs");
+/// let files = ["a.txt", "b.txt"].map(|name| folder.join(name));
+/// let mut texts = ["one", "three"].into_iter();
+/// let bytes = write_all(&folder, files.iter(), |out| {
+///     Ok(write!(out, "{}", texts.next().unwrap_or(""))?)
+/// })?;
+/// assert_eq!(bytes, [3, 5]);
+/// assert_eq!(std::fs::read_to_string(&files[1])?, "three");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_all<'f>(
     folder: &Path,
     files: impl Iterator<Item = &'f PathBuf>,
     mut write: impl FnMut(&mut dyn Write) -> Result<(), WriteError>,

@@ -1,17 +1,15 @@
 //! Pages of the manual, a file for each command.
 
-use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use cannonpile::table::{WriteError, write_aside};
+use cannonpile::table;
 use clap::{Args, Command};
 
 use crate::output::{Failure, write_to};
 
 const HELP: &str = "\
-The pages say what --help says. The folder is created if it is missing; each page is written under another name, and
-renamed when it is complete.
+The pages say what --help says. The folder is created if it is missing; all pages are written under other names, and
+renamed when the last is complete.
 
 Examples:
   cannonpile man man1
@@ -32,34 +30,25 @@ impl Man {
         let mut line = line.disable_help_subcommand(true);
         // Commands below others have their whole names then.
         line.build();
-        fs::create_dir_all(&self.folder).map_err(|error| unwritten(error.into(), &self.folder))?;
-        let mut written = Vec::new();
-        for page in pages(&line) {
-            let path = self.folder.join(page.get_filename());
-            let page = |mut out: &mut dyn Write| Ok(page.render(&mut out)?);
-            write_aside(&path, page).map_err(|error| unwritten(error, &path))?;
-            written.push(path);
-        }
+        let pages = pages(&line);
+        let files = pages
+            .iter()
+            .map(|page| self.folder.join(page.get_filename()));
+        let files: Vec<PathBuf> = files.collect();
+        let mut left = pages.iter();
+        table::write_all(&self.folder, files.iter(), |mut out| match left.next() {
+            Some(page) => Ok(page.render(&mut out)?),
+            None => Ok(()),
+        })
+        .map_err(|error| Failure::of_writing(error, "output", None))?;
         write_to("output", None, |out| {
-            for path in &written {
+            for path in &files {
                 writeln!(out, "{}", path.display())?;
             }
             Ok(())
         })?;
         Ok(true)
     }
-}
-
-/// Returns why there is no such file or folder.
-fn unwritten(error: WriteError, path: &Path) -> Failure {
-    let error = match error {
-        WriteError::Io(error) => WriteError::File {
-            path: path.into(),
-            error,
-        },
-        error => error,
-    };
-    Failure::of_writing(error, "output", None)
 }
 
 /// Returns the page of a command, and those of the commands below it.

@@ -75,3 +75,15 @@ fn a_folder_that_cannot_be_is_refused() {
     );
     assert_eq!(fs::read_to_string(&file).expect("it stays"), "here");
 }
+
+#[test]
+fn all_pages_are_written_or_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let taken = folder.path().join("cannonpile-verify.1");
+    fs::create_dir(&taken).expect("made");
+    let output = cannonpile(&format!("man {}", folder.path().display()));
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("cannonpile-verify.1: "), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+}
