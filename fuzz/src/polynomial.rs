@@ -10,7 +10,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Zero};
 
-use crate::generators::number;
+use crate::generators::{number, rarely};
 
 const SYMBOLS: [Symbol; 3] = [Symbol("x"), Symbol("y"), Symbol("z")];
 
@@ -79,7 +79,7 @@ fn sum_of<'a>(terms: impl Iterator<Item = &'a (BigRational, [u32; 3])>) -> Polyn
 /// Small numbers, any rational now and then.
 fn point(u: &mut Unstructured<'_>) -> Result<Point> {
     let mut coordinate = || {
-        if u.ratio(1, 8)? {
+        if rarely(u, 8)? {
             number::rational(u)
         } else {
             Ok(number::ratio(

@@ -16,6 +16,7 @@ use num_traits::{Signed, Zero};
 use super::handed_on::balance_of;
 use super::{Checked, demand, same};
 use crate::generators::number::ratio;
+use crate::generators::rarely;
 use crate::generators::region::{light, tiny};
 use crate::support::oracles::admissible::{Affine, Corner, Pair, States, at, of_discs};
 use crate::support::oracles::balance::{Balance, place, site};
@@ -93,7 +94,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
 
 pub(super) fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
     let stiffness_ratio = ratio(u.int_in_range(1..=9)?, u.int_in_range(1..=9)?);
-    let (pile, balance, forces): (_, _, fn(&Balance) -> _) = if u.ratio(1, 8)? {
+    let (pile, balance, forces): (_, _, fn(&Balance) -> _) = if rarely(u, 8)? {
         let (pile, balance) = discs(u)?;
         (pile, balance, of_discs)
     } else {

@@ -6,7 +6,7 @@ use cannonpile::lattice::Region;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::{number, region};
+use super::{number, rarely, region};
 use crate::support::tally::Scene;
 
 /// A top layer with loads, of weight or without, and how many steps there are below it.
@@ -36,7 +36,7 @@ pub(crate) fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
     let scene = Scene {
         top,
         loads,
-        weightless: u.ratio(1, 3)?,
+        weightless: rarely(u, 3)?,
         first: *u.choose(&firsts)?,
         width: greatest * part,
     };

@@ -3,7 +3,8 @@
 //! Every generator reads an [`Unstructured`](arbitrary::Unstructured). The property tests feed it the bytes that proptest makes,
 //! the fuzz targets those that libFuzzer makes: one description of the inputs serves both, and a byte
 //! string that one of them finds can be given to the other. A generator never fails for want of bytes: an
-//! empty input is read as zeros, which is the first of the choices throughout.
+//! empty input is read as zeros, which is the first of the choices throughout. So the first choice is the ordinary
+//! case, and a rare one is drawn by [`rarely`]: `ratio` is true where no bytes are left.
 //!
 //! | file | what it makes |
 //! |---|---|
@@ -26,3 +27,10 @@ pub(crate) mod region;
 pub(crate) mod scene;
 pub(crate) mod stacking;
 pub(crate) mod text;
+
+use arbitrary::{Result, Unstructured};
+
+/// Once in so many times, and not where no bytes are left.
+pub(crate) fn rarely(u: &mut Unstructured<'_>, of: u8) -> Result<bool> {
+    Ok(u.int_in_range(1..=of)? == of)
+}

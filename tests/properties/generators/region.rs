@@ -9,7 +9,7 @@ use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Signed;
 
-use super::{number, stacking};
+use super::{number, rarely, stacking};
 
 /// Six bounds x₀, x₁, y₀, y₁, s₀, s₁, in order or not: all small, up to the limit, or some of them beyond.
 pub(crate) fn bounds(u: &mut Unstructured<'_>) -> Result<[i128; 6]> {
@@ -19,7 +19,7 @@ pub(crate) fn bounds(u: &mut Unstructured<'_>) -> Result<[i128; 6]> {
         let ends = [coordinate(u, reach)?, coordinate(u, reach)?];
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
         // One in eight is crossed.
-        let ordered = if u.ratio(7, 8)? { [low, high] } else { ends };
+        let ordered = if rarely(u, 8)? { ends } else { [low, high] };
         pair.copy_from_slice(&ordered);
     }
     Ok(bounds)
@@ -128,7 +128,7 @@ impl Described {
 /// A pile of up to six layers, small enough to look at every sphere, with weights and loads.
 pub(crate) fn described(u: &mut Unstructured<'_>) -> Result<Described> {
     let from_base = u.arbitrary()?;
-    let region = if u.ratio(1, 4)? {
+    let region = if rarely(u, 4)? {
         Region::SITE
     } else {
         small_region(u)?
@@ -141,17 +141,20 @@ pub(crate) fn described(u: &mut Unstructured<'_>) -> Result<Described> {
 /// weights and loads.
 #[cfg(feature = "horizontal")]
 pub(crate) fn tiny(u: &mut Unstructured<'_>) -> Result<Described> {
-    let from_base = u.ratio(1, 2)?;
-    let (region, most) = if u.ratio(1, 4)? {
+    let from_base = u.arbitrary()?;
+    let (region, most): (_, usize) = if rarely(u, 4)? {
         let [i, j] = [u.int_in_range(-2..=2)?, u.int_in_range(-2..=2)?];
         let ends = [i + u.int_in_range(0..=1)?, j + u.int_in_range(0..=1)?];
         let region = Region::new(i..=ends[0], j..=ends[1], i + j..=ends[0] + ends[1]);
         let most = if from_base { 3 } else { 2 };
         (region.expect("a rhombus or a part of its edge"), most)
     } else {
-        (Region::SITE, if u.ratio(1, 8)? { 4 } else { 3 })
+        (Region::SITE, if rarely(u, 8)? { 4 } else { 3 })
     };
-    let signs = stacking::signs(u, most)?;
+    // Of fewer layers nearly all stand alone.
+    let fewer = [0, 0, 1, 2][u.choose_index(4)?];
+    let steps = most.saturating_sub(fewer);
+    let signs = stacking::signs_of(u, steps)?;
     grown(u, from_base, region, signs, light)
 }
 
@@ -171,7 +174,7 @@ fn grown(
         },
         from_base,
         signs,
-        weightless: u.ratio(1, 6)?,
+        weightless: rarely(u, 6)?,
         weights: Vec::new(),
         loads: Vec::new(),
     };
@@ -226,6 +229,6 @@ fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 pub(crate) fn light(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(number::ratio(
         u.int_in_range(0..=9)?,
-        u.int_in_range(1..=9)?,
+        *u.choose(&[1, 1, 2, 3, 7])?,
     ))
 }

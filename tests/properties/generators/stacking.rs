@@ -4,9 +4,14 @@ use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::{MAX_LAYERS, Sign};
 use cannonpile::stacking::{Notation, Run, Stacking};
 
-/// Up to `most` signs: straight, of period one or two, with one change, or any.
+/// Up to `most` signs.
 pub(crate) fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {
     let steps = u.int_in_range(0..=most)?;
+    signs_of(u, steps)
+}
+
+/// So many signs: straight, of period one or two, with one change, or any.
+pub(crate) fn signs_of(u: &mut Unstructured<'_>, steps: usize) -> Result<Vec<Sign>> {
     let first = sign(u)?;
     let signed = |plus: bool| if plus { first } else { -first };
     Ok(match u.int_in_range(0..=4)? {
