@@ -71,7 +71,7 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
             claims::json::any_value,
             #[cfg(feature = "serde")]
             claims::json::damaged,
-            #[cfg(all(feature = "serde", feature = "toml"))]
+            #[cfg(feature = "serde")]
             claims::json::any_scene,
         ],
     )

@@ -106,17 +106,13 @@ properties! {
     a_planted_order_of_accuracy_is_found: claims::ladder::planted, 1024;
     any_ladder_comes_back_from_its_record: claims::ladder::any_rungs, 1024;
     any_record_of_a_ladder_is_read_or_refused: claims::ladder::any_record, 1024;
-    what_coq_reads_are_the_formulas: claims::recorded::any_values, 48;
+    what_coq_reads_are_the_formulas: claims::recorded::any_values, 1024;
 }
 
 #[cfg(feature = "serde")]
 properties! {
     values_come_back_from_json: claims::json::any_value, 512;
     damaged_json_is_refused_or_valid: claims::json::damaged, 1024;
-}
-
-#[cfg(all(feature = "serde", feature = "toml"))]
-properties! {
     scenes_come_back_from_json: claims::json::any_scene, 512;
 }
 

@@ -2,13 +2,13 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::disorder::{FirstSign, Mean, RandomPiles};
-use cannonpile::lattice::Site;
+use cannonpile::disorder::{FirstSign, Mean, RandomPiles, RandomStackings};
+use cannonpile::lattice::{Region, Site};
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
 use super::{Checked, Failure, demand, one_line, same};
-use crate::generators::{disorder, number, region};
+use crate::generators::{disorder, number, rarely, region};
 use crate::support::disorder::{Piles, agrees_at};
 use crate::support::oracles::one_by_one::faults;
 
@@ -43,37 +43,48 @@ fn mean_square(described: &Piles, q: &BigRational) -> BigRational {
     mean / number::ratio(if two { 2 } else { 1 }, 1)
 }
 
-/// Piles of any size: the floor bears all loads, with probabilities that are some, or a line says why there is no answer.
+/// Piles of any size: the floor bears all loads and spheres, with probabilities that are some, or a line says why there is no
+/// answer.
 pub(crate) fn any_size(u: &mut Unstructured<'_>) -> Checked {
     let stackings = disorder::stackings(u)?;
     let region = region::region(u)?;
-    let piles = match u.int_in_range(0..=2)? {
-        0 => RandomPiles::under(region, stackings),
-        1 => RandomPiles::on(region, stackings),
-        _ => RandomPiles::plane(stackings),
+    let (mut piles, is_grown_down) = match u.int_in_range(0..=2)? {
+        0 => (RandomPiles::under(region, stackings), true),
+        1 => (RandomPiles::on(region, stackings), false),
+        _ => (RandomPiles::plane(stackings), false),
     };
-    let piles = piles.weightless();
-    let [i, j] = region::site_about(u, &region)?;
-    let piles = match piles
-        .clone()
-        .with_load(Site { i, j, k: 0 }, number::ratio(1, 1))
-    {
-        Ok(loaded) => loaded,
-        Err(refusal) => {
-            one_line(&refusal)?;
-            piles
+    if !rarely(u, 3)? {
+        piles = piles.weightless();
+    }
+    let mut loads = BigRational::zero();
+    for _ in 0..u.int_in_range(0..=3)? {
+        let [i, j] = region::site_about(u, &region)?;
+        let load = disorder::load(u)?;
+        match piles.clone().with_load(Site { i, j, k: 0 }, load.clone()) {
+            Ok(loaded) => (piles, loads) = (loaded, loads + load),
+            Err(refusal) => one_line(&refusal)?,
         }
-    };
+    }
     let q = number::fraction(u)?;
     // A region of a million sites is answered, but not in a fuzz run.
+    let most = if stackings.layers() <= 8 { 40 } else { 6 };
     let is_small = [region.x(), region.y()]
         .iter()
-        .all(|side| side.end() - side.start() <= 40);
-    if stackings.layers() <= 8 && !is_small {
+        .all(|side| side.end() - side.start() <= most);
+    if stackings.layers() < 2000 && !is_small {
         return Ok(());
     }
     match piles.exact(&q) {
-        Ok(mean) => bears_its_loads(&piles, &mean),
+        Ok(mean) => {
+            let spheres = match (piles.is_weightless(), is_grown_down) {
+                (true, _) => Some(BigRational::zero()),
+                (false, true) if stackings.layers() <= 8 => {
+                    Some(spheres_of(region, stackings, &q)?)
+                }
+                (false, _) => None,
+            };
+            bears_what_acts(&piles, &mean, spheres.map(|spheres| spheres + loads))
+        }
         Err(refusal) => {
             one_line(&refusal)?;
             demand(
@@ -84,17 +95,42 @@ pub(crate) fn any_size(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-fn bears_its_loads(piles: &RandomPiles, mean: &Mean<BigRational>) -> Checked {
-    let normals = mean.rows().iter().map(|row| row.normal.clone());
-    let sum: BigRational = normals.sum();
-    demand(sum.is_zero() || sum.is_one(), || {
-        format!("{sum} of {piles:?}")
-    })?;
-    let is_share = |p: &BigRational| !p.is_negative() && *p <= BigRational::one();
+/// How many spheres there are under a top in the mean: those of the bottom layers of all piles that are not higher.
+fn spheres_of(
+    top: Region,
+    stackings: RandomStackings,
+    q: &BigRational,
+) -> Result<BigRational, Failure> {
+    let mut spheres = BigRational::zero();
+    for layers in 1..=stackings.layers() {
+        let stackings = RandomStackings::new(layers, stackings.first())?;
+        let mean = RandomPiles::under(top, stackings).exact(q)?;
+        spheres += mean
+            .rows()
+            .iter()
+            .map(|row| &row.probability)
+            .sum::<BigRational>();
+    }
+    Ok(spheres)
+}
+
+/// The normals add up to what acts, where that is known; no pile weighs less than its bottom layer.
+fn bears_what_acts(
+    piles: &RandomPiles,
+    mean: &Mean<BigRational>,
+    acting: Option<BigRational>,
+) -> Checked {
+    let rows = mean.rows();
+    let borne: BigRational = rows.iter().map(|row| &row.normal).sum();
+    let bottom: BigRational = rows.iter().map(|row| &row.probability).sum();
     demand(
-        mean.rows().iter().all(|row| is_share(&row.probability)),
-        || format!("a probability of {piles:?}"),
-    )
+        acting.map_or(borne >= bottom, |acting| borne == acting),
+        || format!("{borne} of {piles:?}"),
+    )?;
+    let is_share = |p: &BigRational| !p.is_negative() && *p <= BigRational::one();
+    demand(rows.iter().all(|row| is_share(&row.probability)), || {
+        format!("a probability of {piles:?}")
+    })
 }
 
 #[cfg(test)]
@@ -146,9 +182,30 @@ mod planted {
 
     #[test]
     fn a_load_that_is_lost_is_caught() {
-        let piles = Piles::response(3, FirstSign::Plus).piles().unwrap();
-        let mean = piles.exact(&number::ratio(1, 3)).unwrap();
-        assert!(bears_its_loads(&piles, &mean).is_ok());
-        assert!(bears_its_loads(&piles, &mean.given_sphere()).is_err());
+        let described = Piles::response(3, FirstSign::Plus);
+        let holds = |of: &Piles, acting: i64| {
+            let piles = of.piles().unwrap();
+            let mean = piles.exact(&number::ratio(1, 3)).unwrap();
+            let acting = number::ratio(acting, 1);
+            let judge = |mean: &_| bears_what_acts(&piles, mean, Some(acting.clone())).is_ok();
+            assert!(!judge(&mean.given_sphere()));
+            judge(&mean)
+        };
+        assert!(holds(&described, 1));
+        let mut other = described;
+        other.loads.push(([1, 0], number::ratio(1, 1)));
+        assert!(holds(&other, 2));
+        assert!(!holds(&other, 1));
+    }
+
+    #[test]
+    fn a_sphere_that_is_lost_is_caught() {
+        let described = Piles::heavy(Anchor::Top(Region::SITE), 3, FirstSign::Plus);
+        let (piles, q) = (described.piles().unwrap(), number::ratio(1, 3));
+        let mean = piles.exact(&q).unwrap();
+        let spheres = spheres_of(Region::SITE, piles.stackings(), &q).unwrap();
+        let judge = |acting: BigRational| bears_what_acts(&piles, &mean, Some(acting));
+        assert!(judge(spheres.clone()).is_ok());
+        assert!(judge(spheres - number::power(2, -60)).is_err());
     }
 }

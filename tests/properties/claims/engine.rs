@@ -8,7 +8,7 @@ use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::shape::Selection;
-use cannonpile::{Error, FloorForce, Forces};
+use cannonpile::{ContactForce, Error, FloorForce, Forces};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
@@ -44,7 +44,9 @@ pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checke
         let swept: Result<Contacts, Error> = forces.contacts(Selection::All)?.collect();
         agree(&swept?, &contacts)?;
         let swept: Result<Floor, Error> = forces.base(Selection::Base)?.collect();
-        same("the base", &swept?, &floor)?;
+        let swept = swept?;
+        bears_what_acts(&swept, &solved)?;
+        same("the base", &swept, &floor)?;
     }
     of_one_layer(&forces, k, &contacts)?;
     filled(&forces, i128::try_from(given).unwrap_or(0), &contacts)?;
@@ -53,7 +55,6 @@ pub(crate) fn throughout(described: &Described, k: i128, given: usize) -> Checke
     for site in sites.iter().step_by(stride).chain(sites.last()) {
         one_sphere(&forces, *site, &solved)?;
     }
-    bears_what_acts(&floor, &solved)?;
     same("the weight", &pile.weight(), &solved.acting.values().sum())
 }
 
@@ -69,25 +70,40 @@ pub(crate) fn in_floats(u: &mut Unstructured<'_>) -> Checked {
     let pile = described.pile()?;
     let forces = pile.forces::<f64>();
     let within = (&acting + ratio(1, 1)) * ratio(1, 1 << 40);
-    let near = |got: f64, want: &BigRational| {
-        let got = BigRational::from_float(got).unwrap_or_default();
-        demand((&got - want).abs() <= within, || {
-            format!("{got} is not {want}")
-        })
-    };
     let swept: Result<Vec<_>, Error> = forces.contacts(Selection::All)?.collect();
-    let contacts = contacts_of(&solved);
-    for (got, want) in swept?.iter().zip(&contacts) {
-        near(got.force, &want.force)?;
-    }
+    contacts_near(&swept?, &contacts_of(&solved), &within)?;
     let swept: Result<Vec<_>, Error> = forces.base(Selection::Base)?.collect();
-    let floor = floor_of(&solved);
-    for (got, want) in swept?.iter().zip(&floor) {
-        near(got.normal, &want.normal)?;
-        near(got.shear_x, &want.shear_x)?;
-        near(got.shear_y, &want.shear_y)?;
+    floor_near(&swept?, &floor_of(&solved), &within)
+}
+
+/// Contact by contact, at the same sites.
+fn contacts_near(got: &[ContactForce<f64>], want: &Contacts, within: &BigRational) -> Checked {
+    same("the contacts", &got.len(), &want.len())?;
+    for (got, want) in got.iter().zip(want) {
+        let [at, of] = [(got.site, got.direction), (want.site, want.direction)];
+        same("a contact", &at, &of)?;
+        near(got.force, &want.force, within)?;
     }
     Ok(())
+}
+
+/// Bottom sphere by bottom sphere.
+fn floor_near(got: &[FloorForce<f64>], want: &Floor, within: &BigRational) -> Checked {
+    same("the bottom spheres", &got.len(), &want.len())?;
+    for (got, want) in got.iter().zip(want) {
+        same("a bottom sphere", &got.site, &want.site)?;
+        near(got.normal, &want.normal, within)?;
+        near(got.shear_x, &want.shear_x, within)?;
+        near(got.shear_y, &want.shear_y, within)?;
+    }
+    Ok(())
+}
+
+/// What is no number is near none.
+fn near(got: f64, want: &BigRational, within: &BigRational) -> Checked {
+    let exact = BigRational::from_float(got);
+    let holds = exact.is_some_and(|exact| (exact - want).abs() <= *within);
+    demand(holds, || format!("{got} is not {want}"))
 }
 
 /// Contact by contact; in lowest terms.
@@ -222,6 +238,27 @@ mod planted {
             let mut wrong = right.clone();
             spoil(&mut wrong);
             assert!(agree(&wrong, &right).is_err());
+        }
+    }
+
+    #[test]
+    fn a_float_that_is_no_number_or_missing_is_caught() {
+        let solved = Solved::of(&described());
+        let (want, trace) = (floor_of(&solved), power(2, -40));
+        let pile = described().pile().unwrap();
+        let floor = pile.forces::<f64>().base(Selection::Base).unwrap();
+        let right: Vec<_> = floor.collect::<Result<_, _>>().unwrap();
+        assert!(floor_near(&right, &want, &trace).is_ok());
+        let spoils: [fn(&mut Vec<FloorForce<f64>>); 4] = [
+            |floor| floor[0].normal = f64::NAN,
+            |floor| floor[1].shear_x = f64::INFINITY,
+            |floor| floor[2].shear_y += 1e-9,
+            |floor| drop(floor.pop()),
+        ];
+        for spoil in spoils {
+            let mut wrong = right.clone();
+            spoil(&mut wrong);
+            assert!(floor_near(&wrong, &want, &trace).is_err());
         }
     }
 

@@ -2,11 +2,13 @@
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
-use cannonpile::disorder::{Choice, Ensemble, Shard, Tally};
+use cannonpile::disorder::{Choice, FirstSign, Samples, Shard, Tally};
 use cannonpile::lattice::Sign;
+use num_traits::ToPrimitive;
 
 use super::{Checked, Failure, demand, same};
 use crate::generators::ensemble;
+use crate::support::oracles::samples;
 use crate::support::tally::{Scene, all_signs, counted};
 
 /// Every count, sum and extreme, of all stackings or of samples.
@@ -20,9 +22,7 @@ pub(crate) fn counts(u: &mut Unstructured<'_>) -> Checked {
 fn is_as_enumerated(scene: &Scene, steps: u32, choice: &Choice, tally: &Tally) -> Checked {
     let stackings = match choice {
         Choice::All => all_signs(steps, scene.first),
-        Choice::Drawn(samples) => (0..samples.count())
-            .map(|n| sample(&scene.ensemble(steps)?, choice, n, samples.count()))
-            .collect::<Result<_, Failure>>()?,
+        Choice::Drawn(samples) => drawn(samples, scene.first, steps),
     };
     let expected = scene.counted_of(steps, &stackings)?;
     let said = |of: &Tally| (counted(of), of.stackings());
@@ -30,16 +30,12 @@ fn is_as_enumerated(scene: &Scene, steps: u32, choice: &Choice, tally: &Tally) -
     same("a tally", &said(tally), &(expected, all))
 }
 
-/// The signs of a sample: it is the only one of its part. What stackings they are is tested elsewhere.
-fn sample(ensemble: &Ensemble, choice: &Choice, n: u64, of: u64) -> Result<Vec<Sign>, Failure> {
-    let tally = ensemble.run(choice, Shard::new(n + 1, of)?)?;
-    let mut named = tally
-        .faults
-        .iter()
-        .filter_map(|with| with.all.least_normal.as_ref());
-    let named = named.next();
-    let named = named.ok_or_else(|| Failure::Refuted("a sample without a base".to_owned()))?;
-    Ok(named.stacking.signs().collect())
+/// The signs of each sample, by the definition.
+fn drawn(samples: &Samples, first: FirstSign, steps: u32) -> Vec<Vec<Sign>> {
+    let q = samples.fault_probability();
+    let [a, b] = [q.numer(), q.denom()].map(|part| part.to_u64().expect("32 bits"));
+    let signs = |n| samples::sample(samples.seed(), n, (a, b), first, steps as usize);
+    (0..samples.count()).map(signs).collect()
 }
 
 /// Cut into any number of parts, which are put together in any order.
@@ -114,8 +110,6 @@ pub(crate) fn damaged(u: &mut Unstructured<'_>) -> Checked {
 
 #[cfg(test)]
 mod planted {
-    use cannonpile::disorder::FirstSign;
-
     use super::*;
     use crate::generators::number;
 
@@ -140,6 +134,22 @@ mod planted {
                 ..scene.clone()
             },
         ] {
+            assert!(!holds(&other), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn other_samples_are_caught() {
+        let scene = Scene::of("hexagon:1", FirstSign::Random);
+        let drawn =
+            |count, seed, q| Choice::Drawn(Samples::new(count, seed, number::ratio(q, 7)).unwrap());
+        let choice = drawn(9, 3, 2);
+        let holds = |of: &Choice| {
+            let tally = scene.ensemble(5).unwrap().run(of, Shard::WHOLE).unwrap();
+            is_as_enumerated(&scene, 5, &choice, &tally).is_ok()
+        };
+        assert!(holds(&choice));
+        for other in [drawn(9, 4, 2), drawn(9, 3, 6), drawn(8, 3, 2)] {
             assert!(!holds(&other), "{other:?}");
         }
     }

@@ -3,16 +3,14 @@
 use core::fmt::Debug;
 
 use arbitrary::Unstructured;
-use cannonpile::Pile;
 use cannonpile::lattice::Region;
 use cannonpile::scalar::Surd;
-use cannonpile::scene::Scene;
 use cannonpile::stacking::Stacking;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Checked, Failure, same};
-use crate::generators::{number, region, stacking};
+use super::{Checked, Failure, one_line, same};
+use crate::generators::{number, region, scene, stacking};
 
 /// A value comes back.
 fn reads_back<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> Checked {
@@ -33,10 +31,44 @@ pub(crate) fn any_value(u: &mut Unstructured<'_>) -> Checked {
     reads_back(&region::described(u)?.pile()?)
 }
 
-/// A valid pile with some letters exchanged is a valid pile or none: every force of it can be asked for.
+/// A valid value with some letters exchanged is a valid value or none: every force of a pile can be asked for.
 pub(crate) fn damaged(u: &mut Unstructured<'_>) -> Checked {
-    let pile = region::described(u)?.pile()?;
-    let text = serde_json::to_string(&pile).map_err(|error| Failure::Refuted(error.to_string()))?;
+    match u.int_in_range(0..=2)? {
+        0 => {
+            let pile = region::described(u)?.pile()?;
+            let Some(pile) = reads_damaged(u, &pile)? else {
+                return Ok(());
+            };
+            // Shapes are tight: every layer has a site.
+            for k in [0, pile.layers() - 1] {
+                pile.shape().layer(k)?;
+            }
+            Ok(())
+        }
+        1 => {
+            let whole = region::region(u)?;
+            let Some(region) = reads_damaged(u, &whole)? else {
+                return Ok(());
+            };
+            let tight = Region::new(region.x(), region.y(), region.s())?;
+            same("a region", &region, &tight)
+        }
+        _ => {
+            let whole = scene::scene(u)?;
+            if let Some(scene) = reads_damaged(u, &whole)? {
+                scene.pile().err().as_ref().map_or(Ok(()), one_line)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// What is read of a value when some letters are exchanged; it comes back too.
+fn reads_damaged<T: Serialize + DeserializeOwned + PartialEq + Debug>(
+    u: &mut Unstructured<'_>,
+    whole: &T,
+) -> Result<Option<T>, Failure> {
+    let text = serde_json::to_string(whole).map_err(|error| Failure::Refuted(error.to_string()))?;
     let mut letters: Vec<char> = text.chars().collect();
     for _ in 0..u.int_in_range(1..=3)? {
         let place = u.choose_index(letters.len())?;
@@ -47,22 +79,16 @@ pub(crate) fn damaged(u: &mut Unstructured<'_>) -> Checked {
         }
     }
     let text: String = letters.into_iter().collect();
-    if let Ok(pile) = serde_json::from_str::<Pile>(&text) {
-        reads_back(&pile)?;
-        // Shapes are tight: every layer has a site.
-        for k in [0, pile.layers() - 1] {
-            pile.shape().layer(k)?;
-        }
-    }
-    let _ = serde_json::from_str::<Scene>(&text);
-    let _ = serde_json::from_str::<Region>(&text);
-    Ok(())
+    let Ok(read) = serde_json::from_str(&text) else {
+        return Ok(None);
+    };
+    reads_back(&read)?;
+    Ok(Some(read))
 }
 
 /// A scene, whatever it says.
-#[cfg(feature = "toml")]
 pub(crate) fn any_scene(u: &mut Unstructured<'_>) -> Checked {
-    reads_back(&crate::generators::scene::scene(u)?)
+    reads_back(&scene::scene(u)?)
 }
 
 #[cfg(test)]

@@ -1,26 +1,50 @@
 //! A scene of any numbers at all makes the pile that they describe, or is refused in one line.
 
 use arbitrary::Unstructured;
+use cannonpile::Pile;
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
-use cannonpile::scene::Scene;
+#[cfg(feature = "horizontal")]
+use cannonpile::scene::State;
+use cannonpile::scene::{Anchor, Scene};
+use cannonpile::stacking::Pattern;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::{Checked, demand, one_line, same};
-use crate::generators::{number, pile};
+use crate::generators::{self, number, pile, rarely};
 
-/// The pile and the packing of a scene whose every number may be wrong.
+/// The pile, the packing and the state of a scene whose every number may be wrong.
 pub(crate) fn any_scene(u: &mut Unstructured<'_>) -> Checked {
-    let scene = scene(u)?;
+    let scene = if u.arbitrary()? {
+        generators::scene::scene(u)?
+    } else {
+        scene(u)?
+    };
     let pile = match scene.pile() {
         Ok(pile) => pile,
         Err(refusal) => return one_line(&refusal),
     };
-    let layers = scene.layers.unwrap_or(10);
+    is_as_described(&scene, &pile)?;
+    in_units(&scene, &pile)?;
+    in_state(&scene, &pile)
+}
+
+fn is_as_described(scene: &Scene, pile: &Pile) -> Checked {
+    let layers = pile.layers();
     demand((1..=MAX_LAYERS).contains(&layers), || {
         format!("a pile of {layers} layers")
     })?;
-    same("layers", &pile.layers(), &layers)?;
+    let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
+    let told = scene.layers.or(spelled);
+    // A base without a number of layers carries as many as it can.
+    if told.is_some() || !matches!(scene.anchor, Some(Anchor::Base(_))) {
+        same("layers", &layers, &told.unwrap_or(Scene::LAYERS))?;
+    }
+    match scene.anchor {
+        Some(Anchor::Top(top)) => same("the top", &pile.shape().layer(0)?, &top)?,
+        Some(Anchor::Base(base)) => same("the base", &pile.shape().base(), &base)?,
+        None => {}
+    }
     same("dimension", &pile.dimension(), &scene.dimension)?;
     let s = scene.sin_phi.clone();
     let s = s.unwrap_or_else(|| match scene.dimension {
@@ -28,18 +52,23 @@ pub(crate) fn any_scene(u: &mut Unstructured<'_>) -> Checked {
         Dimension::Three => number::ratio(1, 2),
     });
     same("sin phi", pile.sin_phi(), &s)?;
-    let positive = [&scene.radius, &scene.mass, &scene.gravity]
-        .iter()
-        .all(|size| size.is_positive());
-    same("sizes", &scene.check_sizes().is_ok(), &positive)?;
-    match scene.packing(&pile) {
+    same("weightless", &pile.is_weightless(), &scene.weightless)?;
+    let given = scene.loads.iter().map(|(_, load)| load);
+    let loads = pile.loads().map(|(_, load)| load);
+    let [given, loads] = [given.sum::<BigRational>(), loads.sum()];
+    same("the loads", &loads, &given)
+}
+
+fn in_units(scene: &Scene, pile: &Pile) -> Checked {
+    let sizes = [&scene.radius, &scene.mass, &scene.gravity];
+    let positive = sizes.iter().all(|size| size.is_positive());
+    let checked = positive && scene.stiffness_ratio.is_positive();
+    same("sizes", &scene.check_sizes().is_ok(), &checked)?;
+    match scene.packing(pile) {
         Ok(packing) => {
             same("radius", packing.radius(), &scene.radius)?;
-            same(
-                "weight",
-                &packing.sphere_weight(),
-                &(scene.mass * scene.gravity),
-            )
+            let weight = &scene.mass * &scene.gravity;
+            same("weight", &packing.sphere_weight(), &weight)
         }
         Err(refusal) => {
             // A spacing that was given has been checked with the pile; the default may not fit.
@@ -49,17 +78,41 @@ pub(crate) fn any_scene(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
+/// The state that is meant is one of the pile, and what it adds pushes.
+#[cfg(feature = "horizontal")]
+fn in_state(scene: &Scene, pile: &Pile) -> Checked {
+    let is_small = pile.sphere_count() <= 24_u32.into();
+    if scene.state == State::Elastic && !is_small {
+        return Ok(());
+    }
+    match scene.in_state(pile.clone()) {
+        Ok(state) => {
+            let pushes = state
+                .horizontal_forces()
+                .all(|(_, force)| !force.is_negative());
+            demand(pushes, || format!("{state:?}"))?;
+            same("the pile", &state.without_horizontal_forces(), pile)
+        }
+        Err(refusal) => one_line(&refusal),
+    }
+}
+
+#[cfg(not(feature = "horizontal"))]
+fn in_state(_: &Scene, _: &Pile) -> Checked {
+    Ok(())
+}
+
 /// Mostly valid, so that one wrong number is met alone.
 fn scene(u: &mut Unstructured<'_>) -> arbitrary::Result<Scene> {
     let mut size = || -> arbitrary::Result<BigRational> {
-        if u.ratio(1, 16)? {
+        if rarely(u, 16)? {
             number::rational(u)
         } else {
             number::quantity(u)
         }
     };
     let (radius, mass, gravity) = (size()?, size()?, size()?);
-    let layers = if u.ratio(1, 8)? {
+    let layers = if rarely(u, 8)? {
         number::machine_integer(u)?
     } else {
         pile::layers(u)?

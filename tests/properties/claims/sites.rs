@@ -42,7 +42,9 @@ pub(crate) fn anywhere(u: &mut Unstructured<'_>) -> Checked {
 pub(crate) fn numbered(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
-    let after = before(&pile, site) + BigInt::one();
+    let (number, told) = (before(&pile, site), pile.shape().before(site)?);
+    same("the spheres before", &BigInt::from(told), &number)?;
+    let after = number + BigInt::one();
     match successor(&pile, site) {
         Some(next) => same("the next number", &before(&pile, next), &after),
         None => same("the spheres", &after, &pile.sphere_count().into()),

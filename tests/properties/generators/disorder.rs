@@ -5,7 +5,7 @@ use cannonpile::disorder::{FirstSign, RandomStackings};
 use cannonpile::lattice::{MAX_LAYERS, Region};
 use num_rational::BigRational;
 
-use super::{number, region};
+use super::{number, rarely, region};
 use crate::support::disorder::{Anchor, Piles};
 
 fn first(u: &mut Unstructured<'_>) -> Result<FirstSign> {
@@ -14,7 +14,7 @@ fn first(u: &mut Unstructured<'_>) -> Result<FirstSign> {
 }
 
 /// Nothing, little, or so much that it fills many words.
-fn load(u: &mut Unstructured<'_>) -> Result<BigRational> {
+pub(crate) fn load(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(match u.int_in_range(0..=2)? {
         0 => number::ratio(u.int_in_range(0..=9)?, 1),
         1 => number::ratio(u.int_in_range(0..=99)?, u.int_in_range(1..=99)?),
@@ -45,7 +45,7 @@ pub(crate) fn piles(u: &mut Unstructured<'_>) -> Result<Piles> {
         anchor,
         steps: u.int_in_range(0..=5)?,
         first: first(u)?,
-        weightless: anchor == Anchor::Plane || u.ratio(1, 3)?,
+        weightless: anchor == Anchor::Plane || rarely(u, 3)?,
         loads: Vec::new(),
     };
     let least = usize::from(anchor == Anchor::Plane);
@@ -65,11 +65,15 @@ pub(crate) fn piles(u: &mut Unstructured<'_>) -> Result<Piles> {
     Ok(piles)
 }
 
-/// Layers of any number, the most of them too many.
+/// Of more the means take seconds.
+const MOST_LAYERS: i128 = 24;
+
+/// Layers of any number: few, some dozens, so many that it may be too many, or the greatest there are.
 pub(crate) fn stackings(u: &mut Unstructured<'_>) -> Result<RandomStackings> {
-    let layers = match u.int_in_range(0..=2)? {
-        0 => u.int_in_range(1..=8)?,
-        1 => u.int_in_range(2000..=MAX_LAYERS)?,
+    let layers = match u.int_in_range(0..=4)? {
+        0 | 1 => u.int_in_range(1..=8)?,
+        2 => u.int_in_range(9..=MOST_LAYERS)?,
+        3 => u.int_in_range(2000..=MAX_LAYERS)?,
         _ => MAX_LAYERS - u.int_in_range(0..=3)?,
     };
     Ok(RandomStackings::new(layers, first(u)?).expect("layers within the limit"))

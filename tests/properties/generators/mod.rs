@@ -23,7 +23,6 @@ pub(crate) mod ensemble;
 pub(crate) mod number;
 pub(crate) mod pile;
 pub(crate) mod region;
-#[cfg(feature = "toml")]
 pub(crate) mod scene;
 pub(crate) mod stacking;
 pub(crate) mod text;

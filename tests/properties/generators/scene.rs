@@ -7,7 +7,9 @@ use cannonpile::scene::{Anchor, Scene, State};
 use cannonpile::stacking::{Pattern, Stacking};
 use num_rational::BigRational;
 
-use super::{number, region, stacking, text};
+use super::{number, region, stacking};
+#[cfg(feature = "toml")]
+use super::{rarely, text};
 
 /// A scene of any numbers that parsers read: the options may exclude each other, and sizes be negative.
 pub(crate) fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
@@ -84,11 +86,12 @@ fn at(u: &mut Unstructured<'_>, dimension: Dimension) -> Result<At> {
 }
 
 /// Some lines that may be a scene file: keys and values of the right kinds, of wrong ones, and damaged.
+#[cfg(feature = "toml")]
 pub(crate) fn file(u: &mut Unstructured<'_>) -> Result<String> {
-    if u.ratio(1, 4)? {
+    if rarely(u, 4)? {
         return Ok(u.arbitrary::<&str>()?.to_owned());
     }
-    let mut lines = if u.ratio(1, 4)? {
+    let mut lines = if rarely(u, 4)? {
         scene(u)?.to_toml()
     } else {
         String::new()
@@ -100,6 +103,7 @@ pub(crate) fn file(u: &mut Unstructured<'_>) -> Result<String> {
     Ok(lines)
 }
 
+#[cfg(feature = "toml")]
 fn key(u: &mut Unstructured<'_>) -> Result<&'static str> {
     u.choose(&[
         "layers",
@@ -126,6 +130,7 @@ fn key(u: &mut Unstructured<'_>) -> Result<&'static str> {
     .copied()
 }
 
+#[cfg(feature = "toml")]
 fn value(u: &mut Unstructured<'_>) -> Result<String> {
     Ok(match u.int_in_range(0..=6)? {
         0 => text::number(u)?.text,

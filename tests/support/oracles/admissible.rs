@@ -81,6 +81,20 @@ impl States {
         let horizontal: BigRational = x.iter().map(|force| force * force).sum();
         sloping + horizontal / stiffness_ratio
     }
+
+    /// How [`energy`](Self::energy) rises with y at x, but for a constant and a factor 2: Σ f(x) a y + Σ X y/ratio.
+    pub(crate) fn slope(&self, x: &[BigRational], stiffness_ratio: &BigRational) -> Affine {
+        let mut slope: Affine = once(BigRational::zero())
+            .chain(x.iter().map(|force| force / stiffness_ratio))
+            .collect();
+        for affine in &self.sloping {
+            let force = at(affine, x);
+            for (slope, a) in slope[1..].iter_mut().zip(&affine[1..]) {
+                *slope += &force * a;
+            }
+        }
+        slope
+    }
 }
 
 /// The value at x.

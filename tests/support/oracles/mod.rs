@@ -7,6 +7,7 @@
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
 //! | `one_by_one` | the forces in all stackings, one by one, at places of the plane |
 //! | `overlap` | the distance of every two spheres |
+//! | `samples` | the stackings that are drawn at random for a seed |
 //! | `sets` | regions and layers as plain sets of sites |
 
 pub(crate) mod admissible;
@@ -14,4 +15,5 @@ pub(crate) mod balance;
 pub(crate) mod elimination;
 pub(crate) mod one_by_one;
 pub(crate) mod overlap;
+pub(crate) mod samples;
 pub(crate) mod sets;
