@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `answers` | all that is said about one straight pile, as plain data |
 //! | `cases`, `compare` | piles of any stacking made twice, for the library and for an oracle; their answers compared |
+//! | `codes` | tables of contacts as codes write them (feature `export`) |
 //! | `disorder` | piles of random stackings made twice |
 //! | `judge` | which float is nearest to a number |
 //! | `oracles` | what the library is compared with |
@@ -18,6 +19,8 @@
 
 pub(crate) mod answers;
 pub(crate) mod cases;
+#[cfg(feature = "export")]
+pub(crate) mod codes;
 pub(crate) mod compare;
 pub(crate) mod disorder;
 pub(crate) mod judge;

@@ -1,10 +1,10 @@
 //! Tables as codes write them: their separators, comments, columns, signs, kinds of contacts and first numbers.
 
 use cannonpile::Pile;
-use cannonpile::shape::Selection;
 use cannonpile::verify::{Columns, Compared, Measured, Preset, Reader, Refusal};
 
 use super::{packing, perfect, ratio};
+use crate::support::codes::{centres, head, row};
 
 fn columns(text: &str) -> Columns {
     text.parse().unwrap()
@@ -146,52 +146,11 @@ fn what_is_not_a_table_is_refused_with_the_remedy() {
     }
 }
 
-fn joined(numbers: &[f64]) -> String {
-    let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
-    texts.join(",")
-}
-
-/// A contact as a code writes it.
-fn row(preset: Preset, measured: &Measured, centres: &[[f64; 3]]) -> String {
-    let ([one, other], force) = (measured.ids, measured.force);
-    let vector = measured.vector.unwrap();
-    let [a, b] = [one, other].map(|id| centres[usize::try_from(id - 1).unwrap()]);
-    let point = joined(&[0, 1, 2].map(|x: usize| a[x].midpoint(b[x])));
-    // Numbers of its own.
-    let [n, m] = [50 - one, 50 - other];
-    match preset {
-        Preset::Lammps => format!("{one},{other},{force:?},{}\n", joined(&vector)),
-        Preset::Yade => format!("{},{},{force:?}\n", one - 1, other - 1),
-        Preset::DemEngine => format!("SS,{n},{m},{},{point}\n", joined(&vector)),
-        Preset::Mddem => format!("{one},{other},{:?},{point},0,0,1\n", force / 1024.0),
-        _ => {
-            let minus = joined(&vector.map(|x| -x));
-            let (a, b) = (joined(&a), joined(&b));
-            format!("{n},{m},0,0,0,-1e-6,{point},{minus},0,0,0,{a},{b}\n")
-        }
-    }
-}
-
-/// What stands before the contacts, a contact with a wall among it; none for a code that writes no tables.
-fn head(preset: Preset) -> Option<&'static str> {
-    Some(match preset {
-        Preset::Lammps => "patom1,patom2,force,fx,fy,fz\n",
-        Preset::Yade => "id1,id2,force\n",
-        Preset::DemEngine => "contact_type,A,B,f_x,f_y,f_z,X,Y,Z\nSM,1,2,0,0,1,0,0,9\n",
-        Preset::Mddem => "i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz\n",
-        Preset::ExaDem => "0,0,0,0,5,-1,0,0,9,1,0,0,0,0,0,0,0,8,0,0,0\n",
-        _ => return None,
-    })
-}
-
 #[test]
 fn every_preset_reads_its_code_and_finds_a_fault_in_it() {
     let pile = Pile::triangular(4).unwrap();
     let packing = packing(&pile, ratio(11, 10));
-    let places = packing.positions(Selection::All).unwrap();
-    let centres: Vec<[f64; 3]> = places
-        .map(|place| place.unwrap().map(|x| x.nearest::<f64>().unwrap()))
-        .collect();
+    let centres = centres(&packing).unwrap();
     for preset in Preset::ALL {
         let Some(head) = head(preset) else { continue };
         let mut reader = Reader::of(preset);

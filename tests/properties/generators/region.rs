@@ -137,6 +137,15 @@ pub(crate) fn described(u: &mut Unstructured<'_>) -> Result<Described> {
     grown(u, from_base, region, signs, weight)
 }
 
+/// The same with weights and loads that are alike.
+#[cfg(feature = "export")]
+pub(crate) fn lightly(u: &mut Unstructured<'_>) -> Result<Described> {
+    let from_base = u.arbitrary()?;
+    let region = small_region(u)?;
+    let signs = stacking::signs(u, 5)?;
+    grown(u, from_base, region, signs, light)
+}
+
 /// A pile of up to four layers, now and then five, small enough for exact programs over all its forces; with light
 /// weights and loads.
 #[cfg(feature = "horizontal")]
@@ -225,7 +234,6 @@ fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 }
 
 /// Nothing, or some weights of a sphere.
-#[cfg(feature = "horizontal")]
 pub(crate) fn light(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(number::ratio(
         u.int_in_range(0..=9)?,
