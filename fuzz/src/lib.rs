@@ -131,12 +131,20 @@ pub fn regions(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// The forces of a small mixed pile are those of the equations of equilibrium, by every way to ask for them.
+/// The forces of a small pile are those of the equations of equilibrium, by every way to ask for them and in every scalar; so are
+/// their extremes and sums.
 #[must_use]
 pub fn engine(bytes: &[u8]) -> Corpus {
     holds(
         bytes,
-        &[claims::engine::every_way, claims::engine::in_floats],
+        &[
+            claims::engine::every_way,
+            claims::engine::in_floats,
+            claims::slices::filled,
+            claims::standing::of_all_forces,
+            claims::bases::any_base,
+            claims::scalars::mixed,
+        ],
     )
 }
 

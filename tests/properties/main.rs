@@ -70,6 +70,10 @@ properties! {
     spheres_of_any_pile_are_numbered_without_gaps: claims::numbered::any_pile, 1024;
     forces_of_mixed_piles_are_one_whoever_is_asked: claims::engine::every_way, 512;
     floats_follow_the_forces_of_mixed_piles: claims::engine::in_floats, 512;
+    slices_are_filled_with_the_forces_or_refused: claims::slices::filled, 256;
+    least_forces_and_sums_are_those_of_all_forces: claims::standing::of_all_forces, 512;
+    other_bases_bear_what_elimination_says: claims::bases::any_base, 256;
+    every_scalar_holds_the_forces_of_mixed_piles: claims::scalars::mixed, 256;
     means_are_those_of_all_stackings: claims::disorder::small, 256;
     means_of_any_size_are_found_or_refused: claims::disorder::any_size, 512;
 }

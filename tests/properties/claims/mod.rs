@@ -9,6 +9,10 @@
 //! | file | the claim |
 //! |---|---|
 //! | `sites` | a pile has its sites and no others |
+//! | `bases` | discs and isosceles bases, with weights and loads, bear what elimination says |
+//! | `scalars` | intervals and narrow rationals hold the forces of mixed piles |
+//! | `slices` | slices are filled with the forces of mixed piles, within the bounds that are told, or refused |
+//! | `standing` | least forces, extremes and sums of mixed piles are those of all forces |
 //! | `equilibrium` | forces on every sphere balance, both ends of a contact agree, the floor bears the weight |
 //! | `floats` | `f32` and `f64` are a few roundings off the exact answer |
 //! | `fixed` | fixed-width rationals are right or say that they overflow |
@@ -36,6 +40,7 @@
 //!
 //! `handed_on` has the oracle's forces of what a generator describes.
 
+pub(crate) mod bases;
 #[cfg(feature = "horizontal")]
 pub(crate) mod certificates;
 pub(crate) mod disorder;
@@ -65,11 +70,14 @@ pub(crate) mod parsers;
 #[cfg(feature = "export")]
 pub(crate) mod recorded;
 pub(crate) mod regions;
+pub(crate) mod scalars;
 pub(crate) mod scene;
 #[cfg(feature = "toml")]
 pub(crate) mod scene_file;
 pub(crate) mod sites;
+pub(crate) mod slices;
 pub(crate) mod stackings;
+pub(crate) mod standing;
 
 use core::fmt::{self, Debug, Display};
 

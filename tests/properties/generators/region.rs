@@ -125,15 +125,15 @@ impl Described {
     }
 }
 
-/// A pile of up to six layers, small enough to look at every sphere, with weights and loads.
+/// A pile of up to six layers, under one sphere ten, small enough to look at every sphere, with weights and loads.
 pub(crate) fn described(u: &mut Unstructured<'_>) -> Result<Described> {
     let from_base = u.arbitrary()?;
-    let region = if rarely(u, 4)? {
-        Region::SITE
+    let (region, most) = if rarely(u, 4)? {
+        (Region::SITE, 9)
     } else {
-        small_region(u)?
+        (small_region(u)?, 5)
     };
-    let signs = stacking::signs(u, 5)?;
+    let signs = stacking::signs(u, most)?;
     grown(u, from_base, region, signs, weight)
 }
 
@@ -161,7 +161,7 @@ pub(crate) fn tiny(u: &mut Unstructured<'_>) -> Result<Described> {
         (Region::SITE, if rarely(u, 8)? { 4 } else { 3 })
     };
     // Of fewer layers nearly all stand alone.
-    let fewer = [0, 0, 1, 2][u.choose_index(4)?];
+    let fewer = [1, 0, 2, 0][u.choose_index(4)?];
     let steps = most.saturating_sub(fewer);
     let signs = stacking::signs_of(u, steps)?;
     grown(u, from_base, region, signs, light)
@@ -223,7 +223,7 @@ fn base(u: &mut Unstructured<'_>, top: Region, signs: &[Sign]) -> Result<Region>
 }
 
 /// Nothing, little, or so much that it fills many words.
-fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
+pub(crate) fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(match u.int_in_range(0..=4)? {
         0 => number::ratio(0, 1),
         1 => number::ratio(u.int_in_range(1..=9)?, 1),

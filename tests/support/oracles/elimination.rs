@@ -17,6 +17,15 @@ use crate::support::answers::{Answers, Contact, Shape, Sphere, below, ratio};
 ///
 /// The unit f₀ of force is chosen so that a sphere weighs 2(1+s) f₀ cosθ, or 2 f₀ cosθ for discs.
 pub(crate) fn solve(shape: &Shape, layers: i128) -> Answers {
+    solve_loaded(shape, layers, |_| BigRational::one())
+}
+
+/// The same where on each sphere acts what is told, in mg, its weight included.
+pub(crate) fn solve_loaded(
+    shape: &Shape,
+    layers: i128,
+    acting: impl Fn(Site) -> BigRational,
+) -> Answers {
     let weight = match shape {
         Shape::Discs => ratio(2, 1),
         Shape::Spheres(s) => (s + BigRational::one()) * ratio(2, 1),
@@ -25,7 +34,8 @@ pub(crate) fn solve(shape: &Shape, layers: i128) -> Answers {
     let mut answers = Answers::none(shape, layers, weight);
     for site in shape.sites(layers) {
         let sphere = receive(&answers, &e, site);
-        let load = sphere.resultant_above.clone() + &answers.weight_vector();
+        let weight = times(&answers.weight_vector(), &acting(site));
+        let load = sphere.resultant_above.clone() + &weight;
         answers.spheres.insert(site, sphere);
         if site.k == layers - 1 {
             let in_mg = load.map(|c| c / &answers.weight);
