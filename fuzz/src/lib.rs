@@ -47,6 +47,7 @@ pub fn overlap(bytes: &[u8]) -> Corpus {
             claims::overlap::of_a_spacing,
             claims::overlap::of_two_spheres,
             claims::packing::one_sphere,
+            claims::packing::one_row,
         ],
     )
 }
@@ -170,11 +171,18 @@ pub fn horizontal(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::horizontal::any_pile])
 }
 
-/// Whatever is changed in a certificate: what is accepted is true.
+/// Whatever is changed in a certificate, or in its file: what is accepted is true.
 #[cfg(feature = "horizontal")]
 #[must_use]
 pub fn certificates(bytes: &[u8]) -> Corpus {
-    holds(bytes, &[claims::certificates::changed])
+    holds(
+        bytes,
+        &[
+            claims::certificates::changed,
+            #[cfg(feature = "serde")]
+            claims::certificates::damaged,
+        ],
+    )
 }
 
 /// The checker in Python and the library's come to one verdict.

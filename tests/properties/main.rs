@@ -53,6 +53,7 @@ properties! {
     rationals_round_to_the_nearest_float: claims::nearest::of_a_rational, 1024;
     roots_are_ordered_as_their_squares: claims::order::of_two_roots, 1024;
     roots_of_squares_are_rational: claims::order::of_a_square, 256;
+    rows_of_places_are_nearest_floats: claims::packing::one_row, 512;
     packings_are_as_the_geometry_says: claims::packing::one_sphere, 256;
     spacings_are_allowed_just_if_no_spheres_overlap: claims::overlap::of_a_spacing, 256;
     distances_are_the_quadratic_form: claims::overlap::of_two_spheres, 256;
@@ -60,6 +61,7 @@ properties! {
     parsers_survive_any_text: claims::parsers::any_text, 1024;
     numbers_are_read_as_written: claims::parsers::a_number, 1024;
     what_is_printed_is_read_back: claims::parsers::a_value, 512;
+    words_are_read_as_they_are_printed: claims::parsers::any_word, 2048;
     every_scalar_keeps_the_laws: claims::laws::one_scalar, 4096;
     ratios_are_in_lowest_terms: claims::laws::ratios_of_integers, 512;
     stackings_are_read_by_the_rules: claims::stackings::any_text, 2048;
@@ -82,6 +84,11 @@ properties! {
 properties! {
     what_can_be_borne_is_what_an_exact_program_says: claims::horizontal::any_pile, 192;
     what_a_checker_accepts_is_true: claims::certificates::changed, 384;
+}
+
+#[cfg(all(feature = "horizontal", feature = "serde"))]
+properties! {
+    damaged_certificates_are_refused_or_true: claims::certificates::damaged, 512;
 }
 
 #[cfg(all(feature = "export", feature = "horizontal", feature = "serde"))]

@@ -5,20 +5,24 @@
 //! second checker, in Python, is asked by way of [`python_checker`](crate::support::python_checker).
 
 use arbitrary::Unstructured;
+use cannonpile::Pile;
 use cannonpile::certificate::{Certificate, Claim, Extreme};
+use cannonpile::lattice::{Axis, HorizontalContact, Site};
 use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::horizontal::{Drawn, contact, drawn, negative};
 use super::{Checked, Failure, demand};
 use crate::generators::number::ratio;
+use crate::generators::rarely;
+use crate::generators::region::light;
 use crate::support::oracles::admissible::at;
 use crate::support::oracles::balance::place;
 
 /// What is accepted is true.
 pub(crate) fn changed(u: &mut Unstructured<'_>) -> Checked {
-    let drawn = drawn(u)?;
-    let certificate = any(u, &drawn)?;
+    let mut drawn = drawn(u)?;
+    let certificate = any(u, &mut drawn)?;
     let accepted = certificate.check().is_ok();
     demand(!accepted || is_true(&drawn, &certificate), || {
         format!("accepted, and not true: {certificate:?}")
@@ -33,8 +37,8 @@ pub(crate) fn judged_twice(u: &mut Unstructured<'_>) -> Checked {
     use super::same;
     use crate::support::python_checker;
 
-    let drawn = drawn(u)?;
-    let certificate = any(u, &drawn)?;
+    let mut drawn = drawn(u)?;
+    let certificate = any(u, &mut drawn)?;
     let refuted = |error: std::io::Error| Failure::Refuted(format!("{error}: {certificate:?}"));
     let mut file = Vec::new();
     write_certificate(&certificate, &mut file).map_err(refuted)?;
@@ -51,8 +55,69 @@ pub(crate) fn judged_twice(u: &mut Unstructured<'_>) -> Checked {
     })
 }
 
-/// One of the certificates of the pile, with a few changes.
-fn any(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Certificate, Failure> {
+/// A file with some letters exchanged is refused, or what is read comes back and is true if it is accepted.
+#[cfg(feature = "serde")]
+pub(crate) fn damaged(u: &mut Unstructured<'_>) -> Checked {
+    use cannonpile::serde::{read_certificate, read_certificates, write_certificate};
+
+    use super::same;
+
+    let mut drawn = drawn(u)?;
+    let certificate = any(u, &mut drawn)?;
+    let refuted = |error: std::io::Error| Failure::Refuted(error.to_string());
+    let mut file = Vec::new();
+    write_certificate(&certificate, &mut file).map_err(refuted)?;
+    for _ in 0..u.int_in_range(1..=3)? {
+        let place = u.choose_index(file.len())?;
+        match (u.int_in_range(0..=5)?, file.get_mut(place)) {
+            (0, _) => file.truncate(place),
+            (1, _) => drop(file.drain(place..=place)),
+            (_, Some(byte)) => *byte = *u.choose(b"0129-+/.,:\"{}[]ahtf\n\xff")?,
+            (_, None) => {}
+        }
+    }
+    let several = read_certificates(&*file);
+    let Ok(read) = read_certificate(&*file) else {
+        return Ok(());
+    };
+    same("the only one", &several.ok(), &Some(vec![read.clone()]))?;
+    let mut again = Vec::new();
+    write_certificate(&read, &mut again).map_err(refuted)?;
+    same(
+        "what was read back",
+        &read_certificate(&*again).ok(),
+        &Some(read.clone()),
+    )?;
+    // Of another pile the truth is not known.
+    let holds = read.check().is_err() || read.pile != drawn.pile || is_true(&drawn, &read);
+    demand(holds, || format!("accepted, and not true: {read:?}"))
+}
+
+/// One of the certificates of the pile, with a few changes, now and then of the pile too: then it is that of another.
+fn any(u: &mut Unstructured<'_>, drawn: &mut Drawn) -> Result<Certificate, Failure> {
+    let mut certificate = given(u, drawn)?;
+    for _ in 0..u.int_in_range(0..=3)? {
+        change(u, drawn, &mut certificate)?;
+    }
+    if rarely(u, 4)? {
+        *drawn = another(u, drawn)?;
+        certificate.pile = drawn.pile.clone();
+    }
+    Ok(certificate)
+}
+
+/// The same pile with a load more, or any.
+fn another(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Drawn, Failure> {
+    if rarely(u, 3)? {
+        return super::horizontal::drawn(u);
+    }
+    let sites: Vec<_> = drawn.pile.shape().sites().collect();
+    let (site, load) = (*u.choose(&sites)?, light(u)?);
+    Ok(drawn.loaded(site, load)?)
+}
+
+/// What the library says of it.
+fn given(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Certificate, Failure> {
     let Drawn { pile, bottom, .. } = drawn;
     let bounds = || pile.bounds(*bottom).ok();
     let given = match u.int_in_range(0..=3)? {
@@ -64,18 +129,14 @@ fn any(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Certificate, Failure> 
         2 => bounds().and_then(|bounds| bounds.least.certificate),
         _ => bounds().and_then(|bounds| bounds.greatest.certificate),
     };
-    let mut certificate = match given {
+    Ok(match given {
         Some(certificate) => certificate,
         // What cannot stand has no other.
         None => pile.equilibrium()?,
-    };
-    for _ in 0..u.int_in_range(0..=3)? {
-        change(u, drawn, &mut certificate)?;
-    }
-    Ok(certificate)
+    })
 }
 
-/// Another number, another claim, or the same proof twice as large.
+/// Another number, another claim, another site, inside or not, or the same proof twice as large.
 fn change(
     u: &mut Unstructured<'_>,
     drawn: &Drawn,
@@ -91,12 +152,24 @@ fn change(
         horizontal,
         field,
     } = certificate;
-    match u.int_in_range(0..=4)? {
+    match u.int_in_range(0..=6)? {
         0 => {
-            let sites: Vec<_> = pile.shape().sites().collect();
             let directions = pile.dimension().directions();
             let direction = *u.choose(directions)?;
-            field.entry(*u.choose(&sites)?).or_default()[direction.index()] += more;
+            field.entry(sphere(u, pile)?).or_default()[direction.index()] += more;
+        }
+        4 => {
+            // Beside the pile there are none, nor on the floor.
+            let axis = *u.choose(&[Axis::AlphaBeta, Axis::AlphaGamma, Axis::GammaBeta])?;
+            let site = sphere(u, pile)?;
+            *horizontal
+                .entry(HorizontalContact { site, axis })
+                .or_default() += more;
+        }
+        5 => {
+            if let Claim::Least(extreme) | Claim::Greatest(extreme) = claim {
+                extreme.site = sphere(u, pile)?;
+            }
         }
         1 => {
             if let Ok(pair) = u.choose(&drawn.states.contacts) {
@@ -140,6 +213,18 @@ fn change(
     Ok(())
 }
 
+/// A site of the pile, or up to a step beside it.
+fn sphere(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
+    let sites: Vec<_> = pile.shape().sites().collect();
+    let mut site = *u.choose(&sites)?;
+    if rarely(u, 3)? {
+        for place in [&mut site.i, &mut site.j, &mut site.k] {
+            *place += u.int_in_range(-1..=1)?;
+        }
+    }
+    Ok(site)
+}
+
 /// Whether a claim holds, by the exact programs over all states that only push.
 fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
     let Drawn { states, corner, .. } = drawn;
@@ -153,7 +238,12 @@ fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
                 let force = certificate.horizontal.get(&contact(*pair));
                 force.cloned().unwrap_or_default()
             });
-            has_least_energy(drawn, stiffness_ratio, &x.collect::<Vec<_>>())
+            let x: Vec<_> = x.collect();
+            let of_contacts = x.iter().filter(|force| !force.is_zero()).count();
+            let given = certificate.horizontal.values();
+            // A force where no spheres touch is none of the pile's.
+            let has_others = given.filter(|force| !force.is_zero()).count() > of_contacts;
+            !has_others && has_least_energy(drawn, stiffness_ratio, &x)
         }
         _ => false,
     }

@@ -19,11 +19,14 @@ use crate::generators::number::ratio;
 use crate::generators::rarely;
 use crate::generators::region::{light, tiny};
 use crate::support::oracles::admissible::{Affine, Corner, Pair, States, at, of_discs};
-use crate::support::oracles::balance::{Balance, place, site};
+use crate::support::oracles::balance::{Balance, Forces, place, site};
 
 /// A tiny pile, by the library and by the oracle.
 pub(super) struct Drawn {
     pub(super) pile: Pile,
+    balance: Balance,
+    /// What solves it.
+    solve: fn(&Balance) -> Forces,
     pub(super) states: States,
     /// One of them that only pushes, if there is any.
     pub(super) corner: Option<Corner>,
@@ -45,6 +48,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
         corner,
         bottom,
         stiffness_ratio,
+        ..
     } = drawn;
     let refused = |what: &str, error: Error| {
         let witness = format!("{what} of {pile:?} refused: {error}");
@@ -94,7 +98,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
 
 pub(super) fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
     let stiffness_ratio = ratio(u.int_in_range(1..=9)?, u.int_in_range(1..=9)?);
-    let (pile, balance, forces): (_, _, fn(&Balance) -> _) = if rarely(u, 8)? {
+    let (pile, balance, solve): (_, _, fn(&Balance) -> _) = if rarely(u, 8)? {
         let (pile, balance) = discs(u)?;
         (pile, balance, of_discs)
     } else {
@@ -102,15 +106,36 @@ pub(super) fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
         let pile = described.pile()?;
         (pile, balance_of(&described), Balance::forces)
     };
-    let states = States::of(&balance, forces);
+    let states = States::of(&balance, solve);
     let bottoms: Vec<Site> = states.normals.keys().map(|place| site(*place)).collect();
     Ok(Drawn {
         bottom: *u.choose(&bottoms)?,
         corner: states.pushing(),
         pile,
+        balance,
+        solve,
         states,
         stiffness_ratio,
     })
+}
+
+impl Drawn {
+    /// The same with one load more.
+    pub(super) fn loaded(&self, site: Site, load: BigRational) -> Result<Self, Error> {
+        let mut balance = self.balance.clone();
+        let weight = balance.weight(place(site)) + &load;
+        balance.weights.insert(place(site), weight);
+        let states = States::of(&balance, self.solve);
+        Ok(Self {
+            pile: self.pile.clone().with_load(site, load)?,
+            balance,
+            solve: self.solve,
+            corner: states.pushing(),
+            states,
+            bottom: self.bottom,
+            stiffness_ratio: self.stiffness_ratio.clone(),
+        })
+    }
 }
 
 /// Up to six layers of discs, some with loads.
@@ -286,6 +311,8 @@ mod planted {
         let pile = Pile::triangular(4).unwrap();
         Drawn {
             pile: pile.with_load(site, load).unwrap(),
+            balance,
+            solve: Balance::forces,
             corner: states.pushing(),
             states,
             bottom: Site { i: 0, j: 0, k: 3 },
@@ -306,11 +333,14 @@ mod planted {
     /// HCP of six layers stands only with horizontal contacts.
     #[test]
     fn what_needs_pushes_passes() {
-        let states = States::of(&Balance::under(&[(0, 0)].into(), "+-+-+"), Balance::forces);
+        let balance = Balance::under(&[(0, 0)].into(), "+-+-+");
+        let states = States::of(&balance, Balance::forces);
         let pile = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
         assert!(!states.push(&vec![ratio(0, 1); states.contacts.len()]));
         let drawn = Drawn {
             pile,
+            balance,
+            solve: Balance::forces,
             corner: states.pushing(),
             states,
             bottom: Site { i: 1, j: 0, k: 5 },

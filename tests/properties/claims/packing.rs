@@ -6,14 +6,14 @@
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Spacing;
-use cannonpile::lattice::{Dimension, Direction, Site};
+use cannonpile::lattice::{Dimension, Direction, Row, Site};
 use cannonpile::scalar::Surd;
-use cannonpile::{Packing, Pile};
+use cannonpile::{Error, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::nearest::nearest;
-use super::{Checked, same};
+use super::{Checked, demand, same};
 use crate::generators::number::ratio;
 use crate::generators::pile;
 use crate::support::judge::Value;
@@ -38,6 +38,71 @@ pub(crate) fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
     agree(&vector, &oracle.contact_vector(site, direction))?;
     same("|f|²", &squared_length(&vector), &force.square())?;
     touches(&packing, site, direction)
+}
+
+/// Whole rows of places and of points of contact are the nearest floats; rows that are not in the pile are refused.
+pub(crate) fn one_row(u: &mut Unstructured<'_>) -> Checked {
+    let pile = pile::roomy_pile(u)?;
+    let spacing = pile::roomy_spacing(u, &pile)?;
+    let packing = pile::sizes(u)?.packing(&pile, &spacing)?;
+    let Site { i, j, k } = pile::site(u, &pile)?;
+    let direction = pile::direction(u, &pile)?;
+    let (length, spheres) = (u.int_in_range(1..=6)?, k - j + 1);
+    let row = Row {
+        k,
+        j,
+        i: i..i + length,
+    };
+    let is_inside = row.i.end <= spheres;
+    let places = packing.places::<f64>();
+    let filled = fill(length, |slices| places.fill_row(&row, slices));
+    are_nearest(&row, filled, is_inside, |site| packing.position(site))?;
+    let filled = fill(length, |slices| {
+        places.fill_row_of_contacts(&row, direction, slices)
+    });
+    let has_contacts = is_inside && k < pile.layers() - 1;
+    are_nearest(&row, filled, has_contacts, |site| {
+        packing.contact_point(site, direction)
+    })?;
+    let others = fill(length + 1, |slices| places.fill_row(&row, slices));
+    let is_refused = matches!(others, Err(Error::Length { .. }));
+    demand(is_refused, || format!("{row:?} in longer slices"))
+}
+
+/// What is written into slices of so many floats.
+fn fill(
+    length: i128,
+    fill: impl FnOnce([&mut [f64]; 3]) -> Result<(), Error>,
+) -> Result<[Vec<f64>; 3], Error> {
+    let mut slices = [(); 3].map(|()| vec![0.0; usize::try_from(length).unwrap_or(0)]);
+    fill(slices.each_mut().map(Vec::as_mut_slice))?;
+    Ok(slices)
+}
+
+/// A row that is there has the nearest floats, or one is beyond them; another is refused.
+fn are_nearest(
+    row: &Row,
+    filled: Result<[Vec<f64>; 3], Error>,
+    is_there: bool,
+    place: impl Fn(Site) -> Result<[Surd; 3], Error>,
+) -> Checked {
+    if !is_there {
+        return demand(filled.is_err(), || format!("{row:?} is filled"));
+    }
+    let mut wanted = [(); 3].map(|()| Vec::new());
+    for site in row.clone() {
+        for (slice, x) in wanted.iter_mut().zip(place(site)?) {
+            slice.push(x.nearest::<f64>());
+        }
+    }
+    if wanted.iter().flatten().any(Option::is_none) {
+        let refused = matches!(filled, Err(Error::Overflow { .. }));
+        return demand(refused, || {
+            format!("{row:?}: {filled:?} of what no float holds")
+        });
+    }
+    let filled = filled?.map(|slice| slice.into_iter().map(Some).collect());
+    same("a row of places", &filled, &wanted)
 }
 
 /// The contact point is one radius away from the centre of the sphere, and of the one below it.

@@ -4,11 +4,20 @@
 //! library, whose float parser rounds correctly; and printing what was read and reading it again.
 
 use core::fmt::{Debug, Display};
+use core::str::FromStr;
 
 use arbitrary::Unstructured;
-use cannonpile::lattice::{Dimension, Direction};
-use cannonpile::scalar::NearestFloat;
+use cannonpile::disorder::FirstSign;
+#[cfg(feature = "ensemble")]
+use cannonpile::disorder::Shard;
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Axis, Dimension, Direction, Region, Sign};
+use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::scene::State;
 use cannonpile::scene::parse::{self, At};
+use cannonpile::stacking::Pattern;
+#[cfg(feature = "export")]
+use cannonpile::verify::{Columns, Preset};
 use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 
@@ -88,6 +97,45 @@ pub(crate) fn a_value(u: &mut Unstructured<'_>) -> Checked {
     reads_back(str::parse::<Direction>, &direction, &direction)
 }
 
+/// Every parser of an option on any word: what it reads is printed as something that is read as the same.
+pub(crate) fn any_word(u: &mut Unstructured<'_>) -> Checked {
+    let text = text::word(u)?;
+    comes_back::<Region>(&text)?;
+    comes_back::<Surd>(&text)?;
+    comes_back::<Spacing>(&text)?;
+    comes_back::<Pattern>(&text)?;
+    comes_back::<FirstSign>(&text)?;
+    #[cfg(feature = "ensemble")]
+    comes_back::<Shard>(&text)?;
+    comes_back::<State>(&text)?;
+    comes_back::<Sign>(&text)?;
+    comes_back::<Axis>(&text)?;
+    #[cfg(feature = "export")]
+    comes_back::<Columns>(&text)?;
+    #[cfg(feature = "export")]
+    comes_back::<Preset>(&text)?;
+    load(&text, Dimension::Two)?;
+    load(&text, Dimension::Three)
+}
+
+fn comes_back<T: FromStr<Err = Error> + PartialEq + Debug + Display>(text: &str) -> Checked {
+    match text.parse::<T>() {
+        Ok(value) => reads_back(str::parse::<T>, &value, &value),
+        Err(refusal) => one_line(&refusal),
+    }
+}
+
+fn load(text: &str, dimension: Dimension) -> Checked {
+    let parse = |text: &str| parse::load(text, dimension);
+    match parse(text) {
+        Ok(value) => {
+            let shown = format!("{}={}", written(&value.0, dimension), value.1);
+            reads_back(parse, &shown, &value)
+        }
+        Err(refusal) => one_line(&refusal),
+    }
+}
+
 /// What `shown` prints is read as `value`.
 fn reads_back<T: PartialEq + Debug>(
     parse: impl Fn(&str) -> Result<T, Error>,
@@ -142,6 +190,31 @@ mod planted {
         let tenth = ratio(1, 10);
         assert!(reads_back(parse::rational, &tenth, &tenth).is_ok());
         assert!(reads_back(rounded, &tenth, &tenth).is_err());
+    }
+
+    /// Prints another sign than it reads.
+    #[derive(Debug, PartialEq)]
+    struct Careless(i128);
+
+    impl FromStr for Careless {
+        type Err = Error;
+
+        fn from_str(text: &str) -> Result<Self, Error> {
+            parse::integer(text).map(Self)
+        }
+    }
+
+    impl Display for Careless {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            write!(f, "{}", self.0.abs())
+        }
+    }
+
+    #[test]
+    fn a_value_that_prints_as_another_is_caught() {
+        assert!(comes_back::<Careless>("5").is_ok());
+        assert!(comes_back::<Careless>("-5").is_err());
+        assert!(comes_back::<Careless>("five").is_ok());
     }
 
     #[test]

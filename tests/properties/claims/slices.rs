@@ -8,7 +8,7 @@ use cannonpile::shape::Selection;
 use cannonpile::{Error, Forces, Layers};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 use super::handed_on::{Contacts, Solved, contacts_of, floor_of};
 use super::{Checked, demand, same};
@@ -234,7 +234,7 @@ mod planted {
         assert!(are_nearest::<f64>(&got, Ok(()), &wanted).is_ok());
         got[1][0] = got[1][0].next_up();
         assert!(are_nearest::<f64>(&got, Ok(()), &wanted).is_err());
-        let wide = [0, 1, 2].map(|_| vec![BigRational::one() * BigInt::from(10).pow(400)]);
+        let wide = [0, 1, 2].map(|_| vec![crate::generators::number::power(10, 400)]);
         assert!(are_nearest::<f64>(&got, Ok(()), &wide).is_err());
     }
 }

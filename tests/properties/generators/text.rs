@@ -4,7 +4,7 @@ use arbitrary::{Result, Unstructured};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::number;
+use super::{number, region, stacking};
 
 /// A number as somebody may write it, and its value.
 pub(crate) struct Written {
@@ -107,16 +107,110 @@ fn valid(u: &mut Unstructured<'_>) -> Result<String> {
     })
 }
 
+/// What the parsers of an option read: a region, a root, a stacking, columns, a load, a part, a word; damaged now and then.
+pub(crate) fn word(u: &mut Unstructured<'_>) -> Result<String> {
+    let valid = match u.int_in_range(0..=7)? {
+        0 => {
+            let region = region::region(u)?;
+            if u.arbitrary()? {
+                format!("{region:#}")
+            } else {
+                region.to_string()
+            }
+        }
+        1 => {
+            let [p, q] = [number::machine_integer(u)?, u.int_in_range(-1..=9)?];
+            format!(
+                "{}:{p},{q}",
+                ["hexagon", "triangle", "region"][u.choose_index(3)?]
+            )
+        }
+        2 => {
+            let (coefficient, radicand) = number::root(u)?;
+            format!("{coefficient}*sqrt({radicand})")
+        }
+        3 => stacking::text(u)?,
+        4 => columns(u)?,
+        5 => {
+            let [k, i] = [number::machine_integer(u)?, u.int_in_range(-1..=9)?];
+            format!("{k},{i},0={}", number(u)?.text)
+        }
+        6 => format!("{}/{}", u.int_in_range(0..=9)?, u.arbitrary::<u64>()?),
+        _ => (*u.choose(&WORDS)?).to_owned(),
+    };
+    match u.int_in_range(0..=2)? {
+        0 => Ok(valid),
+        1 => damaged(u, &valid),
+        _ => damaged_by(u, &valid, &MARKS),
+    }
+}
+
+/// What options are, whole.
+const WORDS: [&str; 20] = [
+    "fcc",
+    "hcp",
+    "dhcp",
+    "plus",
+    "minus",
+    "random",
+    "+",
+    "-",
+    "elastic",
+    "isostatic",
+    "lammps",
+    "yade",
+    "exadem-vtp",
+    "dem-engine",
+    "mddem",
+    "lethe",
+    "alpha-beta",
+    "sqrt(2)",
+    "-sqrt(1/3)",
+    "hexagon:3",
+];
+
+/// What options are made of, beside numbers.
+const MARKS: [char; 20] = [
+    '*', '=', '#', ':', '|', ',', '+', '-', '.', '(', ')', 's', 'q', 'h', 'x', '0', '1', '9', ' ',
+    'A',
+];
+
+/// Columns of some table.
+fn columns(u: &mut Unstructured<'_>) -> Result<String> {
+    const QUANTITIES: [&str; 8] = ["id1", "id2", "force", "fx", "fz", "x", "x1", "kind"];
+    const TERMS: [&str; 12] = [
+        "A",
+        "#1",
+        "-#10-#13",
+        "1e7*overlap",
+        "-f_x",
+        "a+-b",
+        "#5:0|1|2",
+        "t:SS",
+        "2.5*a+b",
+        "0.1*#3",
+        "-1e-300*A",
+        "c_1[2]",
+    ];
+    let count = u.int_in_range(1..=4)?;
+    let name = |_| Ok(format!("{}={}", u.choose(&QUANTITIES)?, u.choose(&TERMS)?));
+    Ok((0..count).map(name).collect::<Result<Vec<_>>>()?.join(","))
+}
+
 /// `text` with up to three characters replaced, added or taken away.
 pub(crate) fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
     // What numbers are made of, and what looks like it: other digits, spaces, signs, no text at all.
     const INTRUDERS: [char; 16] = [
         '+', '-', '.', '/', ',', 'e', 'E', '_', '0', '9', ' ', '\t', '\0', '٣', '−', '𝟙',
     ];
+    damaged_by(u, text, &INTRUDERS)
+}
+
+fn damaged_by(u: &mut Unstructured<'_>, text: &str, intruders: &[char]) -> Result<String> {
     let mut letters: Vec<char> = text.chars().collect();
     for _ in 0..u.int_in_range(1..=3)? {
         let place = u.int_in_range(0..=letters.len())?;
-        let intruder = *u.choose(&INTRUDERS)?;
+        let intruder = *u.choose(intruders)?;
         match (u.int_in_range(0..=2)?, letters.get_mut(place)) {
             (0, Some(letter)) => *letter = intruder,
             (1, Some(_)) => drop(letters.remove(place)),
