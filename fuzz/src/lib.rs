@@ -61,6 +61,7 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
             claims::parsers::any_text,
             claims::parsers::a_number,
             claims::parsers::a_value,
+            claims::parsers::any_word,
             claims::scene::any_scene,
             #[cfg(feature = "toml")]
             claims::scene_file::written,
