@@ -253,7 +253,7 @@ mod planted {
             |floor| floor[0].normal = f64::NAN,
             |floor| floor[1].shear_x = f64::INFINITY,
             |floor| floor[2].shear_y += 1e-9,
-            |floor| drop(floor.pop()),
+            |floor| floor.truncate(2),
         ];
         for spoil in spoils {
             let mut wrong = right.clone();

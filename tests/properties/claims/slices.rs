@@ -221,7 +221,9 @@ mod planted {
     #[test]
     fn slices_of_any_length_are_caught() {
         let careless = |slices: [&mut [f64]; 3]| {
-            slices.into_iter().for_each(|slice| slice.fill(1.0));
+            for slice in slices {
+                slice.fill(1.0);
+            }
             Ok(())
         };
         assert!(fill(4, careless).is_err());

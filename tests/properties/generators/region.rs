@@ -234,6 +234,7 @@ pub(crate) fn weight(u: &mut Unstructured<'_>) -> Result<BigRational> {
 }
 
 /// Nothing, or some weights of a sphere.
+#[cfg(any(feature = "export", feature = "horizontal"))]
 pub(crate) fn light(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(number::ratio(
         u.int_in_range(0..=9)?,
