@@ -308,22 +308,59 @@ Proof. intros. repeat split; opened; ring. Qed.
 Theorem spheres_in_dimension_2 : forall L, total L (fun k => spheres_in_layer_2 (n_of k)) == spheres_2 (n_of L).
 Proof. intros L. apply (total_is spheres_in_layer_2 spheres_2); closed. Qed.
 
-
 Theorem spheres_in_dimension_3 : forall L, total L (fun k => spheres_in_layer_3 (n_of k)) == spheres_3 (n_of L).
 Proof. intros L. apply (total_is spheres_in_layer_3 spheres_3); closed. Qed.
-
 
 Theorem spheres_in_dimension_4 : forall L, total L (fun k => spheres_in_layer_4 (n_of k)) == spheres_4 (n_of L).
 Proof. intros L. apply (total_is spheres_in_layer_4 spheres_4); closed. Qed.
 
-
 Theorem spheres_in_dimension_5 : forall L, total L (fun k => spheres_in_layer_5 (n_of k)) == spheres_5 (n_of L).
 Proof. intros L. apply (total_is spheres_in_layer_5 spheres_5); closed. Qed.
-
 
 Theorem spheres_in_dimension_6 : forall L, total L (fun k => spheres_in_layer_6 (n_of k)) == spheres_6 (n_of L).
 Proof. intros L. apply (total_is spheres_in_layer_6 spheres_6); closed. Qed.
 
+(** C(L+d-1, d): of the product of L, L+1, ..., L+d-1 the d!-th part. *)
+Fixpoint choose (d : nat) (L : Q) : Q :=
+  match d with
+  | O => 1
+  | S m => choose m L * (L + n_of m) / (n_of m + 1)
+  end.
+
+Lemma n_of_S_is_not_0 : forall n, ~ n_of n + 1 == 0.
+Proof. intros n. assert (N := n_of_not_negative n). lra. Qed.
+
+(** As many spheres have L layers. *)
+Theorem spheres_in_dimensions : forall L,
+  spheres_2 L == choose 2 L /\ spheres_3 L == choose 3 L /\ spheres_4 L == choose 4 L /\
+  spheres_5 L == choose 5 L /\ spheres_6 L == choose 6 L.
+Proof.
+  intros. cbn [choose]. rewrite ?n_of_S, ?n_of_0. repeat split; opened; field; repeat split; intro H; discriminate H.
+Qed.
+
+Lemma choose_of_next : forall d x, choose d (x + 1) * x == choose d x * (x + n_of d).
+Proof.
+  induction d as [|d IH]; intros x; cbn [choose]; [rewrite n_of_0; ring|].
+  assert (N := n_of_S_is_not_0 d). transitivity (choose d (x + 1) * x * (x + 1 + n_of d) / (n_of d + 1)); [field; assumption|].
+  rewrite IH, n_of_S. field. assumption.
+Qed.
+
+Lemma choose_respects : forall d, respects (choose d).
+Proof.
+  induction d as [|d IH]; intros x y H; cbn [choose]; [reflexivity|]. rewrite (IH x y H), H. reflexivity.
+Qed.
+
+(** In every dimension the layers are the pile: the sum of C(k+d, d) over k < L is C(L+d, d+1). *)
+Theorem spheres_in_any_dimension : forall d L, total L (fun k => choose d (n_of k + 1)) == choose (S d) (n_of L).
+Proof.
+  intros d L. apply (total_is (fun k => choose d (k + 1)) (choose (S d))).
+  - apply choose_respects.
+  - induction d as [|d IH]; [cbn [choose]; rewrite n_of_0; reflexivity|].
+    change (choose (S d) 0 * (0 + n_of (S d)) / (n_of (S d) + 1) == 0). rewrite IH. field. apply n_of_S_is_not_0.
+  - intros x. cbn [choose]. assert (N := n_of_S_is_not_0 d).
+    transitivity (choose d x * (x + n_of d) / (n_of d + 1) + choose d (x + 1)); [|reflexivity].
+    rewrite <- (choose_of_next d x). field. assumption.
+Qed.
 
 (** The normal forces sum to the weight. *)
 Theorem weight_arrives_in_dimensions : forall L,

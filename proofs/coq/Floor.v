@@ -104,6 +104,13 @@ Proof.
     spheres_in_layer_3 (fun x => (x * x * x + 3 * x * x + 2 * x) * (1 # 6)). closed.
 Qed.
 
+(** There are (k+1)(k+2)/2 in layer k, and L(L+1)(L+2)/6 in all. *)
+Theorem spheres_of_a_layer_are : forall k, total_over_layer k (fun _ _ => 1) == (n_of k + 1) * (n_of k + 2) / 2.
+Proof. intros k. rewrite spheres_in_a_layer. formulas. field. Qed.
+
+Theorem spheres_are : forall L, total_over_pile L (fun _ _ _ => 1) == n_of L * (n_of L + 1) * (n_of L + 2) / 6.
+Proof. intros L. rewrite spheres_of_a_pile. formulas. field. Qed.
+
 (** ** The weight arrives
 
     The base is layer k = L-1, so that L is k + 1. *)

@@ -47,7 +47,12 @@ const NAMED: &[Named] = &[
     ("rotation", &["Straight.rotation"], &[]),
     (
         "spheres",
-        &["Floor.spheres_in_a_layer", "Floor.spheres_of_a_pile"],
+        &[
+            "Floor.spheres_in_a_layer",
+            "Floor.spheres_of_a_layer_are",
+            "Floor.spheres_of_a_pile",
+            "Floor.spheres_are",
+        ],
         &[],
     ),
     (
@@ -170,6 +175,8 @@ const NAMED: &[Named] = &[
             "Counts.spheres_in_dimension_4",
             "Counts.spheres_in_dimension_5",
             "Counts.spheres_in_dimension_6",
+            "Counts.spheres_in_dimensions",
+            "Counts.spheres_in_any_dimension",
             "Counts.weight_arrives_in_dimensions",
         ],
         &[],
