@@ -259,6 +259,33 @@ Proof. vm_compute. reflexivity. Qed.
 Lemma all_end_in_five : forall s, In s eleven -> five_equal s = true.
 Proof. apply forallb_forall. reflexivity. Qed.
 
+Definition same_sign : forall s t : sign, {s = t} + {s <> t}.
+Proof. decide equality. Defined.
+
+Definition same_signs : forall s t : list sign, {s = t} + {s <> t} := list_eq_dec same_sign.
+
+(** One of the eleven, and straight on: the sign of step k. *)
+Definition continued (s : list sign) (k : nat) : sign := nth k (rev s) (hd Plus s).
+
+(** By computation too: the beginnings of ten steps or fewer that push are those of the eleven. *)
+Definition within (l m : list (list sign)) : bool := forallb (fun s => if in_dec same_signs s m then true else false) l.
+
+Definition beginnings (n : nat) : list (list sign) := List.map (fun s => prefix (continued s) n) eleven.
+
+Lemma within_iff : forall l m, within l m = true <-> incl l m.
+Proof.
+  intros l m. unfold within, incl. rewrite forallb_forall. split; intros H s I; specialize (H s I);
+    destruct (in_dec same_signs s m); congruence.
+Qed.
+
+Lemma the_searches : forall n, (n <= 9)%nat ->
+  within (List.map fst (survivors n)) (beginnings (S n)) && within (beginnings (S n)) (List.map fst (survivors n)) = true.
+Proof.
+  intros n H. apply (proj1 (forallb_forall (fun n => within (List.map fst (survivors n)) (beginnings (S n))
+    && within (beginnings (S n)) (List.map fst (survivors n))) (seq 0 10))); [vm_compute; reflexivity|].
+  apply in_seq. lia.
+Qed.
+
 #[local] Opaque survivors tables.
 
 (** Under one sphere eleven stackings that begin with + stand, at any height of 11 layers or more: these ten steps from the
@@ -293,4 +320,153 @@ Proof.
     apply straight_continuation.
     + destruct (Nat.eq_dec k 9) as [-> | N]; [apply H; lia|]. rewrite (H (S k)), (H k) by lia. reflexivity.
     + destruct (Nat.eq_dec k 9) as [-> | N]; [apply P; [exact E | lia] | apply IH; lia].
+Qed.
+
+(** ** At any height
+
+    A stacking and its mirror image, each sign the other, stand or fall together. *)
+Section Mirror.
+Variable step : nat -> sign.
+Notation image := (fun k => opposite (step k)).
+
+Definition across (p : Z * Z) : Z * Z := ((- fst p)%Z, (- snd p)%Z).
+
+Lemma layers_of_the_image : forall k, layer [(0, 0)%Z] image k = List.map across (layer [(0, 0)%Z] step k).
+Proof.
+  induction k as [|k IH]; [reflexivity|]. cbn [layer]. rewrite IH. clear IH.
+  assert (S : forall p d, support (opposite (step k)) (across p) d = across (support (step k) p d)).
+  { intros [i j] d. unfold support, across. destruct (step k), d; cbn [opposite descent fst snd]; f_equal; lia. }
+  induction (layer [(0, 0)%Z] step k) as [|p l IH]; [reflexivity|].
+  cbn [List.map flat_map app]. rewrite IH, !S. reflexivity.
+Qed.
+
+Lemma member_across : forall l i j, member (List.map across l) i j = member l (- i) (- j).
+Proof.
+  intros l i j. apply eq_true_iff_eq. rewrite !member_iff, in_map_iff. split.
+  - intros ([a b] & E & I). unfold across in E. cbn [fst snd] in E. injection E. intros. subst. rewrite !Z.opp_involutive. exact I.
+  - intros I. exists (- i, - j)%Z. unfold across. cbn [fst snd]. rewrite !Z.opp_involutive. split; [reflexivity | exact I].
+Qed.
+
+Lemma forces_of_the_image : forall k i j, forces_of [(0, 0)%Z] image k i j = forces_of [(0, 0)%Z] step k (- i) (- j).
+Proof.
+  induction k as [|k IH]; intros i j; [reflexivity|]. cbn [forces_of].
+  assert (T : forall a b g, transferred (opposite a) (opposite b) g = transferred a b g) by (intros [] [] g; reflexivity).
+  assert (A : forall d, above_in (opposite (step k)) d i j = across (above_in (step k) d (- i) (- j))).
+  { intros d. unfold above_in, across. destruct (step k), d; cbn [opposite descent fst snd]; f_equal; lia. }
+  assert (M : forall d, (let (a, b) := above_in (opposite (step k)) d i j in
+      if member (layer [(0, 0)%Z] image k) a b then on d (forces_of [(0, 0)%Z] image k a b) else 0)
+    = (let (a, b) := above_in (step k) d (- i) (- j) in
+      if member (layer [(0, 0)%Z] step k) a b then on d (forces_of [(0, 0)%Z] step k a b) else 0)).
+  { intros d. rewrite A. destruct (above_in (step k) d (- i) (- j)) as [a b]. unfold across. cbn [fst snd].
+    rewrite layers_of_the_image, member_across, IH, !Z.opp_involutive. reflexivity. }
+  cbv zeta. rewrite !M, T. reflexivity.
+Qed.
+
+Theorem mirror_image : forall L, stands [(0, 0)%Z] image L <-> stands [(0, 0)%Z] step L.
+Proof.
+  intros L. rewrite !stands_if_the_recursion_pushes.
+  split; intros H k i j d HL I.
+  - rewrite <- (Z.opp_involutive i), <- (Z.opp_involutive j), <- forces_of_the_image. apply H; [exact HL|].
+    rewrite layers_of_the_image. apply in_map_iff. exists (i, j). split; [reflexivity | exact I].
+  - rewrite forces_of_the_image. apply H; [exact HL|].
+    apply member_iff in I. rewrite layers_of_the_image, member_across in I. apply member_iff. exact I.
+Qed.
+
+End Mirror.
+
+Lemma same_prefix : forall s t n, prefix s n = prefix t n <-> forall k, (k < n)%nat -> s k = t k.
+Proof.
+  intros s t n. induction n as [|n IH]; [split; [lia | reflexivity]|]. cbn [prefix]. split.
+  - intros E k Hk. injection E. intros E1 E2. destruct (Nat.eq_dec k n); [subst; exact E2 | apply IH; [exact E1 | lia]].
+  - intros H. f_equal; [apply H; lia | apply IH; intros; apply H; lia].
+Qed.
+
+(** Of a stacking that begins with +. *)
+Lemma census_of_plus : forall step L, step O = Plus ->
+  (stands [(0, 0)%Z] step L <-> exists s, In s eleven /\ forall k, (S k < L)%nat -> step k = continued s k).
+Proof.
+  intros step L H0. destruct (le_lt_dec L 11) as [HL | HL].
+  - destruct L as [|[|n]].
+    + split; [intros _; exists (hd [] eleven); split; [left; reflexivity | lia] | intros _; apply stands_iff; lia].
+    + split; [intros _; exists (hd [] eleven); split; [left; reflexivity | lia] | intros _; apply stands_iff; lia].
+    + assert (W := the_searches n ltac:(lia)). rewrite andb_true_iff, !within_iff in W. destruct W as [W1 W2].
+      destruct (survivors_are step n H0) as [S1 S2]. rewrite stands_iff.
+      transitivity (In (prefix step (S n)) (beginnings (S n))).
+      * transitivity (In (prefix step (S n)) (List.map fst (survivors n))); [|split; [apply W1 | apply W2]].
+        transitivity (forall k, (k <= n)%nat -> pushes (tables step k) = true); [split; intros H k Hk; apply H; lia|].
+        rewrite <- S1, in_map_iff. split.
+        -- intros I. exists (prefix step (S n), tables step n). split; [reflexivity | exact I].
+        -- intros ([s t] & E & I). cbn [fst] in E. subst s. rewrite (S2 t I) in I. exact I.
+      * unfold beginnings. rewrite in_map_iff. split; intros (s & A & B); exists s.
+        -- split; [exact B|]. intros k Hk. symmetry. apply (proj1 (same_prefix _ _ _) A). lia.
+        -- split; [|exact A]. apply same_prefix. intros k Hk. symmetry. apply B. lia.
+  - rewrite (census step L H0) by lia. split.
+    + intros [I H]. exists (prefix step 10). split; [exact I|]. intros k Hk.
+      destruct (le_lt_dec 10 k) as [A | A].
+      * rewrite (H k A Hk). unfold continued. rewrite nth_overflow by (rewrite rev_length; exact A). reflexivity.
+      * do 10 (destruct k as [|k]; [reflexivity|]). lia.
+    + intros (s & I & H). assert (E : prefix step 10 = prefix (continued s) 10)
+        by (apply same_prefix; intros k Hk; apply H; lia).
+      assert (F : length s = 10%nat /\ prefix (continued s) 10 = s /\ continued s 9 = hd Plus s).
+      { clear - I. revert s I. apply Forall_forall. unfold eleven. repeat constructor. }
+      destruct F as (F1 & F2 & F3). split; [rewrite E, F2; exact I|]. intros k Hk HkL.
+      rewrite (H k HkL), (H 9%nat), F3 by lia. unfold continued. apply nth_overflow. rewrite rev_length. lia.
+Qed.
+
+(** The census: under one sphere, at any height, there stand the eleven and what they begin with, and their mirror
+    images, and nothing else. *)
+Theorem census_at_any_height : forall step L,
+  stands [(0, 0)%Z] step L <->
+  exists s, In s eleven /\
+    ((forall k, (S k < L)%nat -> step k = continued s k) \/
+     (forall k, (S k < L)%nat -> step k = opposite (continued s k))).
+Proof.
+  intros step L. assert (O2 : forall s, opposite (opposite s) = s) by (intros []; reflexivity).
+  assert (P : forall s, In s eleven -> continued s 0 = Plus)
+    by (apply Forall_forall; unfold eleven; repeat constructor).
+  destruct (step O) eqn:H0.
+  - rewrite census_of_plus by exact H0. split.
+    + intros (s & I & H). exists s. split; [exact I | left; exact H].
+    + intros (s & I & [H | H]); [exists s; split; assumption|].
+      (* With two layers or more the first sign is that of the image, -. *)
+      destruct (le_lt_dec L 1) as [A | A]; [exists s; split; [exact I | lia]|].
+      specialize (H O A). rewrite (P s I), H0 in H. discriminate H.
+  - rewrite <- mirror_image, census_of_plus by (rewrite H0; reflexivity). split.
+    + intros (s & I & H). exists s. split; [exact I | right]. intros k Hk. rewrite <- (H k Hk), O2. reflexivity.
+    + intros (s & I & [H | H]).
+      * destruct (le_lt_dec L 1) as [A | A]; [exists s; split; [exact I | lia]|].
+        specialize (H O A). rewrite (P s I), H0 in H. discriminate H.
+      * exists s. split; [exact I|]. intros k Hk. rewrite (H k Hk), O2. reflexivity.
+Qed.
+
+(** How many: of those that begin with + the signs of all steps, the last one first, each once. *)
+Definition standing (L : nat) : list (list sign) := nodup same_signs (beginnings (L - 1)).
+
+Lemma different : forall A B C (f : A -> B) (g : A -> C) l,
+  (forall x y, f x = f y -> g x = g y) -> NoDup (List.map g l) -> NoDup (List.map f l).
+Proof.
+  intros A B C f g l H. induction l as [|x l IH]; cbn [List.map]; intros N; [constructor|].
+  inversion N as [|y m N1 N2]; subst. constructor; [|auto].
+  rewrite in_map_iff in *. intros (y & E & I). apply N1. exists y. split; [apply H; exact E | exact I].
+Qed.
+
+Theorem how_many_stand : forall L,
+  NoDup (standing L) /\
+  (forall s, In s (standing L) <->
+     exists step, step O = Plus /\ stands [(0, 0)%Z] step L /\ prefix step (L - 1) = s) /\
+  length (standing L) = match L with 0 | 1 | 2 => 1 | 3 => 2 | 4 => 4 | 5 => 8 | _ => 11 end%nat.
+Proof.
+  intros L. split; [apply NoDup_nodup|]. split.
+  - intros s. unfold standing. rewrite nodup_In. unfold beginnings. rewrite in_map_iff. split.
+    + intros (t & E & I). exists (continued t).
+      assert (P : continued t 0 = Plus) by (clear - I; revert t I; apply Forall_forall; unfold eleven; repeat constructor).
+      split; [exact P|]. split; [|exact E]. apply census_of_plus; [exact P|]. exists t. split; [exact I | reflexivity].
+    + intros (step & H0 & H & E). apply census_of_plus in H; [|exact H0]. destruct H as (t & I & H).
+      exists t. split; [|exact I]. rewrite <- E. apply same_prefix. intros k Hk. symmetry. apply H. lia.
+  - do 6 (destruct L as [|L]; [vm_compute; reflexivity|]).
+    unfold standing. rewrite nodup_fixed_point; [unfold beginnings; rewrite map_length; reflexivity|].
+    apply (different _ _ _ _ (fun s => prefix (continued s) 5)).
+    + intros s t E. apply same_prefix. intros k Hk. apply (proj1 (same_prefix _ _ _) E). lia.
+    + assert (N : nodup same_signs (beginnings 5) = beginnings 5) by (vm_compute; reflexivity).
+      change (NoDup (beginnings 5)). rewrite <- N. apply NoDup_nodup.
 Qed.
