@@ -1,7 +1,7 @@
 (** The response to a unit load, in any stacking: what is kept, and its moments. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa List.
-From Cannonpile Require Import Directions Sums Formulas Balance Horizontal.
+From Cannonpile Require Import Directions Sums Formulas Balance Stackings Horizontal Virtual.
 
 Import ListNotations.
 Open Scope Q_scope.
@@ -49,6 +49,314 @@ Proof.
   intros [] [] m n; cbv zeta; unfold down_by, directions_under, one_on; split; intros H; try congruence;
     split; formulas; ring.
 Qed.
+
+(** What is made of numbers is a number: steps. *)
+Definition ahead_x (sigma : sign) (d : direction) : Q := (down_by sigma d).(along_x).
+Definition ahead_y (sigma : sign) (d : direction) : Q := (down_by sigma d).(along_y).
+
+Ltac numbers :=
+  repeat match goal with
+         | |- context [ahead_x ?s ?d] => let v := eval vm_compute in (ahead_x s d) in change (ahead_x s d) with v
+         | |- context [ahead_y ?s ?d] => let v := eval vm_compute in (ahead_y s d) in change (ahead_y s d) with v
+         end.
+
+(** ** Of whole piles
+
+    Any stacking below any top layer, under any weights w in mg; the floor is the layer below L layers (Virtual.v), and forces
+    are in f0, of which 3 bear mg. *)
+Section Pile.
+Variable top : list site.
+Variable step : nat -> sign.
+
+(** The place of a sphere, from the one at (0, 0) of the top layer. *)
+Definition place (ahead : sign -> direction -> Q) (k : nat) (p : site) : Q :=
+  q (fst p) * (ahead Plus Beta - ahead Plus Alpha)
+  + q (snd p) * (ahead Plus Gamma - ahead Plus Alpha)
+  + total k (fun m => ahead (step m) Alpha).
+
+Notation x := (place ahead_x).
+Notation y := (place ahead_y).
+Definition from_axis (k : nat) (p : site) : Q := x k p * x k p + 3 * y k p * y k p.
+
+Ltac places :=
+  unfold Z.sub; rewrite ?inject_Z_plus, ?inject_Z_opp;
+  repeat match goal with |- context [q ?n] => change (q n) with (n # 1) end.
+
+(** Contacts lead from place to place. *)
+Lemma place_of_support : forall k p d,
+  x (S k) (support (step k) p d) == x k p + ahead_x (step k) d /\
+  y (S k) (support (step k) p d) == y k p + ahead_y (step k) d.
+Proof.
+  intros k [i j] d. unfold place, support. cbn [total].
+  destruct (step k), d; cbn [descent fst snd]; rewrite ?inject_Z_plus; numbers; places; split; ring.
+Qed.
+
+Lemma place_of_next : forall k a p,
+  x k (next a p) == x k p + (ahead_x Plus (to a) - ahead_x Plus (from a)) /\
+  y k (next a p) == y k p + (ahead_y Plus (to a) - ahead_y Plus (from a)).
+Proof.
+  intros k a [i j]. unfold place, next, support, above_in.
+  destruct a; cbn [descent from to fst snd]; places; rewrite ?inject_Z_plus, ?inject_Z_opp; numbers; places; split; ring.
+Qed.
+
+Variable f : nat -> Z -> Z -> three Q.
+Variable X : nat -> axis -> Z -> Z -> Q.
+Variable w : nat -> Z -> Z -> Q.
+Variable L : nat.
+Hypothesis in_equilibrium : equilibrium top step f X w L.
+
+(** What bears on a sphere of the floor. *)
+Definition borne (p : site) : Q := sum (arriving top step f L (fst p) (snd p)).
+
+(** A field that no contact lowers, and that is F on the floor. *)
+Lemma field_arrives : forall phi F,
+  (forall k i j d, drop step phi k i j d == 0) ->
+  (forall p, phi L (fst p) (snd p) =3= each (F p)) ->
+  over (spheres top step L) (fun p => borne p * F p) + over_spheres top step L (horizontal_work top step X phi)
+  == over_spheres top step L (work_of_weight w phi).
+Proof.
+  intros phi F D P. rewrite <- (work_on_the_floor top step f X w phi L in_equilibrium).
+  assert (S : over_spheres top step L (sloping_work step f phi) == 0).
+  { rewrite <- (total_of_nothing L). apply total_of_same. intros k _. rewrite <- (over_of_nothing _ (spheres top step k)).
+    apply over_of_same. intros [i j] _. cbn [fst snd]. unfold sloping_work, dot. formulas. rewrite !D. ring. }
+  assert (A : arriving_work top step f phi L == over (spheres top step L) (fun p => borne p * F p)).
+  { apply over_of_same. intros p _. unfold felt, borne, dot. destruct (P p) as (a & b & c).
+    destruct (step_above step L), (step L); unfold transferred; formulas;
+      cbn [each alpha beta gamma] in a, b, c; rewrite a, b, c; ring. }
+  rewrite S, A. ring.
+Qed.
+
+(** How high a layer is above the floor. *)
+Notation height k := (n_of L - n_of k).
+
+(** Its field: the place, and as far as the contact would lead to the floor. *)
+Definition straight_down (ahead : sign -> direction -> Q) (k : nat) (i j : Z) : three Q :=
+  map (fun d => place ahead k (i, j) + height k * ahead (step k) d) (Three Alpha Beta Gamma).
+
+Lemma nothing_lowers_places : forall k i j d,
+  drop step (straight_down ahead_x) k i j d == 0 /\ drop step (straight_down ahead_y) k i j d == 0.
+Proof.
+  intros k i j d. unfold drop, felt, straight_down. rewrite <- surjective_pairing. cbn [step_above].
+  destruct (place_of_support k (i, j) d) as [PX PY].
+  set (x' := x (S k) _) in *. set (y' := y (S k) _) in *. assert (N := n_of_S k).
+  destruct (step k), (step (S k)), d; unfold transferred; formulas; split; rewrite N, ?PX, ?PY; numbers; ring.
+Qed.
+
+(** First moment: the sum of F_z r over the floor is that of mg r over all spheres, whatever the horizontal contacts push. *)
+Theorem first_moment_arrives :
+  over (spheres top step L) (fun p => borne p * x L p) == over_spheres top step L (fun k i j => 3 * w k i j * x k (i, j)) /\
+  over (spheres top step L) (fun p => borne p * y L p) == over_spheres top step L (fun k i j => 3 * w k i j * y k (i, j)).
+Proof.
+  assert (H : forall ahead, ahead = ahead_x \/ ahead = ahead_y ->
+    over_spheres top step L (horizontal_work top step X (straight_down ahead)) == 0).
+  { intros ahead C. rewrite <- (total_of_nothing L). apply total_of_same. intros k _.
+    rewrite <- (over_of_nothing _ (spheres top step k)). apply over_of_same. intros [i j] _. cbn [fst snd].
+    assert (A : forall a, of_axis top step X (straight_down ahead) k a i j == 0).
+    { intros a. unfold of_axis, squeeze, straight_down. destruct (touches top step k a i j); [|reflexivity].
+      destruct a, (step k); cbn [from to]; formulas; ring. }
+    unfold horizontal_work. rewrite !A. ring. }
+  assert (W : forall ahead, ahead = ahead_x \/ ahead = ahead_y ->
+    over_spheres top step L (work_of_weight w (straight_down ahead))
+    == over_spheres top step L (fun k i j => 3 * w k i j * place ahead k (i, j))).
+  { intros ahead C. apply total_of_same. intros k _. apply over_of_same. intros [i j] _. cbn [fst snd].
+    unfold work_of_weight, straight_down. destruct C; subst ahead; destruct (step k); formulas; numbers; ring. }
+  assert (A : forall ahead, ahead = ahead_x \/ ahead = ahead_y ->
+    over (spheres top step L) (fun p => borne p * place ahead L p)
+    == over_spheres top step L (fun k i j => 3 * w k i j * place ahead k (i, j))).
+  { intros ahead C.
+    assert (N : forall k i j d, drop step (straight_down ahead) k i j d == 0).
+    { intros k i j d. destruct (nothing_lowers_places k i j d) as [NX NY]. destruct C; subst ahead; [exact NX | exact NY]. }
+    assert (F : forall p, straight_down ahead L (fst p) (snd p) =3= each (place ahead L p))
+      by (intros [i j]; unfold straight_down; cbn [fst snd]; repeat split; formulas; ring).
+    assert (B := field_arrives _ _ N F). rewrite (H ahead C), (W ahead C) in B. rewrite <- B. ring. }
+  split; apply A; [left | right]; reflexivity.
+Qed.
+
+(** And of r^2. *)
+Definition spreading_down (k : nat) (i j : Z) : three Q :=
+  map (fun d => from_axis k (i, j)
+      + 2 * height k * (x k (i, j) * ahead_x (step k) d + 3 * y k (i, j) * ahead_y (step k) d)
+      + height k * height k) (Three Alpha Beta Gamma).
+
+Lemma nothing_lowers_squares : forall k i j d, drop step spreading_down k i j d == 0.
+Proof.
+  intros k i j d. unfold drop, felt, spreading_down, from_axis. rewrite <- surjective_pairing. cbn [step_above].
+  destruct (place_of_support k (i, j) d) as [PX PY].
+  set (x' := x (S k) _) in *. set (y' := y (S k) _) in *. assert (N := n_of_S k).
+  destruct (step k), (step (S k)), d; unfold transferred; formulas; rewrite N, PX, PY; numbers; ring.
+Qed.
+
+(** Second moment, in units of (2R sin theta)^2: the sum of F_z r^2 over the floor is that of mg (r^2 + H^2) over all spheres,
+    H the height over the floor in layers, and 6 H times what horizontal contacts push: these spread the load. *)
+Theorem second_moment_arrives :
+  over (spheres top step L) (fun p => borne p * from_axis L p)
+  == over_spheres top step L (fun k i j => 3 * w k i j * (from_axis k (i, j) + height k * height k))
+     + over_spheres top step L (fun k i j => 6 * height k
+         * (by_next top step X k i j AB + by_next top step X k i j AG + by_next top step X k i j GB)).
+Proof.
+  assert (H : over_spheres top step L (fun k i j => 6 * height k
+      * (by_next top step X k i j AB + by_next top step X k i j AG + by_next top step X k i j GB))
+    == - over_spheres top step L (horizontal_work top step X spreading_down)).
+  { rewrite <- over_spheres_of_opposite. apply total_of_same. intros k _. apply over_of_same. intros [i j] _. cbn [fst snd].
+    assert (A : forall a, of_axis top step X spreading_down k a i j == - (6 * height k * by_next top step X k i j a)).
+    { intros a. unfold of_axis, by_next, squeeze, spreading_down, from_axis.
+      destruct (touches top step k a i j); [|ring]. rewrite <- surjective_pairing.
+      destruct (place_of_next k a (i, j)) as [PX PY].
+      set (x' := x k (next a (i, j))) in *. set (y' := y k (next a (i, j))) in *.
+      destruct a, (step k); cbn [from to] in *; formulas; rewrite PX, PY; numbers; ring. }
+    unfold horizontal_work. rewrite !A. ring. }
+  assert (W : over_spheres top step L (work_of_weight w spreading_down)
+    == over_spheres top step L (fun k i j => 3 * w k i j * (from_axis k (i, j) + height k * height k))).
+  { apply total_of_same. intros k _. apply over_of_same. intros [i j] _. cbn [fst snd].
+    unfold work_of_weight, spreading_down. destruct (step k); formulas; numbers; ring. }
+  assert (F : forall p, spreading_down L (fst p) (snd p) =3= each (from_axis L p))
+    by (intros [i j]; unfold spreading_down; cbn [fst snd]; repeat split; formulas; ring).
+  assert (B := field_arrives _ _ nothing_lowers_squares F). rewrite H, <- W, <- B. ring.
+Qed.
+
+End Pile.
+
+(** ** Squares, without horizontal contacts *)
+
+Definition none (k : nat) (a : axis) (i j : Z) : Q := 0.
+
+Section Squares.
+Variable top : list site.
+Variable step : nat -> sign.
+Variable f : nat -> Z -> Z -> three Q.
+Variable w : nat -> Z -> Z -> Q.
+Variable L : nat.
+Hypothesis in_equilibrium : equilibrium top step f none w L.
+
+Notation received := (arriving top step f).
+
+Lemma passes_on_beside_none : forall k i j, (k < L)%nat -> In (i, j) (layer top step k) ->
+  f k i j =3= by_line passed_on (transferred (step_above step k) (step k) (received k i j)) (each (w k i j)).
+Proof.
+  intros k i j Hk Hi. assert (B := in_equilibrium k i j Hk Hi). apply newton_beside in B. cbv zeta in B. rewrite B.
+  assert (N : forall a, by_next top step none k i j a = 0)
+    by (intros a; unfold by_next, none; destruct (touches top step k a i j); reflexivity).
+  assert (P : forall a, by_last top step none k i j a = 0)
+    by (intros a; unfold by_last, none; destruct (holds (layer top step k) (last a (i, j))); reflexivity).
+  unfold six, pushed_by, plus_three. cbn [ab ag gb]. rewrite !N, !P.
+  destruct (step k); formulas; repeat split; ring.
+Qed.
+
+(** What arrives is what was given. *)
+Lemma squares_are_given : forall k,
+  over (spheres top step (S k)) (fun p => dot (received (S k) (fst p) (snd p)) (received (S k) (fst p) (snd p)))
+  == over (spheres top step k) (fun p => dot (f k (fst p) (snd p)) (f k (fst p) (snd p))).
+Proof.
+  intros k.
+  (* Works in a field that is felt as what arrives. *)
+  pose (phi := fun n i j => transferred (step_above step n) (step n) (received n i j)).
+  assert (T : forall n p, felt step phi n p =3= received n (fst p) (snd p)).
+  { intros n p. unfold felt, phi. destruct (received n (fst p) (snd p)) as [a b c].
+    destruct (step_above step n), (step n); unfold transferred; by_components. }
+  assert (A : over (spheres top step (S k)) (fun p => dot (received (S k) (fst p) (snd p)) (received (S k) (fst p) (snd p)))
+    == arriving_work top step f phi (S k)).
+  { apply over_of_same. intros p _. apply dot_of_same. symmetry. apply T. }
+  rewrite A, arriving_by_lines, !arriving_is_given, <- !over_of_sum. apply over_of_same. intros [i j] I. cbn [fst snd].
+  apply spheres_are in I. unfold dot.
+  assert (R : forall d, on d (felt step phi (S k) (support (step k) (i, j) d)) == on d (f k i j)).
+  { intros d. destruct (T (S k) (support (step k) (i, j) d)) as (a & b & c).
+    transitivity (on d (received (S k) (fst (support (step k) (i, j) d)) (snd (support (step k) (i, j) d))));
+      [destruct d; cbn [on]; assumption|]. clear a b c.
+    assert (U : above_in (step k) d (fst (support (step k) (i, j) d)) (snd (support (step k) (i, j) d)) = (i, j))
+      by (symmetry; apply support_and_above; reflexivity).
+    destruct d; cbn [on received arriving alpha beta gamma]; rewrite U;
+      (destruct (member (layer top step k) i j) eqn:M; [reflexivity | apply member_iff in I; congruence]). }
+  rewrite !R. formulas. ring.
+Qed.
+
+(** In any stacking under any weights: the squares of all forces below k layers are, sphere by sphere, twice the weight times
+    what arrives, and three times the weight squared. *)
+Theorem squares_in_any_stacking : forall k, (k <= L)%nat ->
+  over (spheres top step k) (fun p => dot (received k (fst p) (snd p)) (received k (fst p) (snd p)))
+  == over_spheres top step k (fun n i j => 2 * w n i j * sum (received n i j) + 3 * w n i j * w n i j).
+Proof.
+  induction k as [|k IH]; intros Hk.
+  - unfold over_spheres. cbn [total]. rewrite <- (over_of_nothing _ (spheres top step 0)). apply over_of_same. intros p _.
+    unfold dot. cbn [arriving]. formulas. ring.
+  - rewrite squares_are_given. unfold over_spheres in *. cbn [total]. rewrite <- IH, <- over_of_sum by lia.
+    apply over_of_same. intros [i j] I. cbn [fst snd]. apply spheres_are in I.
+    assert (P := passes_on_beside_none k i j Hk I). destruct (sums_and_squares (step_above step k) (step k) (received k i j) (w k i j)) as (_ & S & _).
+    rewrite Qplus_assoc, <- S. destruct P as (a & b & c). unfold dot. formulas. formulas_in a. formulas_in b. formulas_in c.
+    rewrite a, b, c. reflexivity.
+Qed.
+
+End Squares.
+
+Lemma over_of_ones : forall A (l : list A), over l (fun _ => 1) == n_of (length l).
+Proof. intros A l. induction l as [|a l IH]; cbn [over length]; [reflexivity|]. rewrite IH, n_of_S. ring. Qed.
+
+(** Spheres of mg: below k layers the sum is 3 W, of squares that of 3 n_j + 6 W_(j-1), of n_j spheres in layer j and W_(j-1)
+    in all above it. *)
+Theorem sums_and_squares_of_piles : forall top step f L,
+  equilibrium top step f none (fun _ _ _ => 1) L ->
+  let received p := arriving top step f L (fst p) (snd p) in
+  let n j := n_of (length (spheres top step j)) in
+  over (spheres top step L) (fun p => sum (received p)) == 3 * total L n /\
+  over (spheres top step L) (fun p => dot (received p) (received p)) == total L (fun j => 3 * n j + 6 * total j n).
+Proof.
+  intros top step f L E. cbv zeta.
+  assert (W : forall k, (k <= L)%nat -> over (spheres top step k) (fun p => sum (arriving top step f k (fst p) (snd p)))
+    == 3 * total k (fun j => n_of (length (spheres top step j)))).
+  { intros k Hk. rewrite (the_weight_arrives_beside top step f none (fun _ _ _ => 1) k)
+      by (intros m i j Hm; apply E; lia).
+    unfold over_spheres. rewrite <- total_of_multiple. apply total_of_same. intros j _.
+    rewrite <- over_of_ones, <- over_of_multiple. apply over_of_same. intros; ring. }
+  split; [apply W; lia|]. rewrite (squares_in_any_stacking top step f (fun _ _ _ => 1) L E) by lia.
+  apply total_of_same. intros j Hj.
+  transitivity (2 * over (spheres top step j) (fun p => sum (arriving top step f j (fst p) (snd p)))
+    + 3 * over (spheres top step j) (fun _ => 1)).
+  - rewrite <- !over_of_multiple, <- over_of_sum. apply over_of_same. intros; ring.
+  - rewrite W, over_of_ones by lia. ring.
+Qed.
+
+(** A unit load on one sphere, and no weights; where it goes, at depth n. *)
+Definition unit_load (k : nat) (i j : Z) : Q := match k with O => 1 # 3 | S _ => 0 end.
+
+(** v is what arrives on a line of a sphere: its sum is 1, of squares 1/3, of v r nothing and of v r^2 n^2 rho^2, in any
+    stacking. *)
+Theorem point_load : forall step f n,
+  let top := [(0, 0)%Z] in
+  equilibrium top step f none unit_load (S n) ->
+  let v p := arriving top step f (S n) (fst p) (snd p) in
+  let below F := over (spheres top step (S n)) F in
+  below (fun p => sum (v p)) == 1 /\ below (fun p => dot (v p) (v p)) == 1 # 3 /\
+  below (fun p => sum (v p) * place step ahead_x (S n) p) == 0 /\
+  below (fun p => sum (v p) * place step ahead_y (S n) p) == 0 /\
+  below (fun p => sum (v p) * from_axis step (S n) p) == n_of (S n) * n_of (S n).
+Proof.
+  intros step f n top E v below.
+  (* Of sums over all spheres the loaded one's is left. *)
+  assert (O : forall G, (forall k i j, G (S k) i j == 0) -> over_spheres top step (S n) G == G 0%nat 0%Z 0%Z).
+  { intros G HG. unfold over_spheres. induction n as [|m IH].
+    - cbn [total]. change (spheres top step 0) with [(0, 0)%Z]. cbn [over fst snd]. ring.
+    - change (total (S (S m)) ?F) with (total (S m) F + F (S m)). cbv beta. rewrite IH.
+      + rewrite (over_of_same _ _ _ (fun _ => 0)) by (intros; apply HG). rewrite over_of_nothing. ring.
+      + intros k i j Hk. apply E. lia. }
+  destruct (first_moment_arrives top step f none unit_load (S n) E) as [X Y].
+  assert (R := second_moment_arrives top step f none unit_load (S n) E).
+  assert (P : over_spheres top step (S n) (fun k i j => 6 * (n_of (S n) - n_of k)
+      * (by_next top step none k i j AB + by_next top step none k i j AG + by_next top step none k i j GB)) == 0).
+  { rewrite <- (total_of_nothing (S n)). apply total_of_same. intros k _.
+    rewrite <- (over_of_nothing _ (spheres top step k)). apply over_of_same. intros [i j] _. cbn [fst snd].
+    unfold by_next, none.
+    destruct (touches top step k AB i j), (touches top step k AG i j), (touches top step k GB i j); ring. }
+  rewrite P in R. unfold below, v. repeat split.
+  - etransitivity; [exact (the_weight_arrives_beside top step f none unit_load (S n) E)|].
+    rewrite O; [reflexivity | intros; unfold unit_load; ring].
+  - etransitivity; [exact (squares_in_any_stacking top step f unit_load (S n) E (S n) (le_n _))|].
+    rewrite O; [vm_compute; reflexivity | intros; unfold unit_load; ring].
+  - etransitivity; [exact X|]. rewrite O; [vm_compute; reflexivity | intros; unfold unit_load; ring].
+  - etransitivity; [exact Y|]. rewrite O; [vm_compute; reflexivity | intros; unfold unit_load; ring].
+  - etransitivity; [exact R|]. rewrite O; [|intros; unfold unit_load; ring].
+    unfold unit_load, from_axis, place. cbn [total fst snd]. rewrite n_of_0. numbers. ring.
+Qed.
+
+(** ** Contact by contact *)
 
 (** A contact of the response: the place of its lower sphere, its line, and what it bears of the load. *)
 Record contact := Contact { at_x : Q; at_y : Q; line : direction; bears : Q }.
@@ -124,8 +432,8 @@ Definition across (sigma : sign) (c : contact) : Q :=
 
 Definition load (F : contact -> Q) (c : contact) : Q := c.(bears) * F c.
 
-(** What is made of numbers is a number: steps, and E. *)
-Ltac numbers :=
+(** And E. *)
+Ltac numbers ::=
   repeat match goal with
          | |- context [along_x (down_by ?s ?d)] =>
            let v := eval vm_compute in (along_x (down_by s d)) in change (along_x (down_by s d)) with v

@@ -220,7 +220,11 @@ const NAMED: &[Named] = &[
             "Response.load_is_kept",
             "Response.response_is_centred",
             "Response.second_moment_of_response",
-            "Response.sums_and_squares",
+            "Response.point_load",
+            "Virtual.the_weight_arrives_beside",
+            "Response.first_moment_arrives",
+            "Response.second_moment_arrives",
+            "Balance.half_turn_is_linear",
         ],
         &[],
     ),
@@ -331,7 +335,15 @@ const NAMED: &[Named] = &[
         &["Response.resultant_form", "Balance.half_turn_twice"],
         &[],
     ),
-    ("squares", &["Response.sums_and_squares"], &[]),
+    (
+        "squares",
+        &[
+            "Response.sums_and_squares",
+            "Response.squares_in_any_stacking",
+            "Response.sums_and_squares_of_piles",
+        ],
+        &[],
+    ),
     (
         "third-moment",
         &[
