@@ -1,6 +1,6 @@
 (** The response to a unit load, in any stacking: what is kept, and its moments. *)
 
-From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa List.
+From Coq Require Import ZArith QArith Qabs Qfield Setoid Morphisms Lia Lqa List.
 From Cannonpile Require Import Directions Sums Formulas Balance Stackings Horizontal Virtual.
 
 Import ListNotations.
@@ -373,6 +373,8 @@ Definition first (sigma : sign) : list contact :=
       (on d (increments (1 # 2)) / weight (increments (1 # 2))))
     [Alpha; Beta; Gamma].
 
+Fixpoint power (x : Q) (n : nat) : Q := match n with O => 1 | S m => power x m * x end.
+
 Section Stacking.
 Variable step : nat -> sign.
 
@@ -497,6 +499,69 @@ Ltac next lemma := cbn [response]; rewrite (over_spread _ _ _ _ _ (lemma _ _));
 Theorem load_is_kept : forall n, over (load (fun _ => 1)) (response n) == 1.
 Proof.
   induction n as [|n IH]; [at_first|]. next load_step. exact IH.
+Qed.
+
+(** Few faults: how many of the signs above these contacts differ from the one before. *)
+Definition changed (from to : sign) : nat :=
+  match from, to with
+  | Plus, Plus | Minus, Minus => 0
+  | _, _ => 1
+  end.
+
+Fixpoint changes (n : nat) : nat :=
+  match n with
+  | O => 0
+  | S m => changed (step m) (step (S m)) + changes m
+  end.
+
+Definition not_nothing (c : contact) : Q := if Qeq_dec c.(bears) 0 then 0 else 1.
+
+Lemma parts_of : forall from to v l d,
+  on d (transferred from to (map (Qmult v) (one_on l))) == v * on d (transferred from to (one_on l)).
+Proof. intros [] [] v [] []; unfold transferred, one_on; formulas; ring. Qed.
+
+Lemma not_nothing_step : forall from to c,
+  over not_nothing (spread from to c) == power 3 (changed from to) * not_nothing c.
+Proof.
+  intros from to [x y l v]. unfold spread, not_nothing. cbn [List.map over at_x at_y line bears].
+  assert (A := parts_of from to v l Alpha). assert (B := parts_of from to v l Beta). assert (G := parts_of from to v l Gamma).
+  set (a := on Alpha (transferred _ _ _)) in A |- *. set (b := on Beta (transferred _ _ _)) in B |- *.
+  set (g := on Gamma (transferred _ _ _)) in G |- *. clearbody a b g.
+  destruct from, to, l; cbn [changed power];
+    repeat match goal with
+           | H : _ == v * on ?d ?t |- _ => let n := eval vm_compute in (on d t) in change (on d t) with n in H
+           end;
+    destruct (Qeq_dec v 0), (Qeq_dec a 0), (Qeq_dec b 0), (Qeq_dec g 0); first [reflexivity | exfalso; lra].
+Qed.
+
+Lemma absolute_step : forall from to c,
+  over (fun c => Qabs c.(bears)) (spread from to c) == power (5 # 3) (changed from to) * Qabs c.(bears).
+Proof.
+  intros from to [x y l v]. unfold spread. cbn [List.map over at_x at_y line bears]. rewrite !parts_of, !Qabs_Qmult.
+  destruct from, to, l; cbn [changed power];
+    repeat match goal with
+           | |- context [Qabs (on ?d ?t)] => let n := eval vm_compute in (Qabs (on d t)) in change (Qabs (on d t)) with n
+           end; ring.
+Qed.
+
+Lemma squares_step : forall from to c,
+  over (fun c => c.(bears) * c.(bears)) (spread from to c) == c.(bears) * c.(bears).
+Proof. intros [] [] [x y [] v]; unfold spread, transferred, one_on; cbn [List.map over bears line]; formulas; ring. Qed.
+
+(** d changes make 3^(d+1) of the load, whose sum stays 1 ([load_is_kept]), whose squares sum to 1/3, and whose absolute
+    values to (5/3)^d. *)
+Theorem few_faults : forall n,
+  over not_nothing (response n) == power 3 (S (changes n)) /\
+  over (fun c => c.(bears) * c.(bears)) (response n) == 1 # 3 /\
+  over (fun c => Qabs c.(bears)) (response n) == power (5 # 3) (changes n).
+Proof.
+  assert (P : forall x m n, power x (m + n) == power x m * power x n)
+    by (induction m as [|m IH]; intros n; cbn [Nat.add power]; [ring | rewrite IH; ring]).
+  induction n as [|n (N & S & A)]; [repeat split; unfold response, first; destruct (step 0); vm_compute; reflexivity|].
+  cbn [response changes]. split; [|split].
+  - rewrite (over_spread _ _ _ _ _ (not_nothing_step _ _)), over_multiple, N. cbn [power]. rewrite P. ring.
+  - rewrite (over_spread _ _ _ _ _ (squares_step _ _)). exact S.
+  - rewrite (over_spread _ _ _ _ _ (absolute_step _ _)), over_multiple, A, P. reflexivity.
 Qed.
 
 (** No horizontal force: sum of v d = 0. *)

@@ -375,7 +375,15 @@ const NAMED: &[Named] = &[
         &[],
     ),
     ("wave", &["Response.wave_of_hcp"], &[]),
-    ("faults", &["Response.fault", "Response.load_is_kept"], &[]),
+    (
+        "faults",
+        &[
+            "Response.fault",
+            "Response.load_is_kept",
+            "Response.few_faults",
+        ],
+        &[],
+    ),
     ("one-fault", &["Response.one_fault"], &[]),
     (
         "registry",
