@@ -1,7 +1,9 @@
 (** The mean over random stackings: each sign differs from the one before with probability q. *)
 
-From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
-From Cannonpile Require Import Directions Sums Formulas Balance.
+From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa List.
+From Cannonpile Require Import Directions Sums Formulas Balance Horizontal Response.
+
+Import ListNotations.
 
 Open Scope Q_scope.
 
@@ -61,10 +63,91 @@ Theorem registry_at_the_top : forall q u v,
   =3= excesses (further q first).
 Proof. by_shares. Qed.
 
-(** ** Moments
+(** ** Random signs
 
-    Of stackings that begin with + the mean of sigma_s is mu^(s-1), and of sigma_s sigma_t mu^(t-s). *)
-Fixpoint power (mu : Q) (n : nat) : Q := match n with O => 1 | S m => power mu m * mu end.
+    The mean of what depends on the next n signs after one: each differs from the one before with probability q. *)
+Fixpoint mean (q : Q) (n : nat) (before : sign) (F : list sign -> Q) : Q :=
+  match n with
+  | O => F []
+  | S m => (1 - q) * mean q m before (fun s => F (before :: s))
+           + q * mean q m (opposite before) (fun s => F (opposite before :: s))
+  end.
+
+Lemma mean_of_same : forall q n b F G, (forall s, F s == G s) -> mean q n b F == mean q n b G.
+Proof.
+  intros q. induction n as [|n IH]; intros b F G H; cbn [mean]; [apply H|].
+  rewrite (IH b (fun s => F (b :: s)) (fun s => G (b :: s))) by (intros; apply H).
+  rewrite (IH (opposite b) (fun s => F (opposite b :: s)) (fun s => G (opposite b :: s))) by (intros; apply H). reflexivity.
+Qed.
+
+Lemma mean_of_number : forall q n b x, mean q n b (fun _ => x) == x.
+Proof. intros q. induction n as [|n IH]; intros b x; cbn [mean]; [reflexivity|]. rewrite !IH. ring. Qed.
+
+Lemma mean_of_sum : forall q n b F G, mean q n b (fun s => F s + G s) == mean q n b F + mean q n b G.
+Proof.
+  intros q. induction n as [|n IH]; intros b F G; cbn [mean]; [reflexivity|]. rewrite !IH. ring.
+Qed.
+
+Lemma mean_of_multiple : forall q n b x F, mean q n b (fun s => x * F s) == x * mean q n b F.
+Proof. intros q. induction n as [|n IH]; intros b x F; cbn [mean]; [reflexivity|]. rewrite !IH. ring. Qed.
+
+Lemma mean_of_total : forall q n b m F,
+  mean q n b (fun s => total m (fun k => F k s)) == total m (fun k => mean q n b (F k)).
+Proof.
+  intros q n b m F. induction m as [|m IH]; cbn [total]; [apply mean_of_number|].
+  rewrite mean_of_sum, IH. reflexivity.
+Qed.
+
+(** The signs of a stacking that begins with [first], and goes on with a list; and one of them as a number. *)
+Definition signs (first : sign) (s : list sign) (k : nat) : sign := nth k (first :: s) first.
+Definition sigma (first : sign) (s : list sign) (k : nat) : Q := times (signs first s k) 1.
+
+Lemma sigma_of_next : forall b c s k, (k <= length s)%nat -> sigma b (c :: s) (S k) = sigma c s k.
+Proof.
+  intros b c s k H. unfold sigma, signs. change (nth (S k) (b :: c :: s) b) with (nth k (c :: s) b).
+  rewrite (nth_indep (c :: s) b c) by (cbn [length]; lia). reflexivity.
+Qed.
+
+(** Means are over lists of n signs. *)
+Lemma mean_of_same_length : forall q n b F G,
+  (forall s, length s = n -> F s == G s) -> mean q n b F == mean q n b G.
+Proof.
+  intros q. induction n as [|n IH]; intros b F G H; cbn [mean]; [apply H; reflexivity|].
+  rewrite (IH b (fun s => F (b :: s)) (fun s => G (b :: s))) by (intros; apply H; cbn [length]; lia).
+  rewrite (IH (opposite b) (fun s => F (opposite b :: s)) (fun s => G (opposite b :: s)))
+    by (intros; apply H; cbn [length]; lia).
+  reflexivity.
+Qed.
+
+(** The mean of sigma_(k+1) is mu^k times the first sign. *)
+Theorem mean_of_sign : forall q n b k, (k <= n)%nat ->
+  mean q n b (fun s => sigma b s k) == times b 1 * power (1 - 2 * q) k.
+Proof.
+  intros q n b k. revert n b. induction k as [|k IH]; intros n b H.
+  - unfold sigma, signs. cbn [nth power]. rewrite mean_of_number. ring.
+  - destruct n as [|n]; [lia|]. cbn [mean].
+    rewrite (mean_of_same_length q n b _ (fun s => sigma b s k)) by (intros; rewrite sigma_of_next by lia; reflexivity).
+    rewrite (mean_of_same_length q n (opposite b) _ (fun s => sigma (opposite b) s k))
+      by (intros; rewrite sigma_of_next by lia; reflexivity).
+    rewrite !IH by lia. cbn [power]. destruct b; unfold times; cbn [opposite]; ring.
+Qed.
+
+(** And of the product of two mu^(t-s). *)
+Theorem mean_of_two_signs : forall q n b j k, (j <= k)%nat -> (k <= n)%nat ->
+  mean q n b (fun s => sigma b s k * sigma b s j) == power (1 - 2 * q) (k - j).
+Proof.
+  intros q n b j. revert n b. induction j as [|j IH]; intros n b k Hj Hk.
+  - rewrite (mean_of_same q n b _ (fun s => times b 1 * sigma b s k)) by (intros; unfold sigma at 2; cbn [signs nth]; unfold signs; cbn [nth]; ring).
+    rewrite mean_of_multiple, mean_of_sign by exact Hk. rewrite Nat.sub_0_r. destruct b; unfold times; ring.
+  - destruct n as [|n]; [lia|]. destruct k as [|k]; [lia|]. cbn [mean].
+    rewrite (mean_of_same_length q n b _ (fun s => sigma b s k * sigma b s j))
+      by (intros; rewrite !sigma_of_next by lia; reflexivity).
+    rewrite (mean_of_same_length q n (opposite b) _ (fun s => sigma (opposite b) s k * sigma (opposite b) s j))
+      by (intros; rewrite !sigma_of_next by lia; reflexivity).
+    rewrite !IH by lia. cbn [Nat.sub]. ring.
+Qed.
+
+(** ** Moments *)
 
 (** What the mean signs make of the third moment, (1-mu)^3 times. *)
 Theorem mean_of_third_moment : forall mu n,
@@ -152,6 +235,64 @@ Proof.
         * ((1 - mu) * (1 - mu) * total t (fun s => power mu (t - s) * (2 * (n_of s + 1) - 1)))); [ring|].
       rewrite D. ring.
     + intros s _. formulas. ring.
+Qed.
+
+(** Over random stackings that begin with + and change their sign with probability q the mean third moment of the response at
+    depth n+1, which is its sum of v r^3 cos 3phi; q > 0. *)
+Theorem third_moment_of_random_stackings : forall q n, ~ q == 0 ->
+  let mu := 1 - 2 * q in
+  let N := n_of (S n) in
+  let X := power mu (S n) in
+  mean q n Plus (fun s => over (load third) (response (signs Plus s) n))
+  == 3 * (1 + mu) * N * (1 + X) / ((1 - mu) * (1 - mu))
+     - 2 * (mu * mu + 4 * mu + 1) * (1 - X) / ((1 - mu) * (1 - mu) * (1 - mu)).
+Proof.
+  intros q n Hq mu N X. assert (U : ~ 1 - mu == 0) by (unfold mu; intro; apply Hq; lra).
+  assert (M : mean q n Plus (fun s => over (load third) (response (signs Plus s) n))
+    == total (S n) (fun k => power mu k * third_moment N (n_of k + 1))).
+  { rewrite (mean_of_same _ _ _ _ _ (fun s => third_moment_of_response (signs Plus s) n)).
+    rewrite (mean_of_total q n Plus (S n) (fun k s => times (signs Plus s k) 1 * third_moment (n_of (S n)) (n_of k + 1))).
+    apply total_of_same. intros k Hk.
+    rewrite (mean_of_same _ _ _ _ (fun s => third_moment (n_of (S n)) (n_of k + 1) * sigma Plus s k))
+      by (intros; unfold sigma; ring).
+    rewrite mean_of_multiple, mean_of_sign by lia. unfold times. fold mu. fold N. ring. }
+  rewrite M. assert (T := mean_of_third_moment mu (S n)). fold N in T. fold X in T.
+  set (t := total _ _) in *. clearbody t X N. clear M.
+  transitivity ((1 - mu) * (1 - mu) * (1 - mu) * t / ((1 - mu) * (1 - mu) * (1 - mu))); [field; exact U|].
+  rewrite T. formulas. field. exact U.
+Qed.
+
+(** And the mean fourth moment, of stackings that begin with either sign. *)
+Theorem fourth_moment_of_random_stackings : forall q n b, ~ q == 0 ->
+  let mu := 1 - 2 * q in
+  let N := n_of (S n) in
+  let X := power mu (S n) in
+  mean q n b (fun s => over (load fourth) (response (signs b s) n))
+  == N * (2 * N * N * N + 2 * N * N - 2 * N + 1) / 3 + 4 * mu * N * N * N / (3 * (1 - mu))
+     - 4 * mu * N * N / ((1 - mu) * (1 - mu))
+     + 2 * mu * (mu * mu + 4 * mu + 7) * N / (3 * (1 - mu) * (1 - mu) * (1 - mu))
+     - 2 * mu * (1 + mu) * (1 + mu) * (1 - X) / ((1 - mu) * (1 - mu) * (1 - mu) * (1 - mu)).
+Proof.
+  intros q n b Hq mu N X. assert (U : ~ 1 - mu == 0) by (unfold mu; intro; apply Hq; lra).
+  assert (M : mean q n b (fun s => over (load fourth) (response (signs b s) n))
+    == fourth_moment N
+       + total (S n) (fun t => total t (fun k => power mu (t - k) * fourth_moment_of_pair N (n_of k + 1) (n_of t + 1)))).
+  { rewrite (mean_of_same _ _ _ _ _ (fun s => fourth_moment_of_response (signs b s) n)).
+    rewrite mean_of_sum, mean_of_number. apply Qplus_comp; [reflexivity|]. unfold pairs_below.
+    rewrite (mean_of_total q n b (S n) (fun t s => times (signs b s t) 1 * total t (fun k => times (signs b s k) 1
+      * fourth_moment_of_pair (n_of (S n)) (n_of k + 1) (n_of t + 1)))).
+    apply total_of_same. intros t Ht.
+    rewrite (mean_of_same _ _ _ _ (fun s => total t (fun k =>
+        fourth_moment_of_pair (n_of (S n)) (n_of k + 1) (n_of t + 1) * (sigma b s t * sigma b s k))))
+      by (intros; rewrite <- total_of_multiple; apply total_of_same; intros; unfold sigma; ring).
+    rewrite (mean_of_total q n b t (fun k s =>
+      fourth_moment_of_pair (n_of (S n)) (n_of k + 1) (n_of t + 1) * (sigma b s t * sigma b s k))).
+    apply total_of_same. intros k Hk. rewrite mean_of_multiple, mean_of_two_signs by lia. fold mu. fold N. ring. }
+  rewrite M. assert (T := mean_of_fourth_moment mu (S n)). fold N in T. fold X in T.
+  set (t := total _ _) in *. clearbody t X N. clear M.
+  transitivity (fourth_moment N + (1 - mu) * (1 - mu) * (1 - mu) * (1 - mu) * t
+    / ((1 - mu) * (1 - mu) * (1 - mu) * (1 - mu))); [field; exact U|].
+  rewrite T. formulas. field. exact U.
 Qed.
 
 (** ** Waves

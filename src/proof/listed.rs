@@ -349,6 +349,8 @@ const NAMED: &[Named] = &[
         &[
             "Response.third_moment_of_response",
             "Mean.mean_of_third_moment",
+            "Mean.mean_of_sign",
+            "Mean.third_moment_of_random_stackings",
         ],
         &[],
     ),
@@ -357,6 +359,8 @@ const NAMED: &[Named] = &[
         &[
             "Response.fourth_moment_of_response",
             "Mean.mean_of_fourth_moment",
+            "Mean.mean_of_two_signs",
+            "Mean.fourth_moment_of_random_stackings",
         ],
         &[],
     ),
