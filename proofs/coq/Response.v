@@ -220,6 +220,33 @@ End Pile.
 
 Definition none (k : nat) (a : axis) (i j : Z) : Q := 0.
 
+(** Under any weights there are such forces. *)
+Fixpoint forces_under (top : list site) (step : nat -> sign) (w : nat -> Z -> Z -> Q) (k : nat) : Z -> Z -> three Q :=
+  match k with
+  | O => fun i j => by_line passed_on (transferred (step O) (step O) (each 0)) (each (w O i j))
+  | S m => fun i j =>
+    let from d := let (a, b) := above_in (step m) d i j in
+      if member (layer top step m) a b then on d (forces_under top step w m a b) else 0 in
+    by_line passed_on (transferred (step m) (step (S m)) (Three (from Alpha) (from Beta) (from Gamma))) (each (w (S m) i j))
+  end.
+
+Theorem forces_under_weights : forall top step w L, equilibrium top step (forces_under top step w) none w L.
+Proof.
+  intros top step w L k i j _ _. unfold in_balance_beside.
+  assert (B : unbalanced (forces_under top step w k i j) (directions_under (1 # 2) (step k))
+    (arriving top step (forces_under top step w) k i j) (directions_under (1 # 2) (step_above step k))
+    (force (w k i j) (weight (increments (1 # 2)))) =v= nothing)
+    by (apply newton_in_any_stacking; destruct k; reflexivity).
+  assert (N : forall a, by_next top step none k i j a = 0)
+    by (intros a; unfold by_next, none; destruct (touches top step k a i j); reflexivity).
+  assert (P : forall a, by_last top step none k i j a = 0)
+    by (intros a; unfold by_last, none; destruct (holds (layer top step k) (last a (i, j))); reflexivity).
+  unfold six, push. cbn [ab ag gb]. rewrite !N, !P. clear N P.
+  set (u := unbalanced _ _ _ _ _) in *. destruct B as (A & B & C). clearbody u.
+  unfold combination, plus_vector, plus_three, minus_three, one_on.
+  repeat split; formulas; cbn [along_x along_y along_z nothing] in A, B, C; rewrite ?A, ?B, ?C; ring.
+Qed.
+
 Section Squares.
 Variable top : list site.
 Variable step : nat -> sign.

@@ -221,6 +221,7 @@ const NAMED: &[Named] = &[
             "Response.response_is_centred",
             "Response.second_moment_of_response",
             "Response.point_load",
+            "Response.forces_under_weights",
             "Virtual.the_weight_arrives_beside",
             "Response.first_moment_arrives",
             "Response.second_moment_arrives",
