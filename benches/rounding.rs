@@ -3,7 +3,7 @@
 //! `cargo bench --manifest-path benches/Cargo.toml --bench rounding`
 //! rounds roots, rationals and every physical quantity of piles of all kinds to `f64` and
 //! `f32`, and has each float judged in integers, by the squares of the points halfway to its neighbours. It prints how
-//! many values were judged, how many roundings were wrong, how many of them the screen left to integers, and nanoseconds a value, of which making it and judging it are
+//! many values were judged, how many roundings were wrong, and nanoseconds a value, of which making it and judging it are
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
 //!

@@ -391,6 +391,7 @@ pub(crate) fn refuse_beyond_memory(
 ///
 /// # Errors
 /// [`Error::TooLarge`].
+#[cfg(any(feature = "export", test))]
 pub(crate) fn copies<T: Clone>(
     value: T,
     count: usize,

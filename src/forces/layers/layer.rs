@@ -269,11 +269,13 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     }
 
     /// Returns a bound on how far a contact force below the layer can be from the exact one, in f₀: 0 in an exact scalar,
-    /// `None` where the scalar promises no precision or the bound would be useless.
+    /// `None` where the scalar promises no precision or the bound would be useless, and where all forces are so small that
+    /// what underflows is as great as what is rounded.
     ///
     /// Every operation of a sweep is off by at most one unit in the last place, no sum on the way to 3G g is greater than
     /// 2√3·‖g‖, and the transfer amplifies nothing: with n passes and sums on the way, 13·n units in the last place of the
-    /// bound on all forces.
+    /// bound on all forces. A 64th of that is added for what operations lose by underflow: 2⁻¹⁶ of such a unit is not zero in
+    /// the scalar, so that the least numbers it has are less than that.
     ///
     /// # Examples
     /// ```
@@ -305,7 +307,9 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         // 2√3·B·D is at least 3·B·D.
         let greatest = BigRational::new(system.bound_of_sweep(self.k), system.denominator() * 3);
         let little = unit < BigRational::new(1.into(), 100.into());
-        little.then(|| unit * greatest)
+        let below = &greatest / (BigInt::one() << (bits + 16));
+        let underflows = !greatest.is_zero() && T::from_rational(&below).is_zero();
+        (little && !underflows).then(|| unit * greatest * BigRational::new(65.into(), 64.into()))
     }
 
     fn shape(&self) -> &Shape {

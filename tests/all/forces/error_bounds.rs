@@ -42,7 +42,8 @@ fn counts_every_step<T: Algebra>(pile: &Pile, signs: &str, bits: u32, loads: &[(
         // As often as was stopped, as there are runs, and loads; one more for what a sphere adds itself.
         let steps = (k + 1) + runs(signs, k) + loaded + 1;
         let units = BigRational::new((13 * steps).into(), BigInt::from(1) << bits);
-        let wanted = units * greatest(k + 1, spheres, &ratio(load, 1));
+        // A 64th more for what underflows.
+        let wanted = units * greatest(k + 1, spheres, &ratio(load, 1)) * ratio(65, 64);
         assert_eq!(bound, Some(wanted), "{signs}, layer {k}");
     }
 }
@@ -69,6 +70,38 @@ fn layers_that_are_passed_by_are_no_stops() {
     let (_, among) = bounds::<f64>(&pile).pop().unwrap();
     // 1 stop of 6, 6 runs and the sphere's own.
     assert_eq!(alone / among.unwrap(), ratio(1 + 6 + 1, 6 + 6 + 1));
+}
+
+/// 10⁻⁴⁰ is subnormal in f32 and has few digits there; in f64 it has all.
+#[test]
+fn forces_that_underflow_have_no_bound() {
+    let pile = Pile::under(Region::SITE, "+-+".parse().unwrap()).unwrap();
+    let loaded = |power: u32| {
+        let little = BigRational::new(1.into(), BigInt::from(10).pow(power));
+        pile.clone()
+            .weightless()
+            .with_load(Site::APEX, little)
+            .unwrap()
+    };
+    let are_bound = |power| {
+        let pile = loaded(power);
+        let all = |bounds: Vec<(usize, Option<BigRational>)>| {
+            assert!(
+                bounds
+                    .iter()
+                    .all(|(_, bound)| bound.is_some() == bounds[0].1.is_some())
+            );
+            bounds[0].1.is_some()
+        };
+        [all(bounds::<f32>(&pile)), all(bounds::<f64>(&pile))]
+    };
+    assert_eq!(are_bound(30), [true, true]);
+    assert_eq!(are_bound(40), [false, true]);
+    assert_eq!(are_bound(280), [false, true]);
+    assert_eq!(are_bound(310), [false, false]);
+    // No force at all is met exactly.
+    let none = bounds::<f32>(&pile.clone().weightless());
+    assert!(none.iter().all(|(_, bound)| *bound == Some(ratio(0, 1))));
 }
 
 #[test]

@@ -12,7 +12,6 @@ use num_traits::{Signed, Zero};
 
 use super::handed_on::{Contacts, Solved, contacts_of, floor_of};
 use super::{Checked, demand, same};
-use crate::generators::number::ratio;
 use crate::generators::region;
 
 /// Three numbers of each sphere: along α, β and γ, or on the floor.
@@ -33,17 +32,9 @@ pub(crate) fn filled(u: &mut Unstructured<'_>) -> Checked {
     numerators::<i64>(&layers, &wanted)?;
     nearest::<f64>(&layers, &wanted)?;
     nearest::<f32>(&layers, &wanted)?;
-    // The bounds are of roundings, and there are others where a float underflows.
-    let normal = ratio(1, 1 << 60)..ratio(1 << 60, 1);
-    if solved
-        .acting
-        .values()
-        .all(|weight| weight.is_zero() || normal.contains(weight))
-    {
-        within_bounds::<f64>(&pile.forces(), &contacts)?;
-        within_bounds::<f32>(&pile.forces(), &contacts)?;
-        within_bounds::<DoubleDouble>(&pile.forces(), &contacts)?;
-    }
+    within_bounds::<f64>(&pile.forces(), &contacts)?;
+    within_bounds::<f32>(&pile.forces(), &contacts)?;
+    within_bounds::<DoubleDouble>(&pile.forces(), &contacts)?;
     exact_base(&forces, &floor)?;
     nearest_base::<f64>(&forces, &floor)
 }
@@ -217,6 +208,7 @@ where
 #[cfg(test)]
 mod planted {
     use super::*;
+    use crate::generators::number::ratio;
 
     #[test]
     fn slices_of_any_length_are_caught() {
