@@ -137,7 +137,8 @@ Theorem mean_of_two_signs : forall q n b j k, (j <= k)%nat -> (k <= n)%nat ->
   mean q n b (fun s => sigma b s k * sigma b s j) == power (1 - 2 * q) (k - j).
 Proof.
   intros q n b j. revert n b. induction j as [|j IH]; intros n b k Hj Hk.
-  - rewrite (mean_of_same q n b _ (fun s => times b 1 * sigma b s k)) by (intros; unfold sigma at 2; cbn [signs nth]; unfold signs; cbn [nth]; ring).
+  - rewrite (mean_of_same q n b _ (fun s => times b 1 * sigma b s k))
+      by (intros; unfold sigma, signs; cbn [nth]; ring).
     rewrite mean_of_multiple, mean_of_sign by exact Hk. rewrite Nat.sub_0_r. destruct b; unfold times; ring.
   - destruct n as [|n]; [lia|]. destruct k as [|k]; [lia|]. cbn [mean].
     rewrite (mean_of_same_length q n b _ (fun s => sigma b s k * sigma b s j))

@@ -307,7 +307,8 @@ Proof.
     unfold dot. cbn [arriving]. formulas. ring.
   - rewrite squares_are_given. unfold over_spheres in *. cbn [total]. rewrite <- IH, <- over_of_sum by lia.
     apply over_of_same. intros [i j] I. cbn [fst snd]. apply spheres_are in I.
-    assert (P := passes_on_beside_none k i j Hk I). destruct (sums_and_squares (step_above step k) (step k) (received k i j) (w k i j)) as (_ & S & _).
+    assert (P := passes_on_beside_none k i j Hk I).
+    destruct (sums_and_squares (step_above step k) (step k) (received k i j) (w k i j)) as (_ & S & _).
     rewrite Qplus_assoc, <- S. destruct P as (a & b & c). unfold dot. formulas. formulas_in a. formulas_in b. formulas_in c.
     rewrite a, b, c. reflexivity.
 Qed.
