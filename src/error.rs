@@ -404,7 +404,7 @@ pub(crate) fn copies<T: Clone>(
         (isize::MAX as u64 / bytes as u64, bytes),
         "use fewer layers, or a smaller top or base",
     )?;
-    Ok(vec![value; count])
+    Ok(alloc::vec![value; count])
 }
 
 /// Whether the allocator gives so many numbers of so many bytes.
@@ -469,7 +469,7 @@ mod tests {
         }
         assert_eq!(refused(0, 8), Ok(()));
         assert_eq!(refused(1000, 8), Ok(()));
-        assert_eq!(copies(7_u64, 3, "numbers"), Ok(vec![7; 3]));
+        assert_eq!(copies(7_u64, 3, "numbers"), Ok(alloc::vec![7; 3]));
         for many in [usize::MAX, isize::MAX as usize / 8] {
             let none = copies(7_u64, many, "numbers");
             assert!(matches!(none, Err(Error::TooLarge { .. })), "{many}");
