@@ -169,13 +169,13 @@ pub fn files_of(
 /// ```
 pub fn write(assistant: Assistant, folder: &Path) -> Result<Vec<PathBuf>, WriteError> {
     let files = files(assistant)?;
-    let paths: Vec<_> = files.iter().map(|file| folder.join(file.name)).collect();
-    let mut left = files.iter();
-    write_all(folder, paths.iter(), |out| match left.next() {
-        Some(file) => Ok(out.write_all(file.text.as_bytes())?),
-        None => Ok(()),
+    let files = files
+        .iter()
+        .map(|file| (folder.join(file.name), &file.text));
+    let written = write_all(folder, files, |text, out| {
+        Ok(out.write_all(text.as_bytes())?)
     })?;
-    Ok(paths)
+    Ok(written.into_iter().map(|(path, _)| path).collect())
 }
 
 /// Returns how the files in a folder are checked: commands for a shell, or that they were not.

@@ -295,19 +295,18 @@ impl<'p> PileExport<'p> {
         let files = formats.iter().flat_map(|format| format.files());
         let scene = self.scene.as_ref().map(|_| PileFile::Scene);
         let files = files.copied().chain(scene);
-        let files: Vec<_> = files.map(|file| (file, folder.join(file.name()))).collect();
-        let mut left = files.iter();
-        let paths = files.iter().map(|(_, path)| path);
-        let bytes = write_all(folder, paths, |out| match left.next() {
-            Some((file, _)) => self.write_file(*file, out, progress),
-            None => Ok(()),
+        let files: Vec<_> = files.collect();
+        let paths = files.iter().map(|file| (folder.join(file.name()), *file));
+        let written = write_all(folder, paths, |file, out| {
+            self.write_file(file, out, progress)
         })?;
-        let written = |((file, path), bytes)| Written {
+        let written = files.into_iter().zip(written);
+        let written = written.map(|(file, (path, bytes))| Written {
             file,
             path,
             rows: self.rows(file),
             bytes,
-        };
-        Ok(files.into_iter().zip(bytes).map(written).collect())
+        });
+        Ok(written.collect())
     }
 }

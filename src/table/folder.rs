@@ -8,7 +8,7 @@ use super::{Aside, Pending, WriteError, remove_leftovers};
 
 /// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
 ///
-/// `write` is called once for each file, in their order. All are written aside, as by [`write_aside`](super::write_aside), and
+/// Each file comes with what `write` writes into it. All are written aside, as by [`write_aside`](super::write_aside), and
 /// renamed when the last one is complete; where that fails, files and folders that were not there before are removed again.
 ///
 /// # Errors
@@ -20,39 +20,37 @@ use super::{Aside, Pending, WriteError, remove_leftovers};
 ///
 /// let folder = tempfile::tempdir()?;
 /// let folder = folder.path().join("runs");
-/// let files = ["a.txt", "b.txt"].map(|name| folder.join(name));
-/// let mut texts = ["one", "three"].into_iter();
-/// let bytes = write_all(&folder, files.iter(), |out| {
-///     Ok(write!(out, "{}", texts.next().unwrap_or(""))?)
-/// })?;
-/// assert_eq!(bytes, [3, 5]);
-/// assert_eq!(std::fs::read_to_string(&files[1])?, "three");
+/// let files = [("a.txt", "one"), ("b.txt", "three")].map(|(name, text)| (folder.join(name), text));
+/// let written = write_all(&folder, files, |text, out| Ok(out.write_all(text.as_bytes())?))?;
+/// assert_eq!(written[1], (folder.join("b.txt"), 5));
+/// assert_eq!(std::fs::read_to_string(&written[1].0)?, "three");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write_all<'f>(
+pub fn write_all<T>(
     folder: &Path,
-    files: impl Iterator<Item = &'f PathBuf>,
-    mut write: impl FnMut(&mut dyn Write) -> Result<(), WriteError>,
-) -> Result<Vec<u64>, WriteError> {
+    files: impl IntoIterator<Item = (PathBuf, T)>,
+    mut write: impl FnMut(T, &mut dyn Write) -> Result<(), WriteError>,
+) -> Result<Vec<(PathBuf, u64)>, WriteError> {
     let mut new = New::default();
     new.folder(folder).map_err(|error| of(folder, error))?;
     remove_leftovers(folder);
     let mut written = Vec::new();
-    for path in files {
-        let aside = Aside::write(path, |out| write(out)).map_err(|error| match error {
-            WriteError::Io(error) => of(path, error),
+    for (path, what) in files {
+        let aside = Aside::write(&path, |out| write(what, out)).map_err(|error| match error {
+            WriteError::Io(error) => of(&path, error),
             answer => answer,
         })?;
         written.push((path, aside));
     }
     // Not one of them is there yet; a folder of the same name, or the like, is found out here.
-    let mut bytes = Vec::new();
+    let mut all = Vec::new();
     for (path, aside) in written {
         let kept = new.announce(aside.target()).and_then(|()| aside.keep());
-        bytes.push(kept.map_err(|error| of(path, error))?);
+        let bytes = kept.map_err(|error| of(&path, error))?;
+        all.push((path, bytes));
     }
     new.0.clear();
-    Ok(bytes)
+    Ok(all)
 }
 
 fn of(path: &Path, error: io::Error) -> WriteError {

@@ -31,18 +31,14 @@ impl Man {
         // Commands below others have their whole names then.
         line.build();
         let pages = pages(&line);
-        let files = pages
-            .iter()
-            .map(|page| self.folder.join(page.get_filename()));
-        let files: Vec<PathBuf> = files.collect();
-        let mut left = pages.iter();
-        table::write_all(&self.folder, files.iter(), |mut out| match left.next() {
-            Some(page) => Ok(page.render(&mut out)?),
-            None => Ok(()),
+        let pages = pages.into_iter();
+        let files = pages.map(|page| (self.folder.join(page.get_filename()), page));
+        let written = table::write_all(&self.folder, files, |page, mut out| {
+            Ok(page.render(&mut out)?)
         })
         .map_err(|error| Failure::of_writing(error, "output", None))?;
         write_to("output", None, |out| {
-            for path in &files {
+            for (path, _) in &written {
                 writeln!(out, "{}", path.display())?;
             }
             Ok(())
