@@ -4,7 +4,6 @@ use core::fmt;
 use core::str::FromStr;
 
 use num_bigint::BigUint;
-use num_integer::binomial;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -124,6 +123,9 @@ pub struct RandomStackings {
 /// The most layers of which the probabilities of the registries are found: they take as many steps.
 pub(super) const MOST_LAYERS: u64 = 10_000;
 
+/// The most faults, or straight steps, with which stackings are counted: it takes as many products.
+const MOST_FAULTS: u64 = 10_000;
+
 impl RandomStackings {
     /// Returns the stackings of this many layers.
     ///
@@ -208,25 +210,40 @@ impl RandomStackings {
     /// A single layer has no sign: it is one stacking, whatever the first sign. It takes as many steps as there are faults,
     /// or straight steps between them, if they are fewer.
     ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 10⁴ of both, faults and straight steps between them: with 10³⁶ layers that is
+    /// a number of a million bits.
+    ///
     /// # Examples
     /// ```
     /// use cannonpile::disorder::{FirstSign, RandomStackings};
     ///
     /// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
-    /// let counts: Vec<_> = (0..=5).map(|d| stackings.count_with(d).to_string()).collect();
-    /// assert_eq!(counts, ["1", "4", "6", "4", "1", "0"]);
+    /// for (faults, count) in (0..).zip([1_u32, 4, 6, 4, 1, 0]) {
+    ///     assert_eq!(stackings.count_with(faults)?, count.into());
+    /// }
     /// let random = RandomStackings::new(6, FirstSign::Random)?;
-    /// assert_eq!(random.count_with(2), 12_u32.into());
+    /// assert_eq!(random.count_with(2)?, 12_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    #[must_use]
-    pub fn count_with(&self, faults: u32) -> BigUint {
-        if i128::from(faults) > self.most_faults() {
-            return BigUint::zero();
+    pub fn count_with(&self, faults: u32) -> Result<BigUint, Error> {
+        let straight = self.most_faults() - i128::from(faults);
+        if straight < 0 {
+            return Ok(BigUint::zero());
+        }
+        let fewer = straight.min(faults.into()).unsigned_abs();
+        if fewer > MOST_FAULTS.into() {
+            return Err(Error::TooLarge {
+                quantity: "the number of stackings with so many faults",
+                needed: fewer.into(),
+                limit: MOST_FAULTS,
+                remedy: "ask for fewer faults or fewer layers",
+            });
         }
         let of = self.most_faults().unsigned_abs();
-        let stackings = binomial(BigUint::from(of), BigUint::from(faults));
-        stackings * BigUint::from(self.first_signs().len())
+        // C(of, t + 1) = C(of, t)·(of − t)/(t + 1).
+        let next = |stackings: BigUint, t| stackings * (of - t) / (t + 1);
+        Ok((0..fewer).fold(self.first_signs().len().into(), next))
     }
 
     /// Returns the signs that a stacking can begin with, each as likely: of a single layer there is one stacking.

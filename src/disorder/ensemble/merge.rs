@@ -267,7 +267,10 @@ impl Tally {
                 && held.as_ref().is_none_or(is_between)
                 && standing.stackings <= all.stackings
                 && standing.contacts <= all.contacts
-                && (self.choice != Choice::All || all.stackings <= stackings.count_with(*faults))
+                && (self.choice != Choice::All
+                    || stackings
+                        .count_with(*faults)
+                        .is_ok_and(|count| all.stackings <= count))
                 && [all, standing]
                     .iter()
                     .all(|of| of.is_possible(&self.ensemble, d))

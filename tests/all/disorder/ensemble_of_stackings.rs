@@ -1,7 +1,7 @@
 //! How many stackings there are, with which probability, and in which registry they end: counted one by one.
 
 use cannonpile::disorder::{FirstSign, Place, RandomStackings};
-use cannonpile::lattice::Sign;
+use cannonpile::lattice::{MAX_LAYERS, Sign};
 use cannonpile::scalar::{Polynomial, Symbol};
 use num_bigint::BigUint;
 use num_rational::BigRational;
@@ -21,7 +21,8 @@ fn counts_and_registries_of_all_stackings() {
             let all = Piles::response(steps, first).stackings();
             let total = BigUint::from(all.len());
             let choices = steps.saturating_sub(1);
-            let counts = (0..=u32::try_from(choices).unwrap() + 2).map(|d| stackings.count_with(d));
+            let counts =
+                (0..=u32::try_from(choices).unwrap() + 2).map(|d| stackings.count_with(d).unwrap());
             let counts: Vec<_> = counts.collect();
             for (d, count) in counts.iter().enumerate() {
                 let with = all.iter().filter(|signs| faults(signs) == d).count();
@@ -69,6 +70,40 @@ fn registries_of_ten_thousand_layers() {
     let stackings = RandomStackings::new(10_000, FirstSign::Plus).unwrap();
     let registry = stackings.registry(&ratio(0, 1)).unwrap();
     assert_eq!(registry, [1, 0, 0].map(|share| ratio(share, 1)));
+}
+
+/// Of few faults or few straight steps in the highest piles, and no further: there the last is C(10³⁶ − 2, 10⁴), its first digits
+/// those of (10³⁶)^10000/10000!.
+#[test]
+fn counts_in_the_highest_piles() {
+    let highest = RandomStackings::new(MAX_LAYERS, FirstSign::Plus).unwrap();
+    assert_eq!(
+        highest.count_with(1),
+        Ok(BigUint::from(10_u32).pow(36) - 2_u32)
+    );
+    let count = highest.count_with(10_000).unwrap();
+    let factorial: BigUint = (1..=10_000_u32).product();
+    let power = BigUint::from(10_u32).pow(360_000);
+    let beside = &power - &count * &factorial;
+    assert!(
+        beside < &power / BigUint::from(10_u32).pow(27),
+        "10^8/2 of 10^36"
+    );
+    assert!(count.bits() > 1_000_000);
+    // Straight but for two steps.
+    let layers = i128::from(u32::MAX) + 4;
+    let many = RandomStackings::new(layers, FirstSign::Random).unwrap();
+    let two = BigUint::from(layers.unsigned_abs() - 2) * (layers.unsigned_abs() - 3);
+    assert_eq!(many.count_with(u32::MAX), Ok(two));
+    for (stackings, faults) in [(highest, 10_001), (highest, u32::MAX), (many, u32::MAX / 2)] {
+        let refused = stackings.count_with(faults).unwrap_err();
+        assert!(
+            refused
+                .to_string()
+                .ends_with("ask for fewer faults or fewer layers"),
+            "{refused}"
+        );
+    }
 }
 
 #[test]

@@ -132,7 +132,7 @@ fn as_many_stand_as_in_the_census() -> Result<(), Error> {
                 Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
             assert_eq!(tally.standing(By::Sloping), Some((census * pairs).into()));
             for (d, with) in (0..).zip(&tally.faults) {
-                assert_eq!(with.all.stackings, stackings.count_with(d));
+                assert_eq!(with.all.stackings, stackings.count_with(d)?);
             }
             // At q = ½ all are equally likely.
             let probability = tally.standing_probability(By::Sloping, &ratio(1, 2))?;
