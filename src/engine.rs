@@ -4,12 +4,13 @@
 //! |---|---|---|
 //! | *closed* | by counting the spheres on a line, paper, (8) and (9) | `tree.rs`, which such a line begins |
 //! | *tree* | the lines above one sphere, which begin at the changes of sign | `tree.rs` |
-//! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs; of extremes a third of it | `sweep.rs`, `cells.rs`, `limbs.rs`, `thirds.rs` |
+//! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs; of extremes a third of it | `sweep.rs`, `cells.rs`, `bands.rs`, `plane.rs`, `limbs.rs`, `thirds.rs` |
 //! | *table* | the distinct forces of a straight pile, copied row by row | `table.rs` |
 //!
 //! Engines know a [`System`](crate::pile::System), not a pile. They count and pass on by the functions of
 //! [`formula`](crate::formula), and by nothing else.
 
+mod bands;
 mod cells;
 mod ends;
 mod grid;
@@ -20,6 +21,7 @@ mod meter;
 mod nearest;
 mod parallel;
 mod plan;
+mod plane;
 mod question;
 mod rows;
 mod single;

@@ -46,8 +46,9 @@ use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::cells::{Plane, Ramps, make, row};
+use super::bands::make;
 use super::grid::{Grid, Layer, Moves, Pass};
+use super::plane::{Plane, Ramps, row};
 use crate::Error;
 use crate::error::bug;
 use crate::formula::{force, tripled_apart};

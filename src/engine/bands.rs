@@ -1,0 +1,373 @@
+//! Passes over the numbers of a layer that follow each other.
+//!
+//! A sphere of row j has its lines α and β in the cells of row j, and γ in those of row j + o, o the net number of + steps
+//! down to the last layer. So of two passes that follow each other, to o and then to o′, the second may work on row j once
+//! the first has worked on the rows j and j + o′ − o. Passes that wait are therefore made together, row after row: each
+//! pass max(0, o′ − o) rows behind the one before, so that a row of cells is still in the nearest cache when the next
+//! pass comes for it. Threads take bands of rows, halves of halves: within a band each pass leaves out the rows that hang
+//! on the other half, one for each step of o, and what was left out around the border is made up for when both are done.
+
+use alloc::vec::Vec;
+use core::ops::{Add, Range};
+
+use num_traits::ToPrimitive;
+
+use super::grid::{Grid, Pass};
+use super::parallel;
+use super::plane::{Plane, Ramps, add, add_and_turn, row};
+use crate::Error;
+use crate::lattice::Counts;
+
+/// How many numbers are worth a thread of their own, each time one of them is changed.
+pub(super) const WORTH_A_THREAD: usize = 1 << 13;
+
+/// Passes that follow each other, with what each adds in every plane.
+pub(super) type Passes<V> = [(Pass, Vec<Ramps<V>>)];
+
+/// Makes passes that follow each other in all planes: adds the increments of each, and turns what it ends at if the sign
+/// changes there. Then does with the cells of each row, given among those of all planes, what is to be done at the end.
+///
+/// # Errors
+/// [`Error::Bug`] if a line has no cell.
+pub(super) fn make<V>(
+    planes: &mut [Plane<V>],
+    grid: &Grid<'_>,
+    passes: &Passes<V>,
+    turn: impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
+    finish: impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
+) -> Result<(), Error>
+where
+    V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
+{
+    let number = bands_worth(passes, planes.len());
+    make_whole(number, planes, grid, passes, (turn, finish))
+}
+
+/// Makes the passes over whole layers, in so many bands at the most.
+///
+/// # Errors
+/// As for [`make`].
+fn make_whole<V>(
+    number: i128,
+    planes: &mut [Plane<V>],
+    grid: &Grid<'_>,
+    passes: &Passes<V>,
+    (turn, finish): (
+        impl Fn(&[V; 3]) -> [V; 3] + Send + Sync,
+        impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync,
+    ),
+) -> Result<(), Error>
+where
+    V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>,
+{
+    let whole = Band {
+        taken: passes.iter().map(|(pass, _)| pass.rows()).collect(),
+        starts: [0; 3],
+        planes: planes.iter_mut().map(Plane::slices_mut).collect(),
+    };
+    whole.make_in_bands(number, grid, passes, (&turn, &finish))
+}
+
+/// Returns how many bands are worth the work of these passes.
+fn bands_worth<V>(passes: &Passes<V>, planes: usize) -> i128 {
+    // Not a default: only whether threads are worth it hangs on it.
+    let sites = |(pass, _): &(Pass, _)| pass.part.site_count().to_usize().unwrap_or(usize::MAX);
+    let numbers = passes.iter().map(sites).fold(0, usize::saturating_add);
+    let worth = numbers.saturating_mul(3 * planes) / WORTH_A_THREAD;
+    // Threads are not asked for where they are not worth it.
+    if worth < 2 || parallel::threads() < 2 {
+        return 1;
+    }
+    let Some((first, _)) = passes.first() else {
+        return 1;
+    };
+    // Around a border a band loses rows, one for each step of the shift.
+    let shifts = || passes.iter().map(|(pass, _)| pass.shift);
+    let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
+    let lost: i128 = steps.map(i128::abs).sum();
+    let rows = first.rows();
+    let most = (rows.end - rows.start) / (2 * lost + 2);
+    // No more than threads: around each border rows are left, which one thread makes up for.
+    (worth.min(parallel::threads()) as i128).min(most).max(1)
+}
+
+/// The rows that are taken, by pass.
+type Taken = Vec<Range<i128>>;
+
+/// Rows of a layer with the cells of their lines in every plane, and what each pass takes of them.
+struct Band<'c, V> {
+    taken: Taken,
+    /// Where the slices begin among all cells.
+    starts: [usize; 3],
+    planes: Vec<[&'c mut [V]; 3]>,
+}
+
+impl<V> Band<'_, V> {
+    /// Returns where half of its bands end: the row of the first pass behind them, which is not its first one, and the row
+    /// of γ behind them.
+    fn border(&self, number: i128, passes: &Passes<V>) -> Option<[i128; 2]> {
+        let ((pass, _), rows) = (passes.first()?, self.taken.first()?.clone());
+        let sites = |j| {
+            let row = pass.part.row(j);
+            row.end - row.start
+        };
+        let all: i128 = rows.clone().map(sites).sum();
+        let mut before = 0;
+        let border = rows.skip(1).find(|border| {
+            before += sites(border - 1);
+            before * number >= all * (number / 2)
+        });
+        border.map(|border| [border, border + pass.shift])
+    }
+
+    /// Splits it before a row of the first pass: each pass takes of either part what hangs on that part alone. Returns what
+    /// is left around the border, too, by pass.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] for a row that has no cells.
+    fn split_before(
+        &mut self,
+        [border, gamma]: [i128; 2],
+        grid: &Grid<'_>,
+        passes: &Passes<V>,
+    ) -> Result<([Band<'_, V>; 2], Taken), Error> {
+        let shifts = || passes.iter().map(|(pass, _)| pass.shift);
+        // Row j hangs on the rows j and j + step of the pass before.
+        let steps = shifts().zip(shifts().skip(1)).map(|(o, next)| next - o);
+        let around = steps.scan(border..border, |around, step| {
+            around.start = around.start.min(around.start - step);
+            around.end = around.end.max(around.end - step);
+            Some(around.clone())
+        });
+        let around: Vec<_> = core::iter::once(border..border).chain(around).collect();
+        let by_pass = |of: fn(&Range<i128>, &Range<i128>) -> Range<i128>| {
+            let rows = self.taken.iter().zip(&around);
+            rows.map(|(rows, around)| of(rows, around)).collect()
+        };
+        let before = by_pass(|rows, around| rows.start..rows.end.min(around.start));
+        let behind = by_pass(|rows, around| rows.start.max(around.end)..rows.end);
+        let left = by_pass(|rows, around| rows.start.max(around.start)..rows.end.min(around.end));
+        // γ is cut beside α and β: between the rows that the first pass takes together.
+        let own = grid.row_start(border)?;
+        let starts = [own, own, grid.row_start(gamma)?];
+        let mut parts = [(before, self.starts), (behind, starts)].map(|(taken, starts)| Band {
+            taken,
+            starts,
+            planes: Vec::with_capacity(self.planes.len()),
+        });
+        let lengths = [0, 1, 2].map(|line| starts[line] - self.starts[line]);
+        for [a, b, c] in &mut self.planes {
+            let (a, a_behind) = a.split_at_mut(lengths[0]);
+            let (b, b_behind) = b.split_at_mut(lengths[1]);
+            let (c, c_behind) = c.split_at_mut(lengths[2]);
+            parts[0].planes.push([a, b, c]);
+            parts[1].planes.push([a_behind, b_behind, c_behind]);
+        }
+        Ok((parts, left))
+    }
+}
+
+impl<V: Clone + Send + Sync + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
+    /// Makes all passes over their rows, in so many bands at once where there are threads; then what was left out around the
+    /// borders between them.
+    ///
+    /// # Errors
+    /// As for [`make`](Self::make).
+    fn make_in_bands(
+        mut self,
+        number: i128,
+        grid: &Grid<'_>,
+        passes: &Passes<V>,
+        (turn, finish): (
+            &(impl Fn(&[V; 3]) -> [V; 3] + Send + Sync),
+            &(impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]) + Send + Sync),
+        ),
+    ) -> Result<(), Error> {
+        let several = number > 1;
+        if let Some(border) = several.then(|| self.border(number, passes)).flatten() {
+            let ([before, behind], left) = self.split_before(border, grid, passes)?;
+            let half = number / 2;
+            parallel::share(
+                || before.make_in_bands(half, grid, passes, (turn, finish)),
+                || behind.make_in_bands(number - half, grid, passes, (turn, finish)),
+            )?;
+            self.taken = left;
+        }
+        self.make(grid, passes, turn, finish)
+    }
+}
+
+impl<V: Clone + for<'a> Add<&'a V, Output = V>> Band<'_, V> {
+    /// Makes all passes over their rows, each as far behind the one before as it must be.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] if a line has no cell.
+    fn make(
+        mut self,
+        grid: &Grid<'_>,
+        passes: &Passes<V>,
+        turn: &impl Fn(&[V; 3]) -> [V; 3],
+        finish: &impl Fn(&mut [[&mut [V]; 3]], &[Range<usize>; 3]),
+    ) -> Result<(), Error> {
+        let mut delay = 0;
+        let mut delays = Vec::with_capacity(passes.len());
+        for (place, (pass, _)) in passes.iter().enumerate() {
+            let before = place.checked_sub(1).and_then(|before| passes.get(before));
+            // The first pass waits for none.
+            delay += match before {
+                Some((before, _)) => (pass.shift - before.shift).max(0),
+                None => 0,
+            };
+            delays.push(delay);
+        }
+        let counts = |(pass, _): &(Pass, _)| pass.region.counts(pass.run.sign, pass.k - pass.from);
+        let counts = passes
+            .iter()
+            .map(counts)
+            .collect::<Result<Vec<Counts>, _>>()?;
+        let filled = || {
+            self.taken
+                .iter()
+                .zip(&delays)
+                .filter(|(rows, _)| !rows.is_empty())
+        };
+        let start = filled().map(|(rows, delay)| rows.start + delay).min();
+        let end = filled().map(|(rows, delay)| rows.end + delay).max();
+        let (Some(start), Some(end)) = (start, end) else {
+            return Ok(());
+        };
+        for time in start..end {
+            for (place, (pass, ramps)) in passes.iter().enumerate() {
+                // As many delays and ranges as passes.
+                let j = time - delays[place];
+                if self.taken[place].contains(&j) {
+                    let cells = self.pass(grid, pass, ramps, (j, &counts[place]), turn)?;
+                    if place + 1 == passes.len() {
+                        finish(&mut self.planes, &cells);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes a pass over row j, and returns where its cells are.
+    ///
+    /// # Errors
+    /// As for [`make`](Self::make).
+    fn pass(
+        &mut self,
+        grid: &Grid<'_>,
+        pass: &Pass,
+        ramps: &[Ramps<V>],
+        (j, counts): (i128, &Counts),
+        turn: &impl Fn(&[V; 3]) -> [V; 3],
+    ) -> Result<[Range<usize>; 3], Error> {
+        let i = pass.part.row(j);
+        let mut cells = grid.row(j, &i, pass.shift)?;
+        for (cells, start) in cells.iter_mut().zip(self.starts) {
+            *cells = cells.start - start..cells.end - start;
+        }
+        let n = cells[0].len();
+        let [alpha, beta, gamma] = counts.in_row([i.start, j], n)?;
+        for (plane, Ramps([a, b, c])) in self.planes.iter_mut().zip(ramps) {
+            let rows = row(plane, cells.clone());
+            let along = [alpha.along(a)?, beta.along(b)?, gamma.along(c)?];
+            if pass.turns {
+                add_and_turn(rows, &along, turn);
+            } else {
+                for (row, along) in rows.into_iter().zip(&along) {
+                    add(row, along);
+                }
+            }
+        }
+        Ok(cells)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Region;
+    use crate::shape::Shape;
+
+    /// All passes of a pile, so many at a time, in so many bands, with something added when rows are finished. The numbers
+    /// stay small, and no turn is like another.
+    fn swept(shape: &Shape, at_a_time: usize, number: i128, finished: i64) -> Plane<i64> {
+        let last = shape.layers() - 1;
+        let grid = Grid::new(shape, last, 1).unwrap();
+        let mut plane = [Plane::new(&grid, &0)];
+        let mut passes = Vec::new();
+        let mut k = 0;
+        while let Some(pass) = grid.pass(k, last).unwrap() {
+            let times = |w: &i64, n: i128| w * i64::try_from(n).unwrap();
+            passes.push((pass, alloc::vec![Ramps::new(&pass, &[1, 2, 5], times)]));
+            k = pass.k;
+        }
+        let turn = |[a, b, c]: &[i64; 3]| {
+            [2 * b + 3 * c - a, a + 7 * b - c, 5 * a - b + c].map(|x| x.rem_euclid(10_007))
+        };
+        let finish = |planes: &mut [[&mut [i64]; 3]], cells: &[Range<usize>; 3]| {
+            for plane in planes {
+                row(plane, cells.clone())
+                    .into_iter()
+                    .flatten()
+                    .for_each(|x| *x += finished);
+            }
+        };
+        for passes in passes.chunks(at_a_time) {
+            make_whole(number, &mut plane, &grid, passes, (turn, finish)).unwrap();
+        }
+        let [plane] = plane;
+        plane
+    }
+
+    #[test]
+    fn bands_and_their_seams_are_the_whole() {
+        let alternating = "+-".repeat(9);
+        let mut compared = 0;
+        for stacking in [
+            alternating.as_str(),
+            "-++-+---+-+-++",
+            "+++--+-----+",
+            "-+-+",
+        ] {
+            for top in [
+                Region::hexagon(25, 18),
+                Region::triangle(30),
+                Region::hexagon(2, 1),
+            ] {
+                let shape = Shape::under(top.unwrap(), stacking.parse().unwrap()).unwrap();
+                for at_a_time in [1, 2, 5, 8] {
+                    let Plane(plain) = swept(&shape, 1, 1, 0);
+                    assert_eq!(
+                        swept(&shape, at_a_time, 1, 0).0,
+                        plain,
+                        "{stacking} {at_a_time}"
+                    );
+                    let Plane(whole) = swept(&shape, at_a_time, 1, 1);
+                    for number in [2, 3, 7] {
+                        let Plane(bands) = swept(&shape, at_a_time, number, 1);
+                        assert_eq!(bands, whole, "{stacking} {at_a_time} {number}");
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert_eq!(compared, 144);
+    }
+
+    /// From bands of a few rows to as many as fit between the rows that passes lose.
+    #[test]
+    fn bands_of_low_layers_are_the_whole() {
+        for (side, stacking) in [(12, "+-+-+-+-"), (20, "-++-+--+"), (31, "+++---+-")] {
+            let top = Region::triangle(side).unwrap();
+            let shape = Shape::under(top, stacking.parse().unwrap()).unwrap();
+            let Plane(whole) = swept(&shape, 8, 1, 1);
+            for number in 2..=9 {
+                let Plane(bands) = swept(&shape, 8, number, 1);
+                assert_eq!(bands, whole, "{stacking} {number}");
+            }
+        }
+    }
+}
