@@ -85,6 +85,10 @@ impl Springs<'_> {
                 (None, Some(contact)) => {
                     self.open_wider(contact, &mut system)?;
                     state = self.state(&system, Cause::Weights)?;
+                    debug_assert!(
+                        state.overlapping(&system.open).is_empty(),
+                        "others are shut where their gaps come to an end"
+                    );
                 }
                 (Some(contact), None) if primal_steps > 0 => {
                     primal_steps -= 1;
@@ -121,6 +125,10 @@ impl Springs<'_> {
             for (force, after) in forces.iter_mut().zip(&state.forces) {
                 *force += &share * (after - &*force);
             }
+            debug_assert!(
+                forces.iter().all(|force| !force.is_negative()),
+                "each contact is opened where it would begin to pull"
+            );
             self.open(contact, system)?;
         }
     }

@@ -257,6 +257,10 @@ mod tests {
                 assert_eq!(read.to_string().parse(), Ok(read));
             }
         }
+        // A coefficient of 5000 digits, and the first of 5001.
+        let times_ten = |digits: &str| format!("{digits}*sqrt(100)").parse::<Surd>();
+        assert!(times_ten(&"9".repeat(MOST_DIGITS - 1)).is_ok());
+        assert!(times_ten(&ends_in(MOST_DIGITS - 2, '0')).is_err());
     }
 
     #[test]

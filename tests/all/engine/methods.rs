@@ -328,11 +328,16 @@ fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     assert_eq!((counters.visited(), counters.turned()), (1, 0));
 }
 
+/// The rows of a triangle begin at 0.
 #[test]
 fn wide_layers_are_swept_in_bands() {
-    let top = Region::hexagon(70, 60).unwrap();
+    are_swept_in_bands(Region::hexagon(70, 60).unwrap());
+    are_swept_in_bands(Region::triangle(150).unwrap());
+}
+
+fn are_swept_in_bands(top: Region) {
     let pile = under(top, "+-++-")
-        .with_load(Site { i: 3, j: -5, k: 1 }, ratio(22, 7))
+        .with_load(Site { i: 3, j: 5, k: 1 }, ratio(22, 7))
         .unwrap();
     let lines = pile.forces::<BigRational>().by(Method::Tree).unwrap();
     for k in [1, 2, 4] {

@@ -266,6 +266,30 @@ fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
     }
 }
 
+/// Not one row of a layer is left as it was, unsaid, where no force of it has a float.
+#[test]
+fn layers_without_a_float_are_refused() {
+    let pile = Pile::under(Region::SITE, "+-+-".parse().expect("signs")).expect("a pile");
+    let packing = packing_of(&pile);
+    let heavy = BigRational::from_float(1e60).expect("a number");
+    let packing = packing.with_mass(heavy).expect("a mass");
+    let packing = packing.by(Method::Sweep).expect("a sweep");
+    let mut layers = packing.layers::<f32>(Selection::All).expect("layers");
+    let mut refused = 0;
+    while let Some(layer) = layers.next_layer().expect("room") {
+        let mut floats = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+        let slices = floats.each_mut().map(Vec::as_mut_slice);
+        let filled = if layer.is_floor() {
+            layer.fill_base(slices)
+        } else {
+            layer.fill(slices)
+        };
+        assert!(matches!(filled, Err(Error::Overflow { .. })), "{filled:?}");
+        refused += 1;
+    }
+    assert_eq!(refused, 5);
+}
+
 #[test]
 fn sums_are_those_of_all_rows() {
     let on_floor = Site { i: 0, j: 0, k: 5 };
