@@ -100,7 +100,8 @@ impl Quantity {
 /// A column is a name of the header, or `#n`, the n-th column from 1 of a table without header. It may be a sum, with
 /// factors, unless it is the number of a sphere: `fx=-f_x` for a vector that is the force on the second sphere, `fx=#10+#13` for a normal and a tangential
 /// part, `force=1e7*overlap` for a linear spring of 10⁷ N/m. A quantity that is not named has the names above,
-/// or for LAMMPS `patom1`, `patom2`, `natom1`, `natom2`.
+/// or for LAMMPS `patom1`, `patom2`, `natom1`, `natom2`. A name that begins with - or has a * in it is written with its
+/// factor: `force=1*a*b`.
 ///
 /// # Examples
 /// ```
@@ -331,7 +332,11 @@ impl fmt::Display for Columns {
                     (false, _) => "+",
                 };
                 f.write_str(sign)?;
-                if factor.abs().to_bits() != 1.0_f64.to_bits() {
+                // Without it what such a name begins with would be read as one, or as a sign; that of a kind has none.
+                let is_part_of = |name: &String| name.starts_with('-') || name.contains('*');
+                let needs_factor = *quantity != Quantity::Kind
+                    && matches!(column, Column::Named(name) if is_part_of(name));
+                if needs_factor || factor.abs().to_bits() != 1.0_f64.to_bits() {
                     write!(f, "{}*", factor.abs())?;
                 }
                 match column {

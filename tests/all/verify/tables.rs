@@ -146,6 +146,24 @@ fn what_is_not_a_table_is_refused_with_the_remedy() {
     }
 }
 
+/// A name that could be taken for a sign or a factor is printed with one.
+#[test]
+fn columns_are_read_as_they_are_printed() {
+    for text in [
+        "id1=A,id2=B,fx=-f_x",
+        "fx=2.5*a+b+-c",
+        "fy=#10+#13-#2,fz=-2*#1",
+        "fz=1*7*overlap",
+        "force=-1*7*overlap+3*-a+1*-a",
+        "id1=1*a*b,id2=1*-c",
+        "kind=2*-type:SS|SP",
+    ] {
+        let read = columns(text);
+        assert_eq!(read.to_string(), text);
+        assert_eq!(read.to_string().parse(), Ok(read));
+    }
+}
+
 #[test]
 fn every_preset_reads_its_code_and_finds_a_fault_in_it() {
     let pile = Pile::triangular(4).unwrap();
