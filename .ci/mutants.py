@@ -571,7 +571,7 @@ def options():
     parser.add_argument("--seconds", type=float, default=1e9, metavar="S", help="begins no other after so long")
     parser.add_argument("--most", type=float, default=1e9, metavar="S", help="seconds of tests for one fault")
     parser.add_argument("--least", type=float, metavar="P", help="fails only if fewer per cent are noticed or listed")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     return parser.parse_args()
 
 

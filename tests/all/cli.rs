@@ -260,9 +260,8 @@ fn bad_values_are_named_with_their_remedy() {
 
 #[test]
 fn a_file_is_whole_or_not_there() {
-    let folder = std::env::temp_dir().join(format!("cannonpile-cli-{}", std::process::id()));
-    fs::create_dir_all(&folder).expect("a folder");
-    let path = folder.join("base.csv");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("base.csv");
     let target = path.display();
     assert!(stdout(&format!("base --layers 2 --format csv --output {target}")).is_empty());
     let written = fs::read_to_string(&path).expect("the file");
@@ -273,11 +272,10 @@ fn a_file_is_whole_or_not_there() {
     ));
     refusal(&format!(
         "base --output {}",
-        folder.join("none/base.csv").display()
+        folder.path().join("none/base.csv").display()
     ));
     assert_eq!(fs::read_to_string(&path).expect("the file"), written);
-    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 1);
-    fs::remove_dir_all(&folder).expect("cleaned up");
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1);
 }
 
 #[test]

@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, iter};
 
+use tempfile::TempDir;
+
 macro_rules! console {
     ($($name:ident: $commands:literal;)*) => {
         $(#[test]
@@ -87,28 +89,13 @@ fn shown(text: &str) -> Vec<Shown<'_>> {
 }
 
 /// A folder with the files of `commands/files`, removed when it is dropped.
-struct Fresh(PathBuf);
-
-impl Fresh {
-    fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("console-{name}"));
-        if path.exists() {
-            fs::remove_dir_all(&path).expect("left by a run that was stopped");
-        }
-        fs::create_dir_all(&path).expect("a folder");
-        for file in fs::read_dir(folder().join("files")).expect("files") {
-            let file = file.expect("a file");
-            fs::copy(file.path(), path.join(file.file_name())).expect("a copy");
-        }
-        Self(path)
+fn fresh() -> TempDir {
+    let fresh = tempfile::tempdir().expect("a folder");
+    for file in fs::read_dir(folder().join("files")).expect("files") {
+        let file = file.expect("a file");
+        fs::copy(file.path(), fresh.path().join(file.file_name())).expect("a copy");
     }
-}
-
-impl Drop for Fresh {
-    fn drop(&mut self) {
-        // What is left is removed by the next run.
-        let _ = fs::remove_dir_all(&self.0);
-    }
+    fresh
 }
 
 /// The words of a command; quotes hold words together.
@@ -218,14 +205,13 @@ fn holds(name: &str, commands: usize) {
     let all = shown(&text);
     let mut now = String::new();
     let mut differences = String::new();
-    let mut fresh = Fresh::new(name);
+    let mut folder = fresh();
     for Shown { line, below } in &all {
         let (mark, command) = line.split_at(2);
         if mark == "$ " {
-            drop(fresh);
-            fresh = Fresh::new(name);
+            folder = fresh();
         }
-        let lines = run(command, &fresh.0);
+        let lines = run(command, folder.path());
         if !now.is_empty() && mark == "$ " {
             now.push('\n');
         }
@@ -269,7 +255,7 @@ fn blocks(kind: &str) -> impl Iterator<Item = &'static str> {
 fn readme_shows_what_is_printed() {
     let mut commands = 0;
     for Shown { line, below } in blocks("console").flat_map(shown) {
-        let lines = run(&line[2..], &Fresh::new("readme").0);
+        let lines = run(&line[2..], fresh().path());
         // What a reader sees in a terminal; where README goes on in words, the command is run alone.
         let failed = lines.iter().any(|line| line.starts_with("? "));
         let seen: Vec<String> = lines
@@ -344,7 +330,7 @@ fn a_difference_is_seen() {
         (second.line, &second.below[..]),
         ("> b", &["c", "", "d"][..])
     );
-    let wrong = run("cannonpile base --layers 0", &Fresh::new("wrong").0);
+    let wrong = run("cannonpile base --layers 0", fresh().path());
     assert_eq!((wrong[0].as_str(), wrong.len()), ("? 2", 2), "{wrong:?}");
     assert!(wrong[1].starts_with("! error: "), "{wrong:?}");
 }

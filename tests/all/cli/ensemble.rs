@@ -1,28 +1,25 @@
 //! Ensembles on the command line: in parts and whole, and what no part is.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 
+use tempfile::TempDir;
+
 use super::{cannonpile, refusal, stdout};
 
 /// A folder of this test, removed when it is dropped.
-struct Folder(PathBuf);
+struct Folder(TempDir);
 
 impl Folder {
-    fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ensemble-{name}"));
-        if path.exists() {
-            fs::remove_dir_all(&path).expect("left by a run that was stopped");
-        }
-        fs::create_dir_all(&path).expect("a folder");
-        Self(path)
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
     }
 
     fn file(&self, name: &str) -> String {
-        self.0.join(name).to_str().expect("text").to_owned()
+        self.0.path().join(name).to_str().expect("text").to_owned()
     }
 
     /// Writes a part, and returns its name.
@@ -31,13 +28,6 @@ impl Folder {
         let said = stdout(&format!("ensemble {scene} --shard {shard} --output {file}"));
         assert_eq!(said, "");
         file
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // What is left is removed by the next run.
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -50,8 +40,8 @@ const SCENES: [&str; 4] = [
 
 #[test]
 fn three_parts_in_any_order_are_the_whole_byte_for_byte() {
-    for (n, scene) in SCENES.into_iter().enumerate() {
-        let folder = Folder::new(&format!("orders-{n}"));
+    for scene in SCENES {
+        let folder = Folder::new();
         let parts = [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("{i}.json")));
         let whole = stdout(&format!("ensemble {scene} --format json"));
         for [a, b, c] in [
@@ -138,7 +128,7 @@ fn probabilities_are_exact_or_intervals() {
 
 #[test]
 fn what_is_no_part_is_refused_by_name() {
-    let folder = Folder::new("refused");
+    let folder = Folder::new();
     let scene = "--layers 6 --samples 90 --seed 7";
     let first = folder.part(scene, "1/3", "first.json");
     let third = folder.part(scene, "3/3", "third.json");
@@ -204,7 +194,7 @@ fn what_is_no_part_is_refused_by_name() {
 
 #[test]
 fn what_was_changed_is_refused() {
-    let folder = Folder::new("changed");
+    let folder = Folder::new();
     let scene = "--layers 6 --samples 90 --seed 7";
     let [first, second, third] =
         [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("part{i}.json")));

@@ -5,17 +5,25 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
+use tempfile::TempDir;
+
 use super::{cannonpile, refusal, stdout};
 
-/// A file that is gone after the test.
-struct Scratch(PathBuf);
+/// A file in a folder of its own, gone when it is dropped.
+struct Scratch {
+    _folder: TempDir,
+    path: PathBuf,
+}
 
 impl Scratch {
     fn new(name: &str, text: &str) -> Self {
-        let name = format!("cannonpile-{}-{name}.toml", std::process::id());
-        let path = std::env::temp_dir().join(name);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join(format!("{name}.toml"));
         fs::write(&path, text).expect("a file");
-        Self(path)
+        Self {
+            _folder: folder,
+            path,
+        }
     }
 
     /// What is printed on stdout, with or without a note beside it.
@@ -34,7 +42,7 @@ impl Scratch {
 
     fn arguments(&self, question: &str) -> String {
         let (command, options) = question.split_once(' ').unwrap_or((question, ""));
-        format!("{command} --scene {} {options}", self.0.display())
+        format!("{command} --scene {} {options}", self.path.display())
     }
 }
 
@@ -42,12 +50,6 @@ fn printed(arguments: &str) -> String {
     let output = cannonpile(arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
     String::from_utf8(output.stdout).expect("text")
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.0);
-    }
 }
 
 const PILE: &str = "layers = 4\nstacking = 'hcp'\ntop = 'hexagon:2'\nload = ['0,0,0=5/2']\nspacing = 1.2\nmass = 0.1\n";
@@ -135,7 +137,7 @@ fn options_on_the_line_win() {
 #[test]
 fn a_refusal_tells_the_file_from_the_line() {
     let file = Scratch::new("refusal", PILE);
-    let name = file.0.display().to_string();
+    let name = file.path.display().to_string();
     for (question, parts) in [
         (
             "base --sin-phi 1/3",
@@ -195,7 +197,7 @@ fn a_refusal_tells_the_file_from_the_line() {
     ] {
         let file = Scratch::new("text", text);
         let line = file.refused("summary");
-        assert!(line.contains(&file.0.display().to_string()), "{line}");
+        assert!(line.contains(&file.path.display().to_string()), "{line}");
         for part in parts {
             assert!(line.contains(part), "{text}: no '{part}' in {line}");
         }
@@ -206,7 +208,7 @@ fn a_refusal_tells_the_file_from_the_line() {
         "{nowhere}"
     );
     let file = Scratch::new("bytes", "");
-    fs::write(&file.0, b"mass = '\xff'").expect("a file");
+    fs::write(&file.path, b"mass = '\xff'").expect("a file");
     assert!(file.refused("summary").contains("invalid"));
 }
 
@@ -227,7 +229,7 @@ fn a_scene_is_written_and_read() {
             stdout(&format!("summary --units si {options}")),
             "{options}"
         );
-        let target = file.0.with_extension("out");
+        let target = file.path.with_extension("out");
         assert!(
             file.asked(&format!("scene --output {}", target.display()))
                 .is_empty()
@@ -243,10 +245,10 @@ fn a_scene_is_written_and_read() {
 #[test]
 fn what_is_no_text_is_refused_as_such() {
     let file = Scratch::new("bytes", "");
-    fs::write(&file.0, b"layers = 3 # \xff\n").expect("a file");
+    fs::write(&file.path, b"layers = 3 # \xff\n").expect("a file");
     assert!(file.refused("base").contains("not text in UTF-8"));
     // An odd letter, so that two bytes each are cut in the middle.
-    fs::write(&file.0, format!("#{}", "é".repeat(17 << 20))).expect("a file");
+    fs::write(&file.path, format!("#{}", "é".repeat(17 << 20))).expect("a file");
     assert!(file.refused("base").contains("longer than 16777216 bytes"));
 }
 

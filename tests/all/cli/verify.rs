@@ -5,29 +5,31 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
+use tempfile::TempDir;
+
 use super::{cannonpile, refusal, stdout};
 
 const LAMMPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/verify/lammps.dump");
 
-/// A file of this process, gone when it is dropped.
-struct Temporary(PathBuf);
+/// A file in a folder of its own, gone when it is dropped.
+struct Temporary {
+    _folder: TempDir,
+    path: PathBuf,
+}
 
 impl Temporary {
     fn new(name: &str, text: &str) -> Self {
-        let name = format!("cannonpile-verify-{}-{name}", std::process::id());
-        let path = std::env::temp_dir().join(name);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join(name);
         fs::write(&path, text).expect("a file is written");
-        Self(path)
+        Self {
+            _folder: folder,
+            path,
+        }
     }
 
     fn path(&self) -> &str {
-        self.0.to_str().expect("text")
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.0);
+        self.path.to_str().expect("text")
     }
 }
 
@@ -288,7 +290,7 @@ fn the_report_goes_to_a_file() {
     ));
     assert_eq!(said, "");
     assert!(
-        fs::read_to_string(&report.0)
+        fs::read_to_string(&report.path)
             .expect("written")
             .starts_with("[\n")
     );
