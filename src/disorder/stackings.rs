@@ -237,7 +237,7 @@ impl RandomStackings {
                 quantity: "the number of stackings with so many faults",
                 needed: fewer.into(),
                 limit: MOST_FAULTS,
-                remedy: "ask for fewer faults or fewer layers",
+                remedy: "ask for fewer faults, or as many as leave few straight steps",
             });
         }
         let of = self.most_faults().unsigned_abs();

@@ -114,7 +114,7 @@ mod standing_by {
         work()
     }
 
-    fn stand_by(ended: &AtomicBool) {
+    pub(super) fn stand_by(ended: &AtomicBool) {
         let engaged = Engaged::new();
         if engaged.0 {
             return;
@@ -227,6 +227,12 @@ mod tests {
         });
         assert_eq!(shared, Ok(()));
         lower + upper
+    }
+
+    /// Nobody knows when a thread comes to stand by: it may be too late.
+    #[test]
+    fn nothing_stands_by_for_what_has_ended() {
+        standing_by::stand_by(&AtomicBool::new(true));
     }
 
     #[test]

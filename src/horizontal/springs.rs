@@ -126,7 +126,7 @@ impl Springs<'_> {
                 *force += &share * (after - &*force);
             }
             debug_assert!(
-                forces.iter().all(|force| !force.is_negative()),
+                forces[contact].is_zero() && forces.iter().all(|force| !force.is_negative()),
                 "each contact is opened where it would begin to pull"
             );
             self.open(contact, system)?;
@@ -451,6 +451,48 @@ mod tests {
             pressed += usize::from(horizontal.iter().any(Signed::is_positive));
         }
         assert_eq!(pressed, 2);
+    }
+
+    /// Discs without weight under loads, with these contacts guessed to be open: what overlaps at first, and what pulls.
+    fn leads_to_the_one_state(
+        (layers, loads): (i128, &[(i128, i128, i64)]),
+        guessed: &[usize],
+        (overlaps, pulls): (&[usize], Option<usize>),
+    ) {
+        let pile = loads.iter().fold(
+            Pile::discs(layers).unwrap().weightless(),
+            |pile, (i, k, load)| {
+                let site = Site { i: *i, j: 0, k: *k };
+                pile.with_load(site, ratio(*load, 1)).unwrap()
+            },
+        );
+        let one = ratio(1, 1);
+        let springs = springs(&pile, &one);
+        let system = springs.system(guessed.iter().copied().collect()).unwrap();
+        let state = springs.state(&system, Cause::Weights).unwrap();
+        assert_eq!(state.overlapping(&system.open), overlaps);
+        assert_eq!(state.pulling(), pulls);
+        let columns = 0..springs.network.columns.len();
+        let guess = columns.map(|contact| f64::from(u8::from(guessed.contains(&contact))));
+        let state = springs.least_energy(guess.collect()).unwrap();
+        assert!(state.is_least_energy());
+        let otherwise = vec![1.0; springs.network.columns.len()];
+        let otherwise = springs.least_energy(otherwise).unwrap();
+        assert_eq!(state.forces, otherwise.forces);
+    }
+
+    /// Once the contact that overlaps is shut the horizontal one pulls from half of the way on, and is opened there.
+    #[test]
+    fn on_the_way_to_a_shut_contact_another_is_opened() {
+        let loads = [(0, 0, 5), (0, 1, 2), (1, 1, 2)];
+        leads_to_the_one_state((3, &loads), &[3], (&[3], None));
+    }
+
+    /// The contact that pulls is opened by 5; another's gap comes to its end at 5/2.
+    #[test]
+    fn on_the_way_to_an_open_contact_another_is_shut() {
+        let loads = [(0, 0, 1), (0, 1, 2), (2, 2, 1)];
+        leads_to_the_one_state((4, &loads), &[12, 14], (&[], Some(13)));
     }
 
     #[test]

@@ -328,17 +328,20 @@ fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     assert_eq!((counters.visited(), counters.turned()), (1, 0));
 }
 
-/// The rows of a triangle begin at 0.
+/// Rows from a negative one on, and from 0.
 #[test]
 fn wide_layers_are_swept_in_bands() {
-    are_swept_in_bands(Region::hexagon(70, 60).unwrap());
-    are_swept_in_bands(Region::triangle(150).unwrap());
+    are_swept_in_bands(Region::hexagon(70, 60).unwrap(), -5);
+    are_swept_in_bands(Region::triangle(150).unwrap(), 5);
 }
 
-fn are_swept_in_bands(top: Region) {
-    let pile = under(top, "+-++-")
-        .with_load(Site { i: 3, j: 5, k: 1 }, ratio(22, 7))
-        .unwrap();
+fn are_swept_in_bands(top: Region, loaded: i128) {
+    let loaded = Site {
+        i: 3,
+        j: loaded,
+        k: 1,
+    };
+    let pile = under(top, "+-++-").with_load(loaded, ratio(22, 7)).unwrap();
     let lines = pile.forces::<BigRational>().by(Method::Tree).unwrap();
     for k in [1, 2, 4] {
         let mut floats = pile.forces::<f64>().layers(Selection::Layer(k)).unwrap();

@@ -266,7 +266,7 @@ fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
     }
 }
 
-/// Not one row of a layer is left as it was, unsaid, where no force of it has a float.
+/// No layer is said to be filled where no force of it has a float.
 #[test]
 fn layers_without_a_float_are_refused() {
     let pile = Pile::under(Region::SITE, "+-+-".parse().expect("signs")).expect("a pile");
