@@ -224,7 +224,7 @@ impl fmt::Display for Fault {
                 nearest,
             } => write!(
                 f,
-                "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.2} R off, {within} R are allowed"
+                "no contact at ({x:.6}, {y:.6}, {z:.6}) m: the nearest sphere is {nearest:.4} R off, {within} R are allowed"
             ),
             Self::TwoColumns {
                 column,

@@ -21,7 +21,7 @@ const FITTED: usize = 5000;
 const MOST_TURNS: usize = 200;
 
 /// Angles this near to a multiple of 30° are that multiple, and shifts this near to nothing, in R, are none: spheres give
-/// way by more.
+/// way by more. But no place may move by more than a tenth of what it may be off.
 const EXACT: f64 = 1e-3;
 
 /// A frame, and the share of a sample that is found in it.
@@ -97,8 +97,9 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
     let points: Vec<[f64; 3]> = loaded.map(|(place, _)| point(place)).collect();
     // A shift by missing contacts is less than this.
     let near = (radius / 2.0).max(within);
+    let rounded = within / 10.0;
     let mut best = judge(Frame::OWN, near);
-    for frame in candidates(&points, pile.points, radius) {
+    for frame in candidates(&points, pile.points, (radius, rounded)) {
         let fit = judge(frame, near);
         if fit.is_better_than(&best) {
             best = fit;
@@ -106,13 +107,18 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
     }
     let mut frame = best.frame;
     for _ in 0..3 {
-        frame = fitted(frame, table, |place| places.point_of(place, near), radius);
+        frame = fitted(
+            frame,
+            table,
+            |place| places.point_of(place, near),
+            (radius, rounded),
+        );
     }
     judge(frame, within)
 }
 
 /// Frames worth trying, those with the least change first.
-fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<Frame> {
+fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], lengths: (f64, f64)) -> Vec<Frame> {
     let mut frames = Vec::new();
     let own = Axes::all().filter(|axes| {
         // One of each vertical, and of its mirror images: the rest is a turn.
@@ -126,7 +132,7 @@ fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<Frame>
         let [from, to] = [&named[..], pile].map(mean);
         // Where contacts are missing, the lowest may still be there.
         let sunk = lowest(pile) - lowest(&named);
-        for angle in angles(&named, pile, radius) {
+        for angle in angles(&named, pile, lengths) {
             let turn = Frame {
                 axes: Axes::OWN,
                 angle,
@@ -143,7 +149,7 @@ fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<Frame>
 }
 
 /// The angles that bring the point farthest from the middle axis onto one as far and as high, 0 first, the least next.
-fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<f64> {
+fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], (radius, rounded): (f64, f64)) -> Vec<f64> {
     let [from, to] = [points, pile].map(mean);
     let around = |point: &[f64; 3], middle: [f64; 3]| {
         let [x, y, z] = minus(*point, middle);
@@ -160,7 +166,7 @@ fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<f64> {
         if (distance - far).abs() > near || (height - high).abs() > near {
             continue;
         }
-        let turn = simple(wrapped(angle - at));
+        let turn = simple(wrapped(angle - at), rounded / far);
         if angles
             .iter()
             .all(|known| wrapped(known - turn).abs() > EXACT)
@@ -175,12 +181,13 @@ fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], radius: f64) -> Vec<f64> {
     angles
 }
 
-/// Fits the turn and the shift of a frame to the places that are found in it.
+/// Fits the turn and the shift of a frame to the places that are found in it. Of lengths, the second is how far places may
+/// move for rounder numbers.
 fn fitted(
     frame: Frame,
     table: &[Loaded],
     found: impl Fn(&Place) -> Option<[f64; 3]>,
-    radius: f64,
+    (radius, rounded): (f64, f64),
 ) -> Frame {
     let upright = Frame {
         angle: 0.0,
@@ -196,15 +203,17 @@ fn fitted(
         return frame;
     }
     let [a, b] = [&from, &to].map(|points| mean(points));
-    let (mut across, mut along) = (0.0, 0.0);
+    let (mut across, mut along, mut far) = (0.0, 0.0, 0.0_f64);
     for (p, q) in from.iter().zip(&to) {
         let ([x, y, _], [u, v, _]) = (minus(*p, a), minus(*q, b));
         across += x * v - y * u;
         along += x * u + y * v;
+        far = far.max(x.hypot(y));
     }
-    let angle = simple(across.atan2(along));
+    let angle = simple(across.atan2(along), rounded / far);
     let turned = Frame { angle, ..upright };
-    let to_own = |x: f64| if x.abs() < EXACT * radius { 0.0 } else { x };
+    let none = rounded.min(EXACT * radius);
+    let to_own = |x: f64| if x.abs() < none { 0.0 } else { x };
     // Turned already as far as its axes go.
     let spun = Frame {
         axes: Axes::OWN,
@@ -244,12 +253,12 @@ fn spread(places: &[Loaded], most: usize) -> Vec<&Loaded> {
     places.iter().step_by(step).collect()
 }
 
-/// An angle, or the multiple of 30° that it is near to.
-fn simple(angle: f64) -> f64 {
+/// An angle, or the multiple of 30° that it is near to, at the most this far from it.
+fn simple(angle: f64, most: f64) -> f64 {
     let step = PI / 6.0;
     let multiple = (angle / step).round();
     let round = multiple * step;
-    if (angle - round).abs() < EXACT {
+    if (angle - round).abs() < most.min(EXACT) {
         round
     } else {
         angle

@@ -10,6 +10,7 @@ use cannonpile::verify::{
 };
 use cannonpile::{Packing, Pile};
 use num_rational::BigRational;
+use num_traits::ToPrimitive;
 
 use super::{packing, perfect, ratio};
 
@@ -120,6 +121,31 @@ fn a_table_in_any_frame_is_accepted_and_the_frame_is_told() {
                 assert!(read.frame.is_none_or(|frame| !frame.is_mirrored()));
             }
         }
+    }
+}
+
+/// 9/10000 beyond 30° move the ends of a wide pile by 4 % of R; and a shift by as much is more than what is allowed.
+#[test]
+fn a_frame_is_not_rounded_by_more_than_what_is_allowed() {
+    let wide = Pile::discs(40).unwrap();
+    let small = Pile::triangular(5).unwrap();
+    for (pile, within, angle, shift) in [
+        (&wide, 0.02, std::f64::consts::FRAC_PI_6 + 9e-4, 0.0),
+        (&wide, 0.02, -9e-4, 0.0),
+        (&small, 5e-4, 0.0, 9e-4),
+    ] {
+        let packing = packing(pile, ratio(11, 10));
+        let radius = packing.radius().to_f64().unwrap();
+        let seen = Frame {
+            axes: own_axes(),
+            angle,
+            shift: [shift * radius, 0.0, 0.0],
+        };
+        let reader = Reader::new().by_place(within).unwrap();
+        let table = table(&packing, &seen, false, 0);
+        let read = reader.compare(&packing, table.as_bytes()).unwrap();
+        assert!(read.comparison.accepted(1e-9), "{}", read.comparison);
+        assert_eq!(read.comparison.missing(), 0);
     }
 }
 
