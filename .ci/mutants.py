@@ -499,6 +499,11 @@ class Attack:
 
         return sorted(self.reaching[fault.number], key=cost)
 
+    def passes(self, binary, chunk, fault):
+        tests = [self.recorded[index] for index in chunk]
+        seconds = 10 + 5 * sum(test["seconds"] for test in tests)
+        return self.tests.run(binary, [test["name"] for test in tests], seconds, MUTANT=str(fault.number))
+
     def judge(self, fault):
         began = time.monotonic()
         order = self.order(fault)
@@ -515,12 +520,13 @@ class Attack:
             if spent + expected > self.most and spent:
                 return {"outcome": "survives so far", "seconds": time.monotonic() - began, "left": len(order) - at + len(chunk)}
             spent += expected
-            names = [self.recorded[index]["name"] for index in chunk]
-            if not self.tests.run(binary, names, 10 + 5 * expected, MUTANT=str(fault.number)):
-                if len(chunk) == 1:
+            if not self.passes(binary, chunk, fault):
+                # Alone, and again: what fails of something else does so once.
+                by = next((index for index in chunk if not self.passes(binary, [index], fault)), None)
+                if by is not None:
                     with self.lock:
-                        self.kills[fault.file][chunk[0]] += 1
-                return {"outcome": "noticed", "seconds": time.monotonic() - began, "by": names if len(names) < 4 else names[:3]}
+                        self.kills[fault.file][by] += 1
+                    return {"outcome": "noticed", "seconds": time.monotonic() - began, "by": self.recorded[by]["name"]}
             size *= 2
         return {"outcome": "survives", "seconds": time.monotonic() - began, "tests": len(order)}
 
