@@ -1,11 +1,10 @@
-//! A number for each line of a layer, and what a pass adds to it, row by row.
+//! A number for each line of a layer, and what a pass adds to it.
 
 use alloc::vec::Vec;
 use core::ops::{Add, Range};
 
 use super::grid::{Grid, Moves, Pass, Piece};
 use crate::formula;
-use crate::lattice::Along;
 
 /// A number for each line of a layer, by direction, in the cells of the last layer.
 #[derive(Clone, Debug)]
@@ -103,92 +102,4 @@ pub(super) fn row<'r, V>(
     [a, b, c]: [Range<usize>; 3],
 ) -> [&'r mut [V]; 3] {
     [&mut alpha[a], &mut beta[b], &mut gamma[c]]
-}
-
-/// Adds to three rows what their counts come to, and turns them.
-pub(super) fn add_and_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    [alpha, beta, gamma]: [&mut [V]; 3],
-    along @ [a, b, c]: &[Along<'_, V>; 3],
-    turn: &impl Fn(&[V; 3]) -> [V; 3],
-) {
-    /// So many places are dealt with one by one sooner than in loops of their own.
-    const FEW: usize = 16;
-    let n = alpha.len();
-    let up = a.up.len().max(b.up.len()).max(c.up.len());
-    let down = a.down.len().max(b.down.len()).max(c.down.len());
-    let (Some(level_a), Some(level_b), Some(level_c), true) =
-        (a.level, b.level, c.level, up + down <= FEW)
-    else {
-        return add_then_turn([alpha, beta, gamma], along, turn);
-    };
-    let sum = |x: &V, w| formula::passed_on(x.clone(), w);
-    // Where all three are level, what is added is the same everywhere.
-    let level = up..(n - down).max(up);
-    turn_apart(
-        &mut alpha[level.clone()],
-        &mut beta[level.clone()],
-        &mut gamma[level.clone()],
-        &|[x, y, z]: &[V; 3]| turn(&[sum(x, level_a), sum(y, level_b), sum(z, level_c)]),
-    );
-    for place in (0..level.start).chain(level.end..n) {
-        let after = n - 1 - place;
-        let (x, y, z) = (&mut alpha[place], &mut beta[place], &mut gamma[place]);
-        [*x, *y, *z] = turn(&[
-            sum(x, a.at(place, after, level_a)),
-            sum(y, b.at(place, after, level_b)),
-            sum(z, c.at(place, after, level_c)),
-        ]);
-    }
-}
-
-// Kept apart, so that the usual way stays small.
-#[inline(never)]
-fn add_then_turn<V: Clone + for<'a> Add<&'a V, Output = V>>(
-    mut rows: [&mut [V]; 3],
-    along: &[Along<'_, V>; 3],
-    turn: &impl Fn(&[V; 3]) -> [V; 3],
-) {
-    for (row, along) in rows.iter_mut().zip(along) {
-        add(row, along);
-    }
-    let [alpha, beta, gamma] = rows;
-    turn_apart(alpha, beta, gamma, turn);
-}
-
-/// Rows in different places, which the compiler knows of parameters.
-#[inline(never)]
-fn turn_apart<V: Clone>(a: &mut [V], b: &mut [V], c: &mut [V], turn: &impl Fn(&[V; 3]) -> [V; 3]) {
-    let n = a.len().min(b.len()).min(c.len());
-    let (a, b, c) = (&mut a[..n], &mut b[..n], &mut c[..n]);
-    for place in 0..n {
-        let turned = turn(&[a[place].clone(), b[place].clone(), c[place].clone()]);
-        [a[place], b[place], c[place]] = turned;
-    }
-}
-
-/// Adds to a row what its counts come to.
-pub(super) fn add<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], along: &Along<'_, V>) {
-    let Along { up, level, down } = *along;
-    let (rising, rest) = row.split_at_mut(up.len());
-    let (same, falling) = rest.split_at_mut(rest.len() - down.len());
-    add_each(rising, up.iter());
-    if let Some(value) = level {
-        add_same(same, value);
-    }
-    add_each(falling, down.iter().rev());
-}
-
-fn add_each<'v, V: Clone + 'v + for<'a> Add<&'a V, Output = V>>(
-    row: &mut [V],
-    values: impl Iterator<Item = &'v V>,
-) {
-    for (sum, value) in row.iter_mut().zip(values) {
-        *sum = formula::passed_on(sum.clone(), value);
-    }
-}
-
-fn add_same<V: Clone + for<'a> Add<&'a V, Output = V>>(row: &mut [V], value: &V) {
-    for sum in row {
-        *sum = formula::passed_on(sum.clone(), value);
-    }
 }
