@@ -21,8 +21,40 @@ const FITTED: usize = 5000;
 const MOST_TURNS: usize = 200;
 
 /// Angles this near to a multiple of 30° are that multiple, and shifts this near to nothing, in R, are none: spheres give
-/// way by more. But no place may move by more than a tenth of what it may be off.
+/// way by more.
 const EXACT: f64 = 1e-3;
+
+/// Which angles and shifts are taken for rounder ones.
+#[derive(Clone, Copy)]
+struct Rounding {
+    radius: f64,
+    /// How far that may move a place.
+    most: f64,
+}
+
+impl Rounding {
+    /// An angle, or the multiple of 30° that it is near to, of a frame whose places are no farther than this from its axis.
+    fn angle(self, angle: f64, far: f64) -> f64 {
+        let step = PI / 6.0;
+        let multiple = (angle / step).round();
+        let round = multiple * step;
+        // At most infinite, where all are on the axis.
+        if (angle - round).abs() < EXACT.min(self.most / far) {
+            round
+        } else {
+            angle
+        }
+    }
+
+    /// A part of a shift, or none.
+    fn shift(self, x: f64) -> f64 {
+        if x.abs() < self.most.min(EXACT * self.radius) {
+            0.0
+        } else {
+            x
+        }
+    }
+}
 
 /// A frame, and the share of a sample that is found in it.
 pub(super) struct Fit {
@@ -97,9 +129,12 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
     let points: Vec<[f64; 3]> = loaded.map(|(place, _)| point(place)).collect();
     // A shift by missing contacts is less than this.
     let near = (radius / 2.0).max(within);
-    let rounded = within / 10.0;
+    let rounding = Rounding {
+        radius,
+        most: within / 10.0,
+    };
     let mut best = judge(Frame::OWN, near);
-    for frame in candidates(&points, pile.points, (radius, rounded)) {
+    for frame in candidates(&points, pile.points, rounding) {
         let fit = judge(frame, near);
         if fit.is_better_than(&best) {
             best = fit;
@@ -107,18 +142,13 @@ pub(super) fn find(table: &[Loaded], pile: &Exact<'_>, radius: f64, within: f64)
     }
     let mut frame = best.frame;
     for _ in 0..3 {
-        frame = fitted(
-            frame,
-            table,
-            |place| places.point_of(place, near),
-            (radius, rounded),
-        );
+        frame = fitted(frame, table, |place| places.point_of(place, near), rounding);
     }
     judge(frame, within)
 }
 
 /// Frames worth trying, those with the least change first.
-fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], lengths: (f64, f64)) -> Vec<Frame> {
+fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec<Frame> {
     let mut frames = Vec::new();
     let own = Axes::all().filter(|axes| {
         // One of each vertical, and of its mirror images: the rest is a turn.
@@ -132,7 +162,7 @@ fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], lengths: (f64, f64)) -> Ve
         let [from, to] = [&named[..], pile].map(mean);
         // Where contacts are missing, the lowest may still be there.
         let sunk = lowest(pile) - lowest(&named);
-        for angle in angles(&named, pile, lengths) {
+        for angle in angles(&named, pile, rounding) {
             let turn = Frame {
                 axes: Axes::OWN,
                 angle,
@@ -149,7 +179,7 @@ fn candidates(points: &[[f64; 3]], pile: &[[f64; 3]], lengths: (f64, f64)) -> Ve
 }
 
 /// The angles that bring the point farthest from the middle axis onto one as far and as high, 0 first, the least next.
-fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], (radius, rounded): (f64, f64)) -> Vec<f64> {
+fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], rounding: Rounding) -> Vec<f64> {
     let [from, to] = [points, pile].map(mean);
     let around = |point: &[f64; 3], middle: [f64; 3]| {
         let [x, y, z] = minus(*point, middle);
@@ -159,14 +189,14 @@ fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], (radius, rounded): (f64, f64))
     let Some((far, high, at)) = all.max_by(|(one, ..), (other, ..)| one.total_cmp(other)) else {
         return Vec::new();
     };
-    let near = radius / 2.0;
+    let near = rounding.radius / 2.0;
     let mut angles: Vec<f64> = vec![0.0];
     for point in pile {
         let (distance, height, angle) = around(point, to);
         if (distance - far).abs() > near || (height - high).abs() > near {
             continue;
         }
-        let turn = simple(wrapped(angle - at), rounded / far);
+        let turn = rounding.angle(wrapped(angle - at), far);
         if angles
             .iter()
             .all(|known| wrapped(known - turn).abs() > EXACT)
@@ -181,13 +211,12 @@ fn angles(points: &[[f64; 3]], pile: &[[f64; 3]], (radius, rounded): (f64, f64))
     angles
 }
 
-/// Fits the turn and the shift of a frame to the places that are found in it. Of lengths, the second is how far places may
-/// move for rounder numbers.
+/// Fits the turn and the shift of a frame to the places that are found in it.
 fn fitted(
     frame: Frame,
     table: &[Loaded],
     found: impl Fn(&Place) -> Option<[f64; 3]>,
-    (radius, rounded): (f64, f64),
+    rounding: Rounding,
 ) -> Frame {
     let upright = Frame {
         angle: 0.0,
@@ -210,16 +239,14 @@ fn fitted(
         along += x * u + y * v;
         far = far.max(x.hypot(y));
     }
-    let angle = simple(across.atan2(along), rounded / far);
+    let angle = rounding.angle(across.atan2(along), far);
     let turned = Frame { angle, ..upright };
-    let none = rounded.min(EXACT * radius);
-    let to_own = |x: f64| if x.abs() < none { 0.0 } else { x };
     // Turned already as far as its axes go.
     let spun = Frame {
         axes: Axes::OWN,
         ..turned
     };
-    let shift = minus(b, spun.turned(a)).map(to_own);
+    let shift = minus(b, spun.turned(a)).map(|x| rounding.shift(x));
     Frame { shift, ..turned }
 }
 
@@ -251,18 +278,6 @@ fn point(place: &Place) -> [f64; 3] {
 fn spread(places: &[Loaded], most: usize) -> Vec<&Loaded> {
     let step = places.len().div_ceil(most).max(1);
     places.iter().step_by(step).collect()
-}
-
-/// An angle, or the multiple of 30° that it is near to, at the most this far from it.
-fn simple(angle: f64, most: f64) -> f64 {
-    let step = PI / 6.0;
-    let multiple = (angle / step).round();
-    let round = multiple * step;
-    if (angle - round).abs() < most.min(EXACT) {
-        round
-    } else {
-        angle
-    }
 }
 
 fn wrapped(angle: f64) -> f64 {
