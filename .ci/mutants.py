@@ -500,6 +500,7 @@ class Attack:
         return sorted(self.reaching[fault.number], key=cost)
 
     def passes(self, binary, chunk, fault):
+        """Whether these tests of a binary pass though the fault is there."""
         tests = [self.recorded[index] for index in chunk]
         seconds = 10 + 5 * sum(test["seconds"] for test in tests)
         return self.tests.run(binary, [test["name"] for test in tests], seconds, MUTANT=str(fault.number))

@@ -379,18 +379,27 @@ mod tests {
     use crate::lattice::Region;
     use crate::shape::Shape;
 
+    /// The passes down to the last layer, without what they add.
+    fn passes_of(shape: &Shape, grid: &Grid<'_>) -> Vec<(Pass, Vec<Ramps<i64>>)> {
+        let last = shape.layers() - 1;
+        let (mut passes, mut k) = (Vec::new(), 0);
+        while let Some(pass) = grid.pass(k, last).unwrap() {
+            passes.push((pass, Vec::new()));
+            k = pass.k;
+        }
+        passes
+    }
+
     /// All passes of a pile, so many at a time, in so many bands, with something added when rows are finished. The numbers
     /// stay small, and no turn is like another.
     fn swept(shape: &Shape, at_a_time: usize, number: i128, finished: i64) -> Plane<i64> {
         let last = shape.layers() - 1;
         let grid = Grid::new(shape, last, 1).unwrap();
         let mut plane = [Plane::new(&grid, &0)];
-        let mut passes = Vec::new();
-        let mut k = 0;
-        while let Some(pass) = grid.pass(k, last).unwrap() {
+        let mut passes = passes_of(shape, &grid);
+        for (pass, ramps) in &mut passes {
             let times = |w: &i64, n: i128| w * i64::try_from(n).unwrap();
-            passes.push((pass, alloc::vec![Ramps::new(&pass, &[1, 2, 5], times)]));
-            k = pass.k;
+            ramps.push(Ramps::new(pass, &[1, 2, 5], times));
         }
         let turn = |[a, b, c]: &[i64; 3]| {
             [2 * b + 3 * c - a, a + 7 * b - c, 5 * a - b + c].map(|x| x.rem_euclid(10_007))
@@ -457,5 +466,106 @@ mod tests {
                 assert_eq!(bands, whole, "{stacking} {number}");
             }
         }
+    }
+
+    const TOPS: [&str; 4] = ["triangle:30", "hexagon:25,18", "hexagon:2,1", "triangle:1"];
+
+    fn shape(top: &str, stacking: &str) -> Shape {
+        let (top, stacking) = (top.parse().unwrap(), stacking.parse().unwrap());
+        Shape::under(top, stacking).unwrap()
+    }
+
+    /// Its share of the spheres lies before a border, and without the last row there less than that.
+    #[test]
+    fn a_border_is_where_the_first_bands_have_their_share() {
+        let mut borders = 0;
+        for top in TOPS {
+            let shape = shape(top, "-+-+++-");
+            let grid = Grid::new(&shape, shape.layers() - 1, 1).unwrap();
+            let passes = passes_of(&shape, &grid);
+            let (pass, _) = &passes[0];
+            let rows = pass.rows();
+            let before = |border| {
+                let sites = (rows.start..border).map(|j| pass.part.row(j).count());
+                i128::try_from(sites.sum::<usize>()).unwrap()
+            };
+            for number in 2..8 {
+                let band = Band::<i64> {
+                    taken: alloc::vec![rows.clone()],
+                    starts: [0; 3],
+                    planes: Vec::new(),
+                };
+                let share = before(rows.end) * (number / 2);
+                let Some([border, gamma]) = band.border(number, &passes) else {
+                    assert!(before(rows.end - 1) * number < share, "{top} {number}");
+                    continue;
+                };
+                assert!(
+                    (rows.start + 1..rows.end).contains(&border),
+                    "{top} {number}"
+                );
+                assert!(before(border) * number >= share, "{top} {number}");
+                let is_first = border == rows.start + 1;
+                assert!(
+                    is_first || before(border - 1) * number < share,
+                    "{top} {number}"
+                );
+                assert_eq!(gamma, border + pass.shift);
+                borders += 1;
+            }
+        }
+        assert!(borders > 15, "{borders}");
+    }
+
+    /// As many as there are threads, as each has enough to do, and as have rows to lose on both sides of a border: but no fewer.
+    #[cfg(feature = "rayon")]
+    #[test]
+    fn bands_are_as_many_as_are_worth_it() {
+        let mut limited = [0; 3];
+        for (top, stacking) in [
+            ("triangle:30", "+-+-+-+-"),
+            ("triangle:90", "+-+-+-+-"),
+            ("hexagon:90,90", "++--++--"),
+            ("hexagon:400,9", "+++---+++---"),
+            ("triangle:300", "+"),
+            ("triangle:1", "+-+-"),
+        ] {
+            let shape = shape(top, stacking);
+            let grid = Grid::new(&shape, shape.layers() - 1, 1).unwrap();
+            let passes = passes_of(&shape, &grid);
+            let sites = |(pass, _): &(Pass, _)| {
+                pass.rows().map(|j| pass.part.row(j).count()).sum::<usize>()
+            };
+            let sites: usize = passes.iter().map(sites).sum();
+            let lost = passes
+                .windows(2)
+                .map(|two| (two[1].0.shift - two[0].0.shift).abs())
+                .sum::<i128>();
+            let rows = i128::try_from(passes[0].0.rows().count()).unwrap();
+            for planes in [1, 4] {
+                for threads in [1, 2, 5] {
+                    let pool = rayon::ThreadPoolBuilder::new()
+                        .num_threads(threads)
+                        .build()
+                        .unwrap();
+                    let number = pool.install(|| bands_worth(&passes, planes));
+                    let fits = |number: i128| {
+                        let bands = usize::try_from(number).unwrap();
+                        [
+                            bands <= threads,
+                            bands * WORTH_A_THREAD <= 3 * planes * sites,
+                            number * (2 * lost + 2) <= rows,
+                        ]
+                    };
+                    assert!(number == 1 || fits(number) == [true; 3], "{top} {threads}");
+                    let more = fits(number + 1);
+                    assert!(more.contains(&false), "{top} {threads}: {number}");
+                    for (limited, fits) in limited.iter_mut().zip(more) {
+                        *limited += usize::from(!fits);
+                    }
+                }
+            }
+        }
+        assert!(limited.iter().all(|limited| *limited > 3), "{limited:?}");
     }
 }

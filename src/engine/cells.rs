@@ -101,3 +101,19 @@ impl<T: Algebra> Layer<T> for Cells<T::Numerator> {
         self.plane.carried(cells).map(Clone::clone)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nine passes and more, of which eight are made together, over two threads' worth of numbers: three of each sphere in each pass.
+    #[test]
+    fn somebody_stands_by_where_several_bands_are_made_again_and_again() {
+        let is_worth =
+            |passes, side| are_worth_one_standing_by(passes, &Region::triangle(side).unwrap());
+        // 666 and 703 spheres.
+        assert!(!is_worth(9, 36) && is_worth(9, 37));
+        assert!(!is_worth(8, 37) && !is_worth(8, 1000));
+        assert!(!is_worth(1000, 36) && is_worth(1000, 37));
+    }
+}

@@ -17,7 +17,32 @@ mod verify;
 
 use std::fs;
 use std::io::Read;
+use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+/// A file in a folder of its own, gone when it is dropped.
+struct Temporary {
+    _folder: TempDir,
+    path: PathBuf,
+}
+
+impl Temporary {
+    fn new(name: &str, text: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("a file is written");
+        Self {
+            _folder: folder,
+            path,
+        }
+    }
+
+    fn path(&self) -> &str {
+        self.path.to_str().expect("text")
+    }
+}
 
 fn cannonpile(arguments: &str) -> Output {
     Command::new(env!("CARGO_BIN_EXE_cannonpile"))

@@ -2,28 +2,16 @@
 
 use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use tempfile::TempDir;
+use super::{Temporary, cannonpile, refusal, stdout};
 
-use super::{cannonpile, refusal, stdout};
-
-/// A file in a folder of its own, gone when it is dropped.
-struct Scratch {
-    _folder: TempDir,
-    path: PathBuf,
-}
+/// A scene in a file, gone when it is dropped.
+struct Scratch(Temporary);
 
 impl Scratch {
     fn new(name: &str, text: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join(format!("{name}.toml"));
-        fs::write(&path, text).expect("a file");
-        Self {
-            _folder: folder,
-            path,
-        }
+        Self(Temporary::new(&format!("{name}.toml"), text))
     }
 
     /// What is printed on stdout, with or without a note beside it.
@@ -42,7 +30,7 @@ impl Scratch {
 
     fn arguments(&self, question: &str) -> String {
         let (command, options) = question.split_once(' ').unwrap_or((question, ""));
-        format!("{command} --scene {} {options}", self.path.display())
+        format!("{command} --scene {} {options}", self.0.path())
     }
 }
 
@@ -137,7 +125,7 @@ fn options_on_the_line_win() {
 #[test]
 fn a_refusal_tells_the_file_from_the_line() {
     let file = Scratch::new("refusal", PILE);
-    let name = file.path.display().to_string();
+    let name = file.0.path().to_owned();
     for (question, parts) in [
         (
             "base --sin-phi 1/3",
@@ -197,7 +185,7 @@ fn a_refusal_tells_the_file_from_the_line() {
     ] {
         let file = Scratch::new("text", text);
         let line = file.refused("summary");
-        assert!(line.contains(&file.path.display().to_string()), "{line}");
+        assert!(line.contains(file.0.path()), "{line}");
         for part in parts {
             assert!(line.contains(part), "{text}: no '{part}' in {line}");
         }
@@ -208,7 +196,7 @@ fn a_refusal_tells_the_file_from_the_line() {
         "{nowhere}"
     );
     let file = Scratch::new("bytes", "");
-    fs::write(&file.path, b"mass = '\xff'").expect("a file");
+    fs::write(&file.0.path, b"mass = '\xff'").expect("a file");
     assert!(file.refused("summary").contains("invalid"));
 }
 
@@ -229,7 +217,7 @@ fn a_scene_is_written_and_read() {
             stdout(&format!("summary --units si {options}")),
             "{options}"
         );
-        let target = file.path.with_extension("out");
+        let target = file.0.path.with_extension("out");
         assert!(
             file.asked(&format!("scene --output {}", target.display()))
                 .is_empty()
@@ -245,10 +233,10 @@ fn a_scene_is_written_and_read() {
 #[test]
 fn what_is_no_text_is_refused_as_such() {
     let file = Scratch::new("bytes", "");
-    fs::write(&file.path, b"layers = 3 # \xff\n").expect("a file");
+    fs::write(&file.0.path, b"layers = 3 # \xff\n").expect("a file");
     assert!(file.refused("base").contains("not text in UTF-8"));
     // An odd letter, so that two bytes each are cut in the middle.
-    fs::write(&file.path, format!("#{}", "é".repeat(17 << 20))).expect("a file");
+    fs::write(&file.0.path, format!("#{}", "é".repeat(17 << 20))).expect("a file");
     assert!(file.refused("base").contains("longer than 16777216 bytes"));
 }
 

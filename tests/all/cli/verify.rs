@@ -2,36 +2,11 @@
 
 use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use tempfile::TempDir;
-
-use super::{cannonpile, refusal, stdout};
+use super::{Temporary, cannonpile, refusal, stdout};
 
 const LAMMPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/verify/lammps.dump");
-
-/// A file in a folder of its own, gone when it is dropped.
-struct Temporary {
-    _folder: TempDir,
-    path: PathBuf,
-}
-
-impl Temporary {
-    fn new(name: &str, text: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join(name);
-        fs::write(&path, text).expect("a file is written");
-        Self {
-            _folder: folder,
-            path,
-        }
-    }
-
-    fn path(&self) -> &str {
-        self.path.to_str().expect("text")
-    }
-}
 
 /// The contacts of three layers as a simulation would number them, by the tables of this program itself.
 fn exact(scene: &str) -> String {
