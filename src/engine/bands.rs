@@ -111,13 +111,8 @@ impl<V> Band<'_, V> {
             let row = pass.part.row(j);
             row.end - row.start
         };
-        let all: i128 = rows.clone().map(sites).sum();
-        let mut before = 0;
-        let border = rows.skip(1).find(|border| {
-            before += sites(border - 1);
-            before * number >= all * (number / 2)
-        });
-        border.map(|border| [border, border + pass.shift])
+        let (border, _) = parallel::cut(rows, number, sites)?;
+        Some([border, border + pass.shift])
     }
 
     /// Splits it before a row of the first pass: each pass takes of either part what hangs on that part alone. Returns what

@@ -1,5 +1,7 @@
 //! Work on all cores, with the feature `rayon`; one after the other without it.
 
+use core::ops::Range;
+
 #[cfg(feature = "rayon")]
 use super::interrupt;
 use crate::Error;
@@ -13,6 +15,25 @@ pub(crate) fn threads() -> usize {
     return rayon::current_num_threads();
     #[cfg(not(feature = "rayon"))]
     1
+}
+
+/// Returns before which row those rows end that are for the first half of so many threads: where they have their share of the
+/// spheres, or just more; and how many spheres that is. `None` if it were all rows.
+pub(crate) fn cut(
+    mut rows: Range<i128>,
+    threads: i128,
+    spheres: impl Fn(i128) -> i128,
+) -> Option<(i128, i128)> {
+    let all: i128 = rows.clone().map(&spheres).sum();
+    let mut before = spheres(rows.next()?);
+    let border = rows.find(|row| {
+        let is_border = before * threads >= all * (threads / 2);
+        if !is_border {
+            before += spheres(*row);
+        }
+        is_border
+    });
+    border.map(|border| (border, before))
 }
 
 /// Does two things, at once where there are threads, and returns what comes of them.
@@ -227,6 +248,28 @@ mod tests {
         });
         assert_eq!(shared, Ok(()));
         lower + upper
+    }
+
+    /// Two things that wait for each other, which would never end one after the other.
+    #[cfg(all(feature = "ensemble", feature = "horizontal"))]
+    #[test]
+    fn items_are_worked_on_at_once() {
+        use std::sync::Barrier;
+        let two = || alloc::vec![1, 2];
+        pool(2).install(|| {
+            assert_eq!(threads(), 2);
+            let barrier = Barrier::new(2);
+            let twice = map(two(), |n| {
+                barrier.wait();
+                2 * n
+            });
+            assert_eq!(twice, [2, 4]);
+            let waited = try_for_each(two(), |_| {
+                barrier.wait();
+                Ok::<(), ()>(())
+            });
+            assert_eq!(waited, Ok(()));
+        });
     }
 
     /// Nobody knows when a thread comes to stand by: it may be too late.

@@ -313,6 +313,13 @@ pub(crate) fn last_of(rows: &Rows<'_>) -> i128 {
 mod tests {
     use super::*;
 
+    #[test]
+    fn a_tree_costs_sixteen_spheres_of_a_sweep() {
+        let are_cheaper = |above: u32, sweep: u32| trees_are_cheaper(&above.into(), &sweep.into());
+        assert!(are_cheaper(10, 161) && are_cheaper(0, 1) && are_cheaper(1, 1000));
+        assert!(!are_cheaper(10, 160) && !are_cheaper(10, 159) && !are_cheaper(1000, 1000));
+    }
+
     fn row(i: core::ops::Range<i128>, j: i128) -> Vec<[i128; 2]> {
         i.map(|i| [i, j]).collect()
     }

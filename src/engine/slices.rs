@@ -11,6 +11,8 @@ use crate::lattice::{Region, Row};
 /// From so many spheres on a part of a layer is worth a thread that stands by.
 const WORTH_A_THREAD: usize = 1 << 12;
 
+const AS_LONG: &str = "slices are as long as the layer has spheres";
+
 /// Splits the first `n` elements off each slice.
 ///
 /// # Errors
@@ -62,14 +64,14 @@ fn fill_parts<V: Send>(
         j,
         i: layer.row(j),
     };
-    if parts > 1 {
+    let cut = || {
+        parallel::cut(rows.clone(), parts as i128, |j| {
+            layer.row(j).count() as i128
+        })
+    };
+    if let Some((border, spheres)) = (parts > 1).then(cut).flatten() {
         let half = parts / 2;
-        let wanted = slices[0].len() / parts * half;
-        let (mut border, mut spheres) = (rows.start, 0);
-        while spheres < wanted && border < rows.end {
-            spheres += row(border).length()?;
-            border += 1;
-        }
+        let spheres = usize::try_from(spheres).map_err(|_| bug(AS_LONG))?;
         let before = split_front(&mut slices, spheres)?;
         return parallel::share(
             || fill_parts(half, (layer, k), rows.start..border, before, write),
@@ -84,7 +86,7 @@ fn fill_parts<V: Send>(
     if slices.iter().all(|slice| slice.is_empty()) {
         Ok(())
     } else {
-        Err(bug("slices are as long as the layer has spheres"))
+        Err(bug(AS_LONG))
     }
 }
 

@@ -186,3 +186,31 @@ fn write<V: Clone>(along: &Along<'_, V>, row: &mut [V]) -> Result<(), Error> {
     }
     Ok(())
 }
+
+#[cfg(all(test, feature = "rayon"))]
+mod tests {
+    use super::*;
+    use crate::lattice::Dimension;
+
+    /// From 2^16 spheres on: 72 layers have 64,824, and 73 have 67,525; a single layer is not cut.
+    #[test]
+    fn halves_have_as_many_spheres_to_a_layer() {
+        let table = |layers| Table::<i64> {
+            tables: [const { Vec::new() }; 3],
+            shape: Shape::pyramid(layers, Dimension::Three).unwrap(),
+        };
+        assert_eq!(table(72).halves(&(0..72)), None);
+        assert_eq!(table(400).halves(&(380..381)), None);
+        for (layers, range) in [(73, 0..73), (200, 0..200), (200, 150..160), (400, 380..383)] {
+            let table = table(layers);
+            let spheres = |range| table.shape.spheres_in(range);
+            let (upper, lower) = table.halves(&range).unwrap();
+            let middle = upper.end;
+            assert_eq!((upper, lower), (range.start..middle, middle..range.end));
+            assert!(range.start < middle && middle < range.end);
+            let all = spheres(range.clone());
+            assert!(spheres(range.start..middle) * 2_u32 >= all);
+            assert!(spheres(range.start..middle - 1) * 2_u32 < all);
+        }
+    }
+}
