@@ -432,6 +432,28 @@ mod tests {
         assert_eq!(planes.at(cells), [sum.clone(), BigInt::zero(), -sum]);
     }
 
+    /// 2^55 + 10 in the lower limb alone, before it is carried, and 2^55 + 5 in both: by the top limbs the first would be the less.
+    #[test]
+    fn the_least_is_looked_for_among_what_is_carried() {
+        let shape = Shape::pyramid(2, Dimension::Three).unwrap();
+        let grid = Grid::new(&shape, 1, 2).unwrap();
+        let pass = grid.pass(0, 1).unwrap().unwrap();
+        let mut planes = two_planes(&grid);
+        let one = 1_i64 << LIMB;
+        for (i, j, [lower, top]) in [
+            (0, 0, [[one + 10, 0, 0], [0, 2, 2]]),
+            (1, 0, [[0, 5, 0], [2, 1, 2]]),
+            (0, 1, [[0; 3], [2; 3]]),
+        ] {
+            let cells = grid.site(i, j, 1).unwrap();
+            planes.limbs[0].add_to(cells, &lower);
+            planes.limbs[1].add_to(cells, &top);
+        }
+        let least = planes.least(&grid, &pass).unwrap();
+        assert_eq!(least.numerator, BigInt::from(one + 5));
+        assert_eq!((least.place, least.direction), ([1, 0], Direction::Beta));
+    }
+
     #[test]
     fn limbs_are_digits_of_the_number() {
         for power in 0..98 {
