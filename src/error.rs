@@ -359,6 +359,28 @@ pub(crate) fn bug(invariant: &'static str) -> Error {
     Error::Bug { invariant }
 }
 
+/// Refuses more than a limit.
+///
+/// # Errors
+/// [`Error::TooLarge`].
+pub(crate) fn refuse_beyond(
+    quantity: &'static str,
+    needed: impl Into<BigUint>,
+    limit: u64,
+    remedy: &'static str,
+) -> Result<(), Error> {
+    let needed = needed.into();
+    if needed > BigUint::from(limit) {
+        return Err(Error::TooLarge {
+            quantity,
+            needed,
+            limit,
+            remedy,
+        });
+    }
+    Ok(())
+}
+
 /// Refuses to keep more than `limit` numbers, and numbers of so many bytes each that this process may not have the memory:
 /// the allocator is asked for all of it at once, beforehand, and gets it back untouched.
 ///
@@ -451,6 +473,23 @@ impl core::error::Error for Error {}
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_beyond_a_limit_is_refused() {
+        let refused = |needed: u64| refuse_beyond("spheres", needed, 10, "use fewer");
+        assert_eq!([refused(0), refused(10)], [Ok(()), Ok(())]);
+        for needed in [11, u64::MAX] {
+            assert_eq!(
+                refused(needed),
+                Err(Error::TooLarge {
+                    quantity: "spheres",
+                    needed: needed.into(),
+                    limit: 10,
+                    remedy: "use fewer",
+                })
+            );
+        }
+    }
 
     /// More bytes than addresses, and some that are to be had: the limit that is named has room.
     #[test]

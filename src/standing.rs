@@ -25,7 +25,7 @@ use crate::engine::{
     Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, shortest_exact_sweep,
     trees_are_cheaper,
 };
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond};
 use crate::formula;
 use crate::geometry::Apart;
 use crate::lattice::{Direction, Site};
@@ -313,23 +313,42 @@ impl Pile {
         }
         // One layer more, so that the last change is behind.
         let planes = system.size_of_sweep(last + 1).planes;
-        if trees_are_cheaper(&ends, &sites) || Grid::numbers(shape, last + 1, planes).is_err() {
-            if ends > BigUint::from(MAX_NUMBERS) {
-                return Err(Error::TooLarge {
-                    quantity: "the verdict on this pile",
-                    needed: ends,
-                    limit: MAX_NUMBERS,
-                    remedy: "let the sign change nearer to the top",
-                });
-            }
-            return layers.iter().map(|k| least_at_ends(&lines, *k)).collect();
+        let are_cheaper = trees_are_cheaper(&ends, &sites);
+        let by_trees = || {
+            refuse_beyond(
+                "the verdict on this pile",
+                ends,
+                MAX_NUMBERS,
+                "let the sign change nearer to the top",
+            )?;
+            layers.iter().map(|k| least_at_ends(&lines, *k)).collect()
+        };
+        if Grid::numbers(shape, last + 1, planes).is_err() {
+            return by_trees();
         }
-        let mut sweep = shortest_exact_sweep(&lines, &system, last + 1)?;
-        let least = layers.iter().map(|k| {
-            sweep.advance(*k, ())?;
-            least_passed_on(&mut sweep, &lines)
-        });
-        least.collect()
+        let by_sweep = || {
+            let mut sweep = shortest_exact_sweep(&lines, &system, last + 1)?;
+            let least = layers.iter().map(|k| {
+                sweep.advance(*k, ())?;
+                least_passed_on(&mut sweep, &lines)
+            });
+            least.collect()
+        };
+        if are_cheaper {
+            return unless_too_large(by_trees, by_sweep);
+        }
+        by_sweep()
+    }
+}
+
+/// Returns the first answer, or another where that is too large.
+fn unless_too_large<A>(
+    first: impl FnOnce() -> Result<A, Error>,
+    other: impl FnOnce() -> Result<A, Error>,
+) -> Result<A, Error> {
+    match first() {
+        Err(Error::TooLarge { .. }) => other(),
+        answer => answer,
     }
 }
 
@@ -387,4 +406,26 @@ fn least_passed_on(
 fn begins(shape: &Shape, site: Site, direction: Direction) -> bool {
     let changes = shape.sign_below(site.k) != shape.sign_below(site.k - 1);
     site.k == 0 || (!changes && shape.above(site, direction).is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// And nothing else is: what was interrupted has ended.
+    #[test]
+    fn what_is_too_large_is_answered_otherwise() {
+        let too_large = || Err(refuse_beyond("a pile", 2_u32, 1, "take less").unwrap_err());
+        assert_eq!(unless_too_large(too_large, || Ok(2)), Ok(2));
+        assert_eq!(unless_too_large(|| Ok(1), || Ok(2)), Ok(1));
+        let interrupted = || Err(Error::Interrupted);
+        assert_eq!(
+            unless_too_large(interrupted, || Ok(2)),
+            Err(Error::Interrupted)
+        );
+        assert_eq!(
+            unless_too_large(too_large, interrupted),
+            Err::<i32, _>(Error::Interrupted)
+        );
+    }
 }

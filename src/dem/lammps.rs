@@ -7,6 +7,7 @@ use super::springs::{Springs, density};
 use super::template::fill;
 use super::weights::{burdens, inertias};
 use crate::Error;
+use crate::error::refuse_beyond;
 use crate::lattice::Dimension;
 use crate::table::WriteError;
 
@@ -20,15 +21,12 @@ pub(super) fn write_data(
     row: &mut dyn FnMut(),
 ) -> Result<(), WriteError> {
     let spheres = pile.numbering().sphere_count();
-    if spheres > MOST_ATOMS {
-        return Err(Error::TooLarge {
-            quantity: "the atoms of LAMMPS",
-            needed: spheres.into(),
-            limit: MOST_ATOMS,
-            remedy: "use fewer layers, or a smaller top or base",
-        }
-        .into());
-    }
+    refuse_beyond(
+        "the atoms of LAMMPS",
+        spheres,
+        MOST_ATOMS,
+        "use fewer layers, or a smaller top or base",
+    )?;
     let springs = Springs::of(pile)?;
     let layers = pile.pile().layers();
     writeln!(

@@ -2,6 +2,7 @@
 
 use super::numbered::NumberedPile;
 use crate::Error;
+use crate::error::refuse_beyond;
 
 /// The most spheres of a test that runs beside many others.
 const MOST_SPHERES: u64 = 2000;
@@ -33,14 +34,12 @@ impl Forces {
     /// Looks at all contacts of a pile that is small enough.
     pub(super) fn of(pile: &NumberedPile<'_>) -> Result<Self, Error> {
         let spheres = pile.numbering().sphere_count();
-        if spheres > MOST_SPHERES {
-            return Err(Error::TooLarge {
-                quantity: "a test of a suite",
-                needed: spheres.into(),
-                limit: MOST_SPHERES,
-                remedy: "use fewer layers, or --to lammps,yade",
-            });
-        }
+        refuse_beyond(
+            "a test of a suite",
+            spheres,
+            MOST_SPHERES,
+            "use fewer layers, or --to lammps,yade",
+        )?;
         let (mut greatest, mut has_idle, mut pulls) = (0.0_f64, false, false);
         for contact in pile.forces()? {
             let force = contact?.force;

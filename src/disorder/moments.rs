@@ -5,6 +5,7 @@ use num_traits::{One, Zero};
 
 use super::stackings::{FirstSign, MOST_LAYERS, RandomStackings, check_fault_probability};
 use crate::Error;
+use crate::error::refuse_beyond;
 use crate::formula::{
     fourth_moment, fourth_moment_of_pair, mean_fourth_moment_of_pairs, mean_third_moment,
     third_moment, wave,
@@ -202,13 +203,11 @@ impl Wave {
 
 /// The number of steps.
 fn steps(layers: i128) -> Result<BigRational, Error> {
-    if layers > i128::from(MOST_LAYERS) {
-        return Err(Error::TooLarge {
-            quantity: "moments of the response to a load",
-            needed: layers.unsigned_abs().into(),
-            limit: MOST_LAYERS,
-            remedy: "ask for fewer layers",
-        });
-    }
+    refuse_beyond(
+        "moments of the response to a load",
+        layers.unsigned_abs(),
+        MOST_LAYERS,
+        "ask for fewer layers",
+    )?;
     Ok(BigRational::from_i128(layers - 1))
 }

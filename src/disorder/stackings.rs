@@ -8,6 +8,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::Error;
+use crate::error::refuse_beyond;
 use crate::formula;
 use crate::lattice::{MAX_LAYERS, Sign};
 use crate::scalar::{Algebra, THREE, TWO};
@@ -232,14 +233,12 @@ impl RandomStackings {
             return Ok(BigUint::zero());
         }
         let fewer = straight.min(faults.into()).unsigned_abs();
-        if fewer > MOST_FAULTS.into() {
-            return Err(Error::TooLarge {
-                quantity: "the number of stackings with so many faults",
-                needed: fewer.into(),
-                limit: MOST_FAULTS,
-                remedy: "ask for fewer faults, or as many as leave few straight steps",
-            });
-        }
+        refuse_beyond(
+            "the number of stackings with so many faults",
+            fewer,
+            MOST_FAULTS,
+            "ask for fewer faults, or as many as leave few straight steps",
+        )?;
         let of = self.most_faults().unsigned_abs();
         // C(of, t + 1) = C(of, t)·(of − t)/(t + 1).
         let next = |stackings: BigUint, t| stackings * (of - t) / (t + 1);
@@ -278,14 +277,12 @@ impl RandomStackings {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn registry<T: Algebra>(&self, q: &T) -> Result<[T; 3], Error> {
-        if self.layers > i128::from(MOST_LAYERS) {
-            return Err(Error::TooLarge {
-                quantity: "the probabilities of the registries of random stackings",
-                needed: self.layers.unsigned_abs().into(),
-                limit: MOST_LAYERS,
-                remedy: "ask for fewer layers",
-            });
-        }
+        refuse_beyond(
+            "the probabilities of the registries of random stackings",
+            self.layers.unsigned_abs(),
+            MOST_LAYERS,
+            "ask for fewer layers",
+        )?;
         let third = T::one().div_int(THREE);
         let [none, all, half] = [
             -third.clone(),

@@ -1,6 +1,6 @@
 //! The bottom spheres at which functions of the force on the floor take their extremes.
 
-use num_bigint::{BigInt, BigUint};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::Forces;
@@ -9,6 +9,7 @@ use crate::Error;
 use crate::engine::{
     Engine, Method, Quantity, Received, Wanted, shortest_exact_sweep, trees_are_cheaper,
 };
+use crate::error::refuse_beyond;
 use crate::geometry::Vector;
 use crate::lattice::Site;
 use crate::shape::Selection;
@@ -39,14 +40,15 @@ impl Forces<'_, BigRational> {
             for corner in rows.corners() {
                 meet(corner, &self.received(corner, Wanted::All)?);
             }
-        } else if sites.clone().min(ends.clone()) > BigUint::from(MOST) {
-            return Err(Error::TooLarge {
-                quantity: "the extremes over this base",
-                needed: sites.min(ends),
-                limit: MOST,
-                remedy: "ask for single spheres",
-            });
-        } else if trees_are_cheaper(&ends, &sites) {
+            return Ok(terms.floor_unit(changes));
+        }
+        refuse_beyond(
+            "the extremes over this base",
+            sites.clone().min(ends.clone()),
+            MOST,
+            "ask for single spheres",
+        )?;
+        if trees_are_cheaper(&ends, &sites) {
             for (_, row) in lines.ends_of_pieces(floor)? {
                 let above = lines.forces_above(floor, &row, Wanted::All)?;
                 let changes = above.changes;

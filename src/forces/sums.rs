@@ -14,6 +14,7 @@ use super::Forces;
 use super::terms::{Terms, edge, edge_all};
 use crate::Error;
 use crate::engine::Meter;
+use crate::error::refuse_beyond;
 use crate::formula::{self, force, half_turn, passed_on};
 use crate::shape::{Selection, Stretch};
 
@@ -56,14 +57,12 @@ impl<M: Meter> Forces<'_, BigRational, M> {
             }
             Selection::One(site) => return Ok(self.to_below(site)?.iter().sum()),
         };
-        if layers.end - layers.start > MOST_LAYERS.into() {
-            return Err(Error::TooLarge {
-                quantity: "the sum over these layers",
-                needed: (layers.end - layers.start).unsigned_abs().into(),
-                limit: MOST_LAYERS,
-                remedy: "ask for single layers",
-            });
-        }
+        refuse_beyond(
+            "the sum over these layers",
+            (layers.end - layers.start).unsigned_abs(),
+            MOST_LAYERS,
+            "ask for single layers",
+        )?;
         // By the number of changes above them, whose sums have one denominator.
         let mut sums: BTreeMap<usize, BigInt> = BTreeMap::new();
         let add = |[a, b, c]: &[BigInt; 3], changes| {

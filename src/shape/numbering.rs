@@ -6,7 +6,7 @@ use num_bigint::BigUint;
 
 use super::{Shape, Site};
 use crate::Error;
-use crate::error::bug;
+use crate::error::{bug, refuse_beyond};
 
 /// The most spheres that are numbered: each has one number in a `u64`, and each layer one offset in memory.
 const MOST: u64 = 100_000_000_000;
@@ -42,14 +42,12 @@ pub struct Numbering<'p> {
 impl<'p> Numbering<'p> {
     pub(super) fn new(shape: &'p Shape) -> Result<Self, Error> {
         let spheres = shape.sphere_count();
-        if spheres > BigUint::from(MOST) {
-            return Err(Error::TooLarge {
-                quantity: "the numbers of all spheres",
-                needed: spheres,
-                limit: MOST,
-                remedy: "use fewer layers, or a smaller top or base",
-            });
-        }
+        refuse_beyond(
+            "the numbers of all spheres",
+            spheres,
+            MOST,
+            "use fewer layers, or a smaller top or base",
+        )?;
         let (mut before, mut above_floor, mut sum) = (Vec::new(), 0, 0);
         for k in 0..shape.layers() {
             before.push(sum);

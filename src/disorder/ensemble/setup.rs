@@ -13,7 +13,7 @@ use super::sums::Sums;
 use super::survivors::Survivors;
 use super::{Choice, Ensemble, Shard};
 use crate::Error;
-use crate::error::{bug, refuse_beyond_memory};
+use crate::error::{bug, refuse_beyond, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Region, Sign};
 use crate::scalar::common_denominator;
@@ -103,14 +103,12 @@ impl Task {
         let greatest = sums.squares(1, &level).ceil().to_integer().sqrt() + 1_u32;
         let bins =
             (BigRational::from_integer(greatest.clone() + &greatest) / ensemble.bins()).ceil();
-        if bins > BigRational::from_integer(MOST_BINS.into()) {
-            return Err(Error::TooLarge {
-                quantity: "the histogram of contact forces",
-                needed: bins.to_integer().into_parts().1,
-                limit: MOST_BINS,
-                remedy: "use wider bins, or fewer layers",
-            });
-        }
+        refuse_beyond(
+            "the histogram of contact forces",
+            bins.to_integer().into_parts().1,
+            MOST_BINS,
+            "use wider bins, or fewer layers",
+        )?;
         let own = formula::force(weight, &increment);
         let denominators = top_own.iter().chain([&own, ensemble.bins()]);
         let scale = common_denominator(denominators);

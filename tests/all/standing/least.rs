@@ -3,6 +3,7 @@
 
 use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
 use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile, Standing};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -268,4 +269,15 @@ fn a_load_on_the_floor_is_found_in_long_rows() {
     let extremes = loaded.base_extremes().unwrap();
     assert_eq!(extremes.normal_min, ratio(4, 3));
     assert_eq!(extremes.normal_max, ratio(155, 3));
+}
+
+/// Where all of the top is special, no other layer is searched for a line that begins: without runs there is none.
+#[test]
+fn a_load_on_the_top_of_a_million_layers() {
+    let hcp = Stacking::hcp(1_000_000).unwrap();
+    let pile = Pile::under(Region::SITE, hcp).unwrap();
+    for load in [ratio(1, 1), ratio(1, 1000)] {
+        let pile = pile.clone().with_load(Site::APEX, load).unwrap();
+        assert_eq!(pile.first_failure(), Ok(Some(4)));
+    }
 }
