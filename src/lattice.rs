@@ -282,3 +282,31 @@ impl fmt::Display for Site {
         write!(f, "({},{},{})", self.i, self.j, self.k)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_add_up() {
+        for sign in [Sign::Plus, Sign::Minus] {
+            for direction in Direction::ALL {
+                let [di, dj] = sign.descent(direction);
+                for steps in [-3, -1, 0, 1, 2] {
+                    let site = Site { i: 5, j: -7, k: 9 };
+                    let reached = Site {
+                        i: 5 + steps * di,
+                        j: -7 + steps * dj,
+                        k: 9 + steps,
+                    };
+                    assert_eq!(site.step(sign, direction, steps), Some(reached));
+                }
+            }
+        }
+        let last = Site {
+            k: i128::MAX,
+            ..Site::APEX
+        };
+        assert_eq!(last.step(Sign::Plus, Direction::Alpha, 1), None);
+    }
+}

@@ -463,6 +463,16 @@ mod tests {
         }
     }
 
+    /// A column of many rows, cut no more often than there are bands: each cut waits for both of its halves.
+    #[test]
+    fn rows_are_not_cut_for_less_than_a_band() {
+        let column = Region::new(0..=0, 0..=99_999, 0..=99_999).unwrap();
+        let shape = Shape::under(column, "+-".parse().unwrap()).unwrap();
+        let Plane(whole) = swept(&shape, 2, 1, 1);
+        let Plane(bands) = swept(&shape, 2, 2, 1);
+        assert_eq!(bands, whole);
+    }
+
     const TOPS: [&str; 4] = ["triangle:30", "hexagon:25,18", "hexagon:2,1", "triangle:1"];
 
     fn shape(top: &str, stacking: &str) -> Shape {

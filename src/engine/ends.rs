@@ -160,6 +160,25 @@ mod tests {
         assert!(unlisted > 100, "{unlisted}");
     }
 
+    /// Where no line has begun.
+    #[test]
+    fn a_row_of_the_top_has_its_ends() {
+        let pile = Pile::under(Region::triangle(4).unwrap(), "+".parse().unwrap()).unwrap();
+        let system = pile.system();
+        let lines = Lines::<BigRational>::new(&system);
+        let ends: Vec<_> = lines.ends_of_pieces(0).unwrap().collect();
+        let row = |j, ends: &[i128]| (j, ends.iter().map(|i| [*i, j]).collect());
+        assert_eq!(
+            ends,
+            [
+                row(0, &[0, 3]),
+                row(1, &[0, 2]),
+                row(2, &[0, 1]),
+                row(3, &[0])
+            ]
+        );
+    }
+
     /// How many sites are not listed; each has forces halfway between those beside it.
     fn are_linear(piles: impl IntoIterator<Item = Pile>) -> usize {
         let mut unlisted = 0;

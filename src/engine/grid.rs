@@ -298,3 +298,22 @@ fn length(i: &Range<i128>) -> Result<usize, Error> {
     let sites = usize::try_from(i.end - i.start);
     sites.map_err(|_| bug("a row of a sweep fits in memory"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Dimension;
+
+    /// One past the end of a row is no sphere of the next.
+    #[test]
+    #[cfg_attr(
+        debug_assertions,
+        should_panic(expected = "every line of a layer goes on")
+    )]
+    fn a_sphere_past_the_end_of_its_row_is_a_bug() {
+        let shape = Shape::pyramid(2, Dimension::Three).unwrap();
+        let grid = Grid::new(&shape, 1, 1).unwrap();
+        assert_eq!(grid.site(1, 0, 1), Ok([1, 1, 1]));
+        assert!(matches!(grid.site(2, 0, 1), Err(Error::Bug { .. })));
+    }
+}

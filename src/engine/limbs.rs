@@ -611,7 +611,19 @@ mod tests {
         let grid = Grid::new(&shape, 1, 1).unwrap();
         let (mut planes, cells) = (Planes::new(&grid, 1.into()), grid.site(0, 0, 0).unwrap());
         let wide = [1, 0, 0].map(|n| BigInt::from(n) << 62);
-        assert_eq!(planes.add_at(cells, &wide), Err(bug(WIDE_ENOUGH)));
+        let added = planes.add_at(cells, &wide);
+        assert!(matches!(added, Err(Error::Bug { .. })));
+    }
+
+    /// Into [−2^54, 2^54), and no further.
+    #[test]
+    fn no_more_is_carried_than_must_be() {
+        let half = 1_i64 << (LIMB - 1);
+        let mut lower = [half, -half, half - 1, -half - 1, 0, -1, 3 * half];
+        let mut upper = [0; 7];
+        carry(&mut lower, &mut upper);
+        assert_eq!(lower, [-half, -half, half - 1, half - 1, 0, -1, -half]);
+        assert_eq!(upper, [1, 0, 0, -1, 0, 0, 2]);
     }
 
     #[test]

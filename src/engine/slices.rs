@@ -127,6 +127,28 @@ mod tests {
         }
     }
 
+    /// A column of many rows, cut no more often than there are parts: each cut waits for both of its halves.
+    #[test]
+    fn rows_are_not_cut_for_less_than_a_part() {
+        let column = Region::new(0..=0, 0..=99_999, 0..=99_999).unwrap();
+        for parts in [1, 2] {
+            let mut numbers = [(); 3].map(|()| alloc::vec![-1; 100_000]);
+            let slices = numbers.each_mut().map(Vec::as_mut_slice);
+            fill_parts(parts, (&column, 0), 0..100_000, slices, &|row, slices| {
+                for slice in slices {
+                    slice.fill(row.j);
+                }
+                Ok(())
+            })
+            .unwrap();
+            assert!(
+                numbers
+                    .into_iter()
+                    .all(|numbers| numbers.into_iter().eq(0..100_000))
+            );
+        }
+    }
+
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "slices are as long"))]
     fn slices_longer_than_the_layer_are_a_bug() {

@@ -224,3 +224,89 @@ impl Descent<'_, BigRational, Planes> {
         self.layer.least(&self.grid, pass)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use num_bigint::BigInt;
+    use num_traits::Zero;
+
+    use super::*;
+    use crate::Pile;
+    use crate::engine::exact_sweep;
+    use crate::scalar::Surd;
+
+    fn pile() -> Pile {
+        Pile::under(Region::SITE, "+-+-+-".parse().unwrap()).unwrap()
+    }
+
+    /// What is written of a row when the sweep is at layer 4.
+    fn write(row: &Row) -> Result<bool, Error> {
+        let pile = pile();
+        let system = pile.system();
+        let lines = Lines::<BigRational>::new(&system);
+        let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
+        sweep.advance(4, ()).unwrap();
+        let readout = Readout {
+            combination: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+            own: [(); 3].map(|()| BigInt::zero()),
+        };
+        let unit = || Unit::new(Surd::from(BigRational::from(BigInt::from(1))), 1.into());
+        let mut out = [(); 3].map(|()| alloc::vec![0.0_f64; row.length().unwrap()]);
+        let out = out.each_mut().map(Vec::as_mut_slice);
+        sweep.nearest_row(row, (&readout, &[unit(), unit(), unit()]), out)
+    }
+
+    #[test]
+    fn to_a_layer_above_it_does_not_go() {
+        let pile = pile();
+        let system = pile.system();
+        let lines = Lines::<BigRational>::new(&system);
+        let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
+        for (asked, at) in [(4, 4), (1, 4), (4, 4), (5, 5)] {
+            sweep.advance(asked, ()).unwrap();
+            assert_eq!(sweep.k(), at);
+        }
+    }
+
+    /// The second row of layer 4: three spheres.
+    fn row() -> Row {
+        let layer = pile().shape().layer(4).unwrap();
+        layer.rows(4).nth(1).unwrap()
+    }
+
+    #[test]
+    fn a_row_of_its_layer_is_written() {
+        assert_eq!(write(&row()), Ok(true));
+    }
+
+    #[test]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
+    fn a_row_of_another_layer_is_a_bug() {
+        let written = write(&Row { k: 3, ..row() });
+        assert!(matches!(written, Err(Error::Bug { .. })));
+    }
+
+    #[test]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
+    fn a_row_that_begins_too_soon_is_a_bug() {
+        let Row { k, j, i } = row();
+        let written = write(&Row {
+            k,
+            j,
+            i: i.start - 1..i.end,
+        });
+        assert!(matches!(written, Err(Error::Bug { .. })));
+    }
+
+    #[test]
+    #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
+    fn a_row_that_ends_too_late_is_a_bug() {
+        let Row { k, j, i } = row();
+        let written = write(&Row {
+            k,
+            j,
+            i: i.start..i.end + 1,
+        });
+        assert!(matches!(written, Err(Error::Bug { .. })));
+    }
+}

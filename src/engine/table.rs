@@ -187,14 +187,29 @@ fn write<V: Clone>(along: &Along<'_, V>, row: &mut [V]) -> Result<(), Error> {
     Ok(())
 }
 
-#[cfg(all(test, feature = "rayon"))]
+#[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Dimension;
+
+    #[test]
+    #[cfg_attr(debug_assertions, should_panic(expected = "a table has every force"))]
+    fn a_force_that_the_table_has_not_is_a_bug() {
+        let nothing = Along {
+            up: &[],
+            level: None,
+            down: &[],
+        };
+        assert_eq!(write::<i64>(&nothing, &mut []), Ok(()));
+        let written = write(&nothing, &mut [0]);
+        assert!(matches!(written, Err(Error::Bug { .. })));
+    }
 
     /// From 2^16 spheres on: 72 layers have 64,824, and 73 have 67,525; a single layer is not cut.
+    #[cfg(feature = "rayon")]
     #[test]
     fn halves_have_as_many_spheres_to_a_layer() {
+        use crate::lattice::Dimension;
+
         let table = |layers| Table::<i64> {
             tables: [const { Vec::new() }; 3],
             shape: Shape::pyramid(layers, Dimension::Three).unwrap(),

@@ -11,7 +11,7 @@ use super::springs::{Springs, State};
 use crate::certificate::{Certificate, Claim};
 use crate::engine::check_interrupt;
 use crate::error::bug;
-use crate::lattice::{Site, count};
+use crate::lattice::{Dimension, Site, count};
 use crate::{Culprit, Error, Pile, formula};
 
 /// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of least
@@ -122,6 +122,11 @@ impl ElasticState {
     }
 }
 
+/// The most equations of a pile that is certified.
+fn most_certified(dimension: Dimension) -> u64 {
+    u64::from(MOST_CERTIFIED * dimension.number())
+}
+
 /// Returns the certificate of the elastic state.
 fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Error> {
     if pile.is_paper_pile() && pile.sphere_count() <= MOST_CERTIFIED.into() {
@@ -132,7 +137,7 @@ fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Er
     let most = if pulls {
         MOST_EQUATIONS
     } else {
-        u64::from(MOST_CERTIFIED * pile.dimension().number())
+        most_certified(pile.dimension())
     };
     let springs = Springs {
         network: Network::above(pile, pile.layers() - 1, most)?,
@@ -247,5 +252,17 @@ fn certificate(springs: &Springs<'_>, state: &State) -> Certificate {
         },
         horizontal: springs.network.horizontal(&state.forces).collect(),
         field: springs.network.field(&state.field).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three equations for each sphere, two for each disc.
+    #[test]
+    fn a_hundred_thousand_spheres_are_certified() {
+        let most = [Dimension::Three, Dimension::Two].map(most_certified);
+        assert_eq!(most, [300_000, 200_000]);
     }
 }

@@ -259,6 +259,11 @@ mod tests {
                 ratio(1, 7)
             ]
         );
+        // Of which the next floor is beyond all integers.
+        for tiny in [1e-20, -1e-20, 1e-300] {
+            let (n, d) = simple_fraction(tiny, 12).unwrap();
+            assert_eq!(ratio(n, d.get()), ratio(0, 1), "{tiny}");
+        }
         assert_eq!(simple_fraction(f64::NAN, 12), None);
         assert_eq!(simple_fraction(1e300, 12), None);
         let one = NonZeroI64::new(1).unwrap();

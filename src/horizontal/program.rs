@@ -274,9 +274,30 @@ mod tests {
     use crate::Pile;
     use crate::certificate::Claim;
 
+    fn claimed(layers: i128, claim: Claim) -> Certificate {
+        Pile::triangular(layers).unwrap().certified(claim)
+    }
+
+    /// Of forty layers, 34,440 equations, theorems vouch for what is claimed.
+    #[test]
+    fn what_formulas_have_made_is_accepted() {
+        for made in [claimed(7, Claim::Stands), claimed(40, Claim::CannotStand)] {
+            assert_eq!(of_formulas(made.clone()), Ok(made));
+        }
+    }
+
+    #[test]
+    #[cfg_attr(
+        debug_assertions,
+        should_panic(expected = "formulas have made is accepted")
+    )]
+    fn what_formulas_have_made_is_checked_where_programs_are_solved() {
+        let refused = of_formulas(claimed(7, Claim::CannotStand));
+        assert!(matches!(refused, Err(Error::Bug { .. })));
+    }
+
     #[test]
     fn a_refusal_says_whether_the_pile_is_too_large() {
-        let claimed = |layers, claim| Pile::triangular(layers).unwrap().certified(claim);
         let stands = claimed(4, Claim::Stands);
         let refused = || Error::NotSolved { equations: 7 };
         assert_eq!(accepted(stands.clone(), refused), Ok(stands));

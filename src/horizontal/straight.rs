@@ -172,3 +172,29 @@ fn normal_below(onto: BigRational) -> BigRational {
 fn unit(l: usize) -> [i128; 3] {
     core::array::from_fn(|direction| i128::from(direction == l))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In f₀, of which mg is three; a corner of one layer is the sphere itself, and nothing rests on it.
+    #[test]
+    fn bounds_of_corners_edges_and_inner_spheres() {
+        let bound = |n: [i128; 3], end| {
+            let k = n.iter().sum();
+            let of = Straight { sigma: 1, n, k };
+            of.bound(end)
+        };
+        let onto = |f: i64| Some(BigRational::new((f + 3).into(), 3.into()));
+        for (n, least, greatest) in [
+            ([0, 0, 0], onto(0), onto(0)),
+            ([0, 1, 0], onto(1), onto(1)),
+            ([9, 0, 0], onto(9), onto(25)),
+            ([4, 5, 0], onto(0), None),
+            ([3, 3, 3], onto(0), None),
+        ] {
+            assert_eq!(bound(n, End::Least), least, "{n:?}");
+            assert_eq!(bound(n, End::Greatest), greatest, "{n:?}");
+        }
+    }
+}

@@ -65,3 +65,30 @@ pub(super) fn scale(a: f64, e: i32) -> f64 {
     let (third, rest) = (e / 3, e - 2 * (e / 3));
     a * power_of_two(third) * power_of_two(third) * power_of_two(rest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of normal floats, and of the least and the greatest of those that are not.
+    #[test]
+    fn a_significand_and_its_power_are_the_float() {
+        let least = f64::from_bits(1);
+        let subnormal = f64::MIN_POSITIVE.next_down();
+        for (a, parts) in [
+            (1.0, (1.0, 0)),
+            (-12.0, (-1.5, 3)),
+            (f64::MAX, (2.0_f64.next_down(), 1023)),
+            (f64::MIN_POSITIVE, (1.0, -1022)),
+            (-3.0 * least, (-1.5, -1073)),
+            (least, (1.0, -1074)),
+            (0.0, (0.0, 0)),
+            (f64::INFINITY, (f64::INFINITY, 0)),
+        ] {
+            assert_eq!(significand(a), parts, "{a:e}");
+        }
+        let (m, e) = significand(subnormal);
+        assert!((1.0..2.0).contains(&m));
+        assert_eq!((scale(m, e), e), (subnormal, -1023));
+    }
+}

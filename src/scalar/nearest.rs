@@ -203,3 +203,42 @@ fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i
     let up = half && (below_half || kept % 2 == 1);
     F::assemble(negative, kept + u64::from(up), last_bit)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_fewer_bits_than_a_float_is_kept_whole() {
+        let rounded = |n: u32, exponent| round::<f64>(false, &n.into(), false, exponent);
+        assert_eq!(
+            [rounded(5, 0), rounded(5, -1), rounded(1, 1023)],
+            [5.0, 2.5, 2.0_f64.powi(1023)].map(Some)
+        );
+        assert_eq!(rounded(1, 1024), None);
+        let zero = round::<f64>(true, &BigUint::ZERO, false, 0);
+        assert_eq!(zero.map(f64::to_bits), Some(0));
+    }
+
+    /// A half and two bits more.
+    #[test]
+    fn three_bits_guard_a_significand() {
+        assert_eq!((guard_bits::<f64>(), guard_bits::<f32>()), (56, 27));
+    }
+
+    /// Not at the ends of the exponents, where floats are not normal.
+    #[test]
+    fn ends_that_round_to_one_float_decide_it() {
+        let between = |ends, exponent| float_between::<f64>(false, ends, exponent);
+        assert_eq!(between([1.0, 1.0], 0), Some(1.0));
+        assert_eq!(between([1.5, 1.5], -3), Some(0.1875));
+        assert_eq!(between([1.0, 1.0_f64.next_up()], 0), None);
+        assert_eq!(
+            float_between(true, [1.0, 1.0_f64.next_up()], 0),
+            Some(-1.0_f32)
+        );
+        for exponent in [-1001, 1000, i64::MIN, i64::MAX] {
+            assert_eq!(between([1.0, 1.0], exponent), None);
+        }
+    }
+}

@@ -212,6 +212,26 @@ mod tests {
     }
 
     #[test]
+    fn all_threes_are_found_and_no_more_than_are_asked_for() {
+        for threes in [0, 1, 39, 40, 41, 80, 81, 200] {
+            for other in [1_u32, 2, 70] {
+                let number = pow(BigUint::from(3_u32), threes) * other;
+                let found = without_threes(number.clone(), usize::MAX);
+                assert_eq!(found, (threes, other.into()));
+                for most in [0, 1, 40, 41, 90] {
+                    let found = threes.min(most);
+                    let left = &number / pow(BigUint::from(3_u32), found);
+                    assert_eq!(
+                        without_threes(number.clone(), most),
+                        (found, left),
+                        "{most}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
     fn sums_have_the_denominators_that_are_needed() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
         // Wider, as wide, wider by a multiple, and beside each other; the sum is in lowest terms.

@@ -123,3 +123,16 @@ impl Shape {
         Numbering::new(self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Region;
+
+    #[test]
+    fn a_run_is_one_piece() {
+        let shape = Shape::under(Region::SITE, "++++-----+".parse().unwrap()).unwrap();
+        let pieces = core::iter::successors(Some(0), |k| Some(shape.end_of_piece(*k)));
+        assert!(pieces.take_while(|k| *k < shape.layers()).eq([0, 5, 10]));
+    }
+}

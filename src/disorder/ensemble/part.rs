@@ -161,6 +161,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_range_is_entered_at_its_start() {
+        let range = Part::Range {
+            base: 10,
+            size: 8,
+            start: 2,
+            end: 5,
+        };
+        assert_eq!(range.entry(), (3, 12));
+        assert_eq!(Part::Listed { from: 3, to: 9 }.entry(), (6, 3));
+    }
+
+    #[test]
     fn the_first_completion_comes_before_all_others() {
         for left in 0..6_usize {
             for first in [Sign::Plus, Sign::Minus] {

@@ -2,7 +2,7 @@
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Dimension, Direction, Region, Site};
-use cannonpile::scalar::{Algebra, FixedRational, Interval, RealEmbeddable};
+use cannonpile::scalar::{Algebra, Expression, FixedRational, Interval, RealEmbeddable};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Counters, Error, Method, Packing, Pile, Plan, Quantity, Question};
@@ -490,4 +490,53 @@ fn numbers_grow_limb_by_limb() {
     let floor = pile.shape().base().site_count();
     let above = BigInt::from(pile.sphere_count() - floor);
     assert_eq!(sum, BigRational::from_integer(above * 3));
+}
+
+/// In floats, where 1 + 2^53 is not: the spheres on the line are counted before a load is added to them.
+#[test]
+fn a_closed_force_is_rounded_once() {
+    let load = BigRational::from_integer(BigInt::from(1_i64 << 53));
+    let pile = Pile::triangular(3).unwrap();
+    let pile = pile.with_load(Site::APEX, load).unwrap();
+    let below = Site { i: 0, j: 0, k: 1 };
+    let force = pile.forces::<f64>().contact(below, Direction::Alpha);
+    assert_eq!(force, Ok(9_007_199_254_740_994.0));
+}
+
+/// Closed forms are worked out by themselves, not as sums over lines.
+#[test]
+fn closed_forms_are_recorded_as_they_are() {
+    let site = Site { i: 1, j: 2, k: 5 };
+    let contact = |pile: &Pile, site| {
+        let forces = pile.forces::<Expression>();
+        forces.contact(site, Direction::Alpha).unwrap().to_string()
+    };
+    let pile = Pile::triangular(10).unwrap();
+    assert_eq!(contact(&pile, Site::APEX), "1 * 1");
+    assert_eq!(contact(&pile, site), "3 * 1");
+    let [above, ..] = pile.forces::<Expression>().from_above(site).unwrap();
+    assert_eq!(above.to_string(), "2 * 1");
+    // A load elsewhere adds nothing, not even zero.
+    let loaded = pile
+        .with_load(Site { i: 0, j: 0, k: 7 }, ratio(1, 1))
+        .unwrap();
+    let [below, ..] = loaded.forces::<Expression>().to_below(site).unwrap();
+    assert_eq!(below.to_string(), "2 * 1 + 1");
+}
+
+/// Lines that several spheres of a row share are gone along once.
+#[test]
+fn a_row_by_trees_visits_each_sphere_once() {
+    let pile = under(Region::SITE, "+-+");
+    let counters = Counters::default();
+    let forces = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+    let layers = forces.metered(&counters).layers(Selection::Base).unwrap();
+    let mut layers = layers.nearest::<f64>().unwrap();
+    let row = pile.rows(Selection::Base).unwrap().nth(1).unwrap();
+    assert_eq!(row.i, -1..3);
+    let [mut normal, mut x, mut y] = [[0.0; 4]; 3];
+    layers
+        .fill_row_of_base(&row, [&mut normal, &mut x, &mut y])
+        .unwrap();
+    assert_eq!(counters.visited(), 12);
 }

@@ -152,3 +152,17 @@ fn what_is_not_asked_for_overflows_nothing() {
     let twice = packing.layers::<f32>(Selection::Layer(1)).err();
     assert!(matches!(twice, Some(Error::Overflow { .. })), "{twice:?}");
 }
+
+/// Forces that are floats, from sums on the way that are not: no infinity is passed off as one of them.
+#[test]
+fn sums_on_the_way_overflow_too() {
+    let pile = Pile::under(Region::SITE, "++--+++-+--++---+-++++".parse().unwrap()).unwrap();
+    let load = BigRational::from_float(0.3 * f64::MAX).unwrap();
+    let pile = pile.with_load(Site::APEX, load).unwrap();
+    let forces = pile.forces::<f64>();
+    let mut layers = forces.layers(Selection::Layer(19)).unwrap();
+    let layer = layers.next_layer().unwrap().unwrap();
+    let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+    let filled = layer.fill([&mut a, &mut b, &mut c]);
+    assert!(matches!(filled, Err(Error::Overflow { .. })), "{filled:?}");
+}

@@ -1,6 +1,6 @@
 //! Extremes over a base, and the least contact, found among few spheres, are those of all.
 
-use cannonpile::lattice::{Region, Site};
+use cannonpile::lattice::{Axis, HorizontalContact, Region, Site};
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{BaseExtremes, ContactForce, FloorForce, Pile};
@@ -357,4 +357,27 @@ fn of_ratios_that_are_too_small_for_their_floats() {
         ratio(595, 100) < parts && parts < ratio(596, 100),
         "{parts}"
     );
+}
+
+/// Two spheres of the base with known ratios of shear to normal force, of which one is so great that its square is no float.
+#[test]
+fn of_ratios_whose_squares_are_no_floats() {
+    let power = |exponent: u32| BigRational::from_integer(BigInt::from(2).pow(exponent));
+    let contact = |i, j| HorizontalContact {
+        site: Site { i, j, k: 7 },
+        axis: Axis::AlphaBeta,
+    };
+    let mut pile = Pile::under(Region::SITE, "+-------".parse().unwrap()).unwrap();
+    for (at, force) in [((-1, -4), power(520)), ((-3, -1), power(500))] {
+        let (i, j) = at;
+        pile = pile.with_horizontal_force(contact(i, j), force).unwrap();
+    }
+    let loads = [
+        ([-1, -3], power(521) + power(150) * ratio(3, 1)),
+        ([-3, 0], power(501)),
+    ];
+    for ([i, j], load) in loads {
+        pile = pile.with_load(Site { i, j, k: 7 }, load).unwrap();
+    }
+    are_those_over_all(&pile);
 }

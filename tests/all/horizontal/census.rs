@@ -53,6 +53,14 @@ fn is_proved(entry: &Entry) {
     assert_eq!(alone, entry.decided_by == DecidedBy::Sloping);
 }
 
+/// Four steps of one sign may be borne: of these it is their work that tells.
+#[test]
+fn a_run_of_four_is_not_too_long_by_itself() {
+    let entries = entries(7, true);
+    let found = entries.iter().find(|entry| signs(&entry.pile) == "+----+");
+    assert_eq!(found.map(|entry| entry.decided_by), Some(DecidedBy::Work));
+}
+
 #[test]
 fn up_to_nine_layers() {
     let mut counts = Vec::new();

@@ -56,6 +56,15 @@ fn what_is_large_is_decided_by_its_beginning() {
     assert_eq!(certificate.claim, Claim::CannotStand);
     assert_eq!(certificate.check(), Ok(()));
     assert!(certificate.pile.layers() < 20);
+    // From one layer below the first failure on, and half as far again each time.
+    for (stacking, layers) in [
+        ("+-+-++-".to_owned() + &repeated("+-", 100), 10),
+        ("++----+".to_owned() + &repeated("-+", 100), 8),
+    ] {
+        let certificate = under_one_sphere(&stacking).equilibrium().unwrap();
+        assert_eq!(certificate.claim, Claim::CannotStand);
+        assert_eq!(certificate.pile.layers(), layers, "{stacking}");
+    }
     // Below the last change of sign forces only grow.
     let straight_below = under_one_sphere(&format!("+-+-+{}", "+".repeat(300)));
     let certificate = straight_below.equilibrium().unwrap();
@@ -71,6 +80,19 @@ fn what_is_large_is_decided_by_its_beginning() {
     );
     let certificate = on_a_base.unwrap().equilibrium().unwrap();
     assert_eq!(certificate.check(), Ok(()));
+}
+
+/// Two steps of one sign are no run that is too long, whatever weighs on them, and a program of 23,600 equations is not solved.
+#[test]
+fn a_heavy_edge_is_no_long_run() {
+    let heavy = Site { i: 60, j: -1, k: 2 };
+    let pile = Pile::under(Region::triangle(60).unwrap(), "+--+".parse().unwrap());
+    let pile = pile.unwrap().with_load(heavy, ratio(10, 1)).unwrap();
+    let refused = pile.equilibrium();
+    assert!(
+        matches!(refused, Err(Error::TooLarge { .. })),
+        "{refused:?}"
+    );
 }
 
 #[test]

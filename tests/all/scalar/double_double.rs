@@ -349,3 +349,13 @@ fn products_of_whole_numbers_are_exact() {
         assert_eq!((a * b).checked_div(&b).map(|q| value(&q)), Some(value(&a)));
     }
 }
+
+/// One of ordinary size is multiplied as it is, however small its low part is.
+#[test]
+fn a_small_low_part_is_not_lost() {
+    let power = |e: i32| DoubleDouble::new(2.0_f64.powi(e));
+    for x in [power(300) + power(-800), power(-300) - &power(-900)] {
+        assert_eq!(DoubleDouble::one() * &x, x);
+        assert_eq!(x * &DoubleDouble::one(), x);
+    }
+}

@@ -93,6 +93,8 @@ fn quotients_are_by_numbers_and_not_by_zero() {
     assert_eq!(quotient(&Expression::one()).unwrap().to_string(), "x");
     assert_eq!(quotient(&(y.clone() - &y)), None);
     assert_eq!(quotient(&y), None);
+    let undefined = BigRational::new_raw(1.into(), 0.into());
+    assert!(!Expression::from_rational(&undefined).is_defined());
     let third = Expression::divide_numerator(x.clone(), NonZeroI64::new(3).unwrap());
     assert_eq!(third.unwrap().to_string(), "x / 3");
     let values = [(Symbol("x"), ratio(8, 1))];

@@ -189,6 +189,32 @@ fn rounding_to_f32_takes_no_way_round() {
     }
 }
 
+/// By less than a double-double tells: the leading bits alone come to more than the middle.
+#[test]
+fn just_below_a_middle_is_rounded_down() {
+    let two = |power: u32| BigInt::from(1) << power;
+    // 1 + m/2^24 is halfway between two floats, for odd m.
+    for (k, m, below) in [
+        (two(107) + 0x3ff_f08a, 1, 1.0),
+        (two(107) + 0xc6aa_9e22_i64, 3, 1.0_f32.next_up()),
+    ] {
+        let d: BigInt = &k << 24;
+        let value = BigRational::new(&d + k * m - 1, d);
+        assert_eq!(f32::nearest_to_rational(&value), Some(below), "{m}");
+        assert_eq!(f32::nearest_to_rational(&-value), Some(-below), "{m}");
+    }
+}
+
+/// Far below the least float: no −0.
+#[test]
+fn what_underflows_keeps_its_sign() {
+    for value in [power(-300), power(-900) * ratio(5, 3)] {
+        let nearest = |value| f32::nearest_to_rational(value).map(f32::to_bits);
+        assert_eq!(nearest(&value), Some(0.0_f32.to_bits()));
+        assert_eq!(nearest(&-value.clone()), Some((-0.0_f32).to_bits()));
+    }
+}
+
 #[test]
 fn too_large_is_none() {
     let limit = midpoint(&exact(f64::MAX), &beyond_greatest::<f64>());
