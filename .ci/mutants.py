@@ -45,7 +45,7 @@ TOOLS = {"dem", "export", "figure", "main", "scene", "serde", "table", "verify"}
 UNNOTICED = ["survives", "survives so far", "not reached"]
 PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 
-# Asked where a fault could be. What is computed while compiling has none.
+# Asked where a fault could be. What is computed while compiling has none: constants with faults are functions for those who read them.
 ASKED = """
 //! Which fault is planted: none, or the one that the environment names.
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
@@ -134,6 +134,12 @@ class Fault:
         self.key = f"{self.file}: {self.words}: {line.strip()}"
 
 
+def enclosing_node(node, kinds):
+    while node is not None and node.type not in kinds:
+        node = node.parent
+    return node
+
+
 class Rewriter:
     """Rewrites one file so that it holds all faults that are left."""
 
@@ -142,6 +148,8 @@ class Rewriter:
         self.path = path
         self.by_node = collections.defaultdict(list)
         self.apart = []
+        # Constants with faults: by node, and by name where they are read.
+        self.constants = {}
         tree = PARSER.parse(source)
         self.root = tree.root_node
         for fault in faults:
@@ -150,6 +158,22 @@ class Rewriter:
                 self.apart.append(fault)
             else:
                 self.by_node[node.id].append(fault)
+                self.note_constant(node)
+
+    def note_constant(self, node):
+        """Notes the constant that an expression is of, unless it is that of a type."""
+        item = enclosing_node(node, {"const_item"})
+        if item is not None and item.parent.type in {"source_file", "block"}:
+            self.constants[item.id] = (item.child_by_field_name("name").text, item, item.parent)
+
+    def constant_read(self, node):
+        """The function for the constant with faults that an identifier names, if it does."""
+        for name, item, scope in self.constants.values():
+            if node.text == name and scope.start_byte <= node.start_byte < scope.end_byte and enclosing_node(
+                node, {"match_pattern", "use_declaration", "token_tree", "scoped_identifier"}
+            ) is None and node != item.child_by_field_name("name"):
+                return f"planted_{name.decode()}()"
+        return None
 
     def node_of(self, fault):
         leaf = self.root.descendant_for_byte_range(fault.at, fault.at)
@@ -175,6 +199,8 @@ class Rewriter:
         return self.source[start:end].decode()
 
     def text(self, node):
+        if node.id in self.constants:
+            return self.slice(node.start_byte, node.end_byte) + self.as_function(node)
         faults = self.by_node.get(node.id)
         if faults:
             return f"/*<{','.join(str(f.number) for f in faults)}*/{self.changed(node, faults)}/*>*/"
@@ -183,7 +209,8 @@ class Rewriter:
     def plain(self, node, changed=()):
         """The text of a node, with that of some children given."""
         if node.child_count == 0:
-            return self.slice(node.start_byte, node.end_byte)
+            read = self.constant_read(node) if node.type == "identifier" else None
+            return read or self.slice(node.start_byte, node.end_byte)
         parts, at = [], node.start_byte
         given = {child.id: text for child, text in changed}
         for child in node.children:
@@ -192,6 +219,11 @@ class Rewriter:
             at = child.end_byte
         parts.append(self.slice(at, node.end_byte))
         return "".join(parts)
+
+    def as_function(self, item):
+        """A constant with its faults: it is computed when it is read."""
+        name, kind, value = (item.child_by_field_name(field) for field in ("name", "type", "value"))
+        return f" const fn planted_{name.text.decode()}() -> {self.plain(kind)} {{ {self.text(value)} }}"
 
     def active(self, fault):
         return f"{self.path}::mutants::active({fault.number})"
