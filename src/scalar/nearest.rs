@@ -213,7 +213,7 @@ mod tests {
         let rounded = |n: u32, exponent| round::<f64>(false, &n.into(), false, exponent);
         assert_eq!(
             [rounded(5, 0), rounded(5, -1), rounded(1, 1023)],
-            [5.0, 2.5, 2.0_f64.powi(1023)].map(Some)
+            [5.0, 2.5, power_of_two(1023)].map(Some)
         );
         assert_eq!(rounded(1, 1024), None);
         let zero = round::<f64>(true, &BigUint::ZERO, false, 0);

@@ -355,7 +355,7 @@ fn products_of_whole_numbers_are_exact() {
 fn a_small_low_part_is_not_lost() {
     let power = |e: i32| DoubleDouble::new(2.0_f64.powi(e));
     for x in [power(300) + power(-800), power(-300) - &power(-900)] {
-        assert_eq!(DoubleDouble::one() * &x, x);
-        assert_eq!(x * &DoubleDouble::one(), x);
+        assert_eq!(DoubleDouble::one() * x, x);
+        assert_eq!(x * DoubleDouble::one(), x);
     }
 }
