@@ -45,7 +45,8 @@ TOOLS = {"dem", "export", "figure", "main", "scene", "serde", "table", "verify"}
 UNNOTICED = ["survives", "survives so far", "not reached"]
 PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 
-# Asked where a fault could be. What is computed while compiling has none: constants with faults are functions for those who read them.
+# Asked where a fault could be. What is computed while compiling has none: a constant with faults, of a file or a block, is a function
+# for what reads it there; in other files, in macros, patterns and paths it stays as it is.
 ASKED = """
 //! Which fault is planted: none, or the one that the environment names.
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
@@ -161,7 +162,7 @@ class Rewriter:
                 self.note_constant(node)
 
     def note_constant(self, node):
-        """Notes the constant that an expression is of, unless it is that of a type."""
+        """Notes the constant that an expression is of, unless it is that of a type or of a module within the file."""
         item = enclosing_node(node, {"const_item"})
         if item is not None and item.parent.type in {"source_file", "block"}:
             self.constants[item.id] = (item.child_by_field_name("name").text, item, item.parent)
@@ -170,7 +171,7 @@ class Rewriter:
         """The function for the constant with faults that an identifier names, if it does."""
         for name, item, scope in self.constants.values():
             if node.text == name and scope.start_byte <= node.start_byte < scope.end_byte and enclosing_node(
-                node, {"match_pattern", "use_declaration", "token_tree", "scoped_identifier"}
+                node, {"match_pattern", "use_declaration", "token_tree", "scoped_identifier", "shorthand_field_initializer"}
             ) is None and node != item.child_by_field_name("name"):
                 return f"planted_{name.decode()}()"
         return None

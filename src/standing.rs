@@ -159,7 +159,7 @@ impl Pile {
     /// of each row between which the forces are linear.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if what stands above a change of sign does not fit in memory, or the forces there depend on too
+    /// [`Error::TooLarge`] if what stands above a change of sign does not fit in memory, and the forces there depend on too
     /// many spheres.
     ///
     /// # Examples

@@ -488,7 +488,6 @@ mod tests {
         }
     }
 
-    /// But one of an eighth of it.
     #[test]
     fn a_unit_exceeds_no_power_of_two_that_is_as_great() {
         for power in [-40, -1, 0, 1, 40_i64] {
@@ -502,7 +501,7 @@ mod tests {
                 Surd::new(two, BigRational::from(BigInt::from(1))).unwrap(),
                 1.into(),
             );
-            assert!(!unit.exceeds_power_of_two(power - 2));
+            assert!(!unit.exceeds_power_of_two(power));
             assert!(unit.exceeds_power_of_two(power - 3));
         }
     }

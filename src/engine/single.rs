@@ -52,7 +52,10 @@ pub(crate) fn received<T: Algebra>(
     let above = match by_tree(lines, site.k, &[[site.i, site.j]], wanted, meter) {
         // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
         Err(too_large @ Error::TooLarge { .. }) if method.is_none() => {
-            return by_sweep(lines, system, site, meter).map_err(|_| too_large);
+            return match by_sweep(lines, system, site, meter) {
+                Err(Error::TooLarge { .. }) => Err(too_large),
+                answer => answer,
+            };
         }
         above => above?,
     };

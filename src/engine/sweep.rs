@@ -268,7 +268,7 @@ mod tests {
         }
     }
 
-    /// The second row of layer 4: three spheres.
+    /// The second row of layer 4: four spheres.
     fn row() -> Row {
         let layer = pile().shape().layer(4).unwrap();
         layer.rows(4).nth(1).unwrap()

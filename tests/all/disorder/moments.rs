@@ -163,11 +163,3 @@ fn planted_faults_are_found() {
     let longer = Piles::response(5, FirstSign::Plus);
     assert_ne!(diagonal(&products(&longer, &q)), squares);
 }
-
-/// Of two layers there is one stacking, whatever the fault probability is.
-#[test]
-fn two_layers_have_no_faults() {
-    let piles = Piles::response(1, FirstSign::Plus).piles().unwrap();
-    let square = piles.mean_square(&f64::NAN).unwrap();
-    assert!((square - 1.0 / 3.0).abs() < 1e-15);
-}

@@ -392,14 +392,14 @@ fn what_loses_digits_is_known() {
     assert_eq!(layers(-309), (false, false));
 }
 
-/// In units of 3^−78 every force that is not zero is a normal float still.
+/// The unit is 3^−78 and 3^−80: a normal float, and less than any.
 #[test]
-fn digits_are_kept_down_to_the_least_normal_float() {
-    let pile = Pile::under(Region::SITE, "+-".repeat(40).parse().unwrap()).unwrap();
+fn digits_are_kept_where_the_unit_is_a_normal_float() {
+    let pile = Pile::under(Region::SITE, "+-".repeat(41).parse().unwrap()).unwrap();
     let keeps_digits = |k| {
         let layers = pile.forces::<BigRational>().layers(Selection::Layer(k));
         let layers = layers.unwrap().nearest::<f32>().unwrap();
         layers.keeps_digits()
     };
-    assert_eq!([78, 79].map(keeps_digits), [true, false]);
+    assert_eq!([78, 80].map(keeps_digits), [true, false]);
 }
