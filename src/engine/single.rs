@@ -52,10 +52,13 @@ pub(crate) fn received<T: Algebra>(
     let above = match by_tree(lines, site.k, &[[site.i, site.j]], wanted, meter) {
         // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
         Err(too_large @ Error::TooLarge { .. }) if method.is_none() => {
-            return match by_sweep(lines, system, site, meter) {
-                Err(Error::TooLarge { .. }) => Err(too_large),
-                answer => answer,
-            };
+            return by_sweep(lines, system, site, meter).map_err(|error| {
+                if matches!(error, Error::TooLarge { .. }) {
+                    too_large
+                } else {
+                    error
+                }
+            });
         }
         above => above?,
     };

@@ -106,3 +106,22 @@ fn where_a_tree_would_be_too_large_a_sweep_answers() {
     let in_rows = contacts.find(|c| (c.site, c.direction) == (middle, Direction::Alpha));
     assert_eq!(in_rows.map(|contact| contact.force), Some(one));
 }
+
+/// Nobody asked for a sweep, so that its refusal would be a riddle.
+#[test]
+fn where_both_would_be_too_large_the_tree_is_what_is_refused() {
+    let pile = Pile::under(Region::SITE, Stacking::hcp(10_000).unwrap()).unwrap();
+    let middle = Site {
+        i: 0,
+        j: 0,
+        k: 9_998,
+    };
+    let refused = pile.forces::<f64>().contact(middle, Direction::Alpha);
+    let Err(Error::TooLarge { quantity, .. }) = refused else {
+        panic!("{refused:?}");
+    };
+    assert_eq!(
+        quantity,
+        "the forces on spheres this far below so many changes of sign"
+    );
+}
