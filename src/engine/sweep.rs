@@ -268,45 +268,34 @@ mod tests {
         }
     }
 
-    /// The second row of layer 4: four spheres.
-    fn row() -> Row {
+    /// The second row of layer 4, with so many spheres more before and behind it, as one of a layer.
+    fn row(k: i128, [before, behind]: [i128; 2]) -> Row {
         let layer = pile().shape().layer(4).unwrap();
-        layer.rows(4).nth(1).unwrap()
+        let Row { j, i, .. } = layer.rows(4).nth(1).unwrap();
+        let i = i.start - before..i.end + behind;
+        Row { k, j, i }
     }
 
     #[test]
     fn a_row_of_its_layer_is_written() {
-        assert_eq!(write(&row()), Ok(true));
+        assert_eq!(write(&row(4, [0, 0])), Ok(true));
     }
 
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
     fn a_row_of_another_layer_is_a_bug() {
-        let written = write(&Row { k: 3, ..row() });
-        assert!(matches!(written, Err(Error::Bug { .. })));
+        assert!(matches!(write(&row(3, [0, 0])), Err(Error::Bug { .. })));
     }
 
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
     fn a_row_that_begins_too_soon_is_a_bug() {
-        let Row { k, j, i } = row();
-        let written = write(&Row {
-            k,
-            j,
-            i: i.start - 1..i.end,
-        });
-        assert!(matches!(written, Err(Error::Bug { .. })));
+        assert!(matches!(write(&row(4, [1, 0])), Err(Error::Bug { .. })));
     }
 
     #[test]
     #[cfg_attr(debug_assertions, should_panic(expected = "rows that it keeps"))]
     fn a_row_that_ends_too_late_is_a_bug() {
-        let Row { k, j, i } = row();
-        let written = write(&Row {
-            k,
-            j,
-            i: i.start..i.end + 1,
-        });
-        assert!(matches!(written, Err(Error::Bug { .. })));
+        assert!(matches!(write(&row(4, [0, 1])), Err(Error::Bug { .. })));
     }
 }
