@@ -45,7 +45,7 @@ pub(crate) use parallel::try_for_each;
 #[cfg(feature = "horizontal")]
 pub(crate) use parallel::{map, threads};
 pub use plan::Plan;
-pub(crate) use plan::{Keeping, trees_are_cheaper};
+pub(crate) use plan::{Keeping, trees_are_cheaper, unless_too_large};
 pub use question::{Method, Quantity, Question};
 pub(crate) use rows::{Engine, exact_sweep, received_in, shortest_exact_sweep};
 pub(crate) use single::{closed_contact, plain_sweep, received};

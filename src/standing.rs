@@ -23,7 +23,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::engine::{
     Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, shortest_exact_sweep,
-    trees_are_cheaper,
+    trees_are_cheaper, unless_too_large,
 };
 use crate::error::{bug, refuse_beyond};
 use crate::formula;
@@ -341,17 +341,6 @@ impl Pile {
     }
 }
 
-/// Returns the first answer, or another where that is too large.
-fn unless_too_large<A>(
-    first: impl FnOnce() -> Result<A, Error>,
-    other: impl FnOnce() -> Result<A, Error>,
-) -> Result<A, Error> {
-    match first() {
-        Err(Error::TooLarge { .. }) => other(),
-        answer => answer,
-    }
-}
-
 /// Returns the least force below a layer where the sign changes, among the spheres between which the forces are linear.
 fn least_at_ends(
     lines: &Lines<'_, BigRational>,
@@ -406,26 +395,4 @@ fn least_passed_on(
 fn begins(shape: &Shape, site: Site, direction: Direction) -> bool {
     let changes = shape.sign_below(site.k) != shape.sign_below(site.k - 1);
     site.k == 0 || (!changes && shape.above(site, direction).is_none())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// And nothing else is: what was interrupted has ended.
-    #[test]
-    fn what_is_too_large_is_answered_otherwise() {
-        let too_large = || Err(refuse_beyond("a pile", 2_u32, 1, "take less").unwrap_err());
-        assert_eq!(unless_too_large(too_large, || Ok(2)), Ok(2));
-        assert_eq!(unless_too_large(|| Ok(1), || Ok(2)), Ok(1));
-        let interrupted = || Err(Error::Interrupted);
-        assert_eq!(
-            unless_too_large(interrupted, || Ok(2)),
-            Err(Error::Interrupted)
-        );
-        assert_eq!(
-            unless_too_large(too_large, interrupted),
-            Err::<i32, _>(Error::Interrupted)
-        );
-    }
 }

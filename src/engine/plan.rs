@@ -107,6 +107,23 @@ pub(crate) fn trees_are_cheaper(above: &BigUint, sweep: &BigUint) -> bool {
     above * COST_OF_A_TREE < *sweep
 }
 
+/// Returns what one method answers, or another where that is too large; where both are, what the first was refused for.
+pub(crate) fn unless_too_large<A>(
+    first: impl FnOnce() -> Result<A, Error>,
+    other: impl FnOnce() -> Result<A, Error>,
+) -> Result<A, Error> {
+    match first() {
+        Err(too_large @ Error::TooLarge { .. }) => other().map_err(|error| {
+            if matches!(error, Error::TooLarge { .. }) {
+                too_large
+            } else {
+                error
+            }
+        }),
+        answer => answer,
+    }
+}
+
 impl System<'_> {
     /// Errors if a method does not apply to the pile.
     pub(crate) fn check_method(&self, method: Method) -> Result<(), Error> {
@@ -318,6 +335,23 @@ mod tests {
         let are_cheaper = |above: u32, sweep: u32| trees_are_cheaper(&above.into(), &sweep.into());
         assert!(are_cheaper(10, 161) && are_cheaper(0, 1) && are_cheaper(1, 1000));
         assert!(!are_cheaper(10, 160) && !are_cheaper(10, 159) && !are_cheaper(1000, 1000));
+    }
+
+    /// And nothing else is: what was interrupted has ended.
+    #[test]
+    fn what_is_too_large_is_answered_otherwise() {
+        let too_large = |quantity| crate::error::refuse_beyond(quantity, 2_u32, 1, "take less");
+        let both = unless_too_large(|| too_large("a tree"), || too_large("a sweep"));
+        assert_eq!(both, too_large("a tree"));
+        assert_eq!(unless_too_large(|| too_large("a tree"), || Ok(())), Ok(()));
+        let interrupted = || Err(Error::Interrupted);
+        assert_eq!(unless_too_large(|| Ok(()), interrupted), Ok(()));
+        assert_eq!(
+            unless_too_large(interrupted, || Ok(())),
+            Err(Error::Interrupted)
+        );
+        let ended = unless_too_large(|| too_large("a tree"), interrupted);
+        assert_eq!(ended, Err(Error::Interrupted));
     }
 
     fn row(i: core::ops::Range<i128>, j: i128) -> Vec<[i128; 2]> {

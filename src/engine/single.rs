@@ -6,7 +6,7 @@ use super::cells::Cells;
 use super::grid::Grid;
 use super::lines::{Lines, Received};
 use super::meter::Meter;
-use super::plan::Keeping;
+use super::plan::{Keeping, unless_too_large};
 use super::question::Method;
 use super::sweep::Descent;
 use super::tree::{Above, Wanted};
@@ -49,24 +49,19 @@ pub(crate) fn received<T: Algebra>(
         }
         Some(Method::Tree) => {}
     }
-    let above = match by_tree(lines, site.k, &[[site.i, site.j]], wanted, meter) {
-        // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
-        Err(too_large @ Error::TooLarge { .. }) if method.is_none() => {
-            return by_sweep(lines, system, site, meter).map_err(|error| {
-                if matches!(error, Error::TooLarge { .. }) {
-                    too_large
-                } else {
-                    error
-                }
-            });
-        }
-        above => above?,
+    let by_tree = || {
+        let above = by_tree(lines, site.k, &[[site.i, site.j]], wanted, meter)?;
+        let forces = above.forces.into_iter().next();
+        Ok(Received {
+            forces: forces.ok_or_else(|| bug("a tree above one sphere has its forces"))?,
+            changes: above.changes,
+        })
     };
-    let forces = above.forces.into_iter().next();
-    Ok(Received {
-        forces: forces.ok_or_else(|| bug("a tree above one sphere has its forces"))?,
-        changes: above.changes,
-    })
+    if method.is_some() {
+        return by_tree();
+    }
+    // Too many changes of sign for a tree, perhaps on few enough spheres for a sweep.
+    unless_too_large(by_tree, || by_sweep(lines, system, site, meter))
 }
 
 /// Returns the forces from above on spheres of one layer, from the lines that lead to them.
