@@ -39,8 +39,17 @@ import tree_sitter_rust
 
 HERE = Path(__file__).parent.parent
 SURVIVORS = HERE / ".ci" / "mutants.survivors"
-# They read, write and draw: their faults are seen, and no number comes from them.
-TOOLS = {"dem", "export", "figure", "main", "scene", "serde", "table", "verify"}
+# Rooms and files that read, write and draw: their faults are seen, and no number comes from them.
+TOOLS = {"cli", "data", "dem", "figure"}
+RECORDS = {
+    "crates/disorder/src/ensemble/record.rs",
+    "crates/horizontal/src/certificate/file.rs",
+    "crates/horizontal/src/certificate/record.rs",
+}
+# The unpublished crate that tests share has its own tests.
+TESTKIT = "cannonpile-testkit"
+# The sources of all crates, for git.
+SOURCES = ["src", "crates/*/src/*"]
 # Ends of an attack.
 UNNOTICED = ["survives", "survives so far", "not reached"]
 PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
@@ -113,7 +122,13 @@ impl<A: Iterator<Item = B::Item>, B: Iterator> Iterator for Either<A, B> {
 
 
 def room(file):
+    """The crate of a file, or its room of the core: a file of src, and the folder of the same name."""
     return Path(file).parts[1].removesuffix(".rs")
+
+
+def path_to_questions(file):
+    """Where the code of a file finds the questions: `exact-surd` has them, and the core hands them to the crates beside it."""
+    return "crate" if file.startswith(("src/", "crates/surd/")) else "cannonpile"
 
 
 class Fault:
@@ -324,7 +339,6 @@ class Copy:
             "CARGO_INCREMENTAL": "0",
             "CARGO_PROFILE_DEV_DEBUG": "none",
             "CARGO_PROFILE_TEST_DEBUG": "none",
-            "CARGO_MANIFEST_DIR": str(self.tree),
             "RUSTC_BOOTSTRAP": "1",
             "RUSTFLAGS": flags,
         }
@@ -338,9 +352,9 @@ class Copy:
             (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(HERE / name, self.tree / name)
         count = max(self.faults, default=0) + 1
-        (self.tree / "src" / "mutants.rs").write_text(ASKED.replace("COUNT", str(count)))
+        (self.tree / "crates" / "surd" / "src" / "mutants.rs").write_text(ASKED.replace("COUNT", str(count)))
         self.originals = {}
-        for file in {fault.file for fault in self.faults.values()} | {"src/lib.rs"}:
+        for file in {fault.file for fault in self.faults.values()} | {"crates/surd/src/lib.rs", "src/lib.rs"}:
             self.originals[file] = (self.tree / file).read_bytes()
         self.write()
 
@@ -349,12 +363,13 @@ class Copy:
         for fault in self.faults.values():
             by_file[fault.file].append(fault)
         for file in files or self.originals:
-            path = "cannonpile" if file.startswith("src/main/") else "crate"
-            rewriter = Rewriter(self.originals[file], by_file[file], path)
+            rewriter = Rewriter(self.originals[file], by_file[file], path_to_questions(file))
             for fault in rewriter.apart:
                 self.drop(fault, "no expression of its own")
             text = rewriter.whole()
             if file == "src/lib.rs":
+                text += "\n#[allow(missing_docs)]\npub use exact_surd::mutants;\n"
+            if file == "crates/surd/src/lib.rs":
                 head = "#![feature(core_intrinsics, const_eval_select)]\n#![allow(internal_features)]\n"
                 text = head + text + "\n#[allow(missing_docs)]\npub mod mutants;\nextern crate std;\n"
             (self.tree / file).write_text(text)
@@ -365,7 +380,7 @@ class Copy:
 
     def cargo(self, *words):
         return subprocess.run(
-            ["cargo", *words, "--message-format", "json"],
+            ["cargo", *words, "--workspace", "--exclude", TESTKIT, "--all-features", "--message-format", "json"],
             cwd=self.tree,
             env=self.environment,
             stdin=subprocess.DEVNULL,
@@ -401,7 +416,7 @@ class Copy:
     def settle(self):
         """Leaves out what does not compile, until the rest does."""
         while True:
-            said = self.cargo("check", "--all-features", "--lib", "--bins")
+            said = self.cargo("check", "--lib", "--bins")
             errors = [
                 line["message"]
                 for line in map(json.loads, said.stdout.splitlines())
@@ -424,14 +439,18 @@ class Copy:
             self.write(files)
 
     def build(self):
-        said = self.cargo("test", "--all-features", "--no-run", "--lib", "--bins", "--test", "all", "--test", "properties")
+        said = self.cargo("test", "--no-run", "--lib", "--bins", "--tests")
         if said.returncode:
             print(said.stderr[-4000:])
             raise SystemExit("the tests do not build")
+        # Each with the folder of its package, where cargo runs it. Examples have no list of tests.
         return [
-            line["executable"]
+            (line["executable"], str(Path(line["manifest_path"]).parent))
             for line in map(json.loads, said.stdout.splitlines())
-            if line["reason"] == "compiler-artifact" and line["executable"] and line["profile"]["test"]
+            if line["reason"] == "compiler-artifact"
+            and line["executable"]
+            and line["profile"]["test"]
+            and "example" not in line["target"]["kind"]
         ]
 
 
@@ -463,11 +482,13 @@ class Tests:
         self.copy = copy
 
     def run(self, binary, names, seconds, **environment):
-        """Whether they pass: in time, one after the other. `None` where they do not end in time."""
+        """Whether tests of a binary pass: in time, one after the other. `None` where they do not end in time."""
+        executable, folder = binary
+        own = {"CARGO_MANIFEST_DIR": folder, "PROPTEST_FAILURE_PERSISTENCE": "off"}
         process = subprocess.Popen(
-            [binary, "--exact", "--test-threads", "1", *names],
-            cwd=self.copy.tree,
-            env=self.copy.environment | {"PROPTEST_FAILURE_PERSISTENCE": "off"} | environment,
+            [executable, "--exact", "--test-threads", "1", *names],
+            cwd=folder,
+            env=self.copy.environment | own | environment,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -488,7 +509,8 @@ class Tests:
         """Runs each test alone; those that take longer are left out."""
         tests = []
         for binary in binaries:
-            listed = subprocess.run([binary, "--list", "--format", "terse"], capture_output=True, text=True, check=True).stdout
+            listing = [binary[0], "--list", "--format", "terse"]
+            listed = subprocess.run(listing, capture_output=True, text=True, check=True).stdout
             tests += [(binary, line.removesuffix(": test")) for line in listed.splitlines() if line.endswith(": test")]
         reached = self.copy.folder / "reached"
         reached.mkdir(exist_ok=True)
@@ -568,12 +590,13 @@ class Attack:
 def listed(folder):
     """What cargo-mutants lists, numbered."""
     path = folder / "listed.json"
-    said = subprocess.run(["cargo", "mutants", "--list", "--json"], cwd=HERE, check=True, capture_output=True, text=True)
+    listing = ["cargo", "mutants", "--workspace", "--list", "--json"]
+    said = subprocess.run(listing, cwd=HERE, check=True, capture_output=True, text=True)
     path.write_text(said.stdout)
     texts = {}
     faults = []
     times = collections.Counter()
-    for number, one in enumerate(json.loads(said.stdout)):
+    for number, one in enumerate(one for one in json.loads(said.stdout) if one["package"] != TESTKIT):
         file = one["file"]
         if file not in texts:
             texts[file] = (HERE / file).read_text()
@@ -587,8 +610,9 @@ def listed(folder):
 
 
 def changed_lines(commit):
-    """The lines of src that differ from a commit, as (file, line)."""
-    said = subprocess.run(["git", "diff", "-U0", commit, "--", "src"], cwd=HERE, check=True, capture_output=True, text=True).stdout
+    """The lines of sources that differ from a commit, as (file, line). A line of a file that was moved does not differ."""
+    diff = ["git", "diff", "-U0", "--find-renames=40%", "-l0", commit, "--", *SOURCES]
+    said = subprocess.run(diff, cwd=HERE, check=True, capture_output=True, text=True).stdout
     lines, file = set(), None
     for line in said.splitlines():
         if line.startswith("+++ b/"):
@@ -603,7 +627,7 @@ def changed_lines(commit):
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, metavar="DIR", help="keeps the copy, its build and the results")
-    parser.add_argument("--room", action="append", help="of these rooms of src (all but the tools)")
+    parser.add_argument("--room", action="append", help="of these crates beside the core, or rooms of the core (all but the tools)")
     parser.add_argument("--changed", metavar="COMMIT", help="in lines that differ from it")
     parser.add_argument("--sample", type=int, metavar="N", help="so many, drawn by chance, always the same")
     parser.add_argument("--shard", default="0/1", metavar="I/N", help="each N-th, from the I-th on")
@@ -619,7 +643,7 @@ def chosen(faults, asked):
     if asked.room:
         faults = [fault for fault in faults if room(fault.file) in asked.room]
     else:
-        faults = [fault for fault in faults if room(fault.file) not in TOOLS]
+        faults = [fault for fault in faults if room(fault.file) not in TOOLS and fault.file not in RECORDS]
     if asked.changed:
         lines = changed_lines(asked.changed)
         faults = [fault for fault in faults if (fault.file, int(fault.place.split(":")[1])) in lines]

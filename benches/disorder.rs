@@ -7,10 +7,10 @@
 use std::env;
 use std::time::Instant;
 
-use cannonpile::disorder::{
+use cannonpile::lattice::{Region, Site};
+use cannonpile_disorder::{
     By, Choice, Ensemble, FirstSign, RandomPiles, RandomStackings, Samples, Shard,
 };
-use cannonpile::lattice::{Region, Site};
 use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::One;

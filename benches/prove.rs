@@ -8,7 +8,8 @@ use std::env;
 use std::hint::black_box;
 use std::time::Instant;
 
-use cannonpile::theorem::{self, Proof, Theorem};
+use cannonpile::theorem::Proof;
+use cannonpile_proof::Theorem;
 
 fn main() {
     let smoke = env::args().any(|argument| argument == "--smoke");
@@ -17,8 +18,8 @@ fn main() {
     println!("theorem          method     steps  terms   median (ms)");
     let mut all = 0.0;
     let mut slowest: Option<(f64, &str)> = None;
-    for theorem in theorem::all() {
-        let (median, proof) = measure(theorem, repetitions);
+    for theorem in cannonpile_proof::all() {
+        let (median, proof) = measure(&theorem, repetitions);
         let (name, method) = (theorem.name, theorem.method.name());
         println!(
             "{name:16} {method:9}  {:5}  {:5}  {median:12.3}",

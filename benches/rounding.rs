@@ -7,22 +7,19 @@
 //! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
 //! quantity, or a part of it, only that one.
 //!
-//! With `-- --stress` it measures the tables of `tests/support/stress` instead, those of hundreds of changes of sign in every scalar,
+//! With `-- --stress` it measures the tables of `crates/testkit/src/stress` instead, those of hundreds of changes of sign in every scalar,
 //! which takes some minutes.
-
-#[path = "../tests/support/mod.rs"]
-mod support;
 
 use std::env;
 use std::time::Instant;
 
-use support::rounding::numbers;
-use support::rounding::quantities::Quantity;
-use support::rounding::random::Random;
-use support::rounding::tally::Tally;
-use support::stress::cases;
-use support::stress::deep::Deep;
-use support::stress::table::{self, Answers};
+use cannonpile_testkit::rounding::numbers;
+use cannonpile_testkit::rounding::quantities::Quantity;
+use cannonpile_testkit::rounding::random::Random;
+use cannonpile_testkit::rounding::tally::Tally;
+use cannonpile_testkit::stress::cases;
+use cannonpile_testkit::stress::deep::Deep;
+use cannonpile_testkit::stress::table::{self, Answers};
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -61,10 +58,10 @@ fn stress_table(with_deep: bool) {
         for layers in Deep::LAYERS {
             let measured = Deep::measured(layers).to_string();
             print!("\n{measured}");
-            let written = include_str!("../tests/support/stress/deep.md");
+            let written = include_str!("../crates/testkit/src/stress/deep.md");
             assert!(
                 written.contains(&measured),
-                "not in tests/support/stress/deep.md"
+                "not in crates/testkit/src/stress/deep.md"
             );
         }
     }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use cannonpile::lattice::{Direction, Region};
 use cannonpile::scalar::Surd;
-use cannonpile::scene::parse;
+use cannonpile::scalar::parse;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Packing, Pile};

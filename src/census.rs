@@ -61,17 +61,27 @@ pub struct Entry {
     pub standing: Standing,
 }
 
-/// What a census lists: a pile, and the judgement on it.
-pub(crate) trait Judged: Sized {
-    /// Of m·L − n entries is a census of six layers or more with what fails: m and n.
+/// A pile with a verdict on it: what a census lists. Another crate can search with a criterion of its own ([`search`]).
+pub trait Judged: Sized {
+    /// Why no verdict could be given.
+    type Error: From<Error>;
+
+    /// The numbers m and n of which m·L − n bounds the entries of a census of L ≥ 6 layers with those that fail.
     const ENTRIES: [i128; 2];
 
-    fn judge(pile: Pile) -> Result<Self, Error>;
+    /// Gives the verdict on a pile.
+    ///
+    /// # Errors
+    /// Those of the criterion.
+    fn judge(pile: Pile) -> Result<Self, Self::Error>;
 
+    /// Returns whether the pile is stable.
     fn stands(&self) -> bool;
 }
 
 impl Judged for Entry {
+    type Error = Error;
+
     const ENTRIES: [i128; 2] = [11, 50];
 
     fn judge(pile: Pile) -> Result<Self, Error> {
@@ -134,12 +144,25 @@ pub fn under_one_sphere(
     search(layers, failing)
 }
 
-/// The search from the top, however a beginning is judged: if it stands, so do its own beginnings, and it with its last step
-/// repeated; and no run of more than [`LONGEST_RUN`] steps stands before a change of sign.
-pub(crate) fn search<E: Judged>(
+/// Searches the stackings of `layers` layers under one sphere from the top, by the criterion of `E`.
+///
+/// The criterion must be such that every beginning of a stable stacking is stable, so is a stable one with its last step
+/// repeated, and no run of more than four steps before a sign change is.
+///
+/// # Errors
+/// As for [`under_one_sphere`]; each entry has those of its criterion.
+///
+/// # Examples
+/// ```
+/// use cannonpile::census::{self, Entry};
+///
+/// assert_eq!(census::search::<Entry>(3, false)?.count(), 2);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn search<E: Judged>(
     layers: i128,
     failing: bool,
-) -> Result<impl Iterator<Item = Result<E, Error>>, Error> {
+) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
     // The number is checked here; a single layer has no step.
     let steps = Stacking::fcc(layers)?.layers() - 1;
     // As many as are listed, and no fewer for less than six layers.
@@ -206,7 +229,7 @@ struct Waiting {
 impl<E: Judged> Search<E> {
     /// The entry of a beginning: itself carried to all layers, if its last change of sign stands, with the longer
     /// beginnings put in line; or its failure.
-    fn visit(&mut self, beginning: Beginning) -> Result<Option<E>, Error> {
+    fn visit(&mut self, beginning: Beginning) -> Result<Option<E>, E::Error> {
         check_interrupt()?;
         if !beginning.0.is_empty() {
             let first_step = E::judge(beginning.pile(1)?)?;
@@ -229,7 +252,7 @@ impl<E: Judged> Search<E> {
 }
 
 impl<E: Judged> Iterator for Search<E> {
-    type Item = Result<E, Error>;
+    type Item = Result<E, E::Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
@@ -283,10 +306,22 @@ pub fn on_base(base: Region) -> Result<impl Iterator<Item = Result<Entry, Error>
     carried_up(base)
 }
 
-/// Every stacking of a base, however it is judged.
-pub(crate) fn carried_up<E: Judged>(
+/// Carries every stacking of a base as high as it goes, and judges it by the criterion of `E`.
+///
+/// # Errors
+/// As for [`on_base`]; each entry has those of its criterion.
+///
+/// # Examples
+/// ```
+/// use cannonpile::census::{self, Entry};
+/// use cannonpile::lattice::Region;
+///
+/// assert!(census::carried_up::<Entry>(Region::triangle(4)?)?.count() > 1);
+/// # Ok::<(), cannonpile::Error>(())
+/// ```
+pub fn carried_up<E: Judged>(
     base: Region,
-) -> Result<impl Iterator<Item = Result<E, Error>>, Error> {
+) -> Result<impl Iterator<Item = Result<E, E::Error>>, Error> {
     let rows = stackings_of(base);
     if rows > BigUint::from(MAX_ENTRIES) {
         return Err(Error::TooManyRows {
@@ -316,7 +351,8 @@ pub(crate) fn carried_up<E: Judged>(
             }
             if !higher {
                 let from_top = Stacking::from_signs(signs.iter().rev().copied());
-                return Some(from_top.and_then(|stacking| E::judge(Pile::on(base, stacking)?)));
+                let pile = from_top.and_then(|stacking| Pile::on(base, stacking));
+                return Some(pile.map_err(E::Error::from).and_then(E::judge));
             }
         }
     }))

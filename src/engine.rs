@@ -35,15 +35,12 @@ pub(crate) use cells::Cells;
 pub(crate) use grid::{Grid, MAX_NUMBERS};
 #[cfg(feature = "std")]
 pub use interrupt::Interrupt;
-pub(crate) use interrupt::check as check_interrupt;
+pub use interrupt::check as check_interrupt;
 pub(crate) use limbs::Planes;
 pub(crate) use lines::{Lines, Received};
 pub use meter::{Counters, Meter};
 pub(crate) use nearest::{Readout, Unit};
-#[cfg(feature = "ensemble")]
-pub(crate) use parallel::try_for_each;
-#[cfg(feature = "horizontal")]
-pub(crate) use parallel::{map, threads};
+pub use parallel::{map, threads, try_for_each};
 pub use plan::Plan;
 pub(crate) use plan::{Keeping, trees_are_cheaper, unless_too_large};
 pub use question::{Method, Quantity, Question};
@@ -53,3 +50,8 @@ pub(crate) use slices::{fill_layers, fill_rows, split_front};
 pub(crate) use sweep::Descent;
 pub(crate) use table::Table;
 pub(crate) use tree::{Wanted, nodes};
+
+// For the crates beside this one.
+pub use crate::error::{bug, copies, refuse_beyond, refuse_beyond_memory};
+pub use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
+pub use exact_surd::short::{numbers as shortened, quoted};

@@ -1,20 +1,17 @@
 //! What can be wrong with a question: one enum, each variant with the numbers and the remedy.
 
-mod culprit;
 mod display;
-mod short;
-
-pub use culprit::Culprit;
 
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use exact_surd::short::quoted;
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use crate::engine::{Method, Quantity};
+use crate::engine::Method;
 use crate::geometry::{Apart, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
 
@@ -31,18 +28,19 @@ use crate::lattice::{Dimension, Direction, Region, Site};
 #[non_exhaustive]
 pub enum Error {
     /// The number of layers is not between 1 and [`MAX_LAYERS`](crate::lattice::MAX_LAYERS).
+    #[non_exhaustive]
     Layers {
         /// The number asked for.
         given: BigInt,
     },
     /// sin φ is not strictly between 0 and 1.
+    #[non_exhaustive]
     SinPhi {
         /// The value asked for.
         given: BigRational,
     },
-    /// sin φ was given for a pile of discs, which has none.
-    SinPhiOfDiscs,
     /// The pile has no such site.
+    #[non_exhaustive]
     SiteOutside {
         /// The site asked for.
         site: Site,
@@ -54,6 +52,7 @@ pub enum Error {
         region: Option<Box<Region>>,
     },
     /// The pile has no such layer.
+    #[non_exhaustive]
     LayerOutside {
         /// The layer asked for.
         layer: i128,
@@ -61,11 +60,13 @@ pub enum Error {
         layers: i128,
     },
     /// A contact below a sphere of the bottom layer: it rests on the floor.
+    #[non_exhaustive]
     OnFloor {
         /// The sphere asked for.
         site: Site,
     },
     /// A force on the floor from a sphere that does not touch it.
+    #[non_exhaustive]
     NotOnFloor {
         /// The sphere asked for.
         site: Site,
@@ -73,36 +74,43 @@ pub enum Error {
         floor: i128,
     },
     /// A pile of discs has no contacts in this direction.
+    #[non_exhaustive]
     NoSuchDirection {
         /// The direction asked for.
         direction: Direction,
     },
     /// A region of the lattice without a site.
+    #[non_exhaustive]
     EmptyRegion {
         /// The region as it was asked for.
         region: Box<Region>,
     },
     /// A region whose coordinates leave ±10³⁶.
+    #[non_exhaustive]
     RegionTooLarge {
         /// The region, or the one that was to grow.
         region: Box<Region>,
     },
     /// The side of a triangle or hexagon is not between 1 and 10³⁶.
+    #[non_exhaustive]
     RegionSide {
         /// The side asked for.
         given: i128,
     },
     /// A run of a stacking has a negative length.
+    #[non_exhaustive]
     RunLength {
         /// The length asked for.
         given: i128,
     },
     /// A stacking changes its sign too often to be kept.
+    #[non_exhaustive]
     TooManyRuns {
         /// The most runs.
         limit: usize,
     },
     /// A stacking that is spelled out, and another number of layers.
+    #[non_exhaustive]
     LayersOfStacking {
         /// The number of layers asked for.
         layers: i128,
@@ -110,6 +118,7 @@ pub enum Error {
         spelled: i128,
     },
     /// No site is left on a base before all layers are there.
+    #[non_exhaustive]
     TooHigh {
         /// The layers asked for.
         layers: i128,
@@ -119,6 +128,7 @@ pub enum Error {
         base: Box<Region>,
     },
     /// A weight or load that is negative.
+    #[non_exhaustive]
     NegativeLoad {
         /// `load` or `weight`.
         quantity: &'static str,
@@ -128,37 +138,29 @@ pub enum Error {
         given: Box<BigRational>,
     },
     /// A method that does not apply: closed forms are of straight stackings, sweeps of spheres and not of discs.
+    #[non_exhaustive]
     NoSuchMethod {
         /// The method asked for.
         method: Method,
     },
     /// A sphere that is not of the layer asked.
+    #[non_exhaustive]
     OtherLayer {
         /// The layer of the sphere.
         layer: i128,
         /// The layer that was asked.
         at: i128,
     },
-    /// A quantity in SI of a pile that has no size and no weight.
-    NeedsUnits {
-        /// The quantity asked for.
-        quantity: Quantity,
-    },
     /// A slice that does not have one place for each force.
+    #[non_exhaustive]
     Length {
         /// How many forces there are.
         needed: usize,
         /// How many places.
         given: usize,
     },
-    /// Two options of a scene that exclude each other.
-    Excluded {
-        /// The one.
-        given: Culprit,
-        /// The other.
-        beside: Culprit,
-    },
     /// An answer that would take more memory than is sensible.
+    #[non_exhaustive]
     TooLarge {
         /// What would be computed.
         quantity: &'static str,
@@ -170,13 +172,15 @@ pub enum Error {
         remedy: &'static str,
     },
     /// A length, mass, gravity or spacing that is not positive.
+    #[non_exhaustive]
     NotPositive {
         /// What it is.
-        quantity: Culprit,
+        quantity: &'static str,
         /// The value asked for.
         given: BigRational,
     },
     /// Spheres would overlap at this spacing.
+    #[non_exhaustive]
     Overlap {
         /// The spacing asked for.
         spacing: Box<Spacing>,
@@ -186,6 +190,7 @@ pub enum Error {
         allowed: Box<(Option<Spacing>, Option<Spacing>)>,
     },
     /// The contacts would be horizontal, or no contacts at all.
+    #[non_exhaustive]
     TooFlat {
         /// The spacing asked for.
         spacing: Box<Spacing>,
@@ -193,6 +198,7 @@ pub enum Error {
         limit: Box<Spacing>,
     },
     /// No spacing at all keeps the spheres of this pile apart.
+    #[non_exhaustive]
     NoSpacing {
         /// sin φ of the pile.
         sin_phi: BigRational,
@@ -200,18 +206,17 @@ pub enum Error {
         layers: i128,
     },
     /// An answer does not fit the number type asked for.
+    #[non_exhaustive]
     Overflow {
         /// What was asked for.
         quantity: &'static str,
         /// The number type.
         scalar: &'static str,
     },
-    /// The root of a negative number.
-    NegativeRadicand {
-        /// The number.
-        given: BigRational,
-    },
+    /// What is wrong with a number by itself.
+    Number(exact_surd::Error),
     /// A text that is not what was expected.
+    #[non_exhaustive]
     Syntax {
         /// The text, shortened if it is long.
         text: String,
@@ -219,6 +224,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A long stacking with a character that does not belong there.
+    #[non_exhaustive]
     Misspelled {
         /// The stacking, shortened.
         text: String,
@@ -227,59 +233,8 @@ pub enum Error {
         /// The character, or `None` if the stacking ends too early.
         found: Option<char>,
     },
-    /// A scene file that is no TOML.
-    NotToml {
-        /// The line, counted from 1.
-        line: usize,
-        /// What the parser of TOML says.
-        reason: String,
-    },
-    /// A key of a scene file that is no option of a scene.
-    UnknownKey {
-        /// Its line, counted from 1.
-        line: usize,
-        /// The key, shortened if it is long.
-        key: String,
-        /// The key that may have been meant.
-        nearest: Option<&'static str>,
-        /// All that there are.
-        known: &'static [&'static str],
-    },
-    /// A name that no benchmark case has.
-    UnknownCase {
-        /// The name, shortened if it is long.
-        name: String,
-        /// The name that may have been meant.
-        nearest: Option<&'static str>,
-    },
-    /// A value in a scene file that is refused.
-    InFile {
-        /// The line of its key, counted from 1.
-        line: usize,
-        /// Its key.
-        key: &'static str,
-        /// Why.
-        error: Box<Error>,
-    },
-    /// More marks than anybody can tell apart in a figure.
-    TooManyMarks {
-        /// How many there would be.
-        marks: BigUint,
-        /// What they stand for.
-        what: &'static str,
-        /// How many are allowed.
-        limit: u32,
-        /// The narrower question.
-        remedy: &'static str,
-    },
-    /// More stackings than are gone through, all of them.
-    TooManyStackings {
-        /// How many there are.
-        stackings: BigUint,
-        /// How many are allowed.
-        limit: u64,
-    },
     /// More rows than anybody can read.
+    #[non_exhaustive]
     TooManyRows {
         /// How many there would be.
         rows: BigUint,
@@ -289,60 +244,21 @@ pub enum Error {
         remedy: &'static str,
     },
     /// Horizontal contacts of a pile whose neighbours do not all touch at a = R.
+    #[non_exhaustive]
     NoHorizontalContacts {
         /// sin φ of the pile.
         sin_phi: BigRational,
     },
     /// A spacing at which the neighbours of a layer do not touch, and that was given.
+    #[non_exhaustive]
     NotTouching {
         /// The spacing.
         spacing: Spacing,
     },
-    /// Bounds of a pile whose spheres weigh nothing.
-    Weightless,
-    /// A pile that no forces balance which only push, horizontal contacts included.
-    CannotStand,
-    /// A test of a state at rest, of a pile of which contacts would have to pull.
-    MustPull {
-        /// What can be had instead.
-        remedy: &'static str,
-    },
-    /// A fault probability that is not between 0 and 1.
-    FaultProbability {
-        /// The value asked for.
-        given: BigRational,
-    },
-    /// A load on a sphere that is not at its place in every stacking.
-    PlaceOfLoad {
-        /// The sphere.
-        site: Site,
-        /// Whether the stackings stand on a base, so that no layer above it is in its place in all of them.
-        on_base: bool,
-    },
-    /// The response to loads of spheres that weigh something, or that bear no load.
-    OnlyOfLoads {
-        /// What was asked for.
-        quantity: &'static str,
-        /// Whether they weigh nothing, and only a load is missing.
-        weightless: bool,
-    },
-    /// No stacking at all has so many layers on a base.
-    NoStacking {
-        /// The layers asked for.
-        layers: i128,
-        /// The most that a stacking has.
-        greatest: i128,
-        /// The base.
-        base: Box<Region>,
-    },
-    /// A program over contact forces whose solution in floats leads to no exact one.
-    NotSolved {
-        /// The equations of balance that it has.
-        equations: usize,
-    },
     /// Work that was asked to end, by an `Interrupt`.
     Interrupted,
     /// Something that cannot be, by the named invariant: a fault of this library and of no input.
+    #[non_exhaustive]
     Bug {
         /// What was to hold, and does not.
         invariant: &'static str,
@@ -354,7 +270,8 @@ pub enum Error {
 /// It stands where a default would be a wrong answer: `value.ok_or_else(|| bug("a bottom sphere rests on the floor"))?`.
 #[cold]
 #[track_caller]
-pub(crate) fn bug(invariant: &'static str) -> Error {
+#[must_use]
+pub fn bug(invariant: &'static str) -> Error {
     debug_assert!(false, "broken invariant: {invariant}");
     Error::Bug { invariant }
 }
@@ -363,7 +280,7 @@ pub(crate) fn bug(invariant: &'static str) -> Error {
 ///
 /// # Errors
 /// [`Error::TooLarge`].
-pub(crate) fn refuse_beyond(
+pub fn refuse_beyond(
     quantity: &'static str,
     needed: impl Into<BigUint>,
     limit: u64,
@@ -386,7 +303,7 @@ pub(crate) fn refuse_beyond(
 ///
 /// # Errors
 /// [`Error::TooLarge`].
-pub(crate) fn refuse_beyond_memory(
+pub fn refuse_beyond_memory(
     quantity: &'static str,
     needed: &BigUint,
     (limit, bytes): (u64, usize),
@@ -413,12 +330,7 @@ pub(crate) fn refuse_beyond_memory(
 ///
 /// # Errors
 /// [`Error::TooLarge`].
-#[cfg(any(feature = "export", test))]
-pub(crate) fn copies<T: Clone>(
-    value: T,
-    count: usize,
-    quantity: &'static str,
-) -> Result<Vec<T>, Error> {
+pub fn copies<T: Clone>(value: T, count: usize, quantity: &'static str) -> Result<Vec<T>, Error> {
     let bytes = size_of::<T>().max(1);
     refuse_beyond_memory(
         quantity,
@@ -455,16 +367,111 @@ impl Error {
     }
 
     /// A syntax error that quotes `text`, shortened if it is long.
-    pub(crate) fn syntax(text: &str, expected: &'static str) -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn syntax(text: &str, expected: &'static str) -> Self {
         Self::Syntax {
-            text: Self::quoted(text),
+            text: quoted(text),
             expected,
         }
     }
+}
 
-    /// The text on one line, shortened in the middle if it is long.
-    pub(crate) fn quoted(text: &str) -> String {
-        short::quoted(text)
+/// Errors of the core that the crates beside it report too.
+#[doc(hidden)]
+impl Error {
+    #[must_use]
+    pub fn layers(given: BigInt) -> Self {
+        Self::Layers { given }
+    }
+
+    #[must_use]
+    pub fn layer_outside(layer: i128, layers: i128) -> Self {
+        Self::LayerOutside { layer, layers }
+    }
+
+    #[must_use]
+    pub fn site_outside(
+        site: Site,
+        layers: i128,
+        dimension: Dimension,
+        region: Option<Region>,
+    ) -> Self {
+        Self::SiteOutside {
+            site,
+            layers,
+            dimension,
+            region: region.map(Box::new),
+        }
+    }
+
+    #[must_use]
+    pub fn on_floor(site: Site) -> Self {
+        Self::OnFloor { site }
+    }
+
+    #[must_use]
+    pub fn not_on_floor(site: Site, floor: i128) -> Self {
+        Self::NotOnFloor { site, floor }
+    }
+
+    #[must_use]
+    pub fn negative_load(quantity: &'static str, site: Site, given: BigRational) -> Self {
+        Self::NegativeLoad {
+            quantity,
+            site,
+            given: Box::new(given),
+        }
+    }
+
+    #[must_use]
+    pub fn not_positive(quantity: &'static str, given: BigRational) -> Self {
+        Self::NotPositive { quantity, given }
+    }
+
+    #[must_use]
+    pub fn not_touching(spacing: Spacing) -> Self {
+        Self::NotTouching { spacing }
+    }
+
+    #[must_use]
+    pub fn length(needed: usize, given: usize) -> Self {
+        Self::Length { needed, given }
+    }
+
+    #[must_use]
+    pub fn overflow(quantity: &'static str, scalar: &'static str) -> Self {
+        Self::Overflow { quantity, scalar }
+    }
+
+    #[must_use]
+    pub fn too_large(
+        quantity: &'static str,
+        needed: BigUint,
+        limit: u64,
+        remedy: &'static str,
+    ) -> Self {
+        Self::TooLarge {
+            quantity,
+            needed,
+            limit,
+            remedy,
+        }
+    }
+
+    #[must_use]
+    pub fn too_many_rows(rows: BigUint, limit: u64, remedy: &'static str) -> Self {
+        Self::TooManyRows {
+            rows,
+            limit,
+            remedy,
+        }
+    }
+}
+
+impl From<exact_surd::Error> for Error {
+    fn from(error: exact_surd::Error) -> Self {
+        Self::Number(error)
     }
 }
 
@@ -509,7 +516,9 @@ mod tests {
         assert_eq!(refused(0, 8), Ok(()));
         assert_eq!(refused(1000, 8), Ok(()));
         assert_eq!(copies(7_u64, 3, "numbers"), Ok(alloc::vec![7; 3]));
-        for many in [usize::MAX, isize::MAX as usize / 8] {
+        // A process with 32-bit addresses may have room for every byte that it can address.
+        let addressable = cfg!(target_pointer_width = "64").then_some(isize::MAX as usize / 8);
+        for many in [usize::MAX].into_iter().chain(addressable) {
             let none = copies(7_u64, many, "numbers");
             assert!(matches!(none, Err(Error::TooLarge { .. })), "{many}");
         }

@@ -19,10 +19,6 @@
 //! | (11)–(14) | force on the floor | [`handed_on`] |
 //! | | forces across a change of sign, which the paper's pile has not | [`half_turn`], [`tripled_half_turn`], [`tripled_apart`] |
 //! | | horizontal contacts, which the paper leaves out | [`pushed`], [`beside`] |
-//! | | what fields prove of them | [`lowered`], [`compression`], [`elastic_field`], [`corner_field`] |
-//! | | moments of the response to a load, and of its mean over random stackings | [`third_moment`], [`fourth_moment`], [`fourth_moment_of_pair`], [`mean_third_moment`], [`mean_fourth_moment_of_pairs`] |
-//! | | waves of that mean | [`wave`] |
-//! | | what can rest on a bottom sphere with them | [`least_on_corner`], [`greatest_on_corner`], [`greatest_inside`], [`greatest_on_edge`], [`arch`] |
 //!
 //! | pile | increments | their sum W |
 //! |---|---|---|
@@ -33,18 +29,10 @@
 //! They are numbers in the unit f₀ = mg/(W cosθ), which is mg/(3 cosθ) on an equilateral base, so that every formula is
 //! a polynomial in s and the counts. Who wants mg divides by W once.
 
-mod disorder;
 mod horizontal;
 mod turn;
 
-pub use disorder::{
-    fourth_moment, fourth_moment_of_pair, mean_fourth_moment_of_pairs, mean_third_moment,
-    registry_excess, third_moment, wave,
-};
-pub use horizontal::{
-    arch, beside, compression, corner_field, elastic_field, greatest_inside, greatest_on_corner,
-    greatest_on_edge, least_on_corner, lowered, pushed,
-};
+pub use horizontal::{beside, pushed};
 pub(crate) use turn::triples;
 pub use turn::{half_turn, tripled_apart, tripled_half_turn};
 
@@ -122,7 +110,7 @@ pub fn passed_on<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
 /// # Examples
 /// ```
 /// use cannonpile::formula::resultant;
-/// use cannonpile::geometry::{Vector, directions};
+/// use cannonpile::geometry::{directions, Vector};
 ///
 /// let force = resultant(&[1.0, 1.0, 1.0], &directions(&0.5));
 /// assert_eq!(force, Vector { x: 0.0, y: 0.0, z: 3.0 });
@@ -140,7 +128,7 @@ pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> V
 /// # Examples
 /// ```
 /// use cannonpile::formula::handed_on;
-/// use cannonpile::geometry::{Vector, directions};
+/// use cannonpile::geometry::{directions, Vector};
 ///
 /// // The corner of the base of 10 layers, with 9 spheres above it on one line: (10 + 2)/3 mg.
 /// let force = handed_on(&[9.0, 0.0, 0.0], &directions(&0.5), &3.0);
@@ -168,7 +156,7 @@ pub fn handed_on<T: Ring>(
 /// # Examples
 /// ```
 /// use cannonpile::formula::unbalanced;
-/// use cannonpile::geometry::{Vector, directions};
+/// use cannonpile::geometry::{directions, Vector};
 ///
 /// let e = directions(&0.5);
 /// let left = unbalanced(&[2.0, 3.0, 4.0], &e, &[1.0, 2.0, 3.0], &e, &3.0);

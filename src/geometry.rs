@@ -35,7 +35,7 @@ use crate::scalar::{Algebra, Ring, Surd, TWO};
 ///
 /// # Examples
 /// ```
-/// use cannonpile::geometry::{Vector, directions};
+/// use cannonpile::geometry::{directions, Vector};
 ///
 /// let [a, b, c] = directions(&0.5);
 /// assert_eq!(a, Vector { x: 0.5, y: 0.5, z: -1.0 });
@@ -72,7 +72,7 @@ pub fn directions<T: Algebra>(s: &T) -> [Vector<T>; 3] {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::geometry::{Vector, disc_directions};
+/// use cannonpile::geometry::{disc_directions, Vector};
 ///
 /// let [a, b, _] = disc_directions();
 /// assert_eq!(a + &b, Vector { x: 0.0, y: 0.0, z: -2.0 });
@@ -107,7 +107,7 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::geometry::{Vector, directions, position};
+/// use cannonpile::geometry::{directions, position, Vector};
 /// use cannonpile::lattice::count;
 ///
 /// let r = position(&count::above(&1.0, &0.0, &1.0), &directions(&0.5));

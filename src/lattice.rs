@@ -131,7 +131,7 @@ impl FromStr for Direction {
 }
 
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Direction);
+crate::data::as_text!(Direction);
 
 /// The number of dimensions a pile lives in: discs in the plane, or spheres in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -238,13 +238,13 @@ impl TryFrom<u32> for Dimension {
 )]
 pub struct Site {
     /// The place within the row.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub i: i128,
     /// The row within the layer.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub j: i128,
     /// The layer, 0 at the top.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub k: i128,
 }
 

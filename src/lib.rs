@@ -75,11 +75,11 @@
 //! No one has to choose a method: the plan does. A pile equal to another is the same pile.
 //!
 //! # Map
-//! Five storeys. Each room may use those above it, never one below; a test reads the `use` lines and holds it.
+//! A module may use those above it, never one below; a test reads the `use` lines and this table.
 //!
-//! | storey | room | what lives there |
+//! | layer | module | contents |
 //! |---|---|---|
-//! | numbers | [`scalar`] | the number traits, one implementation a file, the law suite; the surd c·√n |
+//! | numbers | [`scalar`] | the number traits, the scalars, the law suite; the surd c·√n |
 //! | places | [`lattice`] | sites, directions, the Hägg sign, six-sided regions, counts along lines |
 //! | | [`stacking`] | runs of signs, in four notations |
 //! | | [`shape`] | a stacking on a region: layers, neighbours, rows, the numbers of spheres |
@@ -89,11 +89,9 @@
 //! | answers | `engine` (private) | the [`Plan`], and the engines it chooses among |
 //! | | [`Forces`], [`Packing`] | the one thing to ask, in pile units and in SI |
 //! | | [`Standing`], [`census`] | which piles stand |
-//! | | [`certificate`] | what is claimed of horizontal contacts, and its checker |
-//! | | [`disorder`] | random stackings |
 //! | | [`theorem`] | what is proved for every pile: of [`formula`], and of nothing else |
-//! | tools | [`scene`], `serde`, `table`, `dem`, `verify`, `figure`, `proof` | files in and out, pictures; each behind a feature |
-//! | roof | [`Error`] | what can be wrong with a question, and [which input](Culprit) is to blame |
+//! | tools | `data` | the types as serde writes and reads them (feature `serde`) |
+//! | errors | [`Error`] | what can be wrong with a question |
 //!
 //! From the paper to the code: [`paper`] lists its equations by their printed numbers, and the mathematics that goes beyond.
 //!
@@ -125,51 +123,31 @@
 extern crate alloc;
 
 pub mod census;
-pub mod certificate;
-#[cfg(feature = "export")]
-#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod dem;
-pub mod disorder;
-mod engine;
+#[cfg(feature = "serde")]
+#[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
+pub mod data;
+#[doc(hidden)]
+pub mod engine;
 mod error;
-#[cfg(feature = "plot")]
-#[cfg_attr(docsrs, doc(cfg(feature = "plot")))]
-pub mod figure;
 mod forces;
 pub mod formula;
 pub mod geometry;
-#[cfg(feature = "horizontal")]
-#[cfg_attr(docsrs, doc(cfg(feature = "horizontal")))]
-pub mod horizontal;
 pub mod lattice;
 mod packing;
 #[doc = include_str!("paper.md")]
 pub mod paper {}
 mod pile;
-#[cfg(feature = "export")]
-#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod proof;
 pub mod scalar;
-pub mod scene;
-#[cfg(feature = "serde")]
-#[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
-pub mod serde;
 pub mod shape;
 pub mod stacking;
 mod standing;
-#[cfg(feature = "export")]
-#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod table;
 pub mod theorem;
-#[cfg(feature = "export")]
-#[cfg_attr(docsrs, doc(cfg(feature = "export")))]
-pub mod verify;
 
 #[cfg(feature = "std")]
 #[cfg_attr(docsrs, doc(cfg(feature = "std")))]
 pub use engine::Interrupt;
 pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
-pub use error::{Culprit, Error};
+pub use error::Error;
 pub use forces::{
     Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
     NumeratorLayer, NumeratorLayers,
@@ -177,6 +155,8 @@ pub use forces::{
 pub use packing::{PackedContact, Packing, Places};
 pub use pile::Pile;
 pub use standing::{BaseExtremes, Standing, Verdict};
+
+pub use {num_bigint, num_rational, num_traits};
 
 /// The examples of README.md, run as tests.
 #[cfg(doctest)]

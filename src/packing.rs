@@ -15,7 +15,7 @@ use crate::engine::{Meter, Method};
 use crate::geometry::{Apart, Inclination, Spacing, Vector};
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Ring, Surd, product};
-use crate::{Culprit, Error, FloorForce, Forces, Pile};
+use crate::{Error, FloorForce, Forces, Pile};
 
 /// A pile whose spheres have a spacing, a radius and a mass, and the gravity they weigh in.
 ///
@@ -190,7 +190,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_radius(self, radius: BigRational) -> Result<Self, Error> {
-        let radius = positive(Culprit::Radius, radius)?;
+        let radius = positive("radius", radius)?;
         Ok(Self { radius, ..self })
     }
 
@@ -213,7 +213,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_mass(self, mass: BigRational) -> Result<Self, Error> {
-        let mass = positive(Culprit::Mass, mass)?;
+        let mass = positive("mass", mass)?;
         Ok(Self { mass, ..self }.weighed())
     }
 
@@ -236,7 +236,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn with_gravity(self, gravity: BigRational) -> Result<Self, Error> {
-        let gravity = positive(Culprit::Gravity, gravity)?;
+        let gravity = positive("gravity", gravity)?;
         Ok(Self { gravity, ..self }.weighed())
     }
 
@@ -704,7 +704,7 @@ impl Roots {
 }
 
 /// `value`, if it is positive.
-fn positive(quantity: Culprit, value: BigRational) -> Result<BigRational, Error> {
+fn positive(quantity: &'static str, value: BigRational) -> Result<BigRational, Error> {
     if value.is_positive() {
         Ok(value)
     } else {

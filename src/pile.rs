@@ -636,8 +636,12 @@ impl Pile {
         self
     }
 
-    /// Whether neighbours of a layer touch at a = R, and in no other way.
-    pub(crate) fn check_horizontal(&self) -> Result<(), Error> {
+    /// Checks that neighbours in a layer touch at a = R, and in no other way.
+    ///
+    /// # Errors
+    /// [`Error::NoHorizontalContacts`].
+    #[doc(hidden)]
+    pub fn check_horizontal(&self) -> Result<(), Error> {
         if self.is_regular() {
             Ok(())
         } else {
@@ -661,8 +665,24 @@ impl Pile {
         }
     }
 
-    /// Whether it is the paper's pile: straight, under one sphere, every sphere of weight mg.
-    pub(crate) fn is_paper_pile(&self) -> bool {
+    /// Returns whether every sphere has the weight mg, and nothing else acts on any.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_uniform(&self) -> bool {
+        self.system().is_even()
+    }
+
+    /// Returns the weight of a sphere and the load on it, in mg.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn total_load(&self, site: Site) -> BigRational {
+        self.loading.total(site)
+    }
+
+    /// Returns whether it is the paper's pile: straight, under one sphere, every sphere of weight mg.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_paper_pile(&self) -> bool {
         self.shape.is_straight_under_one_sphere() && self.system().is_even()
     }
 }

@@ -20,7 +20,6 @@
 //! | [`DoubleDouble`] | [`Rounded`](Exactness::Rounded) | twice the digits of `f64` |
 //! | [`Interval`] | [`Enclosure`](Exactness::Enclosure) | bounds that hold the true value |
 //! | [`Polynomial`] | [`ExactOrFault`](Exactness::ExactOrFault) | symbols: proof for every pile at once |
-//! | [`Expression`] | [`ExactOrFault`](Exactness::ExactOrFault) | formulas written down as they run, for other programs to check |
 //! | [`FixedRational`] | [`ExactOrFault`](Exactness::ExactOrFault) | exact and small, and never silently wrong |
 //!
 //! [`laws`] is the one suite that all of them pass, and that a scalar of your own should pass.
@@ -48,30 +47,20 @@ macro_rules! by_value {
 }
 
 mod double_double;
-mod error_free;
-mod expression;
 mod fixed;
 mod float;
 mod interval;
 pub mod laws;
-mod nearest;
-pub mod parse;
 mod polynomial;
 mod rational;
-mod screen;
-#[cfg(feature = "serde")]
-pub(crate) mod serde;
-mod surd;
 
-pub use double_double::DoubleDouble;
-pub use expression::{Expression, Operation};
+pub use exact_surd::{DoubleDouble, NearestFloat, Surd, parse};
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
-pub use nearest::NearestFloat;
-pub(crate) use nearest::float_between;
 pub use polynomial::{Polynomial, Symbol};
-pub(crate) use rational::{common_denominator, common_multiple, product, sum_of};
-pub use surd::Surd;
+
+pub(crate) use exact_surd::float_between;
+pub(crate) use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
 
 use core::fmt::Debug;
 use core::num::NonZeroI64;
@@ -82,7 +71,6 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 // What is divided by in formulas. Unwrapped by the compiler: zero would not build.
-pub(crate) const ONE: NonZeroI64 = NonZeroI64::new(1).unwrap();
 pub(crate) const TWO: NonZeroI64 = NonZeroI64::new(2).unwrap();
 pub(crate) const THREE: NonZeroI64 = NonZeroI64::new(3).unwrap();
 
@@ -310,10 +298,10 @@ pub enum RealSign {
 )]
 pub struct Enclosure {
     /// The greatest lower bound that is known.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub lower: BigRational,
     /// The least upper bound that is known.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub upper: BigRational,
 }
 

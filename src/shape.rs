@@ -14,7 +14,6 @@ pub(crate) use runs::Stretch;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-#[cfg(feature = "export")]
 use num_bigint::BigUint;
 
 use crate::Error;
@@ -292,13 +291,6 @@ impl Shape {
         self.anchor == Anchor::Top(Region::SITE) && self.stacking.is_straight()
     }
 
-    /// Returns σ of the steps of a straight pile, 1 if there are none: what turns its sites into those of + steps.
-    #[cfg(feature = "horizontal")]
-    pub(crate) fn straight_factor(&self) -> i128 {
-        // Not a default: of one sphere both turns are the same.
-        self.sign_below(0).map_or(1, |sign| sign.factor().into())
-    }
-
     /// Returns the layer that the others are grown from.
     ///
     /// # Examples
@@ -485,8 +477,9 @@ impl Shape {
     }
 
     /// Returns how many horizontal contacts a layer has: each of its lines has one less than spheres.
-    #[cfg(feature = "export")]
-    pub(crate) fn horizontal_contacts_in(&self, k: i128) -> BigUint {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn horizontal_contacts_in(&self, k: i128) -> BigUint {
         let Some(region) = self.region(k) else {
             return BigUint::ZERO;
         };
@@ -611,7 +604,8 @@ impl Shape {
     }
 
     /// Returns the greatest number of layers that a pattern, read from the base up, carries a base to.
-    pub(crate) fn greatest_height(base: Region, pattern: &Pattern) -> Result<i128, Error> {
+    #[doc(hidden)]
+    pub fn greatest_height(base: Region, pattern: &Pattern) -> Result<i128, Error> {
         // Each step takes at least one off each width, and none gets below 0.
         let [x, y, s] = base.widths();
         let most = (x.min(y).min(s) + 1).min(MAX_LAYERS);
@@ -620,7 +614,7 @@ impl Shape {
     }
 }
 
-#[cfg(all(test, feature = "export"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -46,7 +46,7 @@ pub struct Run {
     /// Their sign.
     pub sign: Sign,
     /// How many, at least 1.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub steps: i128,
 }
 
@@ -440,7 +440,7 @@ impl Pattern {
     /// assert_eq!(Pattern::Hcp.stacking(4)?.to_string(), "+-+");
     /// let spelled = Pattern::Spelled("++-".parse()?);
     /// assert_eq!(spelled.stacking(4)?.to_string(), "++-");
-    /// assert!(matches!(spelled.stacking(5), Err(Error::LayersOfStacking { layers: 5, spelled: 4 })));
+    /// assert!(matches!(spelled.stacking(5), Err(Error::LayersOfStacking { layers: 5, spelled: 4, .. })));
     /// # Ok::<(), Error>(())
     /// ```
     pub fn stacking(&self, layers: i128) -> Result<Stacking, Error> {
@@ -500,4 +500,4 @@ impl FromStr for Pattern {
 pub const MAX_RUNS: usize = 1_000_000;
 
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Stacking, Pattern);
+crate::data::as_text!(Stacking, Pattern);

@@ -55,16 +55,15 @@ mod balance;
 mod base;
 mod counts;
 mod dimensions;
-mod disorder;
 
 mod display;
 mod formulas;
-mod horizontal;
-mod setting;
+#[doc(hidden)]
+pub mod setting;
 mod stackings;
 
 pub use display::Listing;
-pub use formulas::Formulas;
+pub use formulas::{Formulas, Library};
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -90,7 +89,8 @@ impl ProofKind {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::theorem::{self, ProofKind};
+    /// use cannonpile::theorem;
+    /// use cannonpile::theorem::ProofKind;
     ///
     /// assert_eq!(ProofKind::Induction.name(), "induction");
     /// assert_eq!(theorem::find("spheres").unwrap().method.name(), "sum");
@@ -107,8 +107,7 @@ impl ProofKind {
 
 /// A statement about every pile, with its proof.
 #[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub struct Theorem {
+pub struct Theorem<F: 'static = Formulas> {
     /// A short name.
     pub name: &'static str,
     /// What is proved, in words and formulas.
@@ -119,10 +118,11 @@ pub struct Theorem {
     pub method: ProofKind,
     /// The symbols in it.
     pub symbols: &'static str,
-    derive: fn(&Formulas) -> Vec<Step>,
+    /// The proof: its steps, with the formulas that it is about.
+    pub derive: fn(&F) -> Vec<Step>,
 }
 
-impl Theorem {
+impl<F> Theorem<F> {
     /// Returns the proof for the crate's own formulas.
     ///
     /// # Examples
@@ -135,15 +135,19 @@ impl Theorem {
     /// assert_eq!(proof.steps[0].right.to_string(), "(L^3 - L)/6");
     /// ```
     #[must_use]
-    pub fn prove(&self) -> Proof {
-        self.prove_for(&Formulas::LIBRARY)
+    pub fn prove(&self) -> Proof
+    where
+        F: Library,
+    {
+        self.prove_for(&F::LIBRARY)
     }
 
     /// Returns the proof, or refutation, for formulas of any kind.
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::theorem::{self, Formulas};
+    /// use cannonpile::theorem;
+    /// use cannonpile::theorem::Formulas;
     ///
     /// // Sphere counts that leave out the floor.
     /// let wrong: Formulas = Formulas {
@@ -153,7 +157,7 @@ impl Theorem {
     /// assert!(!theorem::find("weight").unwrap().prove_for(&wrong).holds());
     /// ```
     #[must_use]
-    pub fn prove_for(&self, formulas: &Formulas) -> Proof {
+    pub fn prove_for(&self, formulas: &F) -> Proof {
         Proof {
             steps: (self.derive)(formulas),
         }
@@ -161,7 +165,7 @@ impl Theorem {
 }
 
 /// The steps of a proof.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Proof {
     /// Each a claim of its own; all must hold.
     pub steps: Vec<Step>,
@@ -172,7 +176,8 @@ impl Proof {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::theorem::{self, Proof, Relation};
+    /// use cannonpile::theorem;
+    /// use cannonpile::theorem::{Proof, Relation};
     ///
     /// let mut proof = theorem::find("counts").unwrap().prove();
     /// assert!(proof.holds());
@@ -197,7 +202,7 @@ pub enum Relation {
 }
 
 /// One claim of a proof: two polynomials and their relation.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// What is claimed, in words and formulas.
     pub claim: String,
@@ -210,7 +215,9 @@ pub struct Step {
 }
 
 impl Step {
-    fn equal(claim: impl Into<String>, left: Polynomial, right: Polynomial) -> Self {
+    /// Returns the claim that two polynomials are the same.
+    #[must_use]
+    pub fn equal(claim: impl Into<String>, left: Polynomial, right: Polynomial) -> Self {
         Self {
             claim: claim.into(),
             left,
@@ -219,7 +226,9 @@ impl Step {
         }
     }
 
-    fn different(claim: impl Into<String>, left: Polynomial, right: Polynomial) -> Self {
+    /// Returns the claim that two polynomials differ.
+    #[must_use]
+    pub fn different(claim: impl Into<String>, left: Polynomial, right: Polynomial) -> Self {
         Self {
             relation: Relation::Different,
             ..Self::equal(claim, left, right)
@@ -281,8 +290,6 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         base::THEOREMS,
         dimensions::THEOREMS,
         stackings::THEOREMS,
-        horizontal::THEOREMS,
-        disorder::THEOREMS,
     ]
     .into_iter()
     .flatten()

@@ -11,9 +11,10 @@ use std::env;
 use std::time::Instant;
 
 use cannonpile::Pile;
-use cannonpile::horizontal::{ElasticState, NormalBounds};
 use cannonpile::lattice::{Region, Site};
 use cannonpile::shape::Selection;
+use cannonpile_horizontal as horizontal;
+use cannonpile_horizontal::{ElasticState, NormalBounds};
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
@@ -62,7 +63,7 @@ fn main() {
 fn bounds(extent: Extent) -> (&'static str, f64) {
     for layers in [extent.size(10, 4), extent.size(16, 7)] {
         let (pile, site) = straight(layers);
-        let (bounds, seconds) = extent.timed(|| pile.bounds(site).expect("bounds"));
+        let (bounds, seconds) = extent.timed(|| horizontal::bounds(&pile, site).expect("bounds"));
         prove(&bounds);
         // 1 + C(k+2, 3).
         let k = (layers - 1) / 3;
@@ -83,7 +84,7 @@ fn bounds(extent: Extent) -> (&'static str, f64) {
         ("+-+-+…", mixed),
     ] {
         let all = || -> Vec<NormalBounds> {
-            let all = pile.base_bounds(Selection::Base).expect("a base");
+            let all = horizontal::base_bounds(&pile, Selection::Base).expect("a base");
             all.map(|bounds| bounds.expect("bounds").1).collect()
         };
         let (all, seconds) = once.timed(all);
@@ -98,7 +99,12 @@ fn bounds(extent: Extent) -> (&'static str, f64) {
     let floats = Floats::of(&pile);
     let ratio = ratio(
         extent,
-        || pile.bounds(site).expect("bounds").greatest.normal,
+        || {
+            horizontal::bounds(&pile, site)
+                .expect("bounds")
+                .greatest
+                .normal
+        },
         || floats.greatest(site),
     );
     ("bounds_16_centre_over_clarabel", ratio)
@@ -107,7 +113,7 @@ fn bounds(extent: Extent) -> (&'static str, f64) {
 /// The elastic states of stackings that stand only with horizontal contacts, and the ratio of one to its floats.
 fn elastic(extent: Extent) -> (&'static str, f64) {
     let stiffness_ratio = BigRational::one();
-    let solve = |pile: &Pile| pile.elastic(&stiffness_ratio).expect("a state");
+    let solve = |pile: &Pile| horizontal::elastic(pile, &stiffness_ratio).expect("a state");
     for signs in ["+-+-+", "++-+", "+--+-"] {
         let pile = under_one_sphere(signs, extent.size(14, 7));
         let (state, seconds) = extent.timed(|| solve(&pile));

@@ -8,8 +8,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use crate::generators::number;
-use crate::support::pair::Pair;
+use cannonpile_testkit::generators::number;
+use cannonpile_testkit::pair::Pair;
 
 /// All claims about the numbers that the bytes make.
 ///

@@ -10,7 +10,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Zero};
 
-use crate::generators::{number, rarely};
+use cannonpile_testkit::generators::{number, rarely};
 
 const SYMBOLS: [Symbol; 3] = [Symbol("x"), Symbol("y"), Symbol("z")];
 

@@ -1,10 +1,10 @@
 //! Arrays of NumPy, written in place.
 
-use cannonpile::Error;
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
+use crate::exception::Raised;
 use crate::work::work;
 
 /// A number that arrays are of.
@@ -32,10 +32,10 @@ fn zeros<'py>(
 }
 
 /// An array of numbers, filled while the interpreter is free.
-pub(crate) fn column<V: Number>(
+pub(crate) fn column<V: Number, E: From<cannonpile::Error> + Into<Raised> + Send>(
     py: Python<'_>,
     length: usize,
-    fill: impl FnOnce(&mut [V]) -> Result<(), Error> + Send,
+    fill: impl FnOnce(&mut [V]) -> Result<(), E> + Send,
 ) -> PyResult<Bound<'_, PyArray1<V>>> {
     let array = zeros(py, length, V::NAME)?.cast_into::<PyArray1<V>>()?;
     {
@@ -47,10 +47,10 @@ pub(crate) fn column<V: Number>(
 }
 
 /// An array of rows of so many numbers.
-pub(crate) fn rows<V: Number, const N: usize>(
+pub(crate) fn rows<V: Number, E: From<cannonpile::Error> + Into<Raised> + Send, const N: usize>(
     py: Python<'_>,
     length: usize,
-    fill: impl FnOnce(&mut [[V; N]]) -> Result<(), Error> + Send,
+    fill: impl FnOnce(&mut [[V; N]]) -> Result<(), E> + Send,
 ) -> PyResult<Bound<'_, PyArray2<V>>> {
     let array = zeros(py, (length, N), V::NAME)?.cast_into::<PyArray2<V>>()?;
     {

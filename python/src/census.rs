@@ -2,13 +2,14 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use cannonpile::Standing;
 use cannonpile::lattice::Region;
-use cannonpile::scene::parse;
-use cannonpile::{Error, Standing};
+use cannonpile_dem::scene::parse;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use pyo3::prelude::*;
 
+use crate::error::Error;
 use crate::exception::Raised;
 use crate::input::read;
 use crate::work::work;
@@ -92,10 +93,10 @@ impl Entry {
     }
 }
 
-fn unless_too_large<T>(answer: Result<T, Error>) -> Result<Option<T>, Error> {
+fn unless_too_large<T>(answer: Result<T, cannonpile::Error>) -> Result<Option<T>, Error> {
     match answer {
-        Err(Error::TooLarge { .. }) => Ok(None),
-        answer => answer.map(Some),
+        Err(cannonpile::Error::TooLarge { .. }) => Ok(None),
+        answer => Ok(answer.map(Some)?),
     }
 }
 
@@ -131,7 +132,7 @@ fn without_horizontal_contacts(
     failing: bool,
 ) -> Result<Entries, Error> {
     use cannonpile::census;
-    let entry = |entry: Result<census::Entry, Error>| {
+    let entry = |entry: Result<census::Entry, cannonpile::Error>| {
         let entry = entry?;
         Ok(Entry {
             stands: entry.stands(),
@@ -149,8 +150,8 @@ fn with_horizontal_contacts(
     base: Option<Region>,
     failing: bool,
 ) -> Result<Entries, Error> {
-    use cannonpile::horizontal::census;
-    let entry = |entry: Result<census::Entry, Error>| {
+    use cannonpile_horizontal::census;
+    let entry = |entry: Result<census::Entry, cannonpile_horizontal::Error>| {
         let entry = entry?;
         Ok(Entry {
             stands: entry.stands(),

@@ -2,7 +2,8 @@
 
 use cannonpile::Packing;
 use cannonpile::lattice::Site;
-use cannonpile::verify::{self, Fault, Force, Measured, Placed, Refusal};
+use cannonpile_dem::verify;
+use cannonpile_dem::verify::{Fault, Force, Measured, Placed, Refusal};
 use num_bigint::BigInt;
 use numpy::{Element, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
@@ -93,7 +94,7 @@ impl Measurement {
                     ..
                 } => refusal.into(),
                 Refusal::Entry { .. } | Refusal::Elsewhere { .. } => {
-                    Raised::Argument(places, refusal)
+                    Raised::Argument(places, Box::new(refusal))
                 }
                 other => other.into(),
             })

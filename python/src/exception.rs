@@ -1,33 +1,48 @@
 //! What the library refuses, as Python's exceptions.
 
-use cannonpile::table::WriteError;
-use cannonpile::verify::Refusal;
-use cannonpile::{Culprit, Error};
+use cannonpile_dem::table::WriteError;
+use cannonpile_dem::verify::Refusal;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyMemoryError, PyOSError, PyOverflowError, PyRuntimeError, PyValueError};
 
-/// Why something was refused.
+use crate::error::Error;
+
+/// Why something was refused. What is large is boxed, because every answer has room for it.
 pub(crate) enum Raised {
-    Error(Error),
+    Error(Box<Error>),
     /// An argument, and why it was refused.
-    Named(&'static str, Error),
-    Refusal(Refusal),
+    Named(&'static str, Box<Error>),
+    Refusal(Box<Refusal>),
     Write(WriteError),
     /// What was measured, by an argument.
-    Argument(&'static str, Refusal),
+    Argument(&'static str, Box<Refusal>),
 }
 
-impl From<Error> for Raised {
-    fn from(error: Error) -> Self {
-        Self::Error(error)
-    }
+/// Lets the errors of all crates be raised.
+macro_rules! raise {
+    ($($error:ty),*) => {$(
+        impl From<$error> for Raised {
+            fn from(error: $error) -> Self {
+                Self::Error(Box::new(error.into()))
+            }
+        }
+    )*};
 }
+
+raise!(
+    Error,
+    cannonpile::Error,
+    cannonpile_dem::Error,
+    cannonpile_disorder::Error,
+    cannonpile_figure::Error,
+    cannonpile_horizontal::Error
+);
 
 impl From<Refusal> for Raised {
     fn from(refusal: Refusal) -> Self {
         match refusal {
-            Refusal::Scene(error) => Self::Error(error),
-            other => Self::Refusal(other),
+            Refusal::Scene(error) => error.into(),
+            other => Self::Refusal(Box::new(other)),
         }
     }
 }
@@ -35,7 +50,7 @@ impl From<Refusal> for Raised {
 impl From<WriteError> for Raised {
     fn from(error: WriteError) -> Self {
         match error {
-            WriteError::Answer(error) => Self::Error(error),
+            WriteError::Answer(error) => error.into(),
             other => Self::Write(other),
         }
     }
@@ -47,13 +62,11 @@ impl Raised {
         match self {
             Self::Error(error) => of(None, &error),
             Self::Named(name, error) => of(Some(name), &error),
-            Self::Refusal(Refusal::OutOfRange) => {
-                PyOverflowError::new_err(Refusal::OutOfRange.to_string())
-            }
-            Self::Refusal(refusal @ Refusal::Within(_)) => {
-                PyValueError::new_err(format!("within: {refusal}"))
-            }
-            Self::Refusal(refusal) => PyValueError::new_err(refusal.to_string()),
+            Self::Refusal(refusal) => match *refusal {
+                Refusal::OutOfRange => PyOverflowError::new_err(refusal.to_string()),
+                Refusal::Within(_) => PyValueError::new_err(format!("within: {refusal}")),
+                _ => PyValueError::new_err(refusal.to_string()),
+            },
             Self::Argument(name, refusal) => PyValueError::new_err(format!("{name}: {refusal}")),
             Self::Write(error) => PyOSError::new_err(error.to_string()),
         }
@@ -66,43 +79,19 @@ pub(crate) fn of_argument(name: &str, error: &Error) -> PyErr {
 }
 
 fn of(argument: Option<&str>, error: &Error) -> PyErr {
+    use cannonpile::Error as Core;
+
     let text = error.to_string();
-    let text = match argument.or_else(|| argument_of(error)) {
+    let text = match argument.or_else(|| error.argument()) {
         Some(name) if !text.starts_with(name) => format!("{name}: {text}"),
         _ => text,
     };
     match error {
-        Error::TooLarge { .. } | Error::TooManyRows { .. } => PyMemoryError::new_err(text),
-        Error::Overflow { .. } => PyOverflowError::new_err(text),
-        Error::Bug { .. } => PyRuntimeError::new_err(text),
+        Error::Core(Core::TooLarge { .. } | Core::TooManyRows { .. }) => {
+            PyMemoryError::new_err(text)
+        }
+        Error::Core(Core::Overflow { .. }) => PyOverflowError::new_err(text),
+        Error::Core(Core::Bug { .. }) => PyRuntimeError::new_err(text),
         _ => PyValueError::new_err(text),
     }
-}
-
-/// The argument that Python has for an input.
-fn argument_of(error: &Error) -> Option<&'static str> {
-    // Its line and key are in the text.
-    if let Error::InFile { .. } = error {
-        return None;
-    }
-    Some(match error.culprit()? {
-        Culprit::Layers => "layers",
-        Culprit::Stacking => "stacking",
-        Culprit::Top => "top",
-        Culprit::Base => "base",
-        Culprit::Dimension => "dimension",
-        Culprit::SinPhi => "sin_phi",
-        Culprit::Load => "loads",
-        Culprit::Weightless => "weightless",
-        Culprit::Spacing => "spacing",
-        Culprit::Radius => "radius",
-        Culprit::Mass => "mass",
-        Culprit::Gravity => "gravity",
-        Culprit::Layer => "layer",
-        Culprit::State => "state",
-        Culprit::StiffnessRatio => "stiffness_ratio",
-        Culprit::FaultProbability => "fault_probability",
-        // The site is in the text; a number, a method and a file are not asked for by name.
-        _ => return None,
-    })
 }

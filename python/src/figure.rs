@@ -1,8 +1,9 @@
 //! Kinds of figures.
 
-use cannonpile::figure::{self, Figure, Subject};
+use cannonpile::Pile;
 use cannonpile::lattice::Site;
-use cannonpile::{Error, Pile};
+use cannonpile_figure as figure;
+use cannonpile_figure::{Error, Figure, Subject};
 use pyo3::PyResult;
 use pyo3::exceptions::PyValueError;
 

@@ -1,20 +1,20 @@
 //! What Python gives, as the library takes it.
 
-use cannonpile::Error;
 use cannonpile::lattice::Site;
 use num_bigint::BigInt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::error::Error;
 use crate::exception::of_argument;
 
 /// Reads an option's text by the library's own parser.
-pub(crate) fn read<T>(
+pub(crate) fn read<T, E: Into<Error>>(
     name: &str,
     text: &str,
-    parse: impl FnOnce(&str) -> Result<T, Error>,
+    parse: impl FnOnce(&str) -> Result<T, E>,
 ) -> PyResult<T> {
-    parse(text).map_err(|error| of_argument(name, &error))
+    parse(text).map_err(|error| of_argument(name, &error.into()))
 }
 
 /// A coordinate of a sphere, or a layer.

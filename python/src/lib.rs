@@ -6,6 +6,7 @@
 mod array;
 mod census;
 mod comparison;
+mod error;
 mod exception;
 mod figure;
 mod input;

@@ -1,8 +1,8 @@
 //! Means over random stackings.
 
-use cannonpile::disorder::{FirstSign, RandomPiles, RandomStackings};
 use cannonpile::lattice::{Dimension, Region};
-use cannonpile::scene::parse;
+use cannonpile_dem::scene::parse;
+use cannonpile_disorder::{Error, FirstSign, RandomPiles, RandomStackings};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use pyo3::prelude::*;
@@ -31,7 +31,7 @@ pub(crate) fn mean(
     let q = read("fault_probability", fault_probability, parse::rational)?;
     let first = read("first", first, str::parse::<FirstSign>)?;
     let region = |name, text: &str| read(name, text, str::parse::<Region>);
-    let refused = |error| Raised::from(error).into_exception();
+    let refused = |error: Error| Raised::from(error).into_exception();
     let stackings = RandomStackings::new(layers, first).map_err(refused)?;
     let mut piles = match (top, base) {
         (None, Some(base)) => RandomPiles::on(region("base", base)?, stackings),

@@ -9,14 +9,16 @@ use std::sync::OnceLock;
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::Dimension;
-use cannonpile::scene::{self, Scene, State};
-use cannonpile::table::{Summary, Units};
-use cannonpile::{Error, Packing, Verdict};
+use cannonpile::{Packing, Verdict};
+use cannonpile_dem::scene;
+use cannonpile_dem::scene::{Scene, State};
+use cannonpile_dem::table::{Summary, Units};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
+use crate::error::Error;
 use crate::exception::Raised;
 use crate::input::read;
 use crate::work::{work, work_of_long_steps};
@@ -38,8 +40,10 @@ impl Pile {
             let scene = wanted;
             scene.check_sizes()?;
             // Of a scene no other sites are asked for than those of loads.
-            let pile = scene.pile().map_err(|error| match error {
-                Error::SiteOutside { .. } => Raised::Named("loads", error),
+            let pile = scene.pile().map_err(|error| match error.into() {
+                error @ Error::Core(cannonpile::Error::SiteOutside { .. }) => {
+                    Raised::Named("loads", Box::new(error))
+                }
                 other => other.into(),
             })?;
             Ok::<_, Raised>(scene.in_state(pile)?)
@@ -52,7 +56,7 @@ impl Pile {
     }
 
     fn packing(&self) -> Result<Packing<'_>, Error> {
-        self.scene.packing(&self.exact)
+        Ok(self.scene.packing(&self.exact)?)
     }
 
     fn verdict(&self) -> Result<Option<Verdict>, Error> {
@@ -203,10 +207,8 @@ impl Pile {
     fn unit_force(&self) -> PyResult<f64> {
         let unit = self.packing().map(|packing| packing.unit_force().nearest());
         let unit = unit.and_then(|unit| {
-            unit.ok_or(Error::Overflow {
-                quantity: "the unit of contact forces",
-                scalar: "f64",
-            })
+            let overflow = || cannonpile::Error::overflow("the unit of contact forces", "f64");
+            Ok(unit.ok_or_else(overflow)?)
         });
         unit.map_err(|error| Raised::from(error).into_exception())
     }

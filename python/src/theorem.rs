@@ -1,7 +1,7 @@
 //! The theorems, and their proofs run.
 
 use cannonpile::Error;
-use cannonpile::theorem;
+use cannonpile_proof::Theorem;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -20,25 +20,27 @@ type Row = (
 /// Run the proofs of all theorems, or of the one with this name.
 #[pyfunction]
 pub(crate) fn prove(py: Python<'_>, name: Option<&str>) -> PyResult<Vec<Row>> {
-    let wanted = |theorem: &&theorem::Theorem| name.is_none_or(|name| theorem.name == name);
-    let theorems: Vec<_> = theorem::all().filter(wanted).collect();
+    let wanted = |theorem: &Theorem| name.is_none_or(|name| theorem.name == name);
+    let theorems: Vec<_> = cannonpile_proof::all().filter(wanted).collect();
     if theorems.is_empty() {
-        let names: Vec<_> = theorem::all().map(|theorem| theorem.name).collect();
+        let names: Vec<_> = cannonpile_proof::all()
+            .map(|theorem| theorem.name)
+            .collect();
         return Err(PyValueError::new_err(format!(
             "name: there is no such theorem; there are {}",
             names.join(", ")
         )));
     }
-    let prove = |theorem: &theorem::Theorem| {
+    let prove = |theorem: Theorem| {
         let holds = work(py, || Ok::<_, Error>(theorem.prove().holds()))?;
-        let theorem::Theorem {
+        let Theorem {
             name,
             statement,
             hypotheses,
             symbols,
             method,
             ..
-        } = *theorem;
+        } = theorem;
         Ok((name, statement, hypotheses, symbols, method.name(), holds))
     };
     theorems.into_iter().map(prove).collect()

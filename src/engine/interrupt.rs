@@ -11,11 +11,7 @@ pub(crate) use with_threads::{current, within};
 ///
 /// # Errors
 /// [`Error::Interrupted`].
-#[cfg_attr(
-    not(feature = "std"),
-    expect(clippy::unnecessary_wraps, reason = "without threads nobody asks")
-)]
-pub(crate) fn check() -> Result<(), Error> {
+pub fn check() -> Result<(), Error> {
     #[cfg(feature = "std")]
     return Interrupt::check();
     #[cfg(not(feature = "std"))]

@@ -16,7 +16,8 @@ use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
 use super::meter::Meter;
-use crate::formula::{self, force, half_turn, passed_on};
+use crate::formula;
+use crate::formula::{force, half_turn, passed_on};
 use crate::lattice::Sign;
 use crate::lattice::{Direction, Row, Site};
 use crate::pile::System;

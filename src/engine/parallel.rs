@@ -10,7 +10,8 @@ use crate::Error;
 pub(crate) const HAS_THREADS: bool = cfg!(feature = "rayon");
 
 /// How many threads there are to work on.
-pub(crate) fn threads() -> usize {
+#[must_use]
+pub fn threads() -> usize {
     #[cfg(feature = "rayon")]
     return rayon::current_num_threads();
     #[cfg(not(feature = "rayon"))]
@@ -178,8 +179,7 @@ mod standing_by {
 }
 
 /// Does something with each item, in any order, at once where there are threads. Of items that fail, returns one's error.
-#[cfg(feature = "ensemble")]
-pub(crate) fn try_for_each<I: Send, E: Send>(
+pub fn try_for_each<I: Send, E: Send>(
     items: alloc::vec::Vec<I>,
     work: impl Fn(I) -> Result<(), E> + Send + Sync,
 ) -> Result<(), E> {
@@ -195,8 +195,7 @@ pub(crate) fn try_for_each<I: Send, E: Send>(
 }
 
 /// Returns what comes of each item, in their order, worked out at once where there are threads.
-#[cfg(feature = "horizontal")]
-pub(crate) fn map<I: Send, O: Send>(
+pub fn map<I: Send, O: Send>(
     items: alloc::vec::Vec<I>,
     work: impl Fn(I) -> O + Send + Sync,
 ) -> alloc::vec::Vec<O> {
@@ -251,7 +250,6 @@ mod tests {
     }
 
     /// Two things that wait for each other, which would never end one after the other.
-    #[cfg(all(feature = "ensemble", feature = "horizontal"))]
     #[test]
     fn items_are_worked_on_at_once() {
         use std::sync::Barrier;

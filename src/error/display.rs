@@ -3,8 +3,9 @@
 use alloc::string::ToString;
 use core::fmt;
 
-use super::short::numbers;
-use super::{Culprit, Error};
+use exact_surd::short::numbers;
+
+use super::Error;
 use crate::geometry::{Bound, Spacing};
 use crate::lattice::{Dimension, MAX_LAYERS, Site};
 
@@ -30,9 +31,6 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "sin phi must lie between 0 and 1, both excluded, not {given}; 1/2 is the equilateral base"
             ),
-            Error::SinPhiOfDiscs => {
-                f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
-            }
             Error::SiteOutside {
                 site,
                 layers,
@@ -120,24 +118,9 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "neighbours of a layer do not touch at a/R = {spacing}: leave it out, or use 1"
             ),
-            Error::Weightless => f.write_str(
-                "bounds are those of a pile that weighs something: give the spheres their weight",
-            ),
-            Error::CannotStand => f.write_str(
-                "this pile cannot stand: no forces that only push balance it, horizontal contacts included; change the stacking, or the \
-                 loads",
-            ),
-            Error::NotSolved { equations } => write!(
-                f,
-                "no exact solution was found of {equations} equations of balance: ask for a smaller pile"
-            ),
             Error::OtherLayer { layer, at } => write!(
                 f,
                 "a sphere of layer {layer} is not in layer {at}: ask its own layer"
-            ),
-            Error::NeedsUnits { quantity } => write!(
-                f,
-                "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
             ),
             Error::Length { needed, given } => {
                 write!(
@@ -152,39 +135,6 @@ impl fmt::Display for Whole<'_> {
             } => write!(
                 f,
                 "the {quantity} of the sphere (i,j,k) = {site} must not be negative, but is {given}"
-            ),
-            Error::FaultProbability { given } => write!(
-                f,
-                "the fault probability must be at least 0 and at most 1, not {given}"
-            ),
-            Error::PlaceOfLoad { site, on_base } => write!(
-                f,
-                "the sphere (i,j,k) = {site} is not at one place in every stacking: {}",
-                if *on_base {
-                    "leave loads out, or let the stackings hang from a top layer"
-                } else {
-                    "put loads on the top layer, k = 0"
-                }
-            ),
-            Error::OnlyOfLoads {
-                quantity,
-                weightless,
-            } => write!(
-                f,
-                "{quantity} is that of loads on spheres that weigh nothing: {}",
-                if *weightless {
-                    "put a load on one of the top layer"
-                } else {
-                    "make them weightless, and put a load on one of the top layer"
-                }
-            ),
-            Error::NoStacking {
-                layers,
-                greatest,
-                base,
-            } => write!(
-                f,
-                "no stacking has {layers} layers on the base {base}: the highest has {greatest}"
             ),
             Error::NotPositive { quantity, given } => {
                 write!(f, "{quantity} must be positive, not {given}")
@@ -213,12 +163,6 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "{quantity} does not fit in {scalar}: ask for it in exact numbers"
             ),
-            Error::NegativeRadicand { given } => {
-                write!(
-                    f,
-                    "the root of {given} is not real: the radicand must not be negative"
-                )
-            }
             Error::Misspelled {
                 text,
                 position,
@@ -231,6 +175,7 @@ impl fmt::Display for Whole<'_> {
                 }
                 f.write_str(": use one notation, such as ++-+, ABCBC, chh or (2,1,1)")
             }
+            Error::Number(error) => error.fmt(f),
             Error::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
             Error::TooManyRows {
                 rows,
@@ -246,32 +191,6 @@ impl fmt::Display for Whole<'_> {
                 }
                 write!(f, " are too many, at most {limit}: {remedy}")
             }
-            Error::TooManyStackings { stackings, limit } => write!(
-                f,
-                "{stackings} stackings are too many to go through at a time, at most {limit}: draw samples, take a \
-                 smaller shard, or fewer layers"
-            ),
-            Error::TooManyMarks {
-                marks,
-                what,
-                limit,
-                remedy,
-            } => write!(
-                f,
-                "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
-            ),
-            Error::Excluded { given, beside } => {
-                // Of dimensions only this one excludes anything.
-                let two = if *beside == Culprit::Dimension {
-                    " 2"
-                } else {
-                    ""
-                };
-                write!(
-                    f,
-                    "{given} has no meaning with {beside}{two}: leave one of the two out"
-                )
-            }
             Error::TooLarge {
                 quantity,
                 needed,
@@ -281,31 +200,6 @@ impl fmt::Display for Whole<'_> {
                 f,
                 "{quantity} would take {needed} numbers, more than {limit}: {remedy}"
             ),
-            Error::NotToml { line, reason } => write!(f, "line {line} is not TOML: {reason}"),
-            Error::UnknownKey {
-                line,
-                key,
-                nearest,
-                known,
-            } => {
-                write!(f, "line {line}: there is no key '{key}'")?;
-                match nearest {
-                    Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
-                    None => write!(f, ": the keys are {}", known.join(", ")),
-                }
-            }
-            Error::MustPull { remedy } => write!(
-                f,
-                "a test is of a state at rest, and some contacts of this pile would have to pull: {remedy}"
-            ),
-            Error::UnknownCase { name, nearest } => {
-                write!(f, "there is no case '{name}'")?;
-                match nearest {
-                    Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
-                    None => f.write_str("; 'cannonpile cases' lists those there are"),
-                }
-            }
-            Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
             Error::Interrupted => f.write_str("interrupted: ask again for an answer"),
             Error::Bug { invariant } => write!(
                 f,

@@ -15,7 +15,8 @@ use super::terms::{Terms, edge, edge_all};
 use crate::Error;
 use crate::engine::Meter;
 use crate::error::refuse_beyond;
-use crate::formula::{self, force, half_turn, passed_on};
+use crate::formula;
+use crate::formula::{force, half_turn, passed_on};
 use crate::shape::{Selection, Stretch};
 
 /// The most layers that are summed one by one.

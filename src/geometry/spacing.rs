@@ -7,8 +7,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use crate::scalar::{RealSign, Surd};
-use crate::{Culprit, Error};
+use crate::Error;
+use crate::scalar::Surd;
 
 /// a/R: half the distance 2a of horizontal neighbours, over the radius. Positive; its square q is
 /// rational.
@@ -55,7 +55,7 @@ impl Spacing {
             })
         } else {
             Err(Error::NotPositive {
-                quantity: Culprit::Spacing,
+                quantity: "spacing",
                 given: ratio,
             })
         }
@@ -83,7 +83,7 @@ impl Spacing {
             Ok(Self { square })
         } else {
             Err(Error::NotPositive {
-                quantity: Culprit::Spacing,
+                quantity: "spacing",
                 given: square,
             })
         }
@@ -159,7 +159,7 @@ impl FromStr for Spacing {
         let ratio: Surd = text.parse()?;
         let spacing = match (ratio.to_rational(), ratio.sign()) {
             (Some(rational), _) => Self::new(rational),
-            (None, RealSign::Positive) => Self::from_square(ratio.square()),
+            (None, num_bigint::Sign::Plus) => Self::from_square(ratio.square()),
             (None, _) => Err(Error::syntax(text, "a spacing: it must be positive")),
         }?;
         // Its root is looked for anew, and may be written with other squares outside.
@@ -169,7 +169,7 @@ impl FromStr for Spacing {
 }
 
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Spacing);
+crate::data::as_text!(Spacing);
 
 /// A bound on the spacing, exact and as a decimal that itself keeps the bound: `2/3*sqrt(6) =
 /// 1.632993…`, `1`.

@@ -12,17 +12,17 @@ use crate::scalar::Ring;
 #[cfg_attr(
     feature = "serde",
     derive(::serde::Serialize, ::serde::Deserialize),
-    serde(bound = "T: crate::scalar::serde::Number", deny_unknown_fields)
+    serde(bound = "T: crate::data::Number", deny_unknown_fields)
 )]
 pub struct Vector<T> {
     /// The component along x̂ sinθ.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub x: T,
     /// The component along ŷ 2cosφ sinθ.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub y: T,
     /// The component along ẑ cosθ, down.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub z: T,
 }
 
@@ -83,7 +83,7 @@ impl<T: Ring> Vector<T> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::{Vector, directions};
+    /// use cannonpile::geometry::{directions, Vector};
     ///
     /// let sum = Vector::combination(&[1.0, 1.0, 0.0], &directions(&0.5));
     /// assert_eq!(sum, Vector { x: 1.0, y: 0.0, z: -2.0 });
@@ -133,7 +133,7 @@ impl<T> Vector<T> {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::{Vector, directions};
+    /// use cannonpile::geometry::{directions, Vector};
     ///
     /// let [a, _, _] = directions(&0.25);
     /// assert_eq!(a.into_array(), [0.25, 0.5, -1.0]);

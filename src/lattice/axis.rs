@@ -199,7 +199,7 @@ impl FromStr for Link {
 }
 
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Axis, Link);
+crate::data::as_text!(Axis, Link);
 
 /// A contact between two spheres of a layer, at a = R: `site`, and its [neighbour](Self::neighbour) along an axis.
 ///

@@ -35,7 +35,7 @@ where
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Sign, count};
+/// use cannonpile::lattice::{count, Sign};
 ///
 /// // Layer 5 of the paper's pile: (k−i−j, i, j) = (2, 1, 2).
 /// let bounds = count::bounds_above(&1_i128, &2, &[0, 0, 0], &[5, 5, 5], &5, Sign::Plus);

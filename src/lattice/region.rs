@@ -392,8 +392,10 @@ impl Region {
     }
 
     /// Returns the layer this many + and − steps further down; bounds must stay within `i128`.
+    #[doc(hidden)]
     #[inline]
-    pub(crate) fn grown(&self, plus: i128, minus: i128) -> Self {
+    #[must_use]
+    pub fn grown(&self, plus: i128, minus: i128) -> Self {
         Self {
             lower: self.lower.map(|bound| bound - minus),
             upper: self.upper.map(|bound| bound + plus),
@@ -401,7 +403,9 @@ impl Region {
     }
 
     /// Returns the layer this many + and − steps further up; `None` if no site is left.
-    pub(crate) fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn shrunk(&self, plus: i128, minus: i128) -> Option<Self> {
         self.grown(-plus, -minus).tightened()
     }
 
@@ -537,7 +541,7 @@ impl FromStr for Region {
 }
 
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Region: ":#");
+crate::data::as_text!(Region: ":#");
 
 #[cfg(test)]
 mod tests {

@@ -22,13 +22,13 @@ use crate::Error;
 )]
 pub struct Row {
     /// The layer.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub k: i128,
     /// The row within the layer.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub j: i128,
     /// The places within the row.
-    #[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::data::number"))]
     pub i: Range<i128>,
 }
 
@@ -59,7 +59,8 @@ impl Row {
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than any memory holds.
-    pub(crate) fn length(&self) -> Result<usize, Error> {
+    #[doc(hidden)]
+    pub fn length(&self) -> Result<usize, Error> {
         let Range { start, end } = self.i;
         let sites = if self.i.is_empty() {
             0

@@ -105,7 +105,7 @@ impl FromStr for Sign {
 }
 
 #[cfg(feature = "serde")]
-crate::scalar::serde::as_text!(Sign);
+crate::data::as_text!(Sign);
 
 impl Neg for Sign {
     type Output = Self;

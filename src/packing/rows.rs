@@ -209,7 +209,8 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let forces = packing.magnitudes(Selection::All)?;
-    /// let forces: Result<Vec<_>, _> = forces.map(|contact| Ok(contact?.force)).collect();
+    /// let forces = forces.map(|contact| contact.map(|contact| contact.force));
+    /// let forces: Result<Vec<_>, _> = forces.collect();
     /// assert_eq!(forces.as_ref().map(Vec::len), Ok(12));
     /// assert_eq!(forces?.iter().max().unwrap().to_string(), "10/39*sqrt(13)");
     /// # Ok::<(), cannonpile::Error>(())

@@ -7,8 +7,8 @@ use core::ops::{Add, Mul, Neg, Sub};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::error_free::{is_ordinary, significand, two_product, two_sum};
 use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring};
+use exact_surd::error_free::{is_ordinary, significand, two_product, two_sum};
 
 /// A closed interval [lower, upper] of reals with `f64` ends, which may be infinite.
 ///
@@ -19,7 +19,7 @@ use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, 
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, Ring, RealSign};
+/// use cannonpile::scalar::{Algebra, Field, Interval, RealEmbeddable, RealSign, Ring};
 /// use num_rational::BigRational;
 ///
 /// let third = Interval::from_i128(1).div_int(3.try_into().unwrap());

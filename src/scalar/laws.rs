@@ -57,7 +57,7 @@ impl core::error::Error for Broken {}
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{Polynomial, Symbol, laws};
+/// use cannonpile::scalar::{laws, Polynomial, Symbol};
 ///
 /// let [a, b, c] = ["a", "b", "c"].map(|name| Polynomial::from(Symbol(name)));
 /// laws::algebra(&a, &b, &c)?;
@@ -126,7 +126,7 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::scalar::{FixedRational, laws};
+/// use cannonpile::scalar::{laws, FixedRational};
 /// use num_rational::BigRational;
 ///
 /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());

@@ -380,7 +380,9 @@ impl Polynomial {
 
     /// Returns the coefficients of the powers of `symbol` that occur, as polynomials in the others; of
     /// the fault, the fault.
-    pub(crate) fn coefficients(&self, symbol: Symbol) -> BTreeMap<u32, Self> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn coefficients(&self, symbol: Symbol) -> BTreeMap<u32, Self> {
         if !self.is_defined() {
             return [(0, Self::fault())].into();
         }

@@ -30,7 +30,7 @@ pub enum Selection {
     /// One sphere.
     One(Site),
     /// The layer k, counted from the top.
-    Layer(#[cfg_attr(feature = "serde", serde(with = "crate::scalar::serde::number"))] i128),
+    Layer(#[cfg_attr(feature = "serde", serde(with = "crate::data::number"))] i128),
     /// The bottom layer.
     Base,
     /// Every sphere.
@@ -129,12 +129,16 @@ impl<'p> Rows<'p> {
     }
 
     /// Returns the layers that are not yet done, or none if this is a single sphere.
-    pub(crate) fn layers(&self) -> Range<i128> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn layers(&self) -> Range<i128> {
         self.k..self.end
     }
 
     /// Returns the single sphere, if it is one.
-    pub(crate) fn one(&self) -> Option<Site> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn one(&self) -> Option<Site> {
         self.one
     }
 

@@ -64,7 +64,9 @@ impl Shape {
     }
 
     /// Returns the [`shift`](Self::shift) from the site under which x = y = 0.
-    pub(crate) fn shift_from_origin(&self, k: i128) -> i128 {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn shift_from_origin(&self, k: i128) -> i128 {
         match self.anchor {
             Anchor::Top(_) => self.shift(k),
             Anchor::Base(_) => self.shift(k) - (self.whole.plus - self.whole.minus),

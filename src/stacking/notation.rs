@@ -181,7 +181,7 @@ fn misspelled(text: &str, fault: usize) -> Error {
     }
     // Before the fault all characters are of the notation, and a byte long.
     Error::Misspelled {
-        text: Error::quoted(text),
+        text: exact_surd::short::quoted(text),
         position: fault + 1,
         found: text.get(fault..).and_then(|rest| rest.chars().next()),
     }

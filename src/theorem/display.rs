@@ -13,7 +13,8 @@ const WIDTH: usize = 100;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::theorem::{self, Listing};
+/// use cannonpile::theorem;
+/// use cannonpile::theorem::Listing;
 ///
 /// let theorem = theorem::find("total-shear").unwrap();
 /// let text = Listing { theorem, proof: &theorem.prove(), whole: false }.to_string();
@@ -21,16 +22,16 @@ const WIDTH: usize = 100;
 /// assert!(text.ends_with("    ΣF_y = 0:  0 = 0,  difference 0\n"));
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Listing<'a> {
+pub struct Listing<'a, F: 'static = super::Formulas> {
     /// The theorem.
-    pub theorem: &'a Theorem,
+    pub theorem: &'a Theorem<F>,
     /// Its proof.
     pub proof: &'a Proof,
     /// Whether to print the whole derivation: hypotheses, symbols, each side on a line.
     pub whole: bool,
 }
 
-impl fmt::Display for Listing<'_> {
+impl<F> fmt::Display for Listing<'_, F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Theorem {
             name,

@@ -1,7 +1,8 @@
 //! The formulas that theorems are about, each replaceable by a wrong one.
 
 use crate::formula;
-use crate::geometry::{self, Vector};
+use crate::geometry;
+use crate::geometry::Vector;
 use crate::lattice::{Direction, Sign, count};
 use crate::scalar::{Algebra, Polynomial};
 
@@ -68,38 +69,6 @@ pub struct Formulas<P = Polynomial> {
     pub pushed: fn(&P, [Direction; 2], bool) -> Three<P>,
     /// [`formula::beside`].
     pub beside: fn(P, &P, &P, Sign) -> P,
-    /// [`formula::lowered`].
-    pub lowered: fn(P, &P) -> P,
-    /// [`formula::compression`].
-    pub compression: fn(&Three<P>, &Three<P>, [Direction; 2], Sign) -> P,
-    /// [`formula::elastic_field`].
-    pub elastic_field: fn(&P, &P) -> P,
-    /// [`formula::corner_field`].
-    pub corner_field: fn(Direction, bool) -> Three<P>,
-    /// [`formula::least_on_corner`].
-    pub least_on_corner: fn(&P) -> P,
-    /// [`formula::greatest_on_corner`].
-    pub greatest_on_corner: fn(&P) -> P,
-    /// [`formula::greatest_inside`].
-    pub greatest_inside: fn(&Three<P>) -> P,
-    /// [`formula::greatest_on_edge`].
-    pub greatest_on_edge: fn(&P, &P, &P) -> P,
-    /// [`formula::third_moment`].
-    pub third_moment: fn(&P, &P) -> P,
-    /// [`formula::fourth_moment`].
-    pub fourth_moment: fn(&P) -> P,
-    /// [`formula::fourth_moment_of_pair`].
-    pub fourth_moment_of_pair: fn(&P, &P, &P) -> P,
-    /// [`formula::mean_third_moment`].
-    pub mean_third_moment: fn(&P, &P, &P) -> P,
-    /// [`formula::mean_fourth_moment_of_pairs`].
-    pub mean_fourth_moment_of_pairs: fn(&P, &P, &P) -> P,
-    /// [`formula::wave`].
-    pub wave: fn(&P) -> [P; 2],
-    /// [`formula::registry_excess`].
-    pub registry_excess: fn(&P, &P, &P) -> P,
-    /// [`formula::arch`].
-    pub arch: fn(&Three<P>) -> Three<P>,
 }
 
 // Derived, they would ask it of P.
@@ -110,6 +79,16 @@ impl<P> Clone for Formulas<P> {
 }
 
 impl<P> Copy for Formulas<P> {}
+
+/// The formulas of a crate, as its engines call them.
+pub trait Library {
+    /// The functions that engines and answers call.
+    const LIBRARY: Self;
+}
+
+impl<P: Algebra<Numerator = P>> Library for Formulas<P> {
+    const LIBRARY: Self = Self::LIBRARY;
+}
 
 impl<P: Algebra<Numerator = P>> Formulas<P> {
     /// The functions that engines and answers call.
@@ -138,21 +117,5 @@ impl<P: Algebra<Numerator = P>> Formulas<P> {
         tripled_apart: formula::tripled_apart,
         pushed: formula::pushed,
         beside: formula::beside,
-        lowered: formula::lowered,
-        compression: formula::compression,
-        elastic_field: formula::elastic_field,
-        corner_field: formula::corner_field,
-        least_on_corner: formula::least_on_corner,
-        greatest_on_corner: formula::greatest_on_corner,
-        greatest_inside: formula::greatest_inside,
-        greatest_on_edge: formula::greatest_on_edge,
-        arch: formula::arch,
-        third_moment: formula::third_moment,
-        fourth_moment: formula::fourth_moment,
-        fourth_moment_of_pair: formula::fourth_moment_of_pair,
-        mean_third_moment: formula::mean_third_moment,
-        mean_fourth_moment_of_pairs: formula::mean_fourth_moment_of_pairs,
-        wave: formula::wave,
-        registry_excess: formula::registry_excess,
     };
 }

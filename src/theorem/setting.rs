@@ -9,46 +9,52 @@ use super::{Formulas, Step};
 use crate::geometry::Vector;
 use crate::scalar::{Algebra, Polynomial, Ring, Symbol, TWO};
 
-pub(super) type P = Polynomial;
+pub type P = Polynomial;
 
 /// A symbol as a polynomial.
-pub(super) fn symbol(name: &'static str) -> P {
+#[must_use]
+pub fn symbol(name: &'static str) -> P {
     Symbol(name).into()
 }
 
 /// An integer as a polynomial.
-pub(super) fn int(n: i128) -> P {
+#[must_use]
+pub fn int(n: i128) -> P {
     P::from_i128(n)
 }
 
 /// 1/2.
-pub(super) fn half() -> P {
+#[must_use]
+pub fn half() -> P {
     int(1).div_int(TWO)
 }
 
 /// A pile of L layers with sin φ = s, as its formulas give it.
-pub(super) struct Setting {
+pub struct Setting {
     /// sin φ.
-    pub(super) s: P,
-    pub(super) increments: [P; 3],
+    pub s: P,
+    pub increments: [P; 3],
     /// W.
-    pub(super) weight: P,
-    pub(super) directions: [Vector<P>; 3],
+    pub weight: P,
+    pub directions: [Vector<P>; 3],
 }
 
 impl Setting {
     /// Any sin φ: the symbol s.
-    pub(super) fn isosceles(f: &Formulas) -> Self {
+    #[must_use]
+    pub fn isosceles(f: &Formulas) -> Self {
         Self::with_sin_phi(f, symbol("s"))
     }
 
     /// s = 1/2.
-    pub(super) fn equilateral(f: &Formulas) -> Self {
+    #[must_use]
+    pub fn equilateral(f: &Formulas) -> Self {
         Self::with_sin_phi(f, half())
     }
 
     /// The pile of discs: s = 0, in its own directions.
-    pub(super) fn discs(f: &Formulas) -> Self {
+    #[must_use]
+    pub fn discs(f: &Formulas) -> Self {
         Self {
             directions: (f.disc_directions)(),
             ..Self::with_sin_phi(f, P::zero())
@@ -66,7 +72,8 @@ impl Setting {
     }
 
     /// The forces from above on a sphere with so many above it on its lines.
-    pub(super) fn received(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
+    #[must_use]
+    pub fn received(&self, f: &Formulas, [a, b, c]: &[P; 3]) -> [P; 3] {
         let [w_a, w_b, w_c] = &self.increments;
         [
             (f.force)(a.clone(), w_a),
@@ -76,28 +83,33 @@ impl Setting {
     }
 
     /// What a sphere passes on of the forces from above.
-    pub(super) fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
+    #[must_use]
+    pub fn to_below(&self, f: &Formulas, from_above: [P; 3]) -> [P; 3] {
         passed_on(f, from_above, &self.increments)
     }
 
     /// What a sphere of weight `n` adds to its lines, and that weight in the unit of forces.
-    pub(super) fn loaded(&self, f: &Formulas, n: &P) -> ([P; 3], P) {
+    #[must_use]
+    pub fn loaded(&self, f: &Formulas, n: &P) -> ([P; 3], P) {
         let own = self.received(f, &[n.clone(), n.clone(), n.clone()]);
         (own, (f.force)(n.clone(), &self.weight))
     }
 
     /// The unit vectors along contacts under − steps.
-    pub(super) fn turned_directions(&self, f: &Formulas) -> [Vector<P>; 3] {
+    #[must_use]
+    pub fn turned_directions(&self, f: &Formulas) -> [Vector<P>; 3] {
         self.directions.clone().map(f.turned_about_z)
     }
 
     /// What a sphere with so many above it on its lines hands on, by the forces from above and its weight.
-    pub(super) fn handed_on(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+    #[must_use]
+    pub fn handed_on(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
         (f.handed_on)(&self.received(f, above), &self.directions, &self.weight)
     }
 
     /// What is left over of all forces on such a sphere.
-    pub(super) fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
+    #[must_use]
+    pub fn unbalanced(&self, f: &Formulas, above: &[P; 3]) -> Vector<P> {
         let from_above = self.received(f, above);
         let to_below = self.to_below(f, from_above.clone());
         let e = &self.directions;
@@ -105,14 +117,16 @@ impl Setting {
     }
 
     /// The squared horizontal length of a vector, over sin²θ: x² + 4(1−s²)·y².
-    pub(super) fn horizontal_square(&self, v: &Vector<P>) -> P {
+    #[must_use]
+    pub fn horizontal_square(&self, v: &Vector<P>) -> P {
         let across = int(4) * &(P::one() - &(self.s.clone() * &self.s));
         v.x.clone() * &v.x + &(across * &(v.y.clone() * &v.y))
     }
 }
 
 /// What a sphere passes on along its three lines, from what it receives and adds.
-pub(super) fn passed_on(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
+#[must_use]
+pub fn passed_on(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3] {
     let [own_a, own_b, own_c] = own;
     [
         (f.passed_on)(a, own_a),
@@ -122,7 +136,8 @@ pub(super) fn passed_on(f: &Formulas, [a, b, c]: [P; 3], own: &[P; 3]) -> [P; 3]
 }
 
 /// One step for each component of two vectors.
-pub(super) fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
+#[must_use]
+pub fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Vec<Step> {
     let sides = left.into_array().into_iter().zip(right.into_array());
     let sides = ["x", "y", "z"].into_iter().zip(sides);
     sides
@@ -131,63 +146,79 @@ pub(super) fn by_component(claim: &str, left: Vector<P>, right: Vector<P>) -> Ve
 }
 
 /// One step for each component: nothing is left over.
-pub(super) fn nothing_left(claim: &str, left: Vector<P>) -> Vec<Step> {
+#[must_use]
+pub fn nothing_left(claim: &str, left: Vector<P>) -> Vec<Step> {
     by_component(claim, left, Vector::zero())
 }
 
 /// One step for each of three lines.
-pub(super) fn by_line(claim: &str, left: [P; 3], right: [P; 3]) -> impl Iterator<Item = Step> {
+pub fn by_line(claim: &str, left: [P; 3], right: [P; 3]) -> impl Iterator<Item = Step> {
     let sides = left.into_iter().zip(right);
     sides.map(move |(left, right)| Step::equal(claim, left, right))
 }
 
 /// The steps that say `claim: left => right`, the two sides being the same polynomial. A claim is a literal, or a text in
 /// parentheses.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! equations {
     ($($claim:literal: $left:expr => $right:expr),+ $(,)?) => {
-        equations! { $(($claim): $left => $right),+ }
+        $crate::theorem::setting::equations! { $(($claim): $left => $right),+ }
     };
     ($(($claim:expr): $left:expr => $right:expr),+ $(,)?) => {
-        Vec::from([$(Step::equal($claim, $left, $right)),+])
+        $crate::theorem::setting::listed([$($crate::theorem::Step::equal($claim, $left, $right)),+])
     };
 }
 
-pub(super) use equations;
+pub use equations;
+
+/// Returns the steps as a list.
+#[must_use]
+pub fn listed<const N: usize>(steps: [Step; N]) -> Vec<Step> {
+    steps.into()
+}
 
 /// The counts of spheres above (i, j, k), all symbols.
-pub(super) fn above(f: &Formulas) -> [P; 3] {
+#[must_use]
+pub fn above(f: &Formulas) -> [P; 3] {
     (f.above)(&symbol("i"), &symbol("j"), &symbol("k"))
 }
 
 /// The counts of spheres above (i, j) on the floor of L layers.
-pub(super) fn above_floor(f: &Formulas) -> [P; 3] {
+#[must_use]
+pub fn above_floor(f: &Formulas) -> [P; 3] {
     (f.above)(&symbol("i"), &symbol("j"), &last_layer())
 }
 
 /// L − 1.
-pub(super) fn last_layer() -> P {
+#[must_use]
+pub fn last_layer() -> P {
     symbol("L") - &P::one()
 }
 
 /// Σ over the sites (i, j) of layer `k`.
-pub(super) fn sum_over_layer(p: &P, k: &P) -> P {
+#[must_use]
+pub fn sum_over_layer(p: &P, k: &P) -> P {
     let zero = P::zero();
     let row = p.sum(Symbol("i"), &zero, &(k.clone() - &symbol("j")));
     row.sum(Symbol("j"), &zero, k)
 }
 
 /// Σ over the bottom layer of L layers.
-pub(super) fn sum_over_base(p: &P) -> P {
+#[must_use]
+pub fn sum_over_base(p: &P) -> P {
     sum_over_layer(p, &last_layer())
 }
 
 /// Σ over all spheres of L layers, for a polynomial in i, j, k.
-pub(super) fn sum_over_pile(p: &P) -> P {
+#[must_use]
+pub fn sum_over_pile(p: &P) -> P {
     sum_over_layers(p, &last_layer())
 }
 
 /// Σ over the spheres that do not touch the floor.
-pub(super) fn sum_off_floor(p: &P) -> P {
+#[must_use]
+pub fn sum_off_floor(p: &P) -> P {
     sum_over_layers(p, &(last_layer() - &P::one()))
 }
 

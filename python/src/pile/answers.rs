@@ -1,6 +1,5 @@
 //! Forces one by one, exact.
 
-use cannonpile::Error;
 use cannonpile::lattice::{HorizontalContact, Link, Site};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
@@ -8,6 +7,7 @@ use num_traits::ToPrimitive;
 use pyo3::prelude::*;
 
 use super::Pile;
+use crate::error::Error;
 use crate::exception::Raised;
 use crate::input::{self, coordinate, read};
 use crate::work::{quickly, work, work_of_long_steps};
@@ -98,7 +98,7 @@ pub(crate) fn bounds(
     let (scene, exact) = (pile.scene.clone(), pile.exact.clone());
     let bounds = work_of_long_steps(py, move || {
         scene.check_touching()?;
-        exact.bounds(site)
+        Ok::<_, Error>(cannonpile_horizontal::bounds(&exact, site)?)
     })?;
     let (least, greatest) = (bounds.least, bounds.greatest);
     Ok((
@@ -113,7 +113,7 @@ impl Pile {
     fn ask<T: Send>(
         &self,
         py: Python<'_>,
-        question: impl FnOnce() -> Result<T, Error> + Send,
+        question: impl FnOnce() -> Result<T, cannonpile::Error> + Send,
     ) -> PyResult<T> {
         if self.exact.shape().stacking().is_straight() {
             quickly(py, question)
@@ -126,7 +126,7 @@ impl Pile {
     fn bottom(&self, i: &BigInt, j: &BigInt) -> PyResult<Site> {
         let (i, j) = (coordinate("i", i)?, coordinate("j", j)?);
         let k = self.exact.layers() - 1;
-        let checked: Result<Site, Error> = self.exact.shape().check(Site { i, j, k });
+        let checked = self.exact.shape().check(Site { i, j, k });
         checked.map_err(|error| Raised::from(error).into_exception())
     }
 }

@@ -1,7 +1,6 @@
 //! All spheres and contacts as arrays of NumPy.
 
-use cannonpile::Error;
-use cannonpile::dem::PileArrays;
+use cannonpile_dem::PileArrays;
 use num_bigint::BigInt;
 use numpy::{PyArray1, PyArray2};
 use pyo3::IntoPyObjectExt;
@@ -10,6 +9,7 @@ use pyo3::prelude::*;
 
 use super::Pile;
 use crate::array::{column, rows};
+use crate::error::Error;
 use crate::exception::Raised;
 use crate::work::work;
 
@@ -18,9 +18,9 @@ impl Pile {
     fn numbers(&self, si: bool) -> PyResult<PileArrays<'_>> {
         let numbers = if si {
             self.packing()
-                .and_then(|packing| PileArrays::of_packing(&packing))
+                .and_then(|packing| Ok(PileArrays::of_packing(&packing)?))
         } else {
-            PileArrays::of_pile(&self.exact)
+            PileArrays::of_pile(&self.exact).map_err(Error::from)
         };
         numbers.map_err(|error| Raised::from(error).into_exception())
     }
@@ -29,12 +29,12 @@ impl Pile {
     fn base_places(&self) -> PyResult<usize> {
         let count = self.exact.base_spheres();
         usize::try_from(&count).map_err(|_| {
-            let error = Error::TooLarge {
-                quantity: "the forces of all bottom spheres",
-                needed: count,
-                limit: usize::MAX as u64,
-                remedy: "use fewer layers, or a smaller top or base",
-            };
+            let error = cannonpile::Error::too_large(
+                "the forces of all bottom spheres",
+                count,
+                usize::MAX as u64,
+                "use fewer layers, or a smaller top or base",
+            );
             Raised::from(error).into_exception()
         })
     }
@@ -129,7 +129,7 @@ pub(crate) fn multiples<'py>(
     let mut denominator = BigInt::ZERO;
     let narrow = column(py, numbers.contacts(), |numerators: &mut [i64]| {
         denominator = numbers.fill_multiples(numerators)?;
-        Ok(())
+        Ok::<_, Error>(())
     });
     match narrow {
         Ok(numerators) => Ok((numerators.into_any(), denominator)),

@@ -2,9 +2,8 @@
 
 use std::fmt::Display;
 
-use cannonpile::Error;
 use cannonpile::lattice::Dimension;
-use cannonpile::scene::{Anchor, Scene, State, parse};
+use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use num_rational::BigRational;
 use num_traits::One;
 use pyo3::prelude::*;
@@ -33,9 +32,7 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
             _ => {
                 return Err(of_argument(
                     name,
-                    &Error::Bug {
-                        invariant: "an option of Pile is one of scenes",
-                    },
+                    &cannonpile::engine::bug("an option of Pile is one of scenes").into(),
                 ));
             }
         }

@@ -1,12 +1,13 @@
 //! Files, figures, and measured forces.
 
+use std::io::Write;
 use std::path::PathBuf;
 
-use cannonpile::Error;
-use cannonpile::dem::{Page, PileExport, PileFormat};
-use cannonpile::figure::{self, Figure, Layout, Subject};
-use cannonpile::scene::{State, parse};
-use cannonpile::table::WriteError;
+use cannonpile_dem::scene::{State, parse};
+use cannonpile_dem::{OtherFile, PileExport, PileFormat};
+use cannonpile_figure as figure;
+use cannonpile_figure::viewer::Page;
+use cannonpile_figure::{Figure, Layout, Subject};
 use num_bigint::BigInt;
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
@@ -14,6 +15,7 @@ use pyo3::prelude::*;
 
 use super::Pile;
 use crate::comparison::{Comparison, Measurement};
+use crate::error::Error;
 use crate::exception::Raised;
 use crate::figure::Kind;
 use crate::input::{coordinate, read};
@@ -53,7 +55,7 @@ pub(crate) fn plot(
 pub(crate) fn page(pile: &Pile, py: Python<'_>) -> PyResult<String> {
     work(py, || {
         let page = Page::new(&pile.packing()?)?;
-        page.with_scene(pile.scene.to_toml()).to_html()
+        Ok::<_, Error>(page.with_scene(pile.scene.to_toml()).to_html()?)
     })
 }
 
@@ -65,16 +67,36 @@ pub(crate) fn export(
     folder: PathBuf,
     formats: Vec<String>,
 ) -> PyResult<Vec<String>> {
-    let formats: Vec<PileFormat> = formats
+    let formats: Vec<Format> = formats
         .iter()
         .map(|name| format_named(name))
         .collect::<PyResult<_>>()?;
+    let with_page = formats.iter().any(|format| matches!(format, Format::Page));
+    let formats: Vec<PileFormat> = formats
+        .into_iter()
+        .filter_map(|format| match format {
+            Format::Files(format) => Some(format),
+            Format::Page => None,
+        })
+        .collect();
     work(py, || {
         let packing = pile.packing()?;
-        let export = PileExport::new(&packing)?.with_scene(pile.scene.to_toml());
-        let written = export.write(&formats, &folder, &mut |_| {})?;
-        let names = written.iter().map(|written| written.file.name().to_owned());
-        Ok::<_, WriteError>(names.collect())
+        let scene = pile.scene.to_toml();
+        let export = PileExport::new(&packing)?.with_scene(scene.clone());
+        let page = if with_page {
+            Some(Page::new(&packing)?.with_scene(scene))
+        } else {
+            None
+        };
+        let page = page.as_ref();
+        let write = page.map(|page| move |out: &mut dyn Write| page.write(out));
+        let others = write.as_ref().map(|write| OtherFile {
+            name: "pile.html",
+            write,
+        });
+        let written = export.write_with(&formats, others.as_slice(), &folder, &mut |_| {})?;
+        let names = written.iter().map(|written| written.name().to_owned());
+        Ok::<_, Raised>(names.collect())
     })
 }
 
@@ -108,7 +130,7 @@ impl Pile {
         &self,
         kind: Kind,
         si: bool,
-        draw: impl FnOnce(&Subject<'_>, &cannonpile::Pile) -> Result<Figure, Error>,
+        draw: impl FnOnce(&Subject<'_>, &cannonpile::Pile) -> Result<Figure, figure::Error>,
     ) -> Result<Figure, Error> {
         if kind == Kind::Bounds {
             self.scene.check_touching()?;
@@ -135,18 +157,24 @@ impl Pile {
         if self.scene.state == State::Elastic && matches!(kind, Kind::Network | Kind::Base) {
             subject = subject.with_horizontal_contacts();
         }
-        draw(&subject, pile)
+        Ok(draw(&subject, pile)?)
     }
 }
 
-fn format_named(name: &str) -> PyResult<PileFormat> {
-    Ok(match name {
+/// What a pile is written for.
+enum Format {
+    Files(PileFormat),
+    Page,
+}
+
+fn format_named(name: &str) -> PyResult<Format> {
+    Ok(Format::Files(match name {
         "csv" => PileFormat::Csv,
         "lammps" => PileFormat::Lammps,
         "vtp" => PileFormat::Vtp,
         "yade" => PileFormat::Yade,
         "card" => PileFormat::Card,
-        "html" => PileFormat::Html,
+        "html" => return Ok(Format::Page),
         "lammps-test" => PileFormat::LammpsTest,
         "yade-check" => PileFormat::YadeCheck,
         _ => {
@@ -154,5 +182,5 @@ fn format_named(name: &str) -> PyResult<PileFormat> {
                 "formats: '{name}' is not one of csv, lammps, vtp, yade, card, html, lammps-test, yade-check"
             )));
         }
-    })
+    }))
 }

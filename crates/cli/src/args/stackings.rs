@@ -1,0 +1,228 @@
+//! The options of a scene that is the same in every stacking.
+
+use cannonpile::lattice::{Dimension, Region};
+use cannonpile_dem::Key;
+use cannonpile_dem::scene::parse::At;
+use cannonpile_dem::scene::{Anchor, Scene, State, parse};
+use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+use clap::Args;
+use num_rational::BigRational;
+
+use super::scene::NamedFile;
+use crate::Culprit;
+use crate::output::{Failure, Refused};
+
+/// What piles of random stackings grow from: a layer, or one that fills the plane.
+#[derive(Clone, Copy)]
+enum Top {
+    Plane,
+    Region(Region),
+}
+
+impl Top {
+    fn read(text: &str) -> Result<Self, String> {
+        if text == "plane" {
+            return Ok(Self::Plane);
+        }
+        let region = text.parse::<Region>().map(Self::Region);
+        region.map_err(|error| format!("{error}, or plane"))
+    }
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Scene")]
+pub(crate) struct PilesOfStackings {
+    /// Read layers, top or base, loads and weightless from a TOML file, - for stdin; options on the command line win over it
+    #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
+    scene_file: Option<NamedFile>,
+    /// Number of layers [default: 10; to be given with --base]
+    #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
+    layers: Option<i128>,
+    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1; or plane, for layers
+    /// without end, with --weightless and --load [default: one sphere]
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = Top::read, conflicts_with = "base")]
+    top: Option<Top>,
+    /// Grow up from this layer, instead of down from --top; a stacking that it does not carry so high counts as none
+    #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
+    base: Option<Region>,
+    /// A vertical load W on one sphere of the top layer, in mg; may be repeated; takes the place of all loads of a file
+    #[arg(long, value_name = "0,I,J=W", allow_hyphen_values = true)]
+    load: Vec<String>,
+    /// The spheres weigh nothing: only the loads act; --weightless=false overrides a file
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
+    weightless: Option<bool>,
+    /// The sign of the first step, below the top layer: +, - or random, each with probability 1/2
+    #[arg(long, value_name = "SIGN", default_value = "+", allow_hyphen_values = true, value_parser = str::parse::<FirstSign>)]
+    first: FirstSign,
+    #[command(flatten)]
+    without: Without,
+}
+
+/// Options of scenes that have no meaning here: each is refused with the reason.
+#[derive(Args)]
+struct Without {
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    stacking: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    dimension: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    sin_phi: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    spacing: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    state: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    stiffness_ratio: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    radius: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    mass: Option<String>,
+    #[arg(long, hide = true, allow_hyphen_values = true)]
+    gravity: Option<String>,
+}
+
+impl Without {
+    fn given(&self) -> Option<Key> {
+        let options = [
+            (Key::Stacking, &self.stacking),
+            (Key::Dimension, &self.dimension),
+            (Key::SinPhi, &self.sin_phi),
+            (Key::Spacing, &self.spacing),
+            (Key::State, &self.state),
+            (Key::StiffnessRatio, &self.stiffness_ratio),
+            (Key::Radius, &self.radius),
+            (Key::Mass, &self.mass),
+            (Key::Gravity, &self.gravity),
+        ];
+        let given = options.into_iter().find(|(_, given)| given.is_some());
+        given.map(|(key, _)| key)
+    }
+}
+
+/// What of a scene in a file has no meaning here. Sizes have none either, but do no harm.
+fn meaningless(scene: &Scene) -> Option<Key> {
+    if scene.stacking.is_some() {
+        Some(Key::Stacking)
+    } else if scene.dimension != Dimension::Three {
+        Some(Key::Dimension)
+    } else if scene.sin_phi.is_some() {
+        Some(Key::SinPhi)
+    } else if scene.spacing.is_some() {
+        Some(Key::Spacing)
+    } else if scene.state != State::Isostatic {
+        Some(Key::State)
+    } else {
+        None
+    }
+}
+
+/// Why an option has no meaning here, and the remedy.
+const fn reason(key: Key) -> &'static str {
+    match key {
+        Key::Stacking => {
+            "the answer is over all stackings: leave it out, or ask base for one of them"
+        }
+        Key::Dimension | Key::SinPhi => {
+            "random stackings are of spheres on an equilateral lattice: leave it out"
+        }
+        Key::Spacing | Key::State | Key::StiffnessRatio => {
+            "random stackings are looked at without horizontal contacts, for which no spacing is needed: leave it out"
+        }
+        _ => "the answer is in multiples of mg: leave it out",
+    }
+}
+
+impl PilesOfStackings {
+    /// Returns the piles described.
+    pub(crate) fn read(&self) -> Result<RandomPiles, Failure> {
+        if let Some(key) = self.without.given() {
+            return Err(Failure::Message(format!("--{key}: {}", reason(key))));
+        }
+        let file = self.scene_file.as_ref().map(NamedFile::scene);
+        if let Some(key) = file.and_then(meaningless) {
+            let place = self.place(key.into());
+            return Err(Failure::Message(format!("{place}: {}", reason(key))));
+        }
+        let piles = self.piles(file)?;
+        let loads = self.loads(file)?;
+        let blamed = |error| self.refused(Refused::of(Key::Load, error));
+        let layers = piles.stackings().layers();
+        let piles = loads.into_iter().try_fold(piles, |piles, (at, load)| {
+            piles.with_load(at.site(layers), load).map_err(blamed)
+        })?;
+        // Not a default: without an option and a file spheres have weight.
+        let weightless = self
+            .weightless
+            .or(file.map(|scene| scene.weightless))
+            .unwrap_or(false);
+        Ok(if weightless {
+            piles.weightless()
+        } else {
+            piles
+        })
+    }
+
+    /// The piles, without what acts on them.
+    fn piles(&self, file: Option<&Scene>) -> Result<RandomPiles, Failure> {
+        let of_file = file
+            .and_then(|scene| scene.anchor)
+            .map(|anchor| match anchor {
+                Anchor::Top(top) => (Some(Top::Region(top)), None),
+                Anchor::Base(base) => (None, Some(base)),
+            });
+        let of_line = (self.top.is_some() || self.base.is_some()).then_some((self.top, self.base));
+        let (top, base) = of_line.or(of_file).unwrap_or((None, None));
+        let layers = self.layers.or(file.and_then(|scene| scene.layers));
+        let layers = match (layers, base) {
+            (Some(layers), _) => layers,
+            (None, None) => 10,
+            (None, Some(_)) => {
+                return Err(Failure::Message(
+                    "--base: its stackings are not all of one height: give --layers".to_owned(),
+                ));
+            }
+        };
+        let stackings = RandomStackings::new(layers, self.first)?;
+        Ok(match (top, base) {
+            (_, Some(base)) => RandomPiles::on(base, stackings),
+            (Some(Top::Plane), None) => RandomPiles::plane(stackings),
+            (Some(Top::Region(top)), None) => RandomPiles::under(top, stackings),
+            (None, None) => RandomPiles::under(Region::SITE, stackings),
+        })
+    }
+
+    fn loads(&self, file: Option<&Scene>) -> Result<Vec<(At, BigRational)>, Refused> {
+        if self.load.is_empty() {
+            return Ok(file.map_or_else(Vec::new, |scene| scene.loads.clone()));
+        }
+        let load = |text: &String| parse::load(text, Dimension::Three);
+        let loads: Result<_, _> = self.load.iter().map(load).collect();
+        loads.map_err(|error| Refused::of(Key::Load, error))
+    }
+
+    /// Returns a refusal as a message, with the line of the file to change where it has the option.
+    pub(crate) fn refused(&self, refused: impl Into<Refused>) -> Failure {
+        let refused = refused.into();
+        let option = refused.culprit.filter(|culprit| culprit.option().is_some());
+        match option {
+            Some(culprit) => {
+                Failure::Message(format!("{}: {}", self.place(culprit), refused.error))
+            }
+            None => refused.into(),
+        }
+    }
+
+    /// The option, or where it is in the file.
+    fn place(&self, culprit: Culprit) -> String {
+        let on_line = match culprit {
+            Culprit::Key(Key::Layers) => self.layers.is_some(),
+            Culprit::Key(Key::Top | Key::Base) => self.top.is_some() || self.base.is_some(),
+            Culprit::Key(Key::Load) => !self.load.is_empty(),
+            Culprit::Key(Key::Weightless) => self.weightless.is_some(),
+            _ => false,
+        };
+        let file = self.scene_file.as_ref().filter(|_| !on_line);
+        let place = file.and_then(|file| file.place_of(culprit.name()));
+        place.unwrap_or_else(|| format!("--{culprit}"))
+    }
+}

@@ -1,0 +1,93 @@
+//! `verify --ladder`: the observed order of accuracy.
+
+use std::io::Write;
+
+use cannonpile::Packing;
+use cannonpile_dem::Compliance;
+use cannonpile_dem::scene::Scene;
+use cannonpile_dem::table::{FileFormat, WriteError};
+use cannonpile_dem::verify::{
+    Ladder, LadderFiles, LadderReport, NoLadder, Norm, Refinement, Rung, Source,
+};
+use serde_json::{Value, json};
+
+use super::{Refine, Verify, compare};
+use crate::output::Failure;
+use crate::progress::Progress;
+
+impl Verify {
+    /// Compares the files of a ladder, and returns whether their errors have an order.
+    pub(super) fn climb(
+        &self,
+        LadderFiles(files): &LadderFiles,
+        scene: &Scene,
+        packing: &Packing<'_>,
+    ) -> Result<bool, Failure> {
+        let (format, reader) = (self.output.format()?, self.reader()?);
+        let progress = Progress::begin("reading the files of --ladder");
+        let (mut rungs, mut sources, mut with_vectors) = (Vec::new(), Vec::new(), false);
+        for file in files {
+            let read = compare(&reader, packing, &file.path, format);
+            let (read, source) =
+                read.map_err(|refusal| self.refused(refusal, &file.path, scene))?;
+            let worst = read.comparison.worst();
+            with_vectors |= worst.is_some_and(|worst| worst.exact_vector.is_some());
+            rungs.push(Rung::new(file.parameter, &read.comparison, self.accept));
+            sources.extend(source.map(|source| (file.parameter, source)));
+        }
+        let refinement = match self.refine {
+            None | Some(Refine::Stiffness) => Refinement::Stiffness,
+            Some(Refine::TimeStep) => Refinement::TimeStep,
+        };
+        let blamed = |refusal: NoLadder| Failure::Message(format!("--ladder: {refusal}"));
+        let mut ladder = Ladder::new(refinement, rungs).map_err(blamed)?;
+        // Where the theory of springs covers the scene.
+        if refinement == Refinement::Stiffness
+            && let Ok(springs) = Compliance::new(packing)
+        {
+            let error = |stiffness| {
+                if with_vectors {
+                    springs.largest_vector_error(stiffness)
+                } else {
+                    springs.largest_error(stiffness)
+                }
+            };
+            ladder = ladder.predicted(error).map_err(blamed)?;
+        }
+        let report = LadderReport::new(&ladder);
+        self.output.write(&progress, |out| match format.into() {
+            FileFormat::Json => record(report.json(), &sources, scene, out),
+            format => report.write(format, out),
+        })?;
+        drop(progress);
+        Ok(ladder.fit(Norm::Largest).is_ok())
+    }
+}
+
+/// A record to keep: the ladder, with its files and the scene.
+fn record(
+    ladder: Value,
+    sources: &[(f64, Source)],
+    scene: &Scene,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let files: Vec<Value> = sources
+        .iter()
+        .map(|(parameter, source)| {
+            json!({
+                "parameter": parameter,
+                "file": source.file,
+                "bytes": source.bytes,
+                "sha256": source.sha256,
+            })
+        })
+        .collect();
+    let mut record = ladder;
+    if let Value::Object(entries) = &mut record {
+        entries.insert("version".into(), env!("CARGO_PKG_VERSION").into());
+        entries.insert("files".into(), files.into());
+        entries.insert("scene".into(), scene.to_toml().into());
+    }
+    serde_json::to_writer_pretty(&mut *out, &record)?;
+    Ok(writeln!(out)?)
+}

@@ -1,0 +1,55 @@
+//! The benchmark cases.
+
+use cannonpile_dem::Error;
+use cannonpile_dem::scene::{Case, cases as all_cases};
+use cannonpile_dem::table::{Cell, Column, Row, Table};
+
+/// The benchmark cases, one a row: `name, title, dimension, layers, spheres, contacts, stands, command`.
+///
+/// `stands` is empty where the spheres weigh nothing, and it is not asked; `command` exports the case. What a case tests is
+/// in its [`purpose`](Case::purpose), and in the card that `command` writes.
+#[must_use]
+pub(crate) fn cases() -> Table<'static> {
+    let names = [
+        "name",
+        "title",
+        "dimension",
+        "layers",
+        "spheres",
+        "contacts",
+        "stands",
+        "command",
+    ];
+    let columns = names.map(Column::plain).into();
+    Table::of_rows(columns, "cases", all_cases().iter().map(row))
+}
+
+fn row(case: &Case) -> Row {
+    let pile = case.scene()?.pile()?;
+    let name = case.name();
+    let stands = case.stands().map(|verdict| Cell::from(verdict.name()));
+    let command = format!("cannonpile export {name} --case {name} --to csv,card");
+    Ok::<_, Error>(vec![
+        name.into(),
+        case.title().into(),
+        i128::from(pile.dimension().number()).into(),
+        pile.layers().into(),
+        Cell::Integer(pile.sphere_count().into()),
+        Cell::Integer(pile.contact_count().into()),
+        stands.unwrap_or(Cell::Missing),
+        Cell::Word(command.into()),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test::csv;
+    use super::*;
+
+    #[test]
+    fn a_case_has_the_command_that_exports_it() {
+        let csv = csv(cases());
+        let discs = "\nC13,\"Discs in a plane, eight layers\",2,8,36,56,yes,\"cannonpile export C13 --case C13";
+        assert!(csv.contains(discs), "{csv}");
+    }
+}

@@ -1,0 +1,165 @@
+//! Benchmark cases: `cases`, and `--case` in place of a scene.
+
+use std::fs;
+use std::path::Path;
+
+use cannonpile_dem::scene::cases;
+
+use super::{cannonpile, refusal, stdout};
+
+/// Exports, whatever is noted of a pile that falls.
+fn export(folder: &Path, arguments: &str) {
+    let output = cannonpile(&format!("export {} {arguments}", folder.display()));
+    assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
+}
+
+/// Every file of a folder, by name.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let files = entries.map(|entry| {
+        let entry = entry.expect("an entry");
+        let name = entry.file_name().to_string_lossy().into_owned();
+        (name, fs::read(entry.path()).expect("a file"))
+    });
+    let mut files: Vec<_> = files.collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn a_case_is_exported_as_its_scene() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for case in cases() {
+        let name = case.name();
+        let at = |what: &str| folder.path().join(format!("{name}-{what}"));
+        let (file, formats) = (at("scene.toml"), "--to csv,lammps,vtp,yade");
+        fs::write(&file, case.toml()).expect("a scene");
+        export(&at("case"), &format!("--case {name} {formats}"));
+        export(
+            &at("scene"),
+            &format!("--scene {} {formats}", file.display()),
+        );
+        let [of_case, of_scene] = [at("case"), at("scene")].map(|folder| files(&folder));
+        assert_eq!(of_case.len(), 11, "{name}");
+        assert!(of_case == of_scene, "{name}");
+        // The exact forces are what they are compared with.
+        let contacts = at("case").join("contacts.csv");
+        let arguments = format!(
+            "verify {} --case {name} --accept 0 --format csv",
+            contacts.display()
+        );
+        let said = cannonpile(&arguments);
+        assert_eq!(said.status.code(), Some(0), "{name}: {said:?}");
+        assert!(
+            said.stdout.windows(5).any(|part| part == b"\nyes,"),
+            "{name}: {said:?}"
+        );
+    }
+}
+
+#[test]
+fn the_command_of_each_row_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let csv = stdout("cases --format csv");
+    let mut reader = ::csv::Reader::from_reader(csv.as_bytes());
+    let rows: Vec<_> = reader.records().map(|row| row.expect("a row")).collect();
+    assert_eq!(rows.len(), cases().len());
+    for (row, case) in rows.iter().zip(cases()) {
+        let arguments = row[7]
+            .strip_prefix("cannonpile export ")
+            .expect("an export");
+        let (into, arguments) = arguments.split_once(' ').expect("options");
+        assert_eq!(
+            (into, &row[0], &row[1]),
+            (case.name(), case.name(), case.title())
+        );
+        let into = folder.path().join(into);
+        export(&into, arguments);
+        let card = fs::read_to_string(into.join("card.md")).expect("a card");
+        assert!(card.starts_with(&format!("# {}: {}\n", case.name(), case.title())));
+        let summary = cannonpile(&format!(
+            "summary --case {} --state isostatic --format csv",
+            &row[0]
+        ));
+        let summary = String::from_utf8(summary.stdout).expect("text");
+        let summary: Vec<&str> = summary.lines().nth(1).expect("a row").split(',').collect();
+        assert_eq!(
+            (&row[3], &row[4], &row[5], &row[6]),
+            (summary[0], summary[2], summary[3], summary[5])
+        );
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&stdout("cases --format json")).expect("JSON");
+    assert_eq!(json.as_array().map(Vec::len), Some(cases().len()));
+}
+
+#[test]
+fn a_case_excludes_what_shapes_a_pile() {
+    for option in [
+        "--layers 4",
+        "--stacking hcp",
+        "--top hexagon:2",
+        "--base hexagon:2",
+        "--dimension 2",
+        "--sin-phi 1/3",
+        "--load 0,0,0=1",
+        "--weightless",
+        "--spacing 1.1",
+        "--radius 2",
+        "--mass 2",
+        "--gravity 2",
+        "--stiffness-ratio 2",
+    ] {
+        let line = refusal(&format!("export pile --case C2 {option}"));
+        let name = option.split(' ').next().expect("an option");
+        for part in ["--case <NAME>", name, "leave one of the two out"] {
+            assert!(line.contains(part), "{line}");
+        }
+    }
+    for (arguments, parts) in [
+        ("summary --case C15", ["--case", "did you mean 'C1'?"]),
+        (
+            "summary --case straight",
+            ["--case", "'cannonpile cases' lists"],
+        ),
+        (
+            "summary --case C10",
+            ["--case C10: state", "--state isostatic"],
+        ),
+        (
+            "export pile --case C14 --to yade-check",
+            ["--case C14: layers", "--to lammps,yade"],
+        ),
+        (
+            "export pile --case C8 --to lammps-test",
+            ["would have to pull", "yade-check"],
+        ),
+        (
+            "export pile --layers 3 --state elastic --stiffness-ratio 2 --to yade-check",
+            ["--stiffness-ratio", "use 1"],
+        ),
+    ] {
+        let line = refusal(arguments);
+        for part in parts {
+            assert!(line.contains(part), "{line}");
+        }
+    }
+    assert!(!Path::new("pile").exists());
+}
+
+/// Another state than that of the case has not its name.
+#[test]
+fn a_card_has_the_name_of_its_case_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let head = |arguments: &str| {
+        let into = folder.path().join(arguments.replace(' ', "-"));
+        export(&into, &format!("{arguments} --to card"));
+        let card = fs::read_to_string(into.join("card.md")).expect("a card");
+        card.lines().next().expect("a head").to_owned()
+    };
+    assert!(head("--case C10 --state elastic").starts_with("# C10: "));
+    assert_eq!(
+        head("--case C10 --state isostatic"),
+        "# A pile of 120 spheres in 8 layers"
+    );
+}

@@ -1,0 +1,336 @@
+//! Commands and what they print, word for word: those of `commands/*.console`, and those that README shows.
+//!
+//! | line | what it is |
+//! |---|---|
+//! | `$ cannonpile …` | a command, in a fresh folder with the files of `commands/files`; `< FILE` is its input |
+//! | `> …` | one more in the same folder; there `cat FILE` and `ls FOLDER` can be asked too |
+//! | `? N` | the exit status, where it is not 0 |
+//! | `! …` | a line on stderr |
+//! | `…` | any lines |
+//!
+//! All else is a line on stdout. `OVERWRITE=1 cargo test -p cannonpile-cli --test all console` writes what is printed now
+//! into the files, but leaves what agrees as it is: read the difference before you commit it.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{env, iter};
+
+use tempfile::TempDir;
+
+macro_rules! console {
+    ($($name:ident: $commands:literal;)*) => {
+        $(#[test]
+        fn $name() {
+            holds(stringify!($name), $commands);
+        })*
+
+        #[test]
+        fn every_file_of_commands_is_run() {
+            let mut files: Vec<_> = fs::read_dir(folder()).expect("commands").map(|file| file.expect("a file").path()).collect();
+            files.retain(|file| file.extension().is_some_and(|extension| extension == "console"));
+            files.sort();
+            assert_eq!(files, [$(folder().join(concat!(stringify!($name), ".console"))),*]);
+        }
+    };
+}
+
+// Each with the number of its commands.
+console! {
+    base: 89;
+    bounds: 19;
+    cases: 25;
+    census: 21;
+    check: 12;
+    completions: 2;
+    contacts: 51;
+    ensemble: 35;
+    explain: 12;
+    export: 43;
+    help: 19;
+    mean: 45;
+    merge: 13;
+    plot: 38;
+    prove: 11;
+    scene: 11;
+    spheres: 15;
+    summary: 36;
+    tables: 9;
+    verify: 14;
+}
+
+/// A command as it is shown, with the lines shown below it.
+struct Shown<'a> {
+    line: &'a str,
+    below: Vec<&'a str>,
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/cli/commands")
+}
+
+/// The commands of a text; empty lines between them are left out.
+fn shown(text: &str) -> Vec<Shown<'_>> {
+    let mut all: Vec<Shown<'_>> = Vec::new();
+    for line in text.lines() {
+        match all.last_mut() {
+            _ if line.starts_with("$ ") || line.starts_with("> ") => {
+                let below = Vec::new();
+                all.push(Shown { line, below });
+            }
+            Some(last) => last.below.push(line),
+            None => panic!("not below a command: {line}"),
+        }
+    }
+    for shown in &mut all {
+        while shown.below.pop_if(|line| line.is_empty()).is_some() {}
+    }
+    all
+}
+
+/// A folder with the files of `commands/files`, removed when it is dropped.
+fn fresh() -> TempDir {
+    let fresh = tempfile::tempdir().expect("a folder");
+    for file in fs::read_dir(folder().join("files")).expect("files") {
+        let file = file.expect("a file");
+        fs::copy(file.path(), fresh.path().join(file.file_name())).expect("a copy");
+    }
+    fresh
+}
+
+/// The words of a command; quotes hold words together.
+fn words(command: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let (mut word, mut quote) = (None::<String>, None);
+    for c in command.chars() {
+        match quote {
+            Some(close) if c == close => quote = None,
+            None if c == '\'' || c == '"' => {
+                quote = Some(c);
+                word.get_or_insert_default();
+            }
+            None if c == ' ' => words.extend(word.take()),
+            _ => word.get_or_insert_default().push(c),
+        }
+    }
+    words.into_iter().chain(word).collect()
+}
+
+/// What a command prints and how it ends, line by line as it would be shown.
+fn run(command: &str, folder: &Path) -> Vec<String> {
+    let mut words = words(command);
+    let mut input = Stdio::null();
+    if let Some(at) = words.iter().position(|word| word == "<") {
+        input = File::open(folder.join(&words[at + 1]))
+            .expect("input")
+            .into();
+        words.truncate(at);
+    }
+    let [program, arguments @ ..] = &words[..] else {
+        panic!("no command");
+    };
+    if program == "ls" {
+        let names = fs::read_dir(folder.join(&arguments[0])).expect("a folder");
+        let mut names: Vec<_> = names
+            .map(|name| {
+                name.expect("a name")
+                    .file_name()
+                    .into_string()
+                    .expect("text")
+            })
+            .collect();
+        names.sort();
+        return names;
+    }
+    if program == "cat" {
+        let text = fs::read_to_string(folder.join(&arguments[0])).expect("a file");
+        return text.lines().map(String::from).collect();
+    }
+    assert_eq!(program, "cannonpile");
+    let output = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(input)
+        .output()
+        .expect("the binary runs");
+    let status = output.status.code().expect("no signal");
+    let status = (status != 0).then(|| format!("? {status}"));
+    let [stdout, stderr] =
+        [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("text"));
+    let stderr = stderr.lines().map(|line| format!("! {line}"));
+    let mut lines: Vec<String> = status
+        .into_iter()
+        .chain(stdout.lines().map(String::from))
+        .chain(stderr)
+        .collect();
+    while lines.pop_if(|line| line.is_empty()).is_some() {}
+    lines
+}
+
+/// Whether the lines are those shown, in which `…` stands for any.
+fn agree(shown: &[&str], lines: &[String]) -> bool {
+    let Some(gap) = shown.iter().position(|line| *line == "…") else {
+        return shown == lines;
+    };
+    let (before, after) = (&shown[..gap], &shown[gap + 1..]);
+    lines.len() >= before.len() + after.len()
+        && before == &lines[..gap]
+        && after == &lines[lines.len() - after.len()..]
+}
+
+/// The lines as they would be shown: with the gap where it was, or a gap in what is long.
+fn cut(shown: &[&str], lines: &[String]) -> Vec<String> {
+    const LONG: usize = 30;
+    let errors = |line: &str| line.starts_with("! ");
+    let (stderr, stdout): (Vec<_>, Vec<_>) = lines.iter().cloned().partition(|line| errors(line));
+    let (before, after) = match shown.iter().position(|line| *line == "…") {
+        Some(gap) => (
+            gap,
+            shown[gap + 1..].iter().filter(|line| !errors(line)).count(),
+        ),
+        None if stdout.len() > LONG => (LONG / 2, 3),
+        None => (stdout.len(), 0),
+    };
+    if stdout.len() <= before + after {
+        return lines.to_vec();
+    }
+    let (first, last) = (&stdout[..before], &stdout[stdout.len() - after..]);
+    [first, &["…".to_owned()], last, &stderr].concat()
+}
+
+/// Every command of the file prints what is shown, and there are as many as that.
+fn holds(name: &str, commands: usize) {
+    let path = folder().join(name).with_extension("console");
+    let text = fs::read_to_string(&path).expect("commands");
+    let all = shown(&text);
+    let mut now = String::new();
+    let mut differences = String::new();
+    let mut folder = fresh();
+    for Shown { line, below } in &all {
+        let (mark, command) = line.split_at(2);
+        if mark == "$ " {
+            folder = fresh();
+        }
+        let lines = run(command, folder.path());
+        if !now.is_empty() && mark == "$ " {
+            now.push('\n');
+        }
+        if agree(below, &lines) {
+            now.extend(iter::once(line).chain(below).flat_map(|line| [line, "\n"]));
+        } else {
+            let (cut, lines) = (cut(below, &lines).join("\n"), lines.join("\n"));
+            now.extend([line, "\n", &cut, "\n"]);
+            differences.extend([
+                line,
+                "\n",
+                &lines,
+                "\nbut shown is\n",
+                &below.join("\n"),
+                "\n\n",
+            ]);
+        }
+    }
+    if env::var_os("OVERWRITE").is_some() {
+        fs::write(&path, now).expect("written again");
+    } else {
+        assert!(differences.is_empty(), "{}:\n{differences}", path.display());
+        assert_eq!(
+            all.len(),
+            commands,
+            "the number of commands stands in `console.rs`"
+        );
+    }
+}
+
+/// README in its blocks of one kind.
+fn blocks(kind: &str) -> impl Iterator<Item = &'static str> {
+    let blocks = include_str!("../../../../../README.md")
+        .split("\n```")
+        .skip(1)
+        .step_by(2);
+    blocks.filter_map(move |block| block.strip_prefix(kind)?.strip_prefix('\n'))
+}
+
+#[test]
+fn readme_shows_what_is_printed() {
+    let mut commands = 0;
+    for Shown { line, below } in blocks("console").flat_map(shown) {
+        let lines = run(&line[2..], fresh().path());
+        // What a reader sees in a terminal; where README goes on in words, the command is run alone.
+        let failed = lines.iter().any(|line| line.starts_with("? "));
+        let seen: Vec<String> = lines
+            .iter()
+            .filter(|line| !line.starts_with("? "))
+            .map(|line| line.strip_prefix("! ").unwrap_or(line).to_owned())
+            .collect();
+        let holds = if below.is_empty() {
+            !failed && !seen.is_empty()
+        } else {
+            agree(&below, &seen)
+        };
+        assert!(holds, "{line}\n{}", seen.join("\n"));
+        commands += 1;
+    }
+    assert!(commands >= 3, "{commands}");
+}
+
+/// Commands that README only lists are run from the files.
+#[test]
+fn readme_lists_no_command_that_is_not_run() {
+    // What is read was written by LAMMPS, YADE or Siconos; how long it took is printed.
+    let elsewhere = ["forces.dump", "forces.csv", "siconos.csv", "--layers 40"];
+    let mut run = String::new();
+    for file in fs::read_dir(folder())
+        .expect("commands")
+        .map(|file| file.expect("a file").path())
+    {
+        run += &fs::read_to_string(file).unwrap_or_default();
+    }
+    let mut listed = 0;
+    for line in blocks("sh")
+        .flat_map(str::lines)
+        .filter(|line| line.starts_with("cannonpile "))
+    {
+        let command = line.split(" #").next().unwrap_or(line).trim_end();
+        if elsewhere.iter().any(|part| command.contains(part)) {
+            continue;
+        }
+        let is_run = ["$", ">"]
+            .iter()
+            .any(|mark| run.lines().any(|line| line == format!("{mark} {command}")));
+        assert!(is_run, "not in commands/*.console: {command}");
+        listed += 1;
+    }
+    assert!(listed >= 10, "{listed}");
+}
+
+#[test]
+fn a_difference_is_seen() {
+    let lines = |text: &str| -> Vec<String> { text.split(' ').map(String::from).collect() };
+    for (shown, printed, holds) in [
+        ("a b", "a b", true),
+        ("a b", "a b c", false),
+        ("a b", "a", false),
+        ("a …", "a", true),
+        ("a … c", "a b b c", true),
+        ("a … c", "a c", true),
+        ("a b … b c", "a b c", false),
+        ("a … c", "a b", false),
+        ("… c", "b c", true),
+    ] {
+        let shown: Vec<_> = shown.split(' ').collect();
+        assert_eq!(agree(&shown, &lines(printed)), holds, "{shown:?} {printed}");
+    }
+    assert_eq!(words("a  '(2,1)' --b=\"c d\"''"), ["a", "(2,1)", "--b=c d"]);
+    let [first, second] = &shown("$ a\n? 2\n\n> b\nc\n\nd\n")[..] else {
+        panic!("two commands");
+    };
+    assert_eq!((first.line, &first.below[..]), ("$ a", &["? 2"][..]));
+    assert_eq!(
+        (second.line, &second.below[..]),
+        ("> b", &["c", "", "d"][..])
+    );
+    let wrong = run("cannonpile base --layers 0", fresh().path());
+    assert_eq!((wrong[0].as_str(), wrong.len()), ("? 2", 2), "{wrong:?}");
+    assert!(wrong[1].starts_with("! error: "), "{wrong:?}");
+}

@@ -1,0 +1,238 @@
+//! `plot`: figures on stdout and in files, and what is refused.
+
+use super::{cannonpile, refusal, stdout};
+use cannonpile_dem::table::FileFormat;
+use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+use std::fs;
+
+const KINDS: [&str; 7] = [
+    "pile", "indexing", "sphere", "shear", "base", "network", "response",
+];
+
+#[test]
+fn every_kind_is_a_figure_on_stdout() {
+    for kind in KINDS {
+        for scene in [
+            "",
+            "--layers 1",
+            "--dimension 2 --layers 3",
+            "--top hexagon:2 --layers 3",
+        ] {
+            let svg = stdout(&format!("plot {kind} {scene}"));
+            assert!(
+                svg.starts_with("<svg ") && svg.ends_with("</svg>\n"),
+                "{kind} {scene}"
+            );
+            assert!(roxmltree::Document::parse(&svg).is_ok(), "{kind} {scene}");
+        }
+    }
+}
+
+#[test]
+fn the_papers_figures_are_the_defaults() {
+    let pile = stdout("plot pile");
+    assert!(pile.contains("4 layers, FCC, a/R = 6/5"));
+    assert_eq!(pile.matches("class=\"sphere\"").count(), 20);
+    assert_eq!(pile, stdout("plot pile --layers 4 --spacing 1.2"));
+    assert!(stdout("plot indexing").contains("layer k = 3"));
+    assert!(stdout("plot sphere").contains("k = 5, i = 2, j = 2"));
+    let shear = stdout("plot shear");
+    assert!(shear.contains("10 layers") && shear.contains("mg·tanθ"));
+    assert!(stdout("plot shear --units si --gravity 9.81").contains(" N"));
+    // A stacking that is spelled out, or a base, says itself how many layers there are.
+    assert!(stdout("plot pile --stacking ++-+-").contains("6 layers"));
+    assert!(stdout("plot pile --base triangle:6").contains("6 layers"));
+}
+
+#[test]
+fn a_file_is_the_same_as_stdout_and_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("shear.svg");
+    let printed = stdout(&format!("plot shear --output {}", path.display()));
+    assert_eq!(printed, "");
+    assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
+    // What is refused leaves it as it was.
+    let refused = refusal(&format!(
+        "plot shear --layers 9999 --output {}",
+        path.display()
+    ));
+    assert!(refused.contains("--layers"));
+    assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
+    let nowhere = folder.path().join("missing/shear.svg");
+    assert!(refusal(&format!("plot shear --output {}", nowhere.display())).contains("--output"));
+}
+
+#[test]
+fn what_nobody_could_read_is_refused() {
+    let huge = "1000000000000000000000000000000";
+    for kind in ["pile", "shear", "base", "network", "response"] {
+        let line = refusal(&format!("plot {kind} --layers {huge}"));
+        assert!(
+            line.starts_with("error: --layer") && line.contains("too many for a figure"),
+            "{line}"
+        );
+    }
+    // A layer or a sphere of it can be drawn.
+    stdout(&format!("plot indexing --layers {huge}"));
+    stdout(&format!("plot network --layers {huge} --layer 4"));
+    stdout(&format!(
+        "plot sphere --layers {huge} --at 100000000000000000000,7,5"
+    ));
+}
+
+#[test]
+fn refusals_name_the_option() {
+    for (arguments, option) in [
+        ("pile --spacing 1/2", "--spacing"),
+        ("pile --mass 0", "--mass"),
+        ("indexing --layer 10", "--layer"),
+        ("indexing --layers 40 --layer 30", "--layer"),
+        ("network --layer 9", "--layer"),
+        ("network --layer -1", "--layer"),
+        ("response --layer 10", "--layer"),
+        ("sphere --at 1,2,3", "--at"),
+        ("sphere --at x", "--at"),
+        ("base --load 0,0,0=-1", "--load"),
+        ("base --load 0,0,0=1e400", "--load"),
+        ("base --units si --radius 1e400", "--radius"),
+        ("base --units si --mass 1e400", "--mass"),
+        ("shear --output shear.png", "shear.svg"),
+        ("network --layer 9", "--layer"),
+        ("indexing --layer 1000 --layers 1001", "--layer"),
+        ("shear --width 0", "--width"),
+        ("work-precision", "work-precision"),
+        ("shear --format csv", "--format"),
+        ("cake", "cake"),
+    ] {
+        let line = refusal(&format!("plot {arguments}"));
+        assert!(line.contains(option), "{arguments}: {line}");
+    }
+}
+
+#[test]
+fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
+    for kind in ["shear", "base", "network"] {
+        let output = cannonpile(&format!("plot {kind} --stacking hcp"));
+        assert_eq!(output.status.code(), Some(0));
+        let note = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            note.starts_with("note: ") && note.lines().count() == 1,
+            "{note}"
+        );
+    }
+    // A response is of weightless spheres: nothing is said of standing.
+    assert!(stdout("plot response --stacking hcp").contains("spheres without weight"));
+}
+
+#[test]
+fn the_page_can_be_wide_and_without_a_title() {
+    let whole = stdout("plot shear");
+    assert_eq!(whole, stdout("plot shear --width 800"));
+    assert!(whole.contains("width=\"800\"") && whole.contains("font-weight=\"bold\""));
+    let bare = stdout("plot shear --width 1200 --no-title");
+    assert!(bare.contains("width=\"1200\"") && !bare.contains("font-weight=\"bold\""));
+}
+
+#[test]
+fn the_figures_of_readme_are_those_of_the_commands() {
+    for (command, figure) in [
+        (
+            "plot pile",
+            include_str!("../../../../../examples/figures/pile.svg"),
+        ),
+        (
+            "plot shear",
+            include_str!("../../../../../examples/figures/shear.svg"),
+        ),
+        (
+            "plot response --stacking hcp --top hexagon:5 --layers 6",
+            include_str!("../../../../../examples/figures/response.svg"),
+        ),
+        (
+            "plot bounds --layers 7",
+            include_str!("../../../../../examples/figures/bounds.svg"),
+        ),
+        (
+            "plot response --fault-probability 0,1/4,1/2,1 --layers 13",
+            include_str!("../../../../../examples/figures/mean.svg"),
+        ),
+    ] {
+        assert!(stdout(command) == figure, "draw it again: {command}");
+        assert!(
+            include_str!("../../../../../README.md").contains(command),
+            "{command}"
+        );
+    }
+}
+
+#[test]
+fn responses_of_random_stackings_are_maps_and_curves() {
+    let maps = stdout("plot response --fault-probability 0,1/4,0.5,1 --layers 5");
+    assert!(maps.contains("q = 1/4") && maps.contains("q = 1/2"));
+    assert_eq!(maps.matches("class=\"front\"").count(), 4);
+    let curves = stdout("plot response --fault-probability 1/4,1/2 --layers 9 --profile");
+    assert_eq!(curves.matches("class=\"curve\"").count(), 2);
+    // Two steps, a fault, three steps: the six loads and the three.
+    let spots = stdout("plot response --faults 2,3");
+    assert_eq!(spots, stdout("plot response --stacking ++---"));
+    assert_eq!(spots.matches("data-exact=\"2/9\"").count(), 6);
+    assert_eq!(spots.matches("data-exact=\"-1/9\"").count(), 3);
+    for (what, option) in [
+        ("--fault-probability 3/2", "--fault-probability"),
+        ("--fault-probability 1/2 --stacking hcp", "--stacking"),
+        ("--fault-probability 1/2 --top hexagon:2", "--top"),
+        ("--fault-probability 1/2 --load 0,0,0=2", "--load"),
+        ("--fault-probability 1/2 --layers 500", "--layers"),
+        ("--faults 2,0", "--faults"),
+        ("--faults 2,3 --stacking hcp", "--stacking"),
+        ("--faults 2,3 --layers 7", "--layers"),
+        ("--profile", "--fault-probability"),
+    ] {
+        let refused = refusal(&format!("plot response {what}"));
+        assert!(refused.contains(option), "{what}: {refused}");
+    }
+}
+
+#[test]
+fn a_distribution_is_drawn_of_a_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (whole, part) = (path("whole.json"), path("part.json"));
+    stdout(&format!("ensemble --layers 5 --all --output {whole}"));
+    stdout(&format!(
+        "ensemble --layers 5 --all --shard 1/2 --output {part}"
+    ));
+    let svg = stdout(&format!("plot distribution {whole}"));
+    assert!(svg.contains("those that stand") && svg.contains("q = 1/2"));
+    let normals = stdout(&format!(
+        "plot distribution {whole} --histogram normals --fault-probability 1/4"
+    ));
+    assert!(normals.contains("q = 1/4") && normals.contains("on the floor"));
+    assert!(refusal(&format!("plot distribution {part}")).contains("merge"));
+    assert!(refusal("plot distribution nowhere.json").contains("nowhere.json"));
+}
+
+#[test]
+fn a_ladder_is_drawn_of_a_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.0 / k, 1.0 / k));
+    let ladder = Ladder::new(Refinement::Stiffness, rungs).unwrap();
+    let mut json = Vec::new();
+    LadderReport::new(&ladder)
+        .write(FileFormat::Json, &mut json)
+        .unwrap();
+    let (whole, cut) = (path("whole.json"), path("cut.json"));
+    fs::write(&whole, &json).unwrap();
+    fs::write(&cut, &json[..json.len() / 2]).unwrap();
+    let svg = stdout(&format!("plot ladder {whole}"));
+    assert_eq!(svg, cannonpile_figure::ladder(&ladder).to_string() + "\n");
+    for wrong in [&cut, "Cargo.toml"] {
+        let refused = refusal(&format!("plot ladder {wrong}"));
+        assert!(
+            refused.contains("is no ladder") && refused.contains("verify --ladder"),
+            "{refused}"
+        );
+    }
+    assert!(refusal("plot ladder nowhere.json").contains("nowhere.json cannot be read"));
+}

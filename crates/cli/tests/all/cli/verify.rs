@@ -1,0 +1,275 @@
+//! `verify` on the command line: what it accepts, what it does not, and what it refuses.
+
+use std::fs;
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+use super::{Temporary, cannonpile, refusal, stdout};
+
+const LAMMPS: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../dem/tests/all/verify/lammps.dump"
+);
+
+/// The contacts of three layers as a simulation would number them, by the tables of this program itself.
+fn exact(scene: &str) -> String {
+    let rows = |arguments: String| -> Vec<Vec<String>> {
+        let csv = stdout(&format!("{arguments} {scene} --number f64 --format csv"));
+        let fields = |line: &str| line.split(',').map(str::to_owned).collect();
+        csv.lines().skip(1).map(fields).collect()
+    };
+    let spheres = rows("spheres".into());
+    let id = |site: [&str; 3]| {
+        let row = spheres.iter().find(|row| row[1..4] == site);
+        &row.expect("a sphere")[0]
+    };
+    let mut csv = "id1,id2,force,fx,fy,fz\n".to_owned();
+    for row in rows("contacts --units si".into()) {
+        let [k, i, j]: [i32; 3] = [0, 1, 2].map(|n| row[n].parse().expect("an integer"));
+        let below = match &*row[3] {
+            "alpha" => [k + 1, i, j],
+            "beta" => [k + 1, i + 1, j],
+            _ => [k + 1, i, j + 1],
+        };
+        let below = below.map(|n| n.to_string());
+        let below = id(below.each_ref().map(|n| &**n));
+        let upper = id([&*row[0], &*row[1], &*row[2]]);
+        let force = row[4..8].join(",");
+        csv += &[&**upper, below, &force].join(",");
+        csv.push('\n');
+    }
+    csv
+}
+
+fn no(arguments: &str) -> String {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = cannonpile(arguments);
+    assert_eq!(status.code(), Some(1), "{arguments}");
+    assert!(stderr.is_empty(), "{arguments}");
+    String::from_utf8(stdout).expect("text")
+}
+
+/// The value on a line, without what it means.
+fn value<'t>(table: &'t str, name: &str) -> &'t str {
+    let line = table.lines().find(|line| line.starts_with(name));
+    let value = line.map(|line| line[name.len()..].trim()).expect("a line");
+    match name {
+        "worst" => value,
+        _ => value.split(' ').next().expect("a word"),
+    }
+}
+
+#[test]
+fn what_the_tables_say_is_accepted_to_the_last_bit() {
+    for scene in [
+        "--layers 3",
+        "--layers 4 --mass 0.3 --gravity 9.81 --radius 0.01 --spacing 5/4",
+    ] {
+        let file = Temporary::new("exact.csv", &exact(scene));
+        let table = stdout(&format!("verify {} {scene} --accept 0", file.path()));
+        for (name, want) in [
+            ("accepted", "yes"),
+            ("missing", "0"),
+            ("extra", "0"),
+            ("largest_error", "0.0"),
+        ] {
+            assert_eq!(value(&table, name), want);
+        }
+        assert_eq!(value(&table, "matched"), value(&table, "contacts"));
+    }
+}
+
+#[test]
+fn a_simulation_is_accepted_as_far_as_its_springs_are_stiff() {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = cannonpile(&format!("verify {LAMMPS} --layers 4 --format csv"));
+    assert_eq!(status.code(), Some(0));
+    let csv = String::from_utf8(stdout).expect("text");
+    let header = "accepted,accept,contacts,matched,missing,extra,noise,fixed,largest_error,rms_error,worst,beyond,factor,walls,frame,\
+                  unbalanced,findings";
+    assert_eq!(csv.lines().next(), Some(header));
+    assert!(
+        csv.lines()
+            .nth(1)
+            .unwrap()
+            .starts_with("yes,1e-6,30,30,0,0,0,0,1.1978"),
+        "{csv}"
+    );
+    let note = String::from_utf8(stderr).expect("text");
+    let want = format!("note: {LAMMPS} has 2 snapshots; the last, of time step 40000, is judged\n");
+    assert_eq!(note, want);
+    let strict = cannonpile(&format!("verify {LAMMPS} --layers 4 --accept 1e-7"));
+    assert_eq!(strict.status.code(), Some(1));
+    let other = cannonpile(&format!("verify {LAMMPS} --layers 4 --spacing 1.21"));
+    assert_eq!(other.status.code(), Some(1));
+}
+
+#[test]
+fn a_wrong_a_missing_and_an_extra_contact_are_named() {
+    let csv = exact("--layers 3").replace("\n1,4,0.46225016352102427,", "\n1,4,0.5,");
+    let file = Temporary::new("wrong.csv", &csv);
+    let table = no(&format!("verify {} --layers 3", file.path()));
+    assert_eq!(value(&table, "accepted"), "no");
+    let worst = "contact of sphere 1 (k=0, i=0, j=0) with sphere 4 along gamma: measured 0.5 N, exact 0.46225016352102427 N";
+    assert_eq!(value(&table, "worst"), worst);
+
+    let gone = exact("--layers 3")
+        .lines()
+        .filter(|line| !line.starts_with("3,"))
+        .fold(String::new(), |text, line| text + line + "\n");
+    let file = Temporary::new("gone.csv", &(gone + "2,3,0.25,0,0,0\n"));
+    let table = no(&format!("verify {} --layers 3", file.path()));
+    assert_eq!(
+        (value(&table, "missing "), value(&table, "extra ")),
+        ("3", "1")
+    );
+    let missing = "missing: contact of sphere 3 (k=1, i=1, j=0) with sphere 6 along alpha: not measured, exact 0.46225016352102427 N";
+    assert!(table.contains(missing), "{table}");
+    let extra =
+        "extra: spheres 2 (k=1, i=0, j=0) and 3 (k=1, i=1, j=0) have no contact: measured 0.25 N";
+    assert!(table.ends_with(&format!("{extra}\n")), "{table}");
+
+    let json = no(&format!("verify {} --layers 3 --format json", file.path()));
+    let rows: serde_json::Value = serde_json::from_str(&json).expect("json");
+    let row = &rows[0];
+    assert_eq!(row["accepted"], false);
+    assert_eq!(
+        (&row["matched"], &row["missing"], &row["extra"]),
+        (&9.into(), &3.into(), &1.into())
+    );
+    assert_eq!(row["missing_contacts"].as_array().map(Vec::len), Some(3));
+    assert_eq!(row["missing_contacts"][0]["direction"], "alpha");
+    assert_eq!(row["extra_pairs"][0]["sites"][1]["i"], 1);
+    assert_eq!(row["worst"]["error"], 0.0);
+}
+
+#[test]
+fn another_gravity_is_named_as_a_factor() {
+    let file = Temporary::new("g.csv", &exact("--layers 3 --gravity 9.81"));
+    let table = no(&format!("verify {} --layers 3", file.path()));
+    assert_eq!(value(&table, "beyond"), value(&table, "contacts"));
+    let factor: f64 = value(&table, "factor").parse().expect("a number");
+    assert!((factor - 9.81).abs() < 1e-12);
+    let right = stdout(&format!("verify {} --layers 3 --gravity 9.81", file.path()));
+    assert_eq!(
+        (value(&right, "beyond"), value(&right, "factor")),
+        ("0", "-")
+    );
+}
+
+#[test]
+fn an_endless_list_is_refused_where_it_repeats_itself() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(["verify", "-"])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let mut stdin = child.stdin.take().expect("piped");
+    stdin.write_all(b"id1,id2,force\n").expect("read");
+    // Until it is read no more.
+    while stdin.write_all(b"1,2,0.5\n").is_ok() {}
+    let output = child.wait_with_output().expect("ends");
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(
+        String::from_utf8(output.stderr).expect("text"),
+        "error: FILE: stdin, line 3: spheres 1 and 2 again, after line 2: list each pair once\n"
+    );
+}
+
+#[test]
+fn an_empty_table_misses_everything() {
+    let file = Temporary::new("none.csv", "id1,id2,force\n");
+    let table = no(&format!("verify {} --layers 5", file.path()));
+    assert_eq!(value(&table, "missing "), "60");
+    assert!(table.ends_with("missing: 55 more\n"));
+}
+
+#[test]
+fn stdin_is_read_for_a_dash() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
+        .args(["verify", "-", "--layers", "3", "--accept", "0"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the binary runs");
+    let mut stdin = child.stdin.take().expect("piped");
+    stdin
+        .write_all(exact("--layers 3").as_bytes())
+        .expect("read");
+    drop(stdin);
+    assert_eq!(child.wait().expect("ends").code(), Some(0));
+}
+
+#[test]
+fn bad_use_is_refused_in_one_line() {
+    let good = Temporary::new("good.csv", &exact("--layers 3"));
+    let good = good.path();
+    let bad = Temporary::new("bad.csv", "id1,id2,force\n1,2,one\n");
+    let beyond = Temporary::new("beyond.csv", "id1,id2,force\n1,99,1\n");
+    for (arguments, want) in [
+        (format!("verify {}", bad.path()), format!("error: FILE: {}, line 2: force 'one' is not a number such as 0.46 or 1e-3\n", bad.path())),
+        (
+            format!("verify {} --layers 3", beyond.path()),
+            format!("error: FILE: {}, line 2: no sphere 99: the spheres of this scene are numbered 1 to 10, from the top\n", beyond.path()),
+        ),
+        (
+            "verify no/such.csv".into(),
+            "error: FILE: no/such.csv cannot be read: no such file or folder; name a file that is there, or - for stdin\n".into(),
+        ),
+        (
+            format!("verify {good} --layers 3 --mass 1e-350"),
+            "error: --mass: a contact force of this scene does not fit in f64: measure mass or gravity in another unit\n".into(),
+        ),
+        (
+            format!("verify {good} --layers 1000"),
+            "error: --layers: a comparison of all contacts would take 499999500 numbers, more than 100000000: use fewer layers, or \
+             a smaller top or base\n".into(),
+        ),
+    ] {
+        assert_eq!(refusal(&arguments), want);
+    }
+    for accept in ["-1e-6", "nan", "inf", "1e999", "x", "-0"] {
+        let line = refusal(&format!("verify {good} --accept {accept}"));
+        assert!(
+            line.contains("--accept <E>")
+                && line.contains("not a relative error such as 1e-6, or 0"),
+            "{line}"
+        );
+    }
+    assert!(refusal("verify").contains("<FILE>"));
+    assert!(refusal(&format!("verify {good} --spacing 0.9")).starts_with("error: --spacing"));
+}
+
+#[test]
+fn a_pile_that_falls_is_compared_all_the_same() {
+    let file = Temporary::new("falls.csv", "id1,id2,force\n");
+    let scene = "--stacking hcp --layers 12";
+    let Output { status, stderr, .. } = cannonpile(&format!("verify {} {scene}", file.path()));
+    assert_eq!(status.code(), Some(1));
+    let note = String::from_utf8(stderr).expect("text");
+    assert!(note.starts_with("note: this pile does not stand"), "{note}");
+}
+
+#[test]
+fn the_report_goes_to_a_file() {
+    let file = Temporary::new("exact-too.csv", &exact("--layers 3"));
+    let report = Temporary::new("report.json", "");
+    let said = stdout(&format!(
+        "verify {} --layers 3 --format json --output {}",
+        file.path(),
+        report.path()
+    ));
+    assert_eq!(said, "");
+    assert!(
+        fs::read_to_string(&report.path)
+            .expect("written")
+            .starts_with("[\n")
+    );
+}

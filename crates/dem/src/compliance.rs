@@ -1,0 +1,353 @@
+//! How far the forces between spheres on springs are from the exact ones.
+//!
+//! # The springs
+//! The bottom spheres are fixed. Each contact is a linear spring of stiffness κ, F = κδ, where δ is how deep two spheres
+//! sink into each other; nothing turns, nothing rubs, and weights stay vertical. For κ → ∞ the forces are
+//!
+//! F(κ) = F₀ + F₁/κ + O(1/κ²)
+//!
+//! with the exact forces F₀ of the rigid pile, and F₁ is found in two sweeps. Let ê be the unit vector of a contact from the
+//! lower sphere to the upper one.
+//!
+//! * *Upwards, displacements.* Overlaps F₀/κ move the centres by u/κ: ê·(u_upper − u_lower) = −F₀ for each contact, u = 0 on
+//!   the floor. A sphere has as many contacts below it as there are dimensions, so these equations give its u from those of
+//!   the spheres below.
+//! * *Downwards, forces.* Contacts turn by τ/κ, where 2Rτ = w − ê(ê·w) with w = u_upper − u_lower. The force on the upper
+//!   sphere is F₀ê + (F₁ê + F₀τ)/κ + …, and balance in first order says that the sums of F₁ê + F₀τ below and above a sphere
+//!   are equal. Without τ of its own a contact line would hand on F₁ as it hands on F₀ without a weight.
+//!
+//! So the relative error of a contact is F₁/(F₀κ), and |F₁ê + F₀τ|/(F₀κ) of its vector.
+//!
+//! # Straight piles under one sphere
+//! There all of it is a polynomial. Of a contact in layer k that has n spheres above it on its line, and carries
+//! (n + 1) f₀, the relative error is ε·f₀/(κR), with q = (a/R)² and
+//!
+//! * spheres: ε = [(4 − q)(5 − q) n − 2(5 − q) k + q(2L + q − 4)] / (2q(3 − q)), f₀ = mg/(3cosθ),
+//! * discs: ε = [(4 − q)(6 − q) n − 4(4 − q) k + q(2L + q − 4)] / (2q(4 − q)), f₀ = mg/(2cosθ).
+//!
+//! It is linear in n and k, so the largest is at a corner of 0 ≤ n ≤ k ≤ L − 2. For 6/5 that is the lowest contact of an
+//! edge, n = k = L − 2, with (0.5014 L − 0.7895) mg/(κR): 0.42 L mg/(κR) for 10 layers, 0.48 L for 40. From q = 2 on it is
+//! the apex, n = k = 0.
+//!
+//! # What is not covered
+//! Where neighbours touch besides the contacts they bear something too; and a spring cannot pull, so a contact without a
+//! force opens or closes by a rule of its own.
+
+mod sweeps;
+
+use core::fmt;
+
+use super::numbered::nearest;
+use super::weights::checked;
+use crate::Error;
+use cannonpile::Packing;
+use cannonpile::lattice::{Direction, Site};
+use sweeps::Sweeps;
+
+/// The errors that linear springs bring into the forces of a pile, to leading order in 1/κ: how large they are at a
+/// stiffness κ.
+///
+/// A *coefficient* c stands for the error c·mg/(κR).
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::Compliance;
+/// use cannonpile::{Packing, Pile};
+///
+/// let pile = Pile::triangular(10)?;
+/// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+/// let compliance = Compliance::new(&packing)?;
+/// // With k = 10⁷ mg/R; here R = m = g = 1.
+/// assert!((compliance.largest_error(1e7) - 4.2248e-7).abs() < 1e-11);
+/// # Ok::<(), cannonpile_dem::NoCompliance>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    forces: Extremes,
+    vectors: Extremes,
+    contacts: f64,
+    /// mg/R.
+    unit: f64,
+}
+
+/// Coefficients of many contacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Extremes {
+    largest: f64,
+    sum_of_squares: f64,
+}
+
+/// What the springs do to one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SoftContact {
+    /// The numbers of the upper and of the lower sphere.
+    pub ids: [u64; 2],
+    /// The upper sphere.
+    pub site: Site,
+    /// Where the lower one lies.
+    pub direction: Direction,
+    /// The coefficient of the relative error of its force, with its sign.
+    pub coefficient: f64,
+    /// The coefficient of the relative error of its force as a vector, which turns too.
+    pub vector_coefficient: f64,
+}
+
+impl Compliance {
+    /// The compliance of a packing.
+    ///
+    /// # Errors
+    /// [`NoCompliance::Touching`] where neighbours touch besides the contacts, [`NoCompliance::Slack`] for a contact that
+    /// has no force or pulls; [`NoCompliance::Scene`] for more spheres than fit in memory, and for forces beyond the
+    /// floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::{Compliance, NoCompliance};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// // Neighbours of a layer touch.
+    /// let packing = Packing::new(&pile, &"1".parse()?)?;
+    /// assert!(matches!(Compliance::new(&packing), Err(NoCompliance::Touching)));
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn new(packing: &Packing<'_>) -> Result<Self, NoCompliance> {
+        Self::inspected(packing, |_| {})
+    }
+
+    /// The compliance of a packing, whose contacts are shown to `look` one by one, from the top.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let mut coefficients = Vec::new();
+    /// Compliance::inspected(&packing, |contact| coefficients.push(contact.coefficient))?;
+    /// assert_eq!(coefficients.len(), 30);
+    /// // The pile sinks: the contacts of the apex become flatter, and press more.
+    /// assert!((coefficients[0] - 0.806).abs() < 1e-3);
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    pub fn inspected(
+        packing: &Packing<'_>,
+        mut look: impl FnMut(&SoftContact),
+    ) -> Result<Self, NoCompliance> {
+        if packing.pile().horizontal_forces().len() > 0 || !packing.touching().is_empty() {
+            return Err(NoCompliance::Touching);
+        }
+        let weight = packing.mass() * packing.gravity();
+        let unit_force = packing.unit_force().scaled(&weight.recip());
+        let unit_force = nearest(&unit_force, "f₀ in mg")?;
+        let unit = (weight / packing.radius()).into();
+        let mut compliance = Self {
+            forces: Extremes::default(),
+            vectors: Extremes::default(),
+            contacts: 0.0,
+            unit: checked(nearest(&unit, UNIT)?, UNIT)?,
+        };
+        Sweeps::new(packing)?.down(&mut |mut contact| {
+            // From f₀ to mg.
+            contact.coefficient *= unit_force;
+            contact.vector_coefficient *= unit_force;
+            compliance.contacts += 1.0;
+            compliance.forces.add(contact.coefficient);
+            compliance.vectors.add(contact.vector_coefficient);
+            look(&contact);
+        })?;
+        let sums = [compliance.forces, compliance.vectors].map(|of| of.sum_of_squares);
+        if sums.iter().all(|sum| sum.is_finite()) {
+            Ok(compliance)
+        } else {
+            let (quantity, scalar) = ("an error of springs", "f64");
+            Err(NoCompliance::Scene(Error::overflow(quantity, scalar)))
+        }
+    }
+
+    /// The largest coefficient of forces, c: a contact has the relative error c·mg/(κR), and none has a larger one.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(10)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// assert!((Compliance::new(&packing)?.coefficient() - 4.8155).abs() < 1e-4);
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    #[must_use]
+    pub const fn coefficient(&self) -> f64 {
+        self.forces.largest
+    }
+
+    /// The largest coefficient of forces as vectors.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?;
+    /// let compliance = Compliance::new(&packing)?;
+    /// assert!((compliance.vector_coefficient() - 4.2507).abs() < 1e-4);
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    #[must_use]
+    pub const fn vector_coefficient(&self) -> f64 {
+        self.vectors.largest
+    }
+
+    /// The largest relative error of a force at the stiffness κ, in the unit of mg/R: N/m in SI.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &"6/5".parse()?)?.with_mass(BigRational::from_integer(3.into()))?;
+    /// let compliance = Compliance::new(&packing)?;
+    /// // c·mg/(κR) with mg/R = 3.
+    /// assert_eq!(compliance.largest_error(1e7), compliance.coefficient() * (3.0 / 1e7));
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    #[must_use]
+    pub fn largest_error(&self, stiffness: f64) -> f64 {
+        self.forces.largest * (self.unit / stiffness)
+    }
+
+    /// The largest relative error of a force as a vector at the stiffness κ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let compliance = Compliance::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
+    /// assert!(compliance.largest_vector_error(1e7) > compliance.largest_error(1e7));
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    #[must_use]
+    pub fn largest_vector_error(&self, stiffness: f64) -> f64 {
+        self.vectors.largest * (self.unit / stiffness)
+    }
+
+    /// The root of the mean square of the relative errors of all forces at the stiffness κ; 0 without contacts.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let compliance = Compliance::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
+    /// assert!((compliance.rms_error(1e7) - 1.8581e-7).abs() < 1e-11);
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    #[must_use]
+    pub fn rms_error(&self, stiffness: f64) -> f64 {
+        self.forces.rms(self.contacts) * (self.unit / stiffness)
+    }
+
+    /// The root of the mean square of the relative errors of all forces as vectors at the stiffness κ; 0 without contacts.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Compliance;
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let compliance = Compliance::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
+    /// assert!((compliance.rms_vector_error(1e7) - 2.4162e-7).abs() < 1e-11);
+    /// # Ok::<(), cannonpile_dem::NoCompliance>(())
+    /// ```
+    #[must_use]
+    pub fn rms_vector_error(&self, stiffness: f64) -> f64 {
+        self.vectors.rms(self.contacts) * (self.unit / stiffness)
+    }
+}
+
+const UNIT: &str = "mg/R";
+
+impl Extremes {
+    fn add(&mut self, coefficient: f64) {
+        self.largest = self.largest.max(coefficient.abs());
+        self.sum_of_squares += coefficient * coefficient;
+    }
+
+    fn rms(self, contacts: f64) -> f64 {
+        if contacts > 0.0 {
+            (self.sum_of_squares / contacts).sqrt()
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Why the errors of springs are not known for a packing: one line.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoCompliance {
+    /// Neighbours touch besides the contacts.
+    Touching,
+    /// A contact has no force, or pulls.
+    Slack {
+        /// Its upper sphere.
+        site: Site,
+        /// Where the lower one lies.
+        direction: Direction,
+    },
+    /// The forces are not known either.
+    Scene(Error),
+}
+
+impl fmt::Display for NoCompliance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Touching => f.write_str(
+                "neighbours touch besides the contacts, and springs press them: choose a spacing at which they do not",
+            ),
+            Self::Slack {
+                site: Site { i, j, k },
+                direction,
+            } => write!(
+                f,
+                "the contact of sphere (k={k}, i={i}, j={j}) along {} has no force, or pulls, which no spring does",
+                direction.name()
+            ),
+            Self::Scene(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for NoCompliance {
+    /// Returns the cause of the inner error, whose own text is this message.
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Scene(error) => error.source(),
+            Self::Touching | Self::Slack { .. } => None,
+        }
+    }
+}
+
+impl From<cannonpile::Error> for NoCompliance {
+    fn from(error: cannonpile::Error) -> Self {
+        Self::Scene(error.into())
+    }
+}
+
+impl From<Error> for NoCompliance {
+    fn from(error: Error) -> Self {
+        Self::Scene(error)
+    }
+}

@@ -1,0 +1,242 @@
+//! The errors of this crate.
+
+use core::error::Error as Cause;
+use core::fmt;
+
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+
+use cannonpile::Quantity;
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::Site;
+
+use crate::Key;
+
+/// Why a scene, a file or a table was refused.
+///
+/// The message is one line. It names the value and says what would be accepted.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::Scene;
+///
+/// let error = Scene::from_toml("layers = 0").unwrap_err();
+/// assert_eq!(error.to_string(), "line 1, layers: layers must be at least 1 and at most 10^36, not 0");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The core refused a pile, a site, a geometry or a number.
+    Core(cannonpile::Error),
+    /// The forces of horizontal contacts were not found.
+    ///
+    /// An error of the core that passed through that crate is [`Core`](Self::Core).
+    Horizontal(cannonpile_horizontal::Error),
+    /// sin φ was given for a pile of discs, which has none.
+    SinPhiOfDiscs,
+    /// Two options of a scene exclude each other.
+    #[non_exhaustive]
+    Excluded {
+        /// The option to change.
+        given: Key,
+        /// The other option.
+        beside: Key,
+    },
+    /// A scene file is not TOML.
+    #[non_exhaustive]
+    NotToml {
+        /// The line, counted from 1.
+        line: usize,
+        /// The message of the TOML parser.
+        reason: String,
+    },
+    /// A scene file has a key that is no option of a scene.
+    #[non_exhaustive]
+    UnknownKey {
+        /// The line of the key, counted from 1.
+        line: usize,
+        /// The key, shortened if it is long.
+        key: String,
+        /// The most similar known key, if one is similar.
+        nearest: Option<&'static str>,
+        /// All known keys.
+        known: &'static [&'static str],
+    },
+    /// No benchmark case has this name.
+    #[non_exhaustive]
+    UnknownCase {
+        /// The name, shortened if it is long.
+        name: String,
+        /// The most similar name of a case, if one is similar.
+        nearest: Option<&'static str>,
+    },
+    /// A value in a scene file was refused.
+    #[non_exhaustive]
+    InFile {
+        /// The line of the key, counted from 1.
+        line: usize,
+        /// The key.
+        key: &'static str,
+        /// Why the value was refused.
+        error: Box<Self>,
+    },
+    /// A quantity in SI units was requested for a pile without sizes and weights.
+    #[non_exhaustive]
+    NeedsUnits {
+        /// The quantity.
+        quantity: Quantity,
+    },
+    /// A test of a state at rest was requested for a pile with a contact that would have to pull.
+    #[non_exhaustive]
+    MustPull {
+        /// What is available instead.
+        remedy: &'static str,
+    },
+}
+
+/// An error with its numbers at full length.
+struct Whole<'a>(&'a Error);
+
+impl fmt::Display for Whole<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Error::Core(error) => error.fmt(f),
+            Error::Horizontal(error) => error.fmt(f),
+            Error::SinPhiOfDiscs => {
+                f.write_str("a pile of discs has no sin phi: leave it out, or use dimension 3")
+            }
+            Error::Excluded { given, beside } => {
+                // Of dimensions only this one excludes anything.
+                let two = if *beside == Key::Dimension { " 2" } else { "" };
+                write!(
+                    f,
+                    "{given} has no meaning with {beside}{two}: leave one of the two out"
+                )
+            }
+            Error::NotToml { line, reason } => write!(f, "line {line} is not TOML: {reason}"),
+            Error::UnknownKey {
+                line,
+                key,
+                nearest,
+                known,
+            } => {
+                write!(f, "line {line}: there is no key '{key}'")?;
+                match nearest {
+                    Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
+                    None => write!(f, ": the keys are {}", known.join(", ")),
+                }
+            }
+            Error::UnknownCase { name, nearest } => {
+                write!(f, "there is no case '{name}'")?;
+                match nearest {
+                    Some(nearest) => write!(f, "; did you mean '{nearest}'?"),
+                    None => f.write_str("; 'cannonpile cases' lists those there are"),
+                }
+            }
+            Error::InFile { line, key, error } => write!(f, "line {line}, {key}: {error}"),
+            Error::NeedsUnits { quantity } => write!(
+                f,
+                "{quantity} are in newtons and metres: ask a packing, with a radius, a mass and a spacing"
+            ),
+            Error::MustPull { remedy } => write!(
+                f,
+                "a test is of a state at rest, and some contacts of this pile would have to pull: {remedy}"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&cannonpile::engine::shortened(&Whole(self).to_string()))
+    }
+}
+
+impl Cause for Error {
+    /// Returns the cause of a wrapped error, whose own text is part of this message.
+    fn source(&self) -> Option<&(dyn Cause + 'static)> {
+        match self {
+            Self::Core(error) => error.source(),
+            Self::Horizontal(error) => error.source(),
+            Self::InFile { error, .. } => error.source(),
+            _ => None,
+        }
+    }
+}
+
+impl From<cannonpile::Error> for Error {
+    fn from(error: cannonpile::Error) -> Self {
+        Self::Core(error)
+    }
+}
+
+impl From<cannonpile_horizontal::Error> for Error {
+    fn from(error: cannonpile_horizontal::Error) -> Self {
+        match error {
+            cannonpile_horizontal::Error::Core(error) => Self::Core(error),
+            error => Self::Horizontal(error),
+        }
+    }
+}
+
+/// The error for a case that an invariant rules out.
+#[cold]
+#[track_caller]
+pub(crate) fn bug(invariant: &'static str) -> Error {
+    cannonpile::engine::bug(invariant).into()
+}
+
+/// Returns the text on one line, with its length in place of its middle if it is long.
+pub(crate) fn quoted(text: &str) -> String {
+    cannonpile::engine::quoted(text)
+}
+
+/// Errors of the core that this crate raises itself.
+impl Error {
+    pub(crate) fn syntax(text: &str, expected: &'static str) -> Self {
+        cannonpile::Error::syntax(text, expected).into()
+    }
+
+    pub(crate) fn overflow(quantity: &'static str, scalar: &'static str) -> Self {
+        cannonpile::Error::overflow(quantity, scalar).into()
+    }
+
+    pub(crate) fn on_floor(site: Site) -> Self {
+        cannonpile::Error::on_floor(site).into()
+    }
+
+    pub(crate) fn not_on_floor(site: Site, floor: i128) -> Self {
+        cannonpile::Error::not_on_floor(site, floor).into()
+    }
+
+    pub(crate) fn layers(given: BigInt) -> Self {
+        cannonpile::Error::layers(given).into()
+    }
+
+    pub(crate) fn not_positive(quantity: &'static str, given: BigRational) -> Self {
+        cannonpile::Error::not_positive(quantity, given).into()
+    }
+
+    pub(crate) fn not_touching(spacing: Spacing) -> Self {
+        cannonpile::Error::not_touching(spacing).into()
+    }
+
+    pub(crate) fn length(needed: usize, given: usize) -> Self {
+        cannonpile::Error::length(needed, given).into()
+    }
+
+    /// More numbers than can be addressed.
+    pub(crate) fn beyond_addresses(quantity: &'static str, needed: BigUint) -> Self {
+        cannonpile::Error::too_large(
+            quantity,
+            needed,
+            usize::MAX as u64,
+            "use fewer layers, or a smaller top or base",
+        )
+        .into()
+    }
+
+    pub(crate) fn too_many_rows(rows: BigUint, limit: u64, remedy: &'static str) -> Self {
+        cannonpile::Error::too_many_rows(rows, limit, remedy).into()
+    }
+}

@@ -1,0 +1,369 @@
+//! A pile written as files.
+
+use std::io::Write;
+use std::path::Path;
+
+use num_bigint::BigUint;
+
+use super::card::CardTitle;
+use super::file::{OtherFile, PileFile, PileFormat, Written};
+use super::numbered::NumberedPile;
+use super::{card, csv, lammps, lammps_test, vtp, yade, yade_check};
+use crate::Error;
+use crate::table::{Progress, WriteError, write_all};
+use cannonpile::Packing;
+use cannonpile::shape::{Numbering, Selection};
+
+/// A pile to be written as files.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::{PileExport, PileFormat};
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+/// let export = PileExport::new(&packing)?;
+///
+/// let folder = tempfile::tempdir()?;
+/// let written = export.write(&[PileFormat::Lammps], folder.path(), &mut |_| {})?;
+/// assert_eq!(written[0].rows, Some(220));
+/// assert!(folder.path().join("pile.in").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct PileExport<'p> {
+    pile: NumberedPile<'p>,
+    scene: Option<String>,
+    title: CardTitle,
+}
+
+impl<'p> PileExport<'p> {
+    /// The files of this pile.
+    ///
+    /// # Errors
+    /// [`Error::TooManyRows`](cannonpile::Error::TooManyRows) for more than [`MAX_ROWS`](crate::table::MAX_ROWS) contacts, [`Error::TooLarge`](cannonpile::Error::TooLarge) if a
+    /// layer does not fit in memory where forces have to be swept.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let pile = Pile::triangular(100_000)?;
+    /// assert!(PileExport::new(&Packing::new(&pile, &spacing)?).is_err());
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn new(packing: &Packing<'p>) -> Result<Self, Error> {
+        let pile = packing.pile();
+        let numbered = NumberedPile::new(packing)?;
+        pile.plan(Selection::All)?;
+        pile.plan(Selection::Base)?;
+        Ok(Self {
+            pile: numbered,
+            scene: None,
+            title: CardTitle::default(),
+        })
+    }
+
+    /// The files with `scene.toml` besides, the text of the scene that the pile was made of.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::{PileExport, PileFormat};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing)?.with_scene("layers = 3\n".into());
+    /// let folder = tempfile::tempdir()?;
+    /// export.write(&[PileFormat::Yade], folder.path(), &mut |_| {})?;
+    /// assert_eq!(std::fs::read(folder.path().join("scene.toml"))?, b"layers = 3\n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_scene(self, toml: String) -> Self {
+        let scene = Some(toml);
+        Self { scene, ..self }
+    }
+
+    /// The files with what a card says besides, and what tests are called.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::{CardTitle, PileExport, PileFile};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let title = CardTitle { title: "Three layers".into(), ..CardTitle::default() };
+    /// let mut card = Vec::new();
+    /// let export = PileExport::new(&packing)?.with_title(title);
+    /// export.write_file(PileFile::CardMarkdown, &mut card, &mut |_| {})?;
+    /// assert!(card.starts_with(b"# Three layers\n"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_title(self, title: CardTitle) -> Self {
+        Self { title, ..self }
+    }
+
+    /// The pile with its sizes and weights.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing.with_radius(BigRational::new(1.into(), 100.into()))?)?;
+    /// assert_eq!(export.packing().radius().to_string(), "1/100");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn packing(&self) -> &Packing<'p> {
+        self.pile.packing()
+    }
+
+    /// The numbers that its spheres have in all files.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::PileExport;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // The row n of `base.csv` is that of sphere 165 + n.
+    /// let export = PileExport::new(&packing)?;
+    /// assert_eq!(export.numbering().first_on_floor(), 166);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn numbering(&self) -> &Numbering<'p> {
+        self.pile.numbering()
+    }
+
+    /// How many spheres or contacts a file lists; `None` for one that lists neither, as a script.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::{PileExport, PileFile};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let export = PileExport::new(&packing)?;
+    /// assert_eq!(export.rows(PileFile::ContactsVtp), Some(495));
+    /// assert_eq!(export.rows(PileFile::LammpsInput), None);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn rows(&self, file: PileFile) -> Option<u64> {
+        // Not more than the most rows.
+        let few = |count: BigUint| u64::try_from(count).ok();
+        match file {
+            PileFile::SpheresCsv
+            | PileFile::LammpsData
+            | PileFile::SpheresVtp
+            | PileFile::YadeSpheres => Some(self.numbering().sphere_count()),
+            PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.contact_count()),
+            PileFile::BaseCsv => few(self.pile.pile().base_spheres()),
+            PileFile::ColumnsCsv
+            | PileFile::LammpsInput
+            | PileFile::YadeScript
+            | PileFile::CardMarkdown
+            | PileFile::CardJson
+            | PileFile::LammpsTest
+            | PileFile::YadeCheck
+            | PileFile::Scene => None,
+        }
+    }
+
+    /// Writes one file. Memory does not grow with its rows; `progress` is called from time to time with how many
+    /// more of them are done, all of them in the end.
+    ///
+    /// # Errors
+    /// [`WriteError::Answer`] with [`Error::Overflow`](cannonpile::Error::Overflow) if a number does not fit in an `f64`, with [`Error::TooLarge`](cannonpile::Error::TooLarge) or
+    /// [`Error::MustPull`] if a test of a suite would be too large, or of no state at rest; [`WriteError::Io`] if the output refuses.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::{PileExport, PileFile};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let (mut csv, mut rows) = (Vec::new(), 0);
+    /// let export = PileExport::new(&packing)?;
+    /// export.write_file(PileFile::ContactsCsv, &mut csv, &mut |more| rows += more)?;
+    /// let csv = String::from_utf8(csv)?;
+    /// assert_eq!(
+    ///     csv.lines().nth(1),
+    ///     Some("1,2,0.46225016352102427,0.16012815380508713,0.2773500981126146,0.3333333333333333,0,0,0,alpha"),
+    /// );
+    /// assert_eq!(rows, 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write_file(
+        &self,
+        file: PileFile,
+        out: &mut dyn Write,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<(), WriteError> {
+        let (pile, mut row) = (&self.pile, Progress::new(progress));
+        let row = &mut || row.row();
+        match file {
+            PileFile::SpheresCsv => csv::write_spheres(pile, out, row),
+            PileFile::ContactsCsv => csv::write_contacts(pile, out, row),
+            PileFile::BaseCsv => csv::write_base(pile, out, row),
+            PileFile::ColumnsCsv => csv::write_columns(pile, out),
+            PileFile::LammpsData => lammps::write_data(pile, out, row),
+            PileFile::LammpsInput => lammps::write_input(pile, out),
+            PileFile::SpheresVtp => vtp::write_spheres(pile, out, row),
+            PileFile::ContactsVtp => vtp::write_contacts(pile, out, row),
+            PileFile::YadeSpheres => yade::write_spheres(pile, out, row),
+            PileFile::YadeScript => yade::write_script(pile, out),
+            PileFile::CardMarkdown => {
+                card::write_markdown(pile, &self.title, self.scene.as_deref(), out)
+            }
+            PileFile::CardJson => card::write_json(pile, &self.title, self.scene.as_deref(), out),
+            PileFile::LammpsTest => {
+                lammps_test::write(pile, &card::heading(pile, &self.title), out)
+            }
+            PileFile::YadeCheck => yade_check::write(pile, &card::heading(pile, &self.title), out),
+            PileFile::Scene => Ok(out.write_all(self.scene.as_deref().unwrap_or("").as_bytes())?),
+        }
+    }
+
+    /// Writes all files of some formats into a folder, which is made if it is not there.
+    ///
+    /// They are written aside and renamed when the last is complete: a failure leaves no new file and no new folder,
+    /// and what was there as it was.
+    ///
+    /// # Errors
+    /// [`WriteError::Answer`] as for [`write_file`](Self::write_file); [`WriteError::File`], which names the file or
+    /// the folder that could not be written.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::{PileExport, PileFormat};
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let folder = tempfile::tempdir()?;
+    /// let new = folder.path().join("new/pile");
+    /// let written = PileExport::new(&packing)?.write(&PileFormat::ALL, &new, &mut |_| {})?;
+    /// assert_eq!((written.len(), new.read_dir()?.count()), (14, 14));
+    /// for file in written {
+    ///     assert_eq!(file.path.metadata()?.len(), file.bytes);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write(
+        &self,
+        formats: &[PileFormat],
+        folder: &Path,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Vec<Written>, WriteError> {
+        self.write_with(formats, &[], folder, progress)
+    }
+
+    /// Writes all files of some formats into a folder as [`write`](Self::write) does, and files of the caller with them.
+    ///
+    /// The files of the caller come after those of the formats, and before `scene.toml`.
+    ///
+    /// # Errors
+    /// As for [`write`](Self::write), and those of the files of the caller.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::{Packing, Pile};
+    /// use cannonpile_dem::{OtherFile, PileExport, PileFormat};
+    ///
+    /// let pile = Pile::triangular(3)?;
+    /// let export = PileExport::new(&Packing::new(&pile, &"6/5".parse()?)?)?;
+    /// let notes = OtherFile { name: "notes.txt", write: &|out| Ok(out.write_all(b"ten spheres")?) };
+    /// let folder = tempfile::tempdir()?;
+    /// let written = export.write_with(&[PileFormat::Yade], &[notes], folder.path(), &mut |_| {})?;
+    /// let names: Vec<_> = written.iter().map(|written| written.name()).collect();
+    /// assert_eq!(names, ["spheres.txt", "pile.py", "notes.txt"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write_with(
+        &self,
+        formats: &[PileFormat],
+        others: &[OtherFile<'_>],
+        folder: &Path,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Vec<Written>, WriteError> {
+        let mut formats = formats.to_vec();
+        formats.sort_unstable();
+        formats.dedup();
+        let of_formats = formats.iter().flat_map(|format| format.files());
+        let scene = self.scene.as_ref().map(|_| PileFile::Scene);
+        let files = of_formats.map(|file| ToWrite::Own(*file));
+        let files = files.chain(others.iter().map(|file| ToWrite::Other(*file)));
+        let files: Vec<_> = files.chain(scene.map(ToWrite::Own)).collect();
+        let paths = files.iter().map(|file| (folder.join(file.name()), *file));
+        let written = write_all(folder, paths, |file, out| match file {
+            ToWrite::Own(file) => self.write_file(file, out, progress),
+            ToWrite::Other(file) => (file.write)(out),
+        })?;
+        let written = files.into_iter().zip(written);
+        let written = written.map(|(file, (path, bytes))| {
+            let file = file.own();
+            Written {
+                file,
+                path,
+                rows: file.and_then(|file| self.rows(file)),
+                bytes,
+            }
+        });
+        Ok(written.collect())
+    }
+}
+
+/// A file of this crate, or one of the caller.
+#[derive(Clone, Copy)]
+enum ToWrite<'f> {
+    Own(PileFile),
+    Other(OtherFile<'f>),
+}
+
+impl<'f> ToWrite<'f> {
+    fn name(&self) -> &'f str {
+        match self {
+            Self::Own(file) => file.name(),
+            Self::Other(file) => file.name,
+        }
+    }
+
+    fn own(&self) -> Option<PileFile> {
+        match self {
+            Self::Own(file) => Some(*file),
+            Self::Other(_) => None,
+        }
+    }
+}

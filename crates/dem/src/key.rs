@@ -1,0 +1,103 @@
+//! The keys of a scene.
+
+use core::fmt;
+
+/// A key of a scene file, which is also the name of a scene option on the command line.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::{Scene, parse};
+/// use cannonpile_dem::{Error, Key};
+///
+/// let scene = Scene::from_toml("sin-phi = '1/3'\nstacking = 'hcp'")?;
+/// let refused = scene.pile().unwrap_err();
+/// assert!(matches!(refused, Error::Excluded { given: Key::SinPhi, beside: Key::Stacking, .. }));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Key {
+    /// The number of layers.
+    Layers,
+    /// How layers follow one another.
+    Stacking,
+    /// The top layer, from which the pile grows down.
+    Top,
+    /// The bottom layer, from which the pile grows up.
+    Base,
+    /// Discs or spheres.
+    Dimension,
+    /// sin φ.
+    SinPhi,
+    /// Loads on spheres.
+    Load,
+    /// Whether the spheres weigh nothing.
+    Weightless,
+    /// a/R.
+    Spacing,
+    /// The radius R.
+    Radius,
+    /// The mass m.
+    Mass,
+    /// The gravity g.
+    Gravity,
+    /// The isostatic or the elastic state.
+    State,
+    /// κ′/κ, the stiffness of horizontal contacts over that of sloping ones.
+    StiffnessRatio,
+}
+
+impl Key {
+    /// All keys, in the order in which a scene file is written.
+    pub const ALL: [Self; 14] = [
+        Self::Layers,
+        Self::Stacking,
+        Self::Top,
+        Self::Base,
+        Self::Dimension,
+        Self::SinPhi,
+        Self::Load,
+        Self::Weightless,
+        Self::Spacing,
+        Self::Radius,
+        Self::Mass,
+        Self::Gravity,
+        Self::State,
+        Self::StiffnessRatio,
+    ];
+
+    /// Returns the key as it is written in a file: `layers`, `sin-phi`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::Key;
+    ///
+    /// assert_eq!(Key::SinPhi.name(), "sin-phi");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Layers => "layers",
+            Self::Stacking => "stacking",
+            Self::Top => "top",
+            Self::Base => "base",
+            Self::Dimension => "dimension",
+            Self::SinPhi => "sin-phi",
+            Self::Load => "load",
+            Self::Weightless => "weightless",
+            Self::Spacing => "spacing",
+            Self::Radius => "radius",
+            Self::Mass => "mass",
+            Self::Gravity => "gravity",
+            Self::State => "state",
+            Self::StiffnessRatio => "stiffness-ratio",
+        }
+    }
+}
+
+impl fmt::Display for Key {
+    /// Writes the [`name`](Self::name).
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}

@@ -1,0 +1,88 @@
+//! Sphere piles for DEM codes: scenes read, piles exported, and forces of simulations verified.
+//!
+//! The exact forces come from the crates [`cannonpile`] and [`cannonpile_horizontal`]. This crate exchanges them with
+//! other programs. All exported files are in SI units: lengths in m, masses in kg, forces in N, z up. `columns.csv`,
+//! which is written with the csv files, states the unit and the meaning of each of their columns.
+//!
+//! # Map
+//! A module may use the modules above it in this table, never one below.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`Error`], [`Key`] | errors of this crate, and the keys of a scene |
+//! | [`scene`] | a pile as a user describes it: options, TOML files, named benchmark cases |
+//! | [`table`] | tables of forces and spheres as csv, JSON and text; files that are complete or absent |
+//! | the crate root | whole piles: [`PileExport`] for files, [`PileArrays`] for slices, [`NumberedPile`] for both |
+//! | | [`Compliance`]: how far the forces of a code with springs are from the exact ones |
+//! | [`verify`] | measured contact forces, compared with the exact ones |
+//!
+//! # Example
+//! A pile of two layers is exported, and then the forces of a simulation are compared with the exact ones.
+//! ```
+//! use cannonpile_dem::scene::Scene;
+//! use cannonpile_dem::verify::{Comparison, Measured};
+//! use cannonpile_dem::{PileExport, PileFormat};
+//!
+//! let scene = Scene::from_toml("layers = 2\nspacing = 1.2")?;
+//! let pile = scene.pile()?;
+//! let packing = scene.packing(&pile)?;
+//!
+//! // Spheres, contacts and exact forces, for any program.
+//! let folder = tempfile::tempdir()?;
+//! let written = PileExport::new(&packing)?.write(&[PileFormat::Csv], folder.path(), &mut |_| {})?;
+//! let names: Vec<_> = written.iter().map(|written| written.name()).collect();
+//! assert_eq!(names, ["spheres.csv", "contacts.csv", "base.csv", "columns.csv"]);
+//!
+//! // The contacts that a simulation has found: two sphere numbers and a force in N.
+//! let simulated = [(1, 2, 0.46225021), (1, 3, 0.46225018), (1, 4, 0.46225014)];
+//! let measured = simulated.map(|(id1, id2, force)| Measured::new([id1, id2], force));
+//! let comparison = Comparison::new(&packing, measured)?;
+//! assert!(comparison.accepted(1e-6), "{comparison}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod arrays;
+#[doc(hidden)]
+pub mod card;
+mod compliance;
+mod csv;
+mod error;
+mod export;
+mod file;
+#[doc(hidden)]
+pub mod grown;
+mod key;
+mod lammps;
+mod lammps_test;
+#[doc(hidden)]
+pub mod numbered;
+mod polydata;
+pub mod scene;
+mod springs;
+mod suite;
+mod sunk;
+pub mod table;
+#[doc(hidden)]
+pub mod template;
+pub mod verify;
+mod vtp;
+#[doc(hidden)]
+pub mod weights;
+mod yade;
+mod yade_check;
+
+pub use arrays::PileArrays;
+pub use card::CardTitle;
+pub use compliance::{Compliance, NoCompliance, SoftContact};
+pub use error::Error;
+pub use export::PileExport;
+pub use file::{OtherFile, PileFile, PileFormat, Written, files};
+#[doc(hidden)]
+pub use grown::{anchor, brief, stacking};
+pub use key::Key;
+pub use numbered::{NumberedContact, NumberedPile};
+
+/// The examples of README.md, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

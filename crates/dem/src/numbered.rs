@@ -1,0 +1,464 @@
+//! The contacts of a pile with the numbers of their spheres.
+
+use num_bigint::BigUint;
+use num_traits::Zero;
+
+use crate::Error;
+use crate::table::{columns, in_pieces, refuse_beyond, slices};
+use cannonpile::lattice::{Direction, Link, Row, Site};
+use cannonpile::scalar::Surd;
+use cannonpile::shape::{Numbering, Rows, Selection};
+use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
+
+/// A packing, and the numbers of its spheres.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::NumberedPile;
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+/// let numbered = NumberedPile::new(&packing)?;
+/// for contact in numbered.contacts()? {
+///     let contact = contact?;
+///     println!("{:?}: {} N", contact.ids, contact.force);
+/// }
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct NumberedPile<'p> {
+    packing: Packing<'p>,
+    numbering: Numbering<'p>,
+}
+
+/// A contact of a pile, its force rounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct NumberedContact {
+    /// The numbers of the upper sphere and of the lower one; of two neighbours that of the one that names their contact first.
+    pub ids: [u64; 2],
+    /// The upper sphere; of two neighbours the one that names their contact.
+    pub site: Site,
+    /// Where the other one lies.
+    pub direction: Link,
+    /// The float nearest to the force in N; positive is push. It is 0 if and only if the force is.
+    pub force: f64,
+    /// The floats nearest to x, y and z (up) of the force on the sphere that comes first in `ids`, in N.
+    pub vector: [f64; 3],
+}
+
+/// Where a sloping contact is.
+#[derive(Clone, Copy)]
+pub(super) struct Touch {
+    pub(super) ids: [u64; 2],
+    pub(super) site: Site,
+    pub(super) direction: Direction,
+}
+
+/// A row of spheres above the floor.
+#[derive(Clone, Debug)]
+pub struct LinkedRow {
+    first: Site,
+    /// The number of the first sphere.
+    pub upper: u64,
+    /// How many there are; their numbers follow each other.
+    pub spheres: u64,
+    /// The directions of the contacts, and the numbers of the spheres that the first one touches there.
+    pub below: Vec<(Direction, u64)>,
+}
+
+impl<'p> NumberedPile<'p> {
+    /// Numbers the spheres of a packing.
+    ///
+    /// # Errors
+    /// [`Error::TooManyRows`](cannonpile::Error::TooManyRows) for more than [`MAX_ROWS`](crate::table::MAX_ROWS) spheres or contacts.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::NumberedPile;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(100_000)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// assert!(NumberedPile::new(&packing).is_err());
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn new(packing: &Packing<'p>) -> Result<Self, Error> {
+        let pile = packing.pile();
+        let remedy = "use fewer layers, or a smaller top or base";
+        refuse_beyond(&pile.sphere_count().max(pile.contact_count()), remedy)?;
+        Ok(Self {
+            numbering: pile.numbering()?,
+            packing: packing.clone(),
+        })
+    }
+
+    /// The packing.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::NumberedPile;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let numbered = NumberedPile::new(&packing.with_radius(BigRational::new(1.into(), 100.into()))?)?;
+    /// assert_eq!(numbered.packing().radius().to_string(), "1/100");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn packing(&self) -> &Packing<'p> {
+        &self.packing
+    }
+
+    /// The numbers of the spheres.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::NumberedPile;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// assert_eq!(NumberedPile::new(&packing)?.numbering().first_on_floor(), 166);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn numbering(&self) -> &Numbering<'p> {
+        &self.numbering
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn pile(&self) -> &'p Pile {
+        self.packing.pile()
+    }
+
+    /// The spheres, in the order of their numbers.
+    pub(super) fn sites(&self) -> Result<impl Iterator<Item = Site> + use<'p>, Error> {
+        Ok(self.pile().rows(Selection::All)?.flatten())
+    }
+
+    /// The spheres with their centres as the nearest floats, in the order of their numbers.
+    pub(crate) fn centres(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(Site, [f64; 3]), Error>> + use<'p>, Error> {
+        let places = self.packing.places::<f64>();
+        Ok(in_pieces(self.pile().rows(Selection::All)?, move |piece| {
+            let mut centres = columns(piece)?;
+            places.fill_row(piece, slices(&mut centres))?;
+            let [x, y, z] = centres;
+            let centres = x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
+            Ok(piece.clone().into_iter().zip(centres).collect())
+        }))
+    }
+
+    /// How many contacts there are: sloping ones, and horizontal ones with a force.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn contact_count(&self) -> BigUint {
+        self.pile().contact_count() + self.pile().horizontal_forces().len()
+    }
+
+    /// How contacts lie, and their spheres: in the order of [`contacts`](Self::contacts).
+    pub(super) fn touches(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(Link, [u64; 2]), Error>> + '_, Error> {
+        let sloping = in_pieces(self.rows_above_the_floor()?, |piece| {
+            let touches = self.touches_of(piece)?;
+            let touches = touches.map(|touch| (touch.direction.into(), touch.ids));
+            Ok(touches.collect())
+        });
+        let horizontal = self.horizontal();
+        Ok(sloping.chain(horizontal.map(|contact| contact.map(|c| (c.direction, c.ids)))))
+    }
+
+    /// The centres of both spheres of all contacts, in the order of [`contacts`](Self::contacts).
+    pub(crate) fn links(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<[[f64; 3]; 2], Error>> + '_, Error> {
+        let places = self.packing.places::<f64>();
+        let shape = self.pile().shape();
+        let horizontal = self.pile().horizontal_forces();
+        let horizontal = horizontal.map(move |(contact, _)| {
+            let neighbour = shape.neighbour(contact)?;
+            Ok([self.centre(contact.site)?, self.centre(neighbour)?])
+        });
+        let sloping = in_pieces(self.rows_above_the_floor()?, move |piece| {
+            let centres = |row: &Row| {
+                let mut centres = columns(row)?;
+                places.fill_row(row, slices(&mut centres))?;
+                Ok(centres)
+            };
+            let upper = centres(piece)?;
+            let first = Site {
+                i: piece.i.start,
+                j: piece.j,
+                k: piece.k,
+            };
+            let below = shape.dimension().directions().iter().map(|direction| {
+                let site = shape.below(first, *direction);
+                let Site { i, j, k } = site.ok_or_else(|| Error::on_floor(first))?;
+                let end = i + (piece.i.end - piece.i.start);
+                centres(&Row { k, j, i: i..end })
+            });
+            let below = below.collect::<Result<Vec<_>, Error>>()?;
+            let at = |columns: &[Vec<f64>; 3], n: usize| columns.each_ref().map(|x| x[n]);
+            let spheres = 0..upper[0].len();
+            let links = spheres.flat_map(|n| below.iter().map(move |lower| (n, lower)));
+            Ok(links
+                .map(|(n, lower)| [at(&upper, n), at(lower, n)])
+                .collect())
+        });
+        Ok(sloping.chain(horizontal))
+    }
+
+    fn centre(&self, site: Site) -> Result<[f64; 3], Error> {
+        rounded(&self.packing.position(site)?, "a position")
+    }
+
+    /// All contacts in the order of [`contacts`](Self::contacts), with the nearest floats to their forces.
+    pub(super) fn forces(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
+        let sloping = self.forces_of(self.packing.layers(Selection::All)?)?;
+        Ok(sloping.chain(self.horizontal()))
+    }
+
+    fn forces_of(
+        &self,
+        mut layers: NearestLayers<'p, f64>,
+    ) -> Result<impl Iterator<Item = Result<NumberedContact, Error>> + '_, Error> {
+        Ok(in_pieces(self.rows_above_the_floor()?, move |piece| {
+            let mut forces = columns(piece)?;
+            layers.fill_row(piece, slices(&mut forces))?;
+            let mut vectors = [columns(piece)?, columns(piece)?, columns(piece)?];
+            layers.fill_row_of_vectors(piece, vectors.each_mut().map(slices))?;
+            let directions = self.pile().dimension().directions().len();
+            let contacts = self.touches_of(piece)?.enumerate().map(|(n, touch)| {
+                let (place, line) = (n / directions, touch.direction.index());
+                NumberedContact {
+                    ids: touch.ids,
+                    site: touch.site,
+                    direction: touch.direction.into(),
+                    force: forces[line][place],
+                    vector: vectors.each_ref().map(|component| component[line][place]),
+                }
+            });
+            Ok(contacts.collect())
+        }))
+    }
+
+    /// The bottom spheres' numbers, and the nearest floats to their forces on the floor.
+    pub(super) fn on_floor(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<(u64, FloorForce<f64>), Error>> + use<'p>, Error> {
+        let mut ids = self.numbering.first_on_floor()..;
+        let mut layers = self.packing.layers::<f64>(Selection::Base)?;
+        let rows = self.pile().rows(Selection::Base)?;
+        Ok(in_pieces(rows, move |piece| {
+            let mut forces = columns(piece)?;
+            layers.fill_row_of_base(piece, slices(&mut forces))?;
+            let [normal, x, y] = forces;
+            let forces = normal.into_iter().zip(x).zip(y);
+            // Sites first: no number is drawn for one past the end.
+            let spheres = piece.clone().into_iter().zip(ids.by_ref()).zip(forces);
+            let forces = spheres.map(|((site, id), ((normal, shear_x), shear_y))| {
+                let force = FloorForce {
+                    site,
+                    normal,
+                    shear_x,
+                    shear_y,
+                };
+                (id, force)
+            });
+            Ok(forces.collect())
+        }))
+    }
+
+    /// The horizontal contacts with a force, in the order of tables.
+    pub(crate) fn horizontal(
+        &self,
+    ) -> impl Iterator<Item = Result<NumberedContact, Error>> + use<'_, 'p> {
+        let pile = self.pile();
+        pile.horizontal_forces().map(move |(contact, force)| {
+            let neighbour = pile.shape().neighbour(contact)?;
+            let packed = self.packing.packed_horizontal(contact, force)?;
+            let contact = NumberedContact {
+                ids: [
+                    self.numbering.id(contact.site)?,
+                    self.numbering.id(neighbour)?,
+                ],
+                site: contact.site,
+                direction: contact.axis.into(),
+                force: nearest(&packed.force, FORCE)?,
+                vector: rounded(&packed.vector, FORCE)?,
+            };
+            contact.checked()
+        })
+    }
+
+    fn rows_above_the_floor(&self) -> Result<Rows<'p>, Error> {
+        Ok(self.pile().rows(Selection::All)?.off_the_floor())
+    }
+
+    /// The rows above the floor, with the numbers of their spheres and of those below.
+    ///
+    /// # Errors
+    /// Those of [`Pile::rows`].
+    #[doc(hidden)]
+    pub fn linked_rows(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<LinkedRow, Error>> + '_, Error> {
+        let rows = self.rows_above_the_floor()?;
+        Ok(rows.map(|row| self.linked(&row)))
+    }
+
+    /// The numbers of a row of spheres, and of those below.
+    fn linked(&self, row: &Row) -> Result<LinkedRow, Error> {
+        LinkedRow::of(&self.numbering, row)
+    }
+
+    /// The contacts of a row of spheres with those below.
+    fn touches_of(&self, row: &Row) -> Result<impl Iterator<Item = Touch> + use<>, Error> {
+        let LinkedRow {
+            first,
+            upper,
+            spheres,
+            below,
+        } = self.linked(row)?;
+        let contacts = 0..spheres * below.len() as u64;
+        Ok(contacts.filter_map(move |n| {
+            let (done, direction) = (n / below.len() as u64, n % below.len() as u64);
+            // One of so many.
+            let (direction, lower) = below.get(usize::try_from(direction).ok()?)?;
+            Some(Touch {
+                ids: [upper + done, lower + done],
+                site: Site {
+                    i: first.i + i128::from(done),
+                    ..first
+                },
+                direction: *direction,
+            })
+        }))
+    }
+
+    /// All contacts in the order of the upper spheres, and then the horizontal ones with a force, made one by one.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`](cannonpile::Error::TooLarge) if a layer does not fit in memory where forces have to be swept. Of a contact
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) if its force is not 0 and no normal `f64` is near to it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::NumberedPile;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let contacts = NumberedPile::new(&packing)?.contacts()?.collect::<Result<Vec<_>, _>>()?;
+    /// assert_eq!(contacts[2].ids, [1, 4]);
+    /// assert_eq!(contacts[2].force, 0.46225016352102427);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn contacts(&self) -> Result<impl Iterator<Item = Result<NumberedContact, Error>>, Error> {
+        let layers = self.packing.layers::<f64>(Selection::All)?;
+        let keeps_digits = layers.keeps_digits();
+        let sloping = self.forces_of(layers)?.map(move |contact| {
+            let contact = contact?;
+            let Some(direction) = contact.direction.direction().filter(|_| !keeps_digits) else {
+                return Ok(contact);
+            };
+            let exact = || self.packing.contact(contact.site, direction);
+            if contact.force.is_normal() || exact()?.coefficient().is_zero() {
+                return Ok(contact);
+            }
+            contact.checked()
+        });
+        Ok(sloping.chain(self.horizontal()))
+    }
+}
+
+impl LinkedRow {
+    /// The numbers of a row of spheres, and of those below: along a row they follow each other.
+    pub(super) fn of(numbering: &Numbering<'_>, row: &Row) -> Result<Self, Error> {
+        let shape = numbering.shape();
+        let at = |i| Site {
+            i,
+            j: row.j,
+            k: row.k,
+        };
+        let first = at(row.i.start);
+        let upper = numbering.id(first)?;
+        let below = shape.dimension().directions().iter().map(|direction| {
+            let below = shape.below(first, *direction);
+            let below = below.ok_or_else(|| Error::on_floor(first))?;
+            Ok((*direction, numbering.id(below)?))
+        });
+        Ok(Self {
+            first,
+            upper,
+            spheres: numbering.id(at(row.i.end - 1))? - upper + 1,
+            below: below.collect::<Result<_, Error>>()?,
+        })
+    }
+}
+
+impl NumberedContact {
+    /// Returns it as seen from the sphere with the lesser number.
+    pub(crate) fn in_order(self) -> Self {
+        let [first, second] = self.ids;
+        if first < second {
+            return self;
+        }
+        Self {
+            ids: [second, first],
+            // Not −0.
+            vector: self.vector.map(|component| 0.0 - component),
+            ..self
+        }
+    }
+
+    /// Returns it, if its force is a normal float.
+    fn checked(self) -> Result<Self, Error> {
+        if self.force.is_normal() {
+            return Ok(self);
+        }
+        let (quantity, scalar) = (FORCE, "f64");
+        Err(Error::overflow(quantity, scalar))
+    }
+}
+
+const FORCE: &str = "a contact force";
+
+/// The nearest floats.
+pub(super) fn rounded(vector: &[Surd; 3], quantity: &'static str) -> Result<[f64; 3], Error> {
+    let [x, y, z] = vector;
+    Ok([
+        nearest(x, quantity)?,
+        nearest(y, quantity)?,
+        nearest(z, quantity)?,
+    ])
+}
+
+/// The nearest float; `quantity` is named if there is none.
+///
+/// # Errors
+/// [`Error::Overflow`](cannonpile::Error::Overflow) beyond the floats.
+pub fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
+    let scalar = "f64";
+    number
+        .nearest()
+        .ok_or_else(|| Error::overflow(quantity, scalar))
+}

@@ -1,0 +1,429 @@
+//! A scene: the options that describe a pile and its spheres, the parsers of their values, and files of them.
+
+mod cases;
+pub mod parse;
+mod toml;
+
+use core::fmt;
+use core::str::FromStr;
+
+use num_rational::BigRational;
+use num_traits::{One, Signed};
+
+use crate::{Error, Key};
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Dimension, Region};
+use cannonpile::shape::Shape;
+use cannonpile::stacking::Pattern;
+use cannonpile::{Packing, Pile};
+use cannonpile_horizontal::ElasticState;
+
+use parse::At;
+
+pub use cannonpile::shape::Anchor;
+pub use cases::{Case, cases};
+pub use toml::SceneFile;
+
+/// Which forces of a pile are meant, where horizontal contacts leave a choice.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::State;
+///
+/// assert_eq!("elastic".parse::<State>()?, State::Elastic);
+/// assert_eq!(State::default().to_string(), "isostatic");
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum State {
+    /// Those without horizontal contacts: the paper's.
+    #[default]
+    Isostatic,
+    /// Those of springs that only push, at a = R.
+    Elastic,
+}
+
+impl State {
+    /// Returns `isostatic` or `elastic`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::State;
+    ///
+    /// assert_eq!(State::Elastic.name(), "elastic");
+    /// ```
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Isostatic => "isostatic",
+            Self::Elastic => "elastic",
+        }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for State {
+    type Err = Error;
+
+    /// Reads a state by its [`name`](Self::name).
+    ///
+    /// # Errors
+    /// [`Error::Syntax`](cannonpile::Error::Syntax).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::State;
+    ///
+    /// assert!("plastic".parse::<State>().is_err());
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = [Self::Isostatic, Self::Elastic]
+            .into_iter()
+            .find(|state| state.name() == text);
+        found.ok_or_else(|| Error::syntax(text, "a state: isostatic or elastic"))
+    }
+}
+
+cannonpile::data::as_text!(State);
+
+/// A pile and its spheres, as a user describes them; unchecked until a [`Pile`] or a [`Packing`] is asked for.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::{parse, Anchor, Scene};
+/// use cannonpile::stacking::Pattern;
+///
+/// let scene = Scene { layers: Some(4), spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+/// let pile = scene.pile()?;
+/// assert_eq!(pile.sphere_count(), 20_u32.into());
+/// assert!(scene.packing(&pile)?.touching().is_empty());
+///
+/// // As high as the base carries.
+/// let anchor = Some(Anchor::Base("hexagon:3".parse()?));
+/// let scene = Scene { anchor, stacking: Some(Pattern::Hcp), ..Scene::default() };
+/// assert_eq!(scene.pile()?.layers(), 5);
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case", default, deny_unknown_fields)]
+pub struct Scene {
+    /// The number of layers: by default 10, those of a stacking that is spelled out, or as many as a base carries.
+    #[serde(with = "cannonpile::data::number")]
+    pub layers: Option<i128>,
+    /// Discs or spheres (spheres).
+    pub dimension: Dimension,
+    /// sin φ (½); none for discs and for piles of a stacking, top or base of one's own.
+    #[serde(with = "cannonpile::data::number")]
+    pub sin_phi: Option<BigRational>,
+    /// How layers follow one another (all +): from the top, or from the base up if the pile is grown from its base.
+    pub stacking: Option<Pattern>,
+    /// The layer that the pile is grown from (one sphere on top).
+    pub anchor: Option<Anchor>,
+    /// Vertical loads on spheres, in mg.
+    #[serde(with = "loads")]
+    pub loads: Vec<(At, BigRational)>,
+    /// Whether the spheres weigh nothing, so that only the loads act.
+    pub weightless: bool,
+    /// a/R. One that is given is always checked, the default only where geometry is used: 6/5, and 1 for the elastic state.
+    #[serde(with = "cannonpile::data::number")]
+    pub spacing: Option<BigRational>,
+    /// The radius R (1).
+    #[serde(with = "cannonpile::data::number")]
+    pub radius: BigRational,
+    /// The mass m of a sphere (1).
+    #[serde(with = "cannonpile::data::number")]
+    pub mass: BigRational,
+    /// The gravity g (1).
+    #[serde(with = "cannonpile::data::number")]
+    pub gravity: BigRational,
+    /// Which forces are meant (isostatic).
+    pub state: State,
+    /// κ′/κ, the stiffness of horizontal contacts over that of sloping ones, of the elastic state (1).
+    #[serde(with = "cannonpile::data::number")]
+    pub stiffness_ratio: BigRational,
+}
+
+/// Returns the key of the layer that the pile grows from: the top or the base.
+const fn key_of(anchor: &Anchor) -> Key {
+    match anchor {
+        Anchor::Top(_) => Key::Top,
+        Anchor::Base(_) => Key::Base,
+    }
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            layers: None,
+            dimension: Dimension::Three,
+            sin_phi: None,
+            stacking: None,
+            anchor: None,
+            loads: Vec::new(),
+            weightless: false,
+            spacing: None,
+            radius: BigRational::one(),
+            mass: BigRational::one(),
+            gravity: BigRational::one(),
+            state: State::Isostatic,
+            stiffness_ratio: BigRational::one(),
+        }
+    }
+}
+
+impl Scene {
+    /// The layers of a pile whose number nothing else says.
+    pub const LAYERS: i128 = 10;
+
+    /// Returns the pile, checked, also with the spacing if one is given.
+    ///
+    /// # Errors
+    /// Those of [`Pile`]'s constructors, loads and [`Clearance::check`](cannonpile::geometry::Clearance::check);
+    /// [`Error::SinPhiOfDiscs`] and [`Error::Excluded`] for options that exclude each other.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::{parse, Scene};
+    /// use cannonpile::stacking::Pattern;
+    ///
+    /// let scene = Scene { stacking: Some(Pattern::Hcp), ..Scene::default() };
+    /// assert_eq!(scene.pile()?.layers(), 10);
+    ///
+    /// let scene = Scene { sin_phi: Some(parse::rational("1/3")?), ..scene };
+    /// let refused = "sin-phi has no meaning with stacking: leave one of the two out";
+    /// assert_eq!(scene.pile().unwrap_err().to_string(), refused);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn pile(&self) -> Result<Pile, Error> {
+        let mut pile = self.unloaded()?;
+        for (at, load) in &self.loads {
+            let site = at.site(pile.layers());
+            pile = pile.with_load(site, load.clone())?;
+        }
+        if self.weightless {
+            pile = pile.weightless();
+        }
+        if let Some(spacing) = &self.spacing {
+            pile.clearance().check(&Spacing::new(spacing.clone())?)?;
+        }
+        Ok(pile)
+    }
+
+    fn unloaded(&self) -> Result<Pile, Error> {
+        let layers = self.layers.unwrap_or(Self::LAYERS);
+        let stacked = match (&self.anchor, &self.stacking) {
+            (Some(anchor), _) => Some(key_of(anchor)),
+            (None, Some(_)) => Some(Key::Stacking),
+            (None, None) => None,
+        };
+        match (self.dimension, &self.sin_phi, stacked) {
+            (Dimension::Two, Some(_), _) => Err(Error::SinPhiOfDiscs),
+            (Dimension::Two, None, Some(given)) => Err(Error::Excluded {
+                given,
+                beside: Key::Dimension,
+            }),
+            (Dimension::Two, None, None) => Ok(Pile::discs(layers)?),
+            (Dimension::Three, Some(_), Some(beside)) => Err(Error::Excluded {
+                given: Key::SinPhi,
+                beside,
+            }),
+            (Dimension::Three, Some(s), None) => Ok(Pile::isosceles(layers, s.clone())?),
+            (Dimension::Three, None, None) => Ok(Pile::triangular(layers)?),
+            (Dimension::Three, None, Some(_)) => Ok(self.stacked()?),
+        }
+    }
+
+    /// The pile of any stacking, top or base.
+    fn stacked(&self) -> Result<Pile, cannonpile::Error> {
+        let pattern = self.stacking.as_ref().unwrap_or(&Pattern::Fcc);
+        let spelled = self.layers.or(pattern.layers());
+        let under = |top| Pile::under(top, pattern.stacking(spelled.unwrap_or(Self::LAYERS))?);
+        match self.anchor {
+            Some(Anchor::Base(base)) => {
+                let layers = match spelled {
+                    Some(layers) => layers,
+                    None => Shape::greatest_height(base, pattern)?,
+                };
+                Pile::on(base, pattern.stacking(layers)?.reversed())
+            }
+            Some(Anchor::Top(top)) => under(top),
+            None => under(Region::SITE),
+        }
+    }
+
+    /// Checks that radius, mass and gravity are positive, whether they will be used or not.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`](cannonpile::Error::NotPositive).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::{parse, Scene};
+    ///
+    /// assert!(Scene::default().check_sizes().is_ok());
+    /// let scene = Scene { mass: parse::rational("-0.5")?, ..Scene::default() };
+    /// assert_eq!(scene.check_sizes().unwrap_err().to_string(), "mass must be positive, not -1/2");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn check_sizes(&self) -> Result<(), Error> {
+        for (quantity, value) in [
+            (Key::Radius, &self.radius),
+            (Key::Mass, &self.mass),
+            (Key::Gravity, &self.gravity),
+            (Key::StiffnessRatio, &self.stiffness_ratio),
+        ] {
+            if !value.is_positive() {
+                return Err(Error::not_positive(quantity.name(), value.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the spacing that is given, or 6/5. Whether it fits the pile is not checked here.
+    ///
+    /// # Errors
+    /// [`Error::NotPositive`](cannonpile::Error::NotPositive).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::Scene;
+    ///
+    /// assert_eq!(Scene::default().spacing()?.to_string(), "6/5");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn spacing(&self) -> Result<Spacing, Error> {
+        let default = || match self.state {
+            State::Isostatic => BigRational::new(6.into(), 5.into()),
+            State::Elastic => BigRational::one(),
+        };
+        Ok(Spacing::new(self.spacing.clone().unwrap_or_else(default))?)
+    }
+
+    /// Checks that the neighbours of a layer touch, a = R, unless no spacing is given.
+    ///
+    /// # Errors
+    /// [`Error::NotTouching`](cannonpile::Error::NotTouching).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::{parse, Scene};
+    ///
+    /// assert!(Scene::default().check_touching().is_ok());
+    /// let scene = Scene { spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+    /// assert_eq!(
+    ///     scene.check_touching().unwrap_err().to_string(),
+    ///     "neighbours of a layer do not touch at a/R = 6/5: leave it out, or use 1",
+    /// );
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn check_touching(&self) -> Result<(), Error> {
+        match &self.spacing {
+            Some(spacing) if !spacing.is_one() => {
+                Err(Error::not_touching(Spacing::new(spacing.clone())?))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns a pile of this scene with the horizontal forces of the state that is meant: none, or those of the
+    /// [elastic state](cannonpile_horizontal::elastic).
+    ///
+    /// # Errors
+    /// Those of [`check_touching`](Self::check_touching) and [`elastic`](cannonpile_horizontal::elastic).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::{parse, Scene, State};
+    ///
+    /// let stacking = Some("+-+-+".parse()?);
+    /// let scene = Scene { stacking, state: State::Elastic, ..Scene::default() };
+    /// let pile = scene.in_state(scene.pile()?)?;
+    /// assert_eq!(pile.horizontal_forces().len(), 3);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn in_state(&self, pile: Pile) -> Result<Pile, Error> {
+        match self.state {
+            State::Isostatic => Ok(pile),
+            State::Elastic => Ok(self.elastic(&pile)?.pile().clone()),
+        }
+    }
+
+    /// Returns the [elastic state](cannonpile_horizontal::elastic) of a pile of this scene.
+    ///
+    /// # Errors
+    /// As for [`in_state`](Self::in_state).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::Scene;
+    ///
+    /// let scene = Scene::default();
+    /// assert!(scene.elastic(&scene.pile()?)?.certificate().is_some());
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn elastic(&self, pile: &Pile) -> Result<ElasticState, Error> {
+        self.check_touching()?;
+        Ok(cannonpile_horizontal::elastic(pile, &self.stiffness_ratio)?)
+    }
+
+    /// Returns the pile with the sizes and weights of the scene.
+    ///
+    /// # Errors
+    /// Those of [`Packing::new`], and [`Error::NotPositive`](cannonpile::Error::NotPositive).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Direction, Site};
+    /// use cannonpile_dem::scene::{parse, Scene};
+    ///
+    /// let scene = Scene { gravity: parse::rational("9.81")?, ..Scene::default() };
+    /// let pile = scene.pile()?;
+    /// let force = scene.packing(&pile)?.contact(Site::APEX, Direction::Alpha)?;
+    /// assert_eq!(force.to_string(), "327/260*sqrt(13)");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn packing<'p>(&self, pile: &'p Pile) -> Result<Packing<'p>, Error> {
+        let packing = Packing::new(pile, &self.spacing()?)?
+            .with_radius(self.radius.clone())?
+            .with_mass(self.mass.clone())?;
+        Ok(packing.with_gravity(self.gravity.clone())?)
+    }
+}
+
+/// Loads as records `{"at": …, "weight": …}`.
+mod loads {
+    use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::{At, BigRational};
+    use cannonpile::data::number;
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(rename = "Load", deny_unknown_fields)]
+    struct Load {
+        at: At,
+        #[serde(with = "number")]
+        weight: BigRational,
+    }
+
+    pub(super) fn serialize<S: Serializer>(
+        loads: &[(At, BigRational)],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let loads = loads.iter().cloned();
+        serializer.collect_seq(loads.map(|(at, weight)| Load { at, weight }))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<(At, BigRational)>, D::Error> {
+        let loads: Vec<Load> = Deserialize::deserialize(deserializer)?;
+        let loads = loads.into_iter();
+        Ok(loads.map(|load| (load.at, load.weight)).collect())
+    }
+}

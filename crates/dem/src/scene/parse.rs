@@ -1,0 +1,173 @@
+//! What a scene is described by and that has no type of its own: numbers, and places and loads in a pile of either
+//! dimension. What has a type is read by `str::parse`: [`Region`](cannonpile::lattice::Region),
+//! [`Pattern`](cannonpile::stacking::Pattern), [`Spacing`](cannonpile::geometry::Spacing), [`Dimension`], [`Surd`](cannonpile::scalar::Surd).
+
+use num_rational::BigRational;
+
+use crate::Error;
+use cannonpile::lattice::{Dimension, MAX_LAYERS, Site};
+use cannonpile::scalar::parse as exact;
+
+/// Reads a rational number exactly: `6/5`, `1.2`, `1e-3`.
+///
+/// # Errors
+/// [`Error::Core`].
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::parse;
+///
+/// assert_eq!(parse::rational("1.2")?, parse::rational("6/5")?);
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn rational(text: &str) -> Result<BigRational, Error> {
+    exact::rational(text).map_err(|error| cannonpile::Error::from(error).into())
+}
+
+/// Reads an integer: `10`, `-3`, `1e36`.
+///
+/// # Errors
+/// [`Error::Core`].
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::parse;
+///
+/// assert_eq!(parse::integer("-5")?, -5);
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn integer(text: &str) -> Result<i128, Error> {
+    exact::integer(text).map_err(|error| cannonpile::Error::from(error).into())
+}
+
+/// Reads a number of layers: `10`, `1e36`.
+///
+/// # Errors
+/// [`Error::Layers`](cannonpile::Error::Layers) for an integer that cannot be one, [`Error::Syntax`](cannonpile::Error::Syntax) for anything else.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::Error;
+/// use cannonpile_dem::scene::parse;
+///
+/// assert_eq!(parse::layers("10")?, 10);
+/// assert_eq!(parse::layers("1e36")?, 10_i128.pow(36));
+/// assert!(matches!(parse::layers("0"), Err(Error::Core(cannonpile::Error::Layers { .. }))));
+/// assert!(matches!(parse::layers("ten"), Err(Error::Core(cannonpile::Error::Syntax { .. }))));
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn layers(text: &str) -> Result<i128, Error> {
+    let given = exact::big_integer(text)
+        .map_err(|_| Error::syntax(text, "a number of layers such as 10 or 1e36"))?;
+    match i128::try_from(&given) {
+        Ok(layers) if (1..=MAX_LAYERS).contains(&layers) => Ok(layers),
+        _ => Err(Error::layers(given)),
+    }
+}
+
+/// The place of one sphere in a pile of any height: in its base, or in a layer counted from the top.
+///
+/// [`at`] reads it.
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Dimension;
+/// use cannonpile_dem::scene::parse;
+/// use cannonpile_dem::scene::parse::At;
+///
+/// assert_eq!(parse::at("5,7", Dimension::Three)?, At { layer: None, i: 5, j: 7 });
+/// assert_eq!(parse::at("5,7", Dimension::Two)?, At { layer: Some(5), i: 7, j: 0 });
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct At {
+    /// The layer; the base if there is none.
+    #[serde(with = "cannonpile::data::number", default)]
+    pub layer: Option<i128>,
+    /// The place within the row.
+    #[serde(with = "cannonpile::data::number")]
+    pub i: i128,
+    /// The row.
+    #[serde(with = "cannonpile::data::number", default)]
+    pub j: i128,
+}
+
+impl At {
+    /// Returns the site, for a pile of this many layers. Whether the pile has it is not checked here.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::{Dimension, Site};
+    /// use cannonpile_dem::scene::parse;
+    ///
+    /// let site = parse::at("5,7", Dimension::Three)?.site(10);
+    /// assert_eq!(site, Site { i: 5, j: 7, k: 9 });
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn site(&self, layers: i128) -> Site {
+        let k = self.layer.unwrap_or(layers.saturating_sub(1));
+        Site {
+            i: self.i,
+            j: self.j,
+            k,
+        }
+    }
+}
+
+/// Reads the place of one sphere: `K,I,J`, or `I,J` on the base; in two dimensions `K,I`, or `I`.
+///
+/// # Errors
+/// [`Error::Syntax`](cannonpile::Error::Syntax).
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Dimension;
+/// use cannonpile_dem::scene::parse;
+///
+/// assert_eq!(parse::at("9,5,2", Dimension::Three)?.layer, Some(9));
+/// assert_eq!(parse::at("5", Dimension::Two)?.i, 5);
+/// assert!(parse::at("5", Dimension::Three).is_err());
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn at(text: &str, dimension: Dimension) -> Result<At, Error> {
+    let expected = match dimension {
+        Dimension::Two => "a disc: K,I, or I on the base",
+        Dimension::Three => "a sphere: K,I,J, or I,J on the base",
+    };
+    let syntax = || Error::syntax(text, expected);
+    // One more than there can be is as wrong as many more.
+    let numbers = text.split(',').take(4).map(|part| integer(part.trim()));
+    let numbers: Vec<i128> = numbers.collect::<Result<_, _>>().map_err(|_| syntax())?;
+    let (layer, i, j) = match (dimension, numbers.as_slice()) {
+        (Dimension::Three, &[k, i, j]) => (Some(k), i, j),
+        (Dimension::Three, &[i, j]) => (None, i, j),
+        (Dimension::Two, &[k, i]) => (Some(k), i, 0),
+        (Dimension::Two, &[i]) => (None, i, 0),
+        _ => return Err(syntax()),
+    };
+    Ok(At { layer, i, j })
+}
+
+/// Reads a load on one sphere, in mg: `K,I,J=W`, or `I,J=W` on the base. Discs: `K,I=W`, `I=W`.
+///
+/// # Errors
+/// [`Error::Syntax`](cannonpile::Error::Syntax).
+///
+/// # Examples
+/// ```
+/// use cannonpile::lattice::Dimension;
+/// use cannonpile_dem::scene::parse;
+///
+/// let (at, load) = parse::load("0,0,0=5/2", Dimension::Three)?;
+/// assert_eq!((at.layer, load.to_string().as_str()), (Some(0), "5/2"));
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+pub fn load(text: &str, dimension: Dimension) -> Result<(At, BigRational), Error> {
+    let expected = "a load K,I,J=W on a sphere, such as 0,0,0=5/2";
+    let (site, load) = text
+        .split_once('=')
+        .ok_or_else(|| Error::syntax(text, expected))?;
+    Ok((at(site, dimension)?, rational(load)?))
+}

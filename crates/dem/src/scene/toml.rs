@@ -1,0 +1,259 @@
+//! Scenes as TOML files: the scene options of the command line, as keys of the same names.
+
+mod nearest;
+mod value;
+mod write;
+
+use core::str::FromStr;
+use std::collections::BTreeMap;
+
+use ::toml::Spanned;
+use ::toml::de::{DeString, DeTable, DeValue};
+use num_rational::BigRational;
+
+use super::parse::{self, At};
+use super::{Anchor, Scene};
+use crate::error::quoted;
+use crate::{Error, Key};
+use cannonpile::lattice::Dimension;
+
+pub(super) use nearest::nearest;
+use value::{Value, line_of};
+
+/// The keys of a scene file, in the order in which they are written.
+const KEYS: [&str; Key::ALL.len()] = {
+    let mut names = [""; Key::ALL.len()];
+    let mut n = 0;
+    while n < names.len() {
+        names[n] = Key::ALL[n].name();
+        n += 1;
+    }
+    names
+};
+
+/// The keys of one load.
+const LOAD_KEYS: [&str; 2] = ["at", "weight"];
+
+/// The longest file read, in bytes; a stacking of a million runs has its place.
+const LONGEST: usize = 16 << 20;
+
+/// A scene that was read from a TOML file, and where each of its options stands there: the scene options of the command
+/// line, as keys of the same names.
+///
+/// ```toml
+/// layers = 4
+/// stacking = "hcp"
+/// top = "hexagon:3,2"
+/// spacing = 1.2                 # read as 6/5, not as a float; "6/5" is the same
+/// load = ["0,0,0=5/2"]
+/// ```
+/// | key | value | by default |
+/// |---|---|---|
+/// | `layers` | a number, up to 10³⁶ | 10, or as for [`Scene::layers`] |
+/// | `stacking` | `"fcc"`, `"hcp"`, `"dhcp"`, or spelled out | `"fcc"` |
+/// | `top` or `base` | `"hexagon:P,Q"`, `"hexagon:N"`, `"triangle:N"` or `"region:x0..x1,y0..y1,s0..s1"` | one sphere on top |
+/// | `dimension` | 2 or 3 | 3 |
+/// | `sin-phi`, `spacing` | a number | none: ½, and where it is needed 6/5, or 1 for the elastic state |
+/// | `radius`, `mass`, `gravity` | a number | 1 |
+/// | `load` | an array of `"K,I,J=W"`, or of tables with `at` and `weight` | none |
+/// | `weightless` | `true` or `false` | `false` |
+/// | `state` | `"isostatic"` or `"elastic"` | `"isostatic"` |
+/// | `stiffness-ratio` | a number | 1 |
+///
+/// A number is a TOML number, read exactly as it stands there, or a string: `6`, `1.2`, `1e-3`, `"6/5"`. Keys that are
+/// not in the table are refused. A load may also be written as
+/// ```toml
+/// [[load]]
+/// at = [0, 0, 0]                # or "0,0,0"; with one number less, on the base
+/// weight = "5/2"
+/// ```
+///
+/// On the command line an option takes the place of the same one in the file: a base that of a top too, the loads of the
+/// line together that of all loads of the file. Options that then exclude each other are refused, with the line of the
+/// file where one is from there. Sites of loads are read in the dimension of the file.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::scene::SceneFile;
+///
+/// let file: SceneFile = "layers = 4\n\nspacing = 1.2\n".parse()?;
+/// assert_eq!(file.scene().spacing.as_ref().unwrap().to_string(), "6/5");
+/// assert_eq!((file.line("spacing"), file.line("radius")), (Some(3), None));
+///
+/// let error = "layers = 4\nspcaing = 1.2".parse::<SceneFile>().unwrap_err();
+/// assert_eq!(error.to_string(), "line 2: there is no key 'spcaing'; did you mean 'spacing'?");
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneFile {
+    scene: Scene,
+    lines: BTreeMap<&'static str, usize>,
+}
+
+impl SceneFile {
+    /// Returns the scene.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::{Scene, SceneFile};
+    ///
+    /// assert_eq!("".parse::<SceneFile>()?.scene(), &Scene::default());
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Returns the line of a key, counted from 1, if the file has it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::SceneFile;
+    ///
+    /// assert_eq!("# heavy\nmass = 5".parse::<SceneFile>()?.line("mass"), Some(2));
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn line(&self, key: &str) -> Option<usize> {
+        self.lines.get(key).copied()
+    }
+}
+
+impl FromStr for SceneFile {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        if text.len() > LONGEST {
+            let reason = format!("the file is longer than {LONGEST} bytes");
+            return Err(Error::NotToml { line: 1, reason });
+        }
+        let table = DeTable::parse(text).map_err(|error| value::not_toml(text, &error))?;
+        let values = values(text, table.get_ref(), &KEYS)?;
+        let lines = values.iter().map(|value| (value.key, value.line()));
+        Ok(Self {
+            lines: lines.collect(),
+            scene: scene(&values)?,
+        })
+    }
+}
+
+impl Scene {
+    /// Returns the scene that a TOML file describes; its keys are those of [`SceneFile`].
+    ///
+    /// Each value is checked for itself; whether they go together shows when a [`Pile`](cannonpile::Pile) is asked for.
+    ///
+    /// # Errors
+    /// [`Error::NotToml`]; [`Error::UnknownKey`] for a key that is no option; [`Error::InFile`] for a value that is refused.
+    /// Each with its line.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::Scene;
+    ///
+    /// let scene = Scene::from_toml("layers = 1_000_000_000_000_000_000_000\nradius = 0.1")?;
+    /// assert_eq!(scene.layers, Some(10_i128.pow(21)));
+    /// assert_eq!(scene.radius.to_string(), "1/10");
+    ///
+    /// let error = Scene::from_toml("\nmass = '1/0'").unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "line 2, mass: '1/0' is not a number with a denominator other than zero",
+    /// );
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn from_toml(text: &str) -> Result<Self, Error> {
+        text.parse().map(|file: SceneFile| file.scene)
+    }
+}
+
+/// The values of a table in the order of the file, all under known keys.
+fn values<'a>(
+    text: &'a str,
+    table: &'a DeTable<'a>,
+    known: &'static [&'static str],
+) -> Result<Vec<Value<'a>>, Error> {
+    let mut entries: Vec<(&Spanned<DeString<'_>>, &Spanned<DeValue<'_>>)> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    let value = |(key, value): (&Spanned<DeString<'_>>, &'a Spanned<DeValue<'a>>)| {
+        let (name, start) = (key.get_ref().as_ref(), key.span().start);
+        match known.iter().find(|known| **known == name) {
+            Some(key) => Ok(Value::new(text, start, key, value)),
+            None => Err(Error::UnknownKey {
+                line: line_of(text, start),
+                key: quoted(name),
+                nearest: nearest(name, known),
+                known,
+            }),
+        }
+    };
+    entries.into_iter().map(value).collect()
+}
+
+fn scene(values: &[Value<'_>]) -> Result<Scene, Error> {
+    let mut scene = Scene::default();
+    // The sites of loads are read by it, wherever it stands.
+    if let Some(dimension) = values.iter().find(|value| value.key == "dimension") {
+        scene.dimension = dimension.read(str::parse)?;
+    }
+    for value in values {
+        match value.key {
+            "layers" => scene.layers = Some(value.read(parse::layers)?),
+            "stacking" => scene.stacking = Some(value.read(str::parse)?),
+            "top" | "base" => {
+                if let Some(anchor) = &scene.anchor {
+                    let beside = super::key_of(anchor);
+                    let given = match beside {
+                        Key::Top => Key::Base,
+                        _ => Key::Top,
+                    };
+                    return Err(value.refused(Error::Excluded { given, beside }));
+                }
+                let grown = if value.key == "top" {
+                    Anchor::Top
+                } else {
+                    Anchor::Base
+                };
+                scene.anchor = Some(grown(value.read(str::parse)?));
+            }
+            "sin-phi" => scene.sin_phi = Some(value.read(parse::rational)?),
+            "load" => scene.loads = loads(value, scene.dimension)?,
+            "weightless" => scene.weightless = value.flag()?,
+            "spacing" => scene.spacing = Some(value.read(parse::rational)?),
+            "radius" => scene.radius = value.read(parse::rational)?,
+            "mass" => scene.mass = value.read(parse::rational)?,
+            "gravity" => scene.gravity = value.read(parse::rational)?,
+            "state" => scene.state = value.read(str::parse)?,
+            "stiffness-ratio" => scene.stiffness_ratio = value.read(parse::rational)?,
+            // The dimension is read.
+            _ => {}
+        }
+    }
+    Ok(scene)
+}
+
+fn loads(value: &Value<'_>, dimension: Dimension) -> Result<Vec<(At, BigRational)>, Error> {
+    let expected = "an array of loads, such as [\"0,0,0=5/2\"]";
+    let load = |item: Value<'_>| match item.table() {
+        Some(table) => load_of(&item, table, dimension),
+        None => item.read(|text| parse::load(text, dimension)),
+    };
+    value.items(expected)?.map(load).collect()
+}
+
+/// A load as a table.
+fn load_of(
+    load: &Value<'_>,
+    table: &DeTable<'_>,
+    dimension: Dimension,
+) -> Result<(At, BigRational), Error> {
+    let values = values(load.file, table, &LOAD_KEYS)?;
+    let of = |key| {
+        let found = values.iter().find(|value| value.key == key);
+        found.ok_or_else(|| load.is_not("a load with the keys at and weight"))
+    };
+    let (at, weight) = (of("at")?, of("weight")?);
+    let integers = at.integers();
+    let at = at.read(|text| parse::at(integers.as_deref().unwrap_or(text), dimension))?;
+    Ok((at, weight.read(parse::rational)?))
+}

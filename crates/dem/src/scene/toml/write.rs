@@ -1,0 +1,147 @@
+//! A scene, written down.
+
+use core::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive};
+
+use crate::scene::parse::At;
+use crate::scene::{Anchor, Scene, State};
+use cannonpile::lattice::Dimension;
+
+impl Scene {
+    /// Returns the scene as a TOML file, each key with a comment; [`from_toml`](Self::from_toml) reads it back as it
+    /// was.
+    ///
+    /// What is left to its default is left out; sizes and weights are always there. Every scene is read back that
+    /// was itself read, by the parsers of texts or of files; of others, those whose numbers have a length that
+    /// [`parse`](crate::scene::parse) accepts.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::scene::{parse, Scene};
+    ///
+    /// let scene = Scene { layers: Some(4), spacing: Some(parse::rational("1.2")?), ..Scene::default() };
+    /// let text = scene.to_toml();
+    /// assert!(text.contains("\nlayers = 4\n") && text.contains("\nspacing = \"6/5\"\n"));
+    /// assert_eq!(Scene::from_toml(&text)?, scene);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut file = File(String::from(
+            "# A pile of spheres, for cannonpile: any command with --scene and the name of this file.\n",
+        ));
+        if self.state == State::Elastic {
+            file.0 += "# Those that know no elastic state take it with --state isostatic.\n";
+        }
+        if let Some(layers) = self.layers {
+            file.key("Number of layers.", "layers", &integer(&layers.into()));
+        }
+        if let Some(stacking) = &self.stacking {
+            let comment = match self.anchor {
+                Some(Anchor::Base(_)) => "How layers follow one another, from the base up.",
+                _ => "How layers follow one another, from the top.",
+            };
+            file.key(comment, "stacking", &quoted(stacking));
+        }
+        if let Some(anchor) = &self.anchor {
+            let (key, end, way, region) = match anchor {
+                Anchor::Top(top) => ("top", "top", "down", top),
+                Anchor::Base(base) => ("base", "bottom", "up", base),
+            };
+            let comment = format!("The {end} layer, from which the pile grows {way}.");
+            file.key(&comment, key, &quoted(format_args!("{region:#}")));
+        }
+        let dimension = self.dimension.number().to_string();
+        file.key("2 for discs, 3 for spheres.", "dimension", &dimension);
+        if let Some(s) = &self.sin_phi {
+            let comment = "Sine of the azimuth phi of the base triangle.";
+            file.key(comment, "sin-phi", &number(s));
+        }
+        if !self.loads.is_empty() {
+            file.key(self.loads_comment(), "load", &self.loads_array());
+        }
+        if self.weightless {
+            let comment = "The spheres weigh nothing: only the loads act.";
+            file.key(comment, "weightless", "true");
+        }
+        if let Some(spacing) = &self.spacing {
+            let comment = "Half the distance of horizontal neighbours over the radius, a/R.";
+            file.key(comment, "spacing", &number(spacing));
+        }
+        let radius = number(&self.radius);
+        file.key("Radius R of a sphere, in m.", "radius", &radius);
+        file.key("Mass m of a sphere, in kg.", "mass", &number(&self.mass));
+        file.key("Gravity g, in m/s².", "gravity", &number(&self.gravity));
+        if self.state != State::default() {
+            let comment = "The forces of springs that only push, horizontal contacts included.";
+            file.key(comment, "state", &quoted(self.state));
+        }
+        if self.state == State::Elastic || !self.stiffness_ratio.is_one() {
+            let comment = "Stiffness of horizontal contacts over that of sloping ones.";
+            file.key(comment, "stiffness-ratio", &number(&self.stiffness_ratio));
+        }
+        file.0
+    }
+
+    fn loads_comment(&self) -> &'static str {
+        match self.dimension {
+            Dimension::Two => "Vertical loads on discs, in mg, as K,I=W, or I=W on the base.",
+            Dimension::Three => {
+                "Vertical loads on spheres, in mg, as K,I,J=W, or I,J=W on the base."
+            }
+        }
+    }
+
+    fn loads_array(&self) -> String {
+        let mut array = String::from("[\n");
+        for (at, load) in &self.loads {
+            let load = quoted(format!("{}={load}", place(at, self.dimension)));
+            array.extend(["    ", &load, ",\n"]);
+        }
+        array.push(']');
+        array
+    }
+}
+
+/// The lines so far.
+struct File(String);
+
+impl File {
+    fn key(&mut self, comment: &str, key: &str, value: &str) {
+        self.0
+            .extend(["\n# ", comment, "\n", key, " = ", value, "\n"]);
+    }
+}
+
+/// A TOML string; none of these texts has a character to escape.
+fn quoted(text: impl fmt::Display) -> String {
+    format!("\"{text}\"")
+}
+
+/// A TOML integer where every reader of TOML can hold it, or a string.
+fn integer(n: &BigInt) -> String {
+    match n.to_i64() {
+        Some(n) => n.to_string(),
+        None => quoted(n),
+    }
+}
+
+fn number(r: &BigRational) -> String {
+    if r.is_integer() {
+        integer(r.numer())
+    } else {
+        quoted(r)
+    }
+}
+
+/// What [`at`](crate::scene::parse::at) reads.
+fn place(At { layer, i, j }: &At, dimension: Dimension) -> String {
+    let layer = layer.map_or_else(String::new, |k| format!("{k},"));
+    match dimension {
+        Dimension::Two => format!("{layer}{i}"),
+        Dimension::Three => format!("{layer}{i},{j}"),
+    }
+}

@@ -1,0 +1,117 @@
+//! Where spheres come to rest on springs: they sink into each other by f/k.
+
+use super::numbered::NumberedPile;
+use super::springs::Springs;
+use crate::Error;
+use cannonpile::lattice::Link;
+
+/// The centres of the spheres in the order of their numbers, as springs of stiffness k leave them, moved by a multiple of R
+/// so that all coordinates are at least 2R: what is compared by a relative error must not be near to 0.
+///
+/// From the floor up each sphere is where its distance from the spheres that it rests on is 2R − f/k, with the exact force
+/// f. The forces themselves change as contacts turn, by F/(kR) of themselves, so that centres are wrong by (F/(kR))² R times
+/// the number of layers.
+pub(super) struct Sunk {
+    pub(super) rigid: Vec<[f64; 3]>,
+    pub(super) at_rest: Vec<[f64; 3]>,
+}
+
+/// A sphere that another rests on: its place in the list, and the force.
+type Support = (usize, f64);
+
+impl Sunk {
+    pub(super) fn of(pile: &NumberedPile<'_>, springs: &Springs) -> Result<Self, Error> {
+        let radius = springs.radius;
+        let shift = springs
+            .bounds
+            .map(|[least, _]| (2.0 - (least / radius).floor()) * radius);
+        let rigid = pile.centres()?.map(|centre| {
+            let (_, centre) = centre?;
+            Ok(add(centre, shift))
+        });
+        let rigid: Vec<[f64; 3]> = rigid.collect::<Result<_, Error>>()?;
+        let mut supports: Vec<Vec<Support>> = vec![Vec::new(); rigid.len()];
+        for contact in pile.forces()? {
+            let contact = contact?;
+            let [upper, lower] = contact.ids.map(|id| usize::try_from(id - 1));
+            // Numbers of spheres that are kept in memory.
+            let (Ok(upper), Ok(lower), Link::Sloping(_)) = (upper, lower, contact.direction) else {
+                continue;
+            };
+            if let Some(supports) = supports.get_mut(upper) {
+                supports.push((lower, contact.force));
+            }
+        }
+        let mut at_rest = rigid.clone();
+        for sphere in (0..rigid.len()).rev() {
+            let on: Vec<([f64; 3], f64)> = supports[sphere]
+                .iter()
+                .map(|(lower, force)| (at_rest[*lower], 2.0 * radius - force / springs.stiffness))
+                .collect();
+            if let [first, second, third] = on[..] {
+                at_rest[sphere] = resting_on(at_rest[sphere], [first, second, third]);
+            } else if let [first, second] = on[..] {
+                // A disc stays in its plane: as if something far along y held it there.
+                let aside = add(at_rest[sphere], [0.0, radius, 0.0]);
+                at_rest[sphere] = resting_on(at_rest[sphere], [first, second, (aside, radius)]);
+            }
+        }
+        Ok(Self { rigid, at_rest })
+    }
+}
+
+/// The point at these distances from three others, by Newton's method from a point nearby.
+fn resting_on(start: [f64; 3], supports: [([f64; 3], f64); 3]) -> [f64; 3] {
+    let mut at = start;
+    for _ in 0..8 {
+        let apart = supports.map(|(centre, _)| add(at, centre.map(|x| -x)));
+        let lengths = apart.map(|v| dot(v, v).sqrt());
+        let missing = [0, 1, 2].map(|n| supports[n].1 - lengths[n]);
+        let [a, b, c] = [0, 1, 2].map(|n| apart[n].map(|x| x / lengths[n]));
+        // a·step, b·step and c·step are what is missing.
+        let [bc, ca, ab] = [cross(b, c), cross(c, a), cross(a, b)];
+        let volume = dot(a, bc);
+        let step = [0, 1, 2]
+            .map(|n| (missing[0] * bc[n] + missing[1] * ca[n] + missing[2] * ab[n]) / volume);
+        at = add(at, step);
+    }
+    at
+}
+
+fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_has_its_distances() {
+        let supports = [
+            ([1.0, 0.0, 0.0], 1.5),
+            ([-0.5, 0.9, 0.0], 1.4),
+            ([-0.5, -0.8, 0.1], 1.6),
+        ];
+        let at = resting_on([0.0, 0.0, 1.2], supports);
+        for (centre, distance) in supports {
+            let apart = add(at, centre.map(|x| -x));
+            assert!(
+                (dot(apart, apart).sqrt() - distance).abs() < 1e-15,
+                "{at:?}"
+            );
+        }
+    }
+}

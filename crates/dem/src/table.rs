@@ -1,0 +1,73 @@
+//! Tables of a pile's forces and spheres, as csv, json and aligned text.
+//!
+//! A [`Table`] is columns, and rows made as they are asked for: what is written never needs more memory
+//! than one page of rows. Its cells are exact; a [`NumberFormat`] says how they are shown, and is checked
+//! against a bound of all numbers before the first byte is written.
+//!
+//! # Units
+//! csv and json have no place for units: [`Column::unit`] has them, and the text table shows them. In pile units
+//! ([`Units::of_pile`])
+//!
+//! | column | unit |
+//! |---|---|
+//! | `force` of a contact | f₀ = mg/(3cosθ); mg/(2(1+sinφ)cosθ) in general, mg/(2cosθ) for discs |
+//! | `normal` | mg |
+//! | `shear_x` | mg·tanθ |
+//! | `shear_y` | √3·mg·tanθ; 2cosφ·mg·tanθ in general |
+//!
+//! so that all are rational. In SI ([`Units::of_packing`]) forces are in N, lengths in m, masses in kg.
+//!
+//! # Examples
+//! ```
+//! use cannonpile::Pile;
+//! use cannonpile_dem::table;
+//! use cannonpile_dem::table::{FileFormat, NumberFormat, Units};
+//! use cannonpile::shape::Selection;
+//!
+//! let pile = Pile::triangular(2)?;
+//! let table = table::base(&Units::of_pile(&pile), Selection::Base)?;
+//! let mut csv = Vec::new();
+//! table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+//! assert_eq!(
+//!     String::from_utf8(csv)?,
+//!     "i,j,normal,shear_x,shear_y\n0,0,4/3,-1/6,-1/6\n1,0,4/3,-1/6,1/6\n0,1,4/3,1/3,0\n",
+//! );
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod cell;
+mod error;
+mod file;
+mod folder;
+mod json;
+mod line;
+mod pieces;
+mod progress;
+mod rows;
+mod summary;
+mod tables;
+mod text;
+mod unfinished;
+mod units;
+mod write;
+
+pub use cell::{Cell, NumberFormat};
+pub use error::WriteError;
+pub(crate) use file::Aside;
+pub use file::write_aside;
+pub use folder::write_all;
+pub(crate) use pieces::{columns, in_pieces, slices};
+pub(crate) use progress::Progress;
+#[doc(hidden)]
+pub use rows::Row;
+pub use rows::{Column, Table};
+pub use summary::Summary;
+#[doc(hidden)]
+pub use summary::{stacking, steps};
+pub use tables::{MAX_ROWS, base, contacts, spheres, touching_contacts};
+#[doc(hidden)]
+pub use tables::{indices, places, refuse_beyond};
+pub use unfinished::remove_unfinished;
+pub(crate) use unfinished::{Pending, remove_leftovers};
+pub use units::Units;
+pub use write::FileFormat;

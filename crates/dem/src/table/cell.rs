@@ -1,0 +1,233 @@
+//! One entry of a table, and how it is shown.
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Signed;
+
+use super::line::Line;
+use crate::Error;
+use cannonpile::scalar::{NearestFloat, Surd};
+
+/// One entry of a table.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Cell {
+    /// A count, in all number formats alike.
+    Integer(BigInt),
+    /// An index, in all number formats alike.
+    Index(i128),
+    /// An exact quantity, shown in the number format asked for.
+    Number(Box<Surd>),
+    /// A quantity that was rounded to the number format asked for.
+    F64(f64),
+    /// A quantity that was rounded to the number format asked for.
+    F32(f32),
+    /// A word.
+    Word(Cow<'static, str>),
+    /// Yes or no: 1 and 0, in json `true` and `false`.
+    Flag(bool),
+    /// Nothing to say: empty, in json `null`.
+    Missing,
+}
+
+impl From<i128> for Cell {
+    fn from(value: i128) -> Self {
+        Self::Index(value)
+    }
+}
+
+impl From<BigRational> for Cell {
+    fn from(value: BigRational) -> Self {
+        Surd::from(value).into()
+    }
+}
+
+impl From<Surd> for Cell {
+    fn from(value: Surd) -> Self {
+        Self::Number(value.into())
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Self::F64(value)
+    }
+}
+
+impl From<f32> for Cell {
+    fn from(value: f32) -> Self {
+        Self::F32(value)
+    }
+}
+
+impl From<&'static str> for Cell {
+    fn from(value: &'static str) -> Self {
+        Self::Word(value.into())
+    }
+}
+
+impl Cell {
+    /// Whether it is a number below zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::Cell;
+    ///
+    /// assert!(Cell::F64(-0.5).is_negative());
+    /// assert!(!Cell::from("-1").is_negative());
+    /// ```
+    #[must_use]
+    pub fn is_negative(&self) -> bool {
+        match self {
+            Self::Integer(n) => n.is_negative(),
+            Self::Index(n) => n.is_negative(),
+            Self::Number(x) => x.coefficient().is_negative(),
+            Self::F64(x) => *x < 0.0,
+            Self::F32(x) => *x < 0.0,
+            Self::Word(_) | Self::Flag(_) | Self::Missing => false,
+        }
+    }
+
+    /// Adds the text of the cell to a line, so often as its column has heads, or both ends of a number if it is shown
+    /// as an interval; `column` is named if the number does not fit.
+    pub(super) fn show(
+        &self,
+        numbers: NumberFormat,
+        column: &'static str,
+        heads: usize,
+        line: &mut Line,
+    ) -> Result<(), Error> {
+        if let (Self::Number(x), NumberFormat::Interval) = (self, numbers) {
+            ends(x, column)?.iter().for_each(|end| line.push_str(end));
+            return Ok(());
+        }
+        for _ in 0..heads {
+            match self {
+                Self::Integer(n) => line.push(n),
+                Self::Index(n) => match i64::try_from(*n) {
+                    // Written faster.
+                    Ok(n) => line.push(n),
+                    Err(_) => line.push(n),
+                },
+                Self::Number(x) => line.push_str(&numbers.show(x, column)?),
+                Self::F64(x) => line.push(format_args!("{x:?}")),
+                Self::F32(x) => line.push(format_args!("{x:?}")),
+                Self::Word(word) => line.push_str(word),
+                Self::Flag(flag) => line.push_str(if *flag { "1" } else { "0" }),
+                Self::Missing => line.push_str(""),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How exact quantities are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum NumberFormat {
+    /// `4`, `7/3`, `7/3*sqrt(2)`.
+    Exact,
+    /// The nearest `f64`, with the fewest digits that read back the same (at most 17).
+    F64,
+    /// The nearest `f32`, with the fewest digits that read back the same (at most 9).
+    F32,
+    /// The greatest `f64` that is not greater and the least that is not less: two columns, `…_lo` and `…_hi`.
+    Interval,
+}
+
+impl NumberFormat {
+    /// A number as text; `quantity` is named if it does not fit.
+    ///
+    /// # Errors
+    /// [`Error::Overflow`](cannonpile::Error::Overflow) for a number beyond the floats.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::NumberFormat;
+    /// use cannonpile::scalar::Surd;
+    /// use num_rational::BigRational;
+    ///
+    /// let root = Surd::sqrt(BigRational::from_integer(2.into()))?;
+    /// assert_eq!(NumberFormat::Exact.show(&root, "root")?, "sqrt(2)");
+    /// assert_eq!(NumberFormat::F64.show(&root, "root")?, "1.4142135623730951");
+    /// assert_eq!(NumberFormat::F32.show(&root, "root")?, "1.4142135");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn show(self, number: &Surd, quantity: &'static str) -> Result<String, Error> {
+        match self {
+            Self::Exact => Ok(number.to_string()),
+            Self::F64 => shortest::<f64>(number, quantity, "f64"),
+            Self::F32 => shortest::<f32>(number, quantity, "f32"),
+            Self::Interval => {
+                let [lower, upper] = ends(number, quantity)?;
+                Ok(format!("[{lower}, {upper}]"))
+            }
+        }
+    }
+}
+
+/// The `f64` on both sides of a number, or it twice where it is one, as the shortest texts that read back the same.
+fn ends(number: &Surd, quantity: &'static str) -> Result<[String; 2], Error> {
+    let overflow = || Error::overflow(quantity, "f64");
+    let float = number.nearest::<f64>().ok_or_else(overflow)?;
+    let [lower, upper] = match number.partial_cmp(&float) {
+        Some(Ordering::Less) => [float.next_down(), float],
+        Some(Ordering::Greater) => [float, float.next_up()],
+        _ => [float, float],
+    };
+    if lower.is_finite() && upper.is_finite() {
+        Ok([lower, upper].map(|end| format!("{end:?}")))
+    } else {
+        Err(overflow())
+    }
+}
+
+/// The nearest float, as the shortest text that reads back the same: what `Debug` prints.
+fn shortest<F: NearestFloat + core::fmt::Debug>(
+    number: &Surd,
+    quantity: &'static str,
+    scalar: &'static str,
+) -> Result<String, Error> {
+    let float = number.nearest::<F>();
+    float
+        .map(|x| format!("{x:?}"))
+        .ok_or_else(|| Error::overflow(quantity, scalar))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_below_zero_is_negative() {
+        let exact = |n: i32| Cell::from(BigRational::from_integer(n.into()));
+        for negative in [
+            exact(-1),
+            Cell::Integer((-1).into()),
+            Cell::Index(-1),
+            Cell::F64(-f64::from_bits(1)),
+            Cell::F32(-f32::from_bits(1)),
+        ] {
+            assert!(negative.is_negative(), "{negative:?}");
+        }
+        for other in [
+            exact(0),
+            exact(1),
+            Cell::Integer(0.into()),
+            Cell::Index(0),
+            // Of a force that vanishes the float may have a sign.
+            Cell::F64(-0.0),
+            Cell::F32(-0.0),
+            Cell::F64(1.0),
+            Cell::F32(1.0),
+            Cell::from("-1"),
+            Cell::Flag(true),
+            Cell::Missing,
+        ] {
+            assert!(!other.is_negative(), "{other:?}");
+        }
+    }
+}

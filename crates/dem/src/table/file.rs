@@ -1,0 +1,166 @@
+//! Files that are whole or not there.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{NamedTempFile, TempPath};
+
+use super::error::WriteError;
+use super::unfinished::{FRESH, PREFIX, Pending, lock, remove_leftovers};
+use crate::error::bug;
+
+/// Writes a file aside, and renames it into place when it is complete: a failure leaves what was there.
+///
+/// What is not a regular file, such as a pipe or a device, is written directly. A link is followed, one to
+/// nowhere and a read-only file refused; a file that is replaced hands on its permissions. A process that is
+/// interrupted can [remove](super::remove_unfinished) what it has written aside. One that is killed leaves a hidden file
+/// `.cannonpile-…` in the folder, which the next call for that folder removes.
+///
+/// # Errors
+/// Those of `write`, and [`WriteError::Io`].
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::table::write_aside;
+///
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("base.csv");
+/// write_aside(&path, |out| Ok(out.write_all(b"i,j\n")?))?;
+/// assert_eq!(std::fs::read(&path)?, b"i,j\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_aside(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    remove_leftovers(path.parent().unwrap_or(path));
+    Aside::write(path, write)?.keep()?;
+    Ok(())
+}
+
+/// What has been written for a path, and is not there yet.
+#[derive(Debug)]
+pub(crate) struct Aside {
+    /// None if it had to be written directly.
+    file: Option<(NamedTempFile, Pending)>,
+    target: PathBuf,
+    bytes: u64,
+}
+
+impl Aside {
+    /// Writes into the folder of the target; dropped, it leaves nothing.
+    pub(crate) fn write(
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    ) -> Result<Self, WriteError> {
+        let target = match fs::canonicalize(path) {
+            Ok(target) => target,
+            // A link to nowhere would be replaced, not followed.
+            Err(error) if path.is_symlink() => return Err(error.into()),
+            Err(_) => path.to_owned(),
+        };
+        let permissions = fs::metadata(&target)
+            .ok()
+            .map(|metadata| metadata.permissions());
+        if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
+            return Err(io::Error::from(io::ErrorKind::PermissionDenied).into());
+        }
+        if target.exists() && !target.is_file() {
+            let out = fs::OpenOptions::new().write(true).open(&target)?;
+            let bytes = write_to(out, write)?;
+            let file = None;
+            return Ok(Self {
+                file,
+                target,
+                bytes,
+            });
+        }
+        let folder = match target.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let mut aside = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As any new file, not private as temporary files are; the umask still applies.
+            aside.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let fresh = aside.prefix(FRESH).tempfile_in(folder)?;
+        let pending = Pending::new(fresh.path())?;
+        lock(fresh.as_file());
+        let (mut aside, pending) = named_as_locked(fresh, pending, folder)?;
+        let bytes = write_to(aside.as_file_mut(), write)?;
+        if let Some(permissions) = permissions {
+            aside.as_file().set_permissions(permissions)?;
+        }
+        Ok(Self {
+            file: Some((aside, pending)),
+            target,
+            bytes,
+        })
+    }
+
+    /// Renames it into place; returns how many bytes it has.
+    pub(crate) fn keep(self) -> io::Result<u64> {
+        if let Some((file, pending)) = self.file {
+            let kept =
+                pending.complete(|| file.persist(&self.target).map_err(|error| error.error))?;
+            drop(kept);
+        }
+        Ok(self.bytes)
+    }
+
+    /// Where it goes, links followed.
+    pub(crate) fn target(&self) -> &Path {
+        &self.target
+    }
+}
+
+/// Gives a file that is locked the name of one that is.
+fn named_as_locked(
+    fresh: NamedTempFile,
+    pending: Pending,
+    folder: &Path,
+) -> io::Result<(NamedTempFile, Pending)> {
+    let name = fresh.path().file_name().and_then(|name| name.to_str());
+    let random = name.and_then(|name| name.strip_prefix(FRESH));
+    let random = random.ok_or_else(|| io::Error::other(bug("it has the name it was made with")))?;
+    let path = folder.join(format!("{PREFIX}{random}"));
+    let next = Pending::new(&path)?;
+    let file = pending.complete(|| fresh.persist_noclobber(&path).map_err(|error| error.error))?;
+    let file = NamedTempFile::from_parts(file, TempPath::try_from_path(path)?);
+    Ok((file, next))
+}
+
+fn write_to(
+    out: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+) -> Result<u64, WriteError> {
+    let mut out = Counted {
+        out: BufWriter::new(out),
+        bytes: 0,
+    };
+    write(&mut out)?;
+    out.flush()?;
+    Ok(out.bytes)
+}
+
+/// A writer that counts.
+struct Counted<W> {
+    out: W,
+    bytes: u64,
+}
+
+impl<W: Write> Write for Counted<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}

@@ -1,0 +1,98 @@
+//! Several files that are all there, or none.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::{Aside, Pending, WriteError, remove_leftovers};
+
+/// Writes files into a folder, which is made if it is not there: all, or none; returns how many bytes each has.
+///
+/// Each file comes with what `write` writes into it. All are written aside, as by [`write_aside`](super::write_aside), and
+/// renamed when the last one is complete; where that fails, files and folders that were not there before are removed again.
+///
+/// # Errors
+/// Those of `write`, and [`WriteError::File`] with the path.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::table::write_all;
+///
+/// let folder = tempfile::tempdir()?;
+/// let folder = folder.path().join("runs");
+/// let files = [("a.txt", "one"), ("b.txt", "three")].map(|(name, text)| (folder.join(name), text));
+/// let written = write_all(&folder, files, |text, out| Ok(out.write_all(text.as_bytes())?))?;
+/// assert_eq!(written[1], (folder.join("b.txt"), 5));
+/// assert_eq!(std::fs::read_to_string(&written[1].0)?, "three");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_all<T>(
+    folder: &Path,
+    files: impl IntoIterator<Item = (PathBuf, T)>,
+    mut write: impl FnMut(T, &mut dyn Write) -> Result<(), WriteError>,
+) -> Result<Vec<(PathBuf, u64)>, WriteError> {
+    let mut new = New::default();
+    new.folder(folder).map_err(|error| of(folder, error))?;
+    remove_leftovers(folder);
+    let mut written = Vec::new();
+    for (path, what) in files {
+        let aside = Aside::write(&path, |out| write(what, out)).map_err(|error| match error {
+            WriteError::Io(error) => of(&path, error),
+            answer => answer,
+        })?;
+        written.push((path, aside));
+    }
+    // Not one of them is there yet; a folder of the same name, or the like, is found out here.
+    let mut all = Vec::new();
+    for (path, aside) in written {
+        let kept = new.announce(aside.target()).and_then(|()| aside.keep());
+        let bytes = kept.map_err(|error| of(&path, error))?;
+        all.push((path, bytes));
+    }
+    new.0.clear();
+    Ok(all)
+}
+
+fn of(path: &Path, error: io::Error) -> WriteError {
+    let path = path.to_owned();
+    WriteError::File { path, error }
+}
+
+/// Folders and files that were not there before, in the order in which they are made, removed again unless all are
+/// kept.
+#[derive(Default)]
+struct New(Vec<Pending>);
+
+impl New {
+    /// Makes a folder, and those that it is in.
+    fn folder(&mut self, folder: &Path) -> io::Result<()> {
+        // What is there and is no folder would be said to exist already.
+        if folder.exists() && !folder.is_dir() {
+            return Err(io::ErrorKind::NotADirectory.into());
+        }
+        let missing = folder
+            .ancestors()
+            .take_while(|path| *path != Path::new("") && !path.exists());
+        let missing: Vec<&Path> = missing.collect();
+        for path in missing.into_iter().rev() {
+            self.announce(path)?;
+        }
+        fs::create_dir_all(folder)
+    }
+
+    /// Takes note of a path that is made next.
+    fn announce(&mut self, path: &Path) -> io::Result<()> {
+        if fs::symlink_metadata(path).is_err() {
+            self.0.push(Pending::new(path)?);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for New {
+    fn drop(&mut self) {
+        for pending in self.0.iter().rev() {
+            pending.remove();
+        }
+    }
+}

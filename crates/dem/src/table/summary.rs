@@ -1,0 +1,310 @@
+//! A pile in one row.
+
+use num_bigint::BigUint;
+use num_rational::BigRational;
+
+use super::cell::Cell;
+use super::rows::{Column, Table};
+use super::units::Units;
+use crate::Error;
+use cannonpile::geometry::Apart;
+use cannonpile::lattice::Dimension;
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::{BaseExtremes, Method, Pile, Standing, Verdict};
+use cannonpile_horizontal::certificate::{Certificate, Claim};
+
+/// What there is to say of a pile in one row, and whether it stands.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::table::{FileFormat, NumberFormat, Summary, Units};
+/// use cannonpile::{Pile, Verdict};
+///
+/// let pile = Pile::triangular(10)?;
+/// let summary = Summary::new(&Units::of_pile(&pile), None)?;
+/// assert_eq!(summary.verdict(), Some(Verdict::Yes));
+/// let mut text = Vec::new();
+/// summary.table().write(FileFormat::Text, NumberFormat::Exact, &mut text)?;
+/// let text = String::from_utf8(text)?;
+/// assert!(text.starts_with("layers           10\nstacking         fcc\nspheres          220\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Summary<'p> {
+    units: Units<'p>,
+    touching: Option<Vec<Apart>>,
+    standing: Standing,
+    /// Whether horizontal contacts hold what pulls without them, where they are all that touches besides; or why that is
+    /// not known.
+    held: Option<Result<Certificate, cannonpile_horizontal::Error>>,
+    /// Or why there are none.
+    base: Result<BaseExtremes, cannonpile::Error>,
+    /// How the base is answered, or why it cannot be as a whole.
+    method: Result<Method, cannonpile::Error>,
+}
+
+impl<'p> Summary<'p> {
+    /// Sums up the pile of `units`; `touching` is what touches besides the contacts at the spacing in question,
+    /// if there is one, and nothing if there is none.
+    ///
+    /// # Errors
+    /// Those of [`Pile::standing`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::{Summary, Units};
+    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::lattice::Region;
+    /// use cannonpile::{Pile, Verdict};
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let units = Units::of_pile(&pile);
+    /// assert_eq!(Summary::new(&units, Some(Vec::new()))?.verdict(), Some(Verdict::No));
+    /// // Where spheres two layers apart touch, they may take the part of a pull.
+    /// let touching = vec![Apart { layers: 2 }];
+    /// assert_eq!(Summary::new(&units, Some(touching))?.verdict(), Some(Verdict::Undetermined));
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn new(units: &Units<'p>, touching: Option<Vec<Apart>>) -> Result<Self, Error> {
+        let pile = units.pile();
+        let plan = pile.plan(Selection::Base);
+        let standing = pile.standing()?;
+        let held = {
+            let in_layers_only = touching.as_deref() == Some(&[Apart { layers: 0 }]);
+            let pulls = standing.first_failure.is_some() && !pile.is_weightless();
+            (in_layers_only && pulls).then(|| cannonpile_horizontal::equilibrium(pile))
+        };
+        Ok(Self {
+            held,
+            units: units.clone(),
+            touching,
+            base: unless_too_large(pile.base_extremes())?,
+            standing,
+            method: unless_too_large(plan.map(|plan| plan.method))?,
+        })
+    }
+
+    /// Returns the columns that are empty, each with the reason and what can be done; `touching` is left to the caller, who
+    /// knows why it was not given.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_dem::table::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// assert!(Summary::new(&Units::of_pile(&pile), None)?.left_out().is_empty());
+    /// let one = Pile::triangular(1)?;
+    /// let left_out = Summary::new(&Units::of_pile(&one), None)?.left_out();
+    /// assert_eq!(left_out, [("min_contact", "a single layer has no contacts".to_owned())]);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn left_out(&self) -> Vec<(&'static str, String)> {
+        let stands = self.verdict().is_none();
+        let stands = stands.then(|| {
+            "of a pile without weight it is not asked: give the spheres their weight".to_owned()
+        });
+        let open = self.held.as_ref().and_then(|held| held.as_ref().err());
+        let open = open.map(|error| {
+            format!("whether horizontal contacts hold the pile was not found out: {error}")
+        });
+        let Standing {
+            least,
+            first_failure,
+            ..
+        } = &self.standing;
+        let least = least.is_none().then(|| match first_failure {
+            None => "a single layer has no contacts".to_owned(),
+            Some(k) => format!(
+                "the pile fails below layer k = {k} already, and in the layers further down more than 10^9 numbers would \
+                 have to be compared: use fewer layers"
+            ),
+        });
+        let base = self.base.as_ref().err().map(ToString::to_string);
+        let method = self.method.as_ref().err().map(ToString::to_string);
+        let reasons = [
+            ("stands", stands.or(open)),
+            ("min_contact", least),
+            ("normal_min, normal_max, max_shear_ratio", base),
+            ("plan", method),
+        ];
+        let left_out = reasons
+            .into_iter()
+            .filter_map(|(columns, reason)| Some((columns, reason?)));
+        left_out.collect()
+    }
+
+    /// Whether the pile stands; `None` for spheres without weight, of which it is not asked.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_dem::table::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?.weightless();
+    /// assert_eq!(Summary::new(&Units::of_pile(&pile), None)?.verdict(), None);
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn verdict(&self) -> Option<Verdict> {
+        let asked = !self.units.pile().is_weightless();
+        let touching = self.touching.as_deref().unwrap_or_default();
+        asked.then(|| match self.certificate() {
+            Some(certificate) if certificate.claim == Claim::Stands => Verdict::Yes,
+            Some(_) => Verdict::No,
+            None => self.standing.verdict(touching),
+        })
+    }
+
+    /// Returns the certificate of the verdict, where horizontal contacts decide it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_dem::table::{Summary, Units};
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// // The paper's forces do.
+    /// assert!(Summary::new(&Units::of_pile(&pile), None)?.certificate().is_none());
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn certificate(&self) -> Option<&Certificate> {
+        self.held.as_ref()?.as_ref().ok()
+    }
+
+    /// One row: `layers, stacking, spheres, contacts, weight, stands, min_contact, base_spheres, normal_min,
+    /// normal_max, max_shear_ratio, touching, plan`.
+    ///
+    /// The weight is that of all spheres with their loads. Why a column is empty is told by [`left_out`](Self::left_out).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_dem::table::{FileFormat, NumberFormat, Summary, Units};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
+    /// let mut csv = Vec::new();
+    /// let table = Summary::new(&Units::of_pile(&pile), None)?.table();
+    /// table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv)?;
+    /// // It does not stand: a contact would have to pull.
+    /// assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().contains(",no,-22/81,"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn table(&self) -> Table<'static> {
+        let (units, pile) = (&self.units, self.units.pile());
+        let (mass, tan) = match units {
+            Units::Pile(_) => (None, None),
+            Units::Si(packing) => (
+                Some(packing.sphere_weight()),
+                Some(packing.inclination().tan()),
+            ),
+        };
+        let in_units = |force: &BigRational| -> Cell {
+            mass.as_ref()
+                .map_or_else(|| force.clone(), |mass| force * mass)
+                .into()
+        };
+        let of_base = |value: fn(&BaseExtremes) -> &BigRational| {
+            let base = self.base.as_ref();
+            base.map_or(Cell::Missing, |base| in_units(value(base)))
+        };
+        let ratio = self.base.as_ref().ok().map(|base| match &tan {
+            None => base.max_shear_ratio.clone(),
+            Some(tan) => tan.clone() * &base.max_shear_ratio,
+        });
+        let ratio_unit = if tan.is_none() { "tanθ" } else { "" };
+        let least = self.standing.least.as_ref();
+        let least = least.map(|contact| units.contact(contact.force.clone()));
+        let method = self.method.as_ref().map(Method::to_string);
+        let plan = method.map_or(Cell::Missing, |method| Cell::Word(method.into()));
+        let plain = |name, cell: Cell| (Column::plain(name), cell);
+        let count = |name, count: BigUint| plain(name, Cell::Integer(count.into()));
+        let measured = |name, unit, cell: Cell| (Column::measured(name, unit), cell);
+        let word = |word: String| Cell::Word(word.into());
+        let stands = self.verdict().map(|verdict| verdict.name().into());
+        let touching = self.touching.as_deref().map(describe);
+        let entries = [
+            plain("layers", pile.layers().into()),
+            plain("stacking", word(stacking(pile))),
+            count("spheres", pile.sphere_count()),
+            count("contacts", pile.contact_count()),
+            measured("weight", units.normal(), in_units(&pile.weight())),
+            plain("stands", stands.unwrap_or(Cell::Missing)),
+            measured(
+                "min_contact",
+                units.force(),
+                least.map_or(Cell::Missing, Cell::from),
+            ),
+            count("base_spheres", pile.base_spheres()),
+            measured(
+                "normal_min",
+                units.normal(),
+                of_base(|base| &base.normal_min),
+            ),
+            measured(
+                "normal_max",
+                units.normal(),
+                of_base(|base| &base.normal_max),
+            ),
+            measured(
+                "max_shear_ratio",
+                ratio_unit,
+                ratio.map_or(Cell::Missing, Cell::from),
+            ),
+            plain("touching", touching.unwrap_or(Cell::Missing)),
+            plain("plan", plan),
+        ];
+        Table::record(entries.into())
+    }
+}
+
+/// Keeps the error of what is too large apart from others.
+fn unless_too_large<T>(
+    answer: Result<T, cannonpile::Error>,
+) -> Result<Result<T, cannonpile::Error>, cannonpile::Error> {
+    match answer {
+        Err(error @ cannonpile::Error::TooLarge { .. }) => Ok(Err(error)),
+        answer => answer.map(Ok),
+    }
+}
+
+/// The name of a pile's stacking, or its steps.
+#[must_use]
+pub fn stacking(pile: &Pile) -> String {
+    if pile.dimension() == Dimension::Two {
+        return "discs".into();
+    }
+    let read = as_read(pile);
+    read.name().map_or_else(|| read.to_string(), Into::into)
+}
+
+/// The steps of a pile.
+#[must_use]
+pub fn steps(pile: &Pile) -> String {
+    as_read(pile).to_string()
+}
+
+/// The stacking in the order in which it is written: from the base up, if the pile was grown so.
+fn as_read(pile: &Pile) -> Stacking {
+    let stacking = pile.shape().stacking();
+    if pile.shape().is_grown_from_base() {
+        stacking.reversed()
+    } else {
+        stacking.clone()
+    }
+}
+
+/// `none`, `in one layer and 3 layers apart`.
+fn describe(touching: &[Apart]) -> Cell {
+    let words: Vec<String> = touching.iter().map(ToString::to_string).collect();
+    if words.is_empty() {
+        "none".into()
+    } else {
+        Cell::Word(words.join(" and ").into())
+    }
+}

@@ -1,0 +1,284 @@
+//! What numbers are in: multiples of mg, or newtons and metres.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use crate::Error;
+use cannonpile::lattice::{Dimension, Site};
+use cannonpile::scalar::{NearestFloat, Ring, Surd};
+use cannonpile::shape::Selection;
+use cannonpile::{FloorForce, Forces, Method, NearestLayers, Packing, Pile, Places};
+
+/// The units of a table.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Units<'p> {
+    /// Multiples of f₀, mg and mg·tanθ: rational, whatever the spacing.
+    Pile(Box<Forces<'p, BigRational>>),
+    /// Newtons and metres, for radius, mass and gravity in SI units.
+    Si(Box<Packing<'p>>),
+}
+
+impl<'p> Units<'p> {
+    /// Returns the units in which all forces are rational: f₀, mg and mg·tanθ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_dem::table;
+    /// use cannonpile_dem::table::Units;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let table = table::contacts(&Units::of_pile(&pile), Selection::All)?;
+    /// assert_eq!(table.columns()[4].unit, "mg/(3cosθ)");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_pile(pile: &'p Pile) -> Self {
+        Self::Pile(Box::new(pile.forces()))
+    }
+
+    /// Returns newtons and metres, for radius, mass and gravity in SI units.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table;
+    /// use cannonpile_dem::table::Units;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let units = Units::of_packing(Packing::new(&pile, &spacing)?);
+    /// assert_eq!(table::base(&units, Selection::Base)?.columns()[2].unit, "N");
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_packing(packing: Packing<'p>) -> Self {
+        Self::Si(Box::new(packing))
+    }
+
+    /// The pile.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn pile(&self) -> &'p Pile {
+        self.forces().pile()
+    }
+
+    /// Returns the forces in pile units, from which those in SI are made.
+    pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
+        match self {
+            Self::Pile(forces) => forces,
+            Self::Si(packing) => packing.forces(),
+        }
+    }
+
+    /// Returns the layers of a part, in nearest floats.
+    pub(super) fn layers<F: NearestFloat>(
+        &self,
+        part: Selection,
+    ) -> Result<NearestLayers<'p, F>, Error> {
+        match self {
+            Self::Pile(forces) => Ok(forces.layers(part)?.nearest()?),
+            Self::Si(packing) => Ok(packing.layers(part)?),
+        }
+    }
+
+    /// Returns where spheres are and touch; nothing in pile units.
+    pub(super) fn places<F: NearestFloat>(&self) -> Option<Places<'p, F>> {
+        match self {
+            Self::Pile(_) => None,
+            Self::Si(packing) => Some(packing.places()),
+        }
+    }
+
+    /// Returns the magnitude of a force of contact, from its multiple of f₀.
+    pub(super) fn contact(&self, multiple: BigRational) -> Surd {
+        match self {
+            Self::Pile(_) => multiple.into(),
+            Self::Si(packing) => packing.unit_force().scaled(&multiple),
+        }
+    }
+
+    /// Returns the force of a bottom sphere on the floor, from multiples.
+    pub(super) fn on_floor(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
+        match self {
+            Self::Pile(_) => force.map(Surd::from),
+            Self::Si(packing) => packing.floor_force(force),
+        }
+    }
+
+    /// A number that no force of a part exceeds. In mg or f₀: over a layer the squares of the forces add up to no more
+    /// than that of √3 times the sum of all weights down to it, and 2√2 times that of all horizontal forces.
+    pub(super) fn greatest_force(&self, part: Selection) -> Result<Surd, Error> {
+        let horizontal = self.pile().horizontal_forces();
+        let horizontal: BigRational = horizontal.map(|(_, force)| force).sum();
+        let sources = weight_down_to(self.pile(), part)? + horizontal * BigRational::from_i128(2);
+        let bound = sources * BigRational::from_i128(3);
+        Ok(match self {
+            Self::Pile(_) => bound.into(),
+            // f₀ is greater than mg only by 1/cosθ, and shear by tanθ.
+            Self::Si(packing) => {
+                let unit = packing.sphere_weight() * bound;
+                let cos2 = packing.inclination().cos2();
+                // 1/cosθ and tanθ are both at most this; a rational bound is enough.
+                (unit / cos2).into()
+            }
+        })
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn force(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "N",
+            Self::Pile(_) if self.pile().dimension() == Dimension::Two => "mg/(2cosθ)",
+            Self::Pile(_) if self.pile().is_regular() => "mg/(3cosθ)",
+            Self::Pile(_) => "mg/(2(1+sinφ)cosθ)",
+        }
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn normal(&self) -> &'static str {
+        if let Self::Si(_) = self { "N" } else { "mg" }
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn shear_x(&self) -> &'static str {
+        if let Self::Si(_) = self {
+            "N"
+        } else {
+            "mg·tanθ"
+        }
+    }
+
+    #[doc(hidden)]
+    #[must_use]
+    pub fn shear_y(&self) -> &'static str {
+        match self {
+            Self::Si(_) => "N",
+            Self::Pile(_) if self.pile().is_regular() => "√3·mg·tanθ",
+            Self::Pile(_) => "2cosφ·mg·tanθ",
+        }
+    }
+}
+
+impl Units<'_> {
+    /// Returns these units, for answers that are found by one method.
+    ///
+    /// # Errors
+    /// As for [`Forces::by`](cannonpile::Forces::by).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::Units;
+    /// use cannonpile::{Method, Pile};
+    ///
+    /// let pile = Pile::discs(5)?;
+    /// assert!(Units::of_pile(&pile).by(Method::Sweep).is_err());
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    pub fn by(self, method: Method) -> Result<Self, Error> {
+        Ok(match self {
+            Self::Pile(forces) => Self::Pile(Box::new(forces.by(method)?)),
+            Self::Si(packing) => Self::Si(Box::new(packing.by(method)?)),
+        })
+    }
+
+    #[doc(hidden)]
+    /// The method that finds all answers, if one was chosen.
+    #[must_use]
+    pub fn method(&self) -> Option<Method> {
+        self.forces().method()
+    }
+}
+
+/// Returns what the spheres of the layers of a part and of those above weigh, with their loads, in mg; not less.
+fn weight_down_to(pile: &Pile, part: Selection) -> Result<BigRational, Error> {
+    let Selection::Layer(k) = part else {
+        return Ok(pile.weight());
+    };
+    let spheres = match pile
+        .rows(Selection::Layer(k + 1))
+        .ok()
+        .and_then(|mut rows| rows.next())
+    {
+        Some(row) => pile.shape().before(Site {
+            i: row.i.start,
+            j: row.j,
+            k: row.k,
+        })?,
+        None => return Ok(pile.weight()),
+    };
+    let special = pile.loads().chain(pile.weights());
+    let special = special
+        .filter(|(site, _)| site.k <= k)
+        .map(|(_, weight)| weight);
+    Ok(BigRational::from(BigInt::from(spheres)) + special.sum::<BigRational>())
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Signed;
+
+    use super::*;
+    use cannonpile::lattice::Region;
+
+    fn ratio(n: i64, d: i64) -> BigRational {
+        BigRational::new(n.into(), d.into())
+    }
+
+    /// Straight ones, changes of sign, discs, and spheres that are heavy or carry much.
+    fn piles() -> [Pile; 6] {
+        let swept = || Pile::under(Region::SITE, "+-+-".parse().unwrap()).unwrap();
+        let site = Site { i: 0, j: 0, k: 2 };
+        [
+            Pile::triangular(4).unwrap(),
+            Pile::isosceles(4, ratio(2, 5)).unwrap(),
+            Pile::discs(5).unwrap(),
+            swept(),
+            swept().with_load(site, ratio(1000, 1)).unwrap(),
+            swept().with_weight(site, ratio(1000, 1)).unwrap(),
+        ]
+    }
+
+    #[test]
+    fn no_force_of_a_part_exceeds_its_bound() {
+        for pile in piles() {
+            let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
+            let [in_pile, in_si] = [Units::of_pile(&pile), Units::of_packing(packing.clone())];
+            let layers = (0..pile.layers()).map(Selection::Layer);
+            for part in layers.chain([Selection::All, Selection::Base]) {
+                let [of_pile, of_si] = [&in_pile, &in_si].map(|u| u.greatest_force(part).unwrap());
+                for contact in pile.forces::<BigRational>().contacts(part).unwrap() {
+                    let contact = contact.unwrap();
+                    assert!(
+                        of_pile >= Surd::from(contact.force.abs()),
+                        "{pile:?} {part:?}"
+                    );
+                    let packed = packing.packed(contact).unwrap();
+                    let [x, y, z] = packed.vector;
+                    for force in [packed.force, x, y, z] {
+                        assert!(of_si >= force && of_si >= -force, "{pile:?} {part:?}");
+                    }
+                }
+                let Ok(base) = pile.forces::<BigRational>().base(part) else {
+                    continue;
+                };
+                for force in base {
+                    for (units, bound) in [(&in_pile, &of_pile), (&in_si, &of_si)] {
+                        let force = units.on_floor(force.clone().unwrap());
+                        for force in [force.normal, force.shear_x, force.shear_y] {
+                            assert!(*bound >= force && *bound >= -force, "{pile:?} {part:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The axes of a table, as those of a scene.
+
+use core::fmt;
+
+/// One of the three coordinates of a place or a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Coordinate {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl Coordinate {
+    const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    /// The one after it, x after z.
+    pub(super) const fn next(self) -> Self {
+        match self {
+            Self::X => Self::Y,
+            Self::Y => Self::Z,
+            Self::Z => Self::X,
+        }
+    }
+
+    /// Returns this coordinate of a vector.
+    const fn of(self, [x, y, z]: [f64; 3]) -> f64 {
+        match self {
+            Self::X => x,
+            Self::Y => y,
+            Self::Z => z,
+        }
+    }
+}
+
+/// An axis of a table, as it is or reversed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TableAxis {
+    /// The coordinate along it.
+    pub coordinate: Coordinate,
+    /// Whether it points the other way.
+    pub is_reversed: bool,
+}
+
+impl TableAxis {
+    /// Returns the component of a vector along it.
+    fn of(self, vector: [f64; 3]) -> f64 {
+        let component = self.coordinate.of(vector);
+        if self.is_reversed {
+            // 0 stays 0, not −0.
+            0.0 - component
+        } else {
+            component
+        }
+    }
+}
+
+impl From<Coordinate> for TableAxis {
+    fn from(coordinate: Coordinate) -> Self {
+        Self {
+            coordinate,
+            is_reversed: false,
+        }
+    }
+}
+
+/// Which axes of a table are x, y and z of the scene, each as it is or reversed: one of 48.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::Axes;
+/// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+///
+/// // The vertical of the table is y.
+/// let axes = Axes::new([Z.into(), X.into(), Y.into()]).unwrap();
+/// assert_eq!(axes.turned([1.0, 9.81, 0.0]), [0.0, 1.0, 9.81]);
+/// assert_eq!(axes.to_string(), "x, y, z of the scene are z, x, y of the table");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axes([TableAxis; 3]);
+
+impl Axes {
+    /// x, y and z as they are.
+    pub(super) const OWN: Self = Self::ordered([Coordinate::X, Coordinate::Y, Coordinate::Z], 0);
+
+    /// Returns these axes as x, y and z of the scene; none if one of the table's is among them twice.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Axes;
+    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    ///
+    /// assert!(Axes::new([Y.into(), X.into(), Z.into()]).is_some());
+    /// assert!(Axes::new([X.into(), X.into(), Z.into()]).is_none());
+    /// ```
+    #[must_use]
+    pub fn new(axes: [TableAxis; 3]) -> Option<Self> {
+        let named = |coordinate| axes.iter().any(|axis| axis.coordinate == coordinate);
+        Coordinate::ALL.into_iter().all(named).then_some(Self(axes))
+    }
+
+    /// Returns them for x, y and z.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Axes;
+    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    ///
+    /// let axes = Axes::new([X.into(), Z.into(), Y.into()]).unwrap();
+    /// assert_eq!(axes.get().map(|axis| axis.coordinate), [X, Z, Y]);
+    /// ```
+    #[must_use]
+    pub const fn get(self) -> [TableAxis; 3] {
+        self.0
+    }
+
+    /// Returns a vector of the table in the axes of the scene.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Axes, TableAxis};
+    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    ///
+    /// let down = TableAxis { is_reversed: true, ..Z.into() };
+    /// let axes = Axes::new([Y.into(), X.into(), down]).unwrap();
+    /// assert_eq!(axes.turned([1.0, 2.0, 3.0]), [2.0, 1.0, -3.0]);
+    /// ```
+    #[must_use]
+    pub fn turned(self, vector: [f64; 3]) -> [f64; 3] {
+        self.0.map(|axis| axis.of(vector))
+    }
+
+    /// Returns whether the table is a mirror image of the scene.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Axes;
+    /// use cannonpile_dem::verify::Coordinate::{X, Y, Z};
+    ///
+    /// assert!(Axes::new([Y.into(), X.into(), Z.into()]).unwrap().is_mirrored());
+    /// assert!(!Axes::new([Y.into(), Z.into(), X.into()]).unwrap().is_mirrored());
+    /// ```
+    #[must_use]
+    pub fn is_mirrored(self) -> bool {
+        let [x, y, z] = self.0.map(|axis| axis.coordinate);
+        let swapped = [x > y, x > z, y > z].into_iter().filter(|is| *is).count();
+        let reversed = self.0.iter().filter(|axis| axis.is_reversed).count();
+        (swapped + reversed) % 2 == 1
+    }
+
+    /// Returns these axes, each the other way.
+    pub(super) fn reversed(self) -> Self {
+        Self(self.0.map(|axis| TableAxis {
+            is_reversed: !axis.is_reversed,
+            ..axis
+        }))
+    }
+
+    /// All 48.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        use Coordinate::{X, Y, Z};
+        let orders = [
+            [X, Y, Z],
+            [X, Z, Y],
+            [Y, X, Z],
+            [Y, Z, X],
+            [Z, X, Y],
+            [Z, Y, X],
+        ];
+        let signs = 0..8_u8;
+        orders
+            .into_iter()
+            .flat_map(move |order| signs.clone().map(move |signs| Self::ordered(order, signs)))
+    }
+
+    /// Axes in an order; a bit is set for each that is reversed.
+    const fn ordered([x, y, z]: [Coordinate; 3], signs: u8) -> Self {
+        const fn axis(coordinate: Coordinate, bit: u8) -> TableAxis {
+            TableAxis {
+                coordinate,
+                is_reversed: bit != 0,
+            }
+        }
+        Self([axis(x, signs & 1), axis(y, signs & 2), axis(z, signs & 4)])
+    }
+}
+
+impl fmt::Display for Coordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+        })
+    }
+}
+
+impl fmt::Display for TableAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = if self.is_reversed { "-" } else { "" };
+        write!(f, "{sign}{}", self.coordinate)
+    }
+}
+
+impl fmt::Display for Axes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0;
+        write!(f, "x, y, z of the scene are {x}, {y}, {z} of the table")?;
+        if self.is_mirrored() {
+            f.write_str(", a mirror image")?;
+        }
+        Ok(())
+    }
+}

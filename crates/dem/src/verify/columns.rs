@@ -1,0 +1,353 @@
+//! Which columns of a table hold what.
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::Error;
+
+/// What a column can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Id1,
+    Id2,
+    Force,
+    Fx,
+    Fy,
+    Fz,
+    X,
+    Y,
+    Z,
+    X1,
+    Y1,
+    Z1,
+    X2,
+    Y2,
+    Z2,
+    Kind,
+}
+
+impl Quantity {
+    pub(super) const COUNT: usize = 16;
+
+    pub(super) const ALL: [Self; Self::COUNT] = [
+        Self::Id1,
+        Self::Id2,
+        Self::Force,
+        Self::Fx,
+        Self::Fy,
+        Self::Fz,
+        Self::X,
+        Self::Y,
+        Self::Z,
+        Self::X1,
+        Self::Y1,
+        Self::Z1,
+        Self::X2,
+        Self::Y2,
+        Self::Z2,
+        Self::Kind,
+    ];
+
+    /// The name that this crate gives it, and then LAMMPS' own names for it.
+    pub(super) const fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Id1 => &["id1", "patom1", "natom1"],
+            Self::Id2 => &["id2", "patom2", "natom2"],
+            Self::Force => &["force"],
+            Self::Fx => &["fx", "force_vector_x"],
+            Self::Fy => &["fy", "force_vector_y"],
+            Self::Fz => &["fz", "force_vector_z"],
+            Self::X => &["x"],
+            Self::Y => &["y"],
+            Self::Z => &["z"],
+            Self::X1 => &["x1"],
+            Self::Y1 => &["y1"],
+            Self::Z1 => &["z1"],
+            Self::X2 => &["x2"],
+            Self::Y2 => &["y2"],
+            Self::Z2 => &["z2"],
+            Self::Kind => &["kind"],
+        }
+    }
+
+    /// Whether it is the number of a sphere, to which nothing can be added.
+    const fn is_number_of_sphere(self) -> bool {
+        matches!(self, Self::Id1 | Self::Id2)
+    }
+
+    pub(super) const fn name(self) -> &'static str {
+        // There is a name of each.
+        match self.names() {
+            [name, ..] => name,
+            [] => "",
+        }
+    }
+}
+
+/// Which columns of a table hold what, by the names in its header or by their places.
+///
+/// Written as `QUANTITY=COLUMN,…`. The quantities are
+///
+/// | quantity | what it is |
+/// |---|---|
+/// | `id1`, `id2` | the numbers of the two spheres |
+/// | `force` | the force along the line between their centres; positive is push |
+/// | `fx`, `fy`, `fz` | the force on the first of the two |
+/// | `x1`, `y1`, `z1`, `x2`, `y2`, `z2` | the centres of the two |
+/// | `x`, `y`, `z` | the point where they touch |
+/// | `kind` | what sort of contact it is: `kind=contact_type:SS` reads the rows with `SS` there, several are `SS\|SP`; others are contacts with walls, and counted |
+///
+/// A column is a name of the header, or `#n`, the n-th column from 1 of a table without header. It may be a sum, with
+/// factors, unless it is the number of a sphere: `fx=-f_x` for a vector that is the force on the second sphere, `fx=#10+#13` for a normal and a tangential
+/// part, `force=1e7*overlap` for a linear spring of 10⁷ N/m. A quantity that is not named has the names above,
+/// or for LAMMPS `patom1`, `patom2`, `natom1`, `natom2`. A name that begins with - or has a * in it is written with its
+/// factor: `force=1*a*b`.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::Columns;
+///
+/// let columns: Columns = "id1=A,id2=B,fx=-f_x,fy=-f_y,fz=-f_z".parse()?;
+/// assert_eq!(columns.to_string(), "id1=A,id2=B,fx=-f_x,fy=-f_y,fz=-f_z");
+/// assert!("weight=W".parse::<Columns>().is_err());
+/// # Ok::<(), cannonpile_dem::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Columns {
+    /// What was named, in the order in which it was.
+    sums: Vec<(Quantity, Vec<Term>)>,
+    kinds: Vec<String>,
+    first_id: FirstId,
+}
+
+/// The number of the first sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct FirstId(u64);
+
+impl Default for FirstId {
+    fn default() -> Self {
+        Self(1)
+    }
+}
+
+/// A column, times a factor.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Term {
+    pub(super) factor: f64,
+    pub(super) column: Column,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Column {
+    Named(String),
+    /// Counted from 0.
+    Numbered(usize),
+}
+
+impl Columns {
+    /// Returns these columns, with what others name in place of what these do.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Columns, Preset};
+    ///
+    /// // MDDEM writes overlaps: with linear springs a force is their stiffness times that.
+    /// let columns = Preset::Mddem.columns().overridden(&"force=1e7*overlap".parse()?);
+    /// assert!(columns.to_string().ends_with("force=10000000*overlap"));
+    /// # Ok::<(), cannonpile_dem::Error>(())
+    /// ```
+    #[must_use]
+    pub fn overridden(mut self, by: &Self) -> Self {
+        self.sums
+            .retain(|(quantity, _)| by.terms(*quantity).is_none());
+        self.sums.extend(by.sums.iter().cloned());
+        if !by.kinds.is_empty() {
+            self.kinds.clone_from(&by.kinds);
+        }
+        if by.first_id != FirstId::default() {
+            self.first_id = by.first_id;
+        }
+        self
+    }
+
+    /// Returns these columns for a code that counts its spheres from another number than 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile_dem::verify::{Columns, Reader};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let reader = Reader::new().with_columns(Columns::default().with_first_id(0));
+    /// let read = reader.compare(&packing, &b"id1,id2,force\n0,1,0.46\n0,2,0.46\n0,3,0.46\n"[..])?;
+    /// assert_eq!(read.comparison.matched(), 3);
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn with_first_id(self, first_id: u64) -> Self {
+        Self {
+            first_id: FirstId(first_id),
+            ..self
+        }
+    }
+
+    pub(super) fn first_id(&self) -> u64 {
+        self.first_id.0
+    }
+
+    /// The kinds of contacts that are read; none for all.
+    pub(super) fn kinds(&self) -> &[String] {
+        &self.kinds
+    }
+
+    /// The columns whose sum a quantity is, if they were named.
+    pub(super) fn terms(&self, quantity: Quantity) -> Option<&[Term]> {
+        let mut sums = self.sums.iter();
+        let (_, terms) = sums.find(|(named, _)| *named == quantity)?;
+        Some(terms)
+    }
+
+    /// Whether columns are counted, so that the table has no header.
+    pub(super) fn are_numbered(&self) -> bool {
+        let mut terms = self.sums.iter().flat_map(|(_, terms)| terms);
+        terms.any(|term| matches!(term.column, Column::Numbered(_)))
+    }
+
+    fn name(&mut self, assignment: &str) -> Result<(), Error> {
+        let (key, column) = assignment
+            .split_once('=')
+            .ok_or_else(|| Error::syntax(assignment, ASSIGNMENT))?;
+        let mut all = Quantity::ALL.into_iter();
+        let quantity = all
+            .find(|quantity| quantity.name() == key.trim())
+            .ok_or_else(|| Error::syntax(key, QUANTITY))?;
+        if self.terms(quantity).is_some() {
+            return Err(Error::syntax(assignment, "named once only"));
+        }
+        let terms = if quantity == Quantity::Kind {
+            let (column, kinds) = column
+                .rsplit_once(':')
+                .ok_or_else(|| Error::syntax(assignment, "kind=COLUMN:VALUE"))?;
+            self.kinds = kinds
+                .split('|')
+                .map(|kind| kind.trim().to_owned())
+                .collect();
+            vec![Term {
+                factor: 1.0,
+                column: column_of(column)?,
+            }]
+        } else {
+            terms(column)?
+        };
+        if quantity.is_number_of_sphere() && !matches!(terms[..], [Term { factor: 1.0, .. }]) {
+            return Err(Error::syntax(assignment, ID));
+        }
+        self.sums.push((quantity, terms));
+        Ok(())
+    }
+}
+
+const ASSIGNMENT: &str =
+    "a column such as id1=A or fx=-#10 (QUANTITY=COLUMN, several separated by commas)";
+const QUANTITY: &str = "one of id1, id2, force, fx, fy, fz, x, y, z, x1, y1, z1, x2, y2, z2, kind";
+const ID: &str = "id1=COLUMN: the number of a sphere is one column, without a sign or a factor";
+const COLUMN: &str = "a column: its name, or #1 for the first of a table without header";
+
+impl FromStr for Columns {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let mut columns = Self::default();
+        for assignment in text.split(',') {
+            columns.name(assignment)?;
+        }
+        let named = |term: &Term| matches!(term.column, Column::Named(_));
+        if columns.are_numbered() && columns.sums.iter().flat_map(|(_, terms)| terms).any(named) {
+            let expected = "all by name, or all by place: a table has a header or none";
+            return Err(Error::syntax(text, expected));
+        }
+        Ok(columns)
+    }
+}
+
+/// A sum of columns: each may have a sign and a factor; names are ended by +, and by - before # alone.
+fn terms(text: &str) -> Result<Vec<Term>, Error> {
+    let spaced = text.replace("-#", "+-#");
+    let spaced = spaced.strip_prefix('+').unwrap_or(&spaced);
+    spaced
+        .split('+')
+        .map(|term| {
+            let (sign, term) = match term.trim().strip_prefix('-') {
+                Some(rest) => (-1.0, rest),
+                None => (1.0, term.trim()),
+            };
+            let (factor, column) = match term.split_once('*') {
+                Some((factor, column)) => (factor_of(factor)?, column),
+                None => (1.0, term),
+            };
+            Ok(Term {
+                factor: sign * factor,
+                column: column_of(column)?,
+            })
+        })
+        .collect()
+}
+
+fn factor_of(text: &str) -> Result<f64, Error> {
+    let factor = text.trim().parse::<f64>().ok();
+    let factor = factor.filter(|factor| factor.is_finite() && *factor != 0.0);
+    factor.ok_or_else(|| Error::syntax(text, "a factor such as 1e7 or -0.5"))
+}
+
+fn column_of(text: &str) -> Result<Column, Error> {
+    let text = text.trim();
+    let Some(place) = text.strip_prefix('#') else {
+        return match text {
+            "" => Err(Error::syntax(text, COLUMN)),
+            name => Ok(Column::Named(name.to_owned())),
+        };
+    };
+    let place = place
+        .parse()
+        .ok()
+        .and_then(|place: usize| place.checked_sub(1));
+    let place = place.ok_or_else(|| Error::syntax(text, COLUMN))?;
+    Ok(Column::Numbered(place))
+}
+
+impl fmt::Display for Columns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (n, (quantity, terms)) in self.sums.iter().enumerate() {
+            let comma = if n == 0 { "" } else { "," };
+            write!(f, "{comma}{}=", quantity.name())?;
+            for (n, Term { factor, column }) in terms.iter().enumerate() {
+                let sign = match (*factor < 0.0, n) {
+                    (true, _) if matches!(column, Column::Named(_)) && n > 0 => "+-",
+                    (true, _) => "-",
+                    (false, 0) => "",
+                    (false, _) => "+",
+                };
+                f.write_str(sign)?;
+                // Without it what such a name begins with would be read as one, or as a sign; that of a kind has none.
+                let is_part_of = |name: &String| name.starts_with('-') || name.contains('*');
+                let needs_factor = *quantity != Quantity::Kind
+                    && matches!(column, Column::Named(name) if is_part_of(name));
+                if needs_factor || factor.abs().to_bits() != 1.0_f64.to_bits() {
+                    write!(f, "{}*", factor.abs())?;
+                }
+                match column {
+                    Column::Named(name) => f.write_str(name)?,
+                    Column::Numbered(place) => write!(f, "#{}", place + 1)?,
+                }
+            }
+            if *quantity == Quantity::Kind {
+                write!(f, ":{}", self.kinds.join("|"))?;
+            }
+        }
+        Ok(())
+    }
+}

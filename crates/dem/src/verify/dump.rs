@@ -1,0 +1,189 @@
+//! Measured forces from what LAMMPS writes as `dump local`.
+
+use std::io::BufRead;
+
+use super::csv_file::{Format, take};
+use super::entry::Sink;
+use super::header::Header;
+use super::lines::{Line, Lines};
+use super::reading::Reading;
+use super::refusal::{Fault, Refusal};
+use crate::Error;
+
+/// Reads a LAMMPS `dump local` file; of several snapshots the last is kept.
+///
+/// ```text
+/// compute      ids all property/local patom1 patom2
+/// compute      f all pair/local force fx fy fz
+/// dump         d all local 1000 contacts.dump c_ids[1] c_ids[2] c_f[1] c_f[2] c_f[3] c_f[4]
+/// dump_modify  d format float %.17g colname c_ids[1] id1 colname c_ids[2] id2 colname c_f[1] force &
+///              colname c_f[2] fx colname c_f[3] fy colname c_f[4] fz
+/// ```
+/// Without names of their own the columns are called `c_ids[1]` and so on, and refused: what they hold is not in the
+/// file. Without a format forces are written with six digits, an error of up to 5e-6, and so are ids. The header may have
+/// another label than `ENTRIES`, a line with the units, one with the time, and any kind of box. Blanks part the fields.
+///
+/// # Errors
+/// [`Refusal::Line`], also if any snapshot has fewer entries than announced, or the last line no end;
+/// [`Refusal::Io`].
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify;
+/// use cannonpile_dem::verify::Measured;
+///
+/// let dump = "ITEM: TIMESTEP\n500\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n\
+///             ITEM: ENTRIES index id1 id2 force fx fy fz \n1 4 1 0.5 0.4 0 -0.3 \n";
+/// let reading = verify::read_dump(dump.as_bytes())?;
+/// assert_eq!(reading.entries(), [Measured::new([4, 1], 0.5).with_vector([0.4, 0.0, -0.3])]);
+/// assert_eq!((reading.snapshots(), reading.timestep()), (1, Some(500)));
+/// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+/// ```
+pub fn read_dump(input: impl BufRead) -> Result<Reading, Refusal> {
+    let mut reading = Reading::default();
+    read_snapshots(Lines::new(input), &Format::default(), &mut reading)?;
+    Ok(reading)
+}
+
+/// What a line begins with that announces others.
+pub(super) const ITEM: &str = "ITEM:";
+
+pub(super) fn read_snapshots(
+    mut lines: Lines<impl BufRead>,
+    format: &Format,
+    sink: &mut impl Sink,
+) -> Result<(), Refusal> {
+    let mut snapshots = 0_u64;
+    let mut header = Snapshot::default();
+    while let Some((number, item)) = next_item(&mut lines, &header)? {
+        match &*item {
+            "TIMESTEP" => header.timestep = Some(integer(&mut lines, "a time step such as 500")?),
+            "UNITS" | "TIME" => _ = whole_line(&mut lines)?,
+            _ if item.starts_with("BOX BOUNDS") => {
+                for _ in 0..3 {
+                    whole_line(&mut lines)?;
+                }
+            }
+            _ => match (item.strip_prefix("NUMBER OF "), header.columns(&item)) {
+                (Some(label), None) => {
+                    header.label = Some(label.to_owned());
+                    header.entries = integer(&mut lines, "a number of entries such as 495")?;
+                }
+                (_, Some(names)) => {
+                    let names = names.split_whitespace();
+                    let columns = Header::find(names, &format.columns, format.identity);
+                    let columns = columns.map_err(|fault| fault.at(number))?;
+                    sink.begin_snapshot(header.timestep);
+                    entries(&mut lines, &columns, header.entries, sink)?;
+                    snapshots += 1;
+                    header = Snapshot::default();
+                }
+                (None, None) => {
+                    let expected = "an item of a LAMMPS dump local file: TIMESTEP, NUMBER OF ENTRIES, BOX BOUNDS, ENTRIES";
+                    return Err(unexpected(&item, expected).at(number));
+                }
+            },
+        }
+    }
+    if snapshots == 0 {
+        return Err(Fault::Empty.at(lines.number()));
+    }
+    Ok(())
+}
+
+/// What is known of a snapshot before its entries.
+#[derive(Default)]
+struct Snapshot {
+    timestep: Option<i64>,
+    /// `ENTRIES`, unless the user chose another word.
+    label: Option<String>,
+    entries: u64,
+}
+
+impl Snapshot {
+    /// The names of the columns, if this item is the one that has them.
+    fn columns<'i>(&self, item: &'i str) -> Option<&'i str> {
+        let names = item.strip_prefix(self.label.as_deref()?)?;
+        (names.is_empty() || names.starts_with(' ')).then_some(names)
+    }
+
+    fn is_begun(&self) -> bool {
+        self.timestep.is_some() || self.label.is_some()
+    }
+}
+
+/// The next item with its line; none at the end of a whole snapshot.
+fn next_item(
+    lines: &mut Lines<impl BufRead>,
+    header: &Snapshot,
+) -> Result<Option<(u64, String)>, Refusal> {
+    let Some(line) = lines.next()? else {
+        return if header.is_begun() {
+            Err(Fault::Cut.at(lines.number()))
+        } else {
+            Ok(None)
+        };
+    };
+    let Line {
+        number,
+        text,
+        ended,
+    } = line;
+    match text.strip_prefix(ITEM) {
+        Some(item) if ended => Ok(Some((number, item.trim().to_owned()))),
+        Some(_) => Err(Fault::Cut.at(number)),
+        None => {
+            let expected = "a line that begins with ITEM: (are there more entries than announced?)";
+            Err(unexpected(text, expected).at(number))
+        }
+    }
+}
+
+/// A line with its end.
+fn whole_line(lines: &mut Lines<impl BufRead>) -> Result<Line<'_>, Refusal> {
+    let last = lines.number();
+    match lines.next()? {
+        Some(line) if line.ended => Ok(line),
+        Some(line) => Err(Fault::Cut.at(line.number)),
+        None => Err(Fault::Cut.at(last)),
+    }
+}
+
+fn integer<T: core::str::FromStr>(
+    lines: &mut Lines<impl BufRead>,
+    expected: &'static str,
+) -> Result<T, Refusal> {
+    let line = whole_line(lines)?;
+    let integer = line.text.trim().parse();
+    integer.map_err(|_| unexpected(line.text, expected).at(line.number))
+}
+
+fn entries(
+    lines: &mut Lines<impl BufRead>,
+    columns: &Header,
+    announced: u64,
+    sink: &mut impl Sink,
+) -> Result<(), Refusal> {
+    for found in 0..announced {
+        let last = lines.number();
+        let truncated = Fault::Truncated { announced, found };
+        let Some(line) = lines.next()? else {
+            return Err(truncated.at(last));
+        };
+        if line.text.starts_with(ITEM) {
+            return Err(truncated.at(line.number));
+        }
+        if !line.ended {
+            return Err(Fault::Cut.at(line.number));
+        }
+        let fields: Vec<&str> = line.text.split_whitespace().collect();
+        take(columns, &fields, line.number, sink)?;
+    }
+    Ok(())
+}
+
+fn unexpected(text: &str, expected: &'static str) -> Fault {
+    Fault::Dump {
+        error: Box::new(Error::syntax(text, expected)),
+    }
+}

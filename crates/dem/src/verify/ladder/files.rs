@@ -1,0 +1,116 @@
+//! The files of a ladder, as a user names them.
+
+use core::fmt;
+use core::str::FromStr;
+use std::path::PathBuf;
+
+use super::{MAX_RUNGS, NoLadder, check_parameter, repeated};
+use crate::error::quoted;
+
+/// A file with the forces of a simulation, and its stiffness or time step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LadderFile {
+    /// The stiffness or the time step, positive.
+    pub parameter: f64,
+    /// The file.
+    pub path: PathBuf,
+}
+
+/// The files of a ladder: `K1=FILE1,K2=FILE2`, each with its stiffness or time step. A comma ends a file's name, and the
+/// first `=` begins it.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::LadderFiles;
+///
+/// let LadderFiles(files) = "1e5=soft.csv,1e6=stiff=2.csv".parse()?;
+/// assert_eq!(files.iter().map(|file| file.parameter).collect::<Vec<_>>(), [1e5, 1e6]);
+/// assert_eq!(files[1].path, std::path::Path::new("stiff=2.csv"));
+///
+/// let refused = "1e5=soft.csv,stiff.csv".parse::<LadderFiles>().unwrap_err();
+/// assert_eq!(refused.to_string(), "'stiff.csv' has no =: give every file as its parameter=FILE, as in 1e6=stiff.csv");
+/// # Ok::<(), cannonpile_dem::verify::NoLadderFiles>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct LadderFiles(pub Vec<LadderFile>);
+
+/// Why a list names no files of a ladder: one line with the remedy.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoLadderFiles {
+    /// An entry without a `=`.
+    NoEquals {
+        /// The entry, shortened if it is long.
+        entry: String,
+    },
+    /// Nothing stands after the `=`.
+    NoFile {
+        /// The entry, shortened if it is long.
+        entry: String,
+    },
+    /// Nothing that is a number stands before it.
+    NoNumber {
+        /// What does, shortened if it is long.
+        text: String,
+    },
+    /// The parameters are of no ladder.
+    Ladder(NoLadder),
+}
+
+impl fmt::Display for NoLadderFiles {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoEquals { entry } => write!(
+                f,
+                "'{entry}' has no =: give every file as its parameter=FILE, as in 1e6=stiff.csv"
+            ),
+            Self::NoFile { entry } => {
+                write!(
+                    f,
+                    "'{entry}' names no file: give one after the =, as in 1e6=stiff.csv"
+                )
+            }
+            Self::NoNumber { text } => write!(
+                f,
+                "'{text}' is no number: give the stiffness or the time step before the =, as in 1e6=stiff.csv"
+            ),
+            Self::Ladder(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for NoLadderFiles {}
+
+impl FromStr for LadderFiles {
+    type Err = NoLadderFiles;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let mut files = Vec::new();
+        for entry in text.split(',') {
+            let shown = || quoted(entry);
+            let (parameter, path) = entry
+                .split_once('=')
+                .ok_or_else(|| NoLadderFiles::NoEquals { entry: shown() })?;
+            if path.is_empty() {
+                return Err(NoLadderFiles::NoFile { entry: shown() });
+            }
+            let parameter = parameter.trim();
+            let parameter = parameter.parse().map_err(|_| NoLadderFiles::NoNumber {
+                text: quoted(parameter),
+            })?;
+            check_parameter(parameter).map_err(NoLadderFiles::Ladder)?;
+            if files.len() == MAX_RUNGS {
+                let many = NoLadder::TooMany { limit: MAX_RUNGS };
+                return Err(NoLadderFiles::Ladder(many));
+            }
+            let path = path.into();
+            files.push(LadderFile { parameter, path });
+        }
+        let mut parameters: Vec<f64> = files.iter().map(|file| file.parameter).collect();
+        parameters.sort_by(f64::total_cmp);
+        match repeated(parameters.into_iter()) {
+            Some(parameter) => Err(NoLadderFiles::Ladder(NoLadder::Twice { parameter })),
+            None => Ok(Self(files)),
+        }
+    }
+}

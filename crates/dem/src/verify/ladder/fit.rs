@@ -1,0 +1,311 @@
+//! The line through the rungs above the floor, on logarithmic axes.
+
+use core::fmt;
+
+use super::{Ladder, Log, Norm, RungPlace};
+
+/// An error that falls with less than this order does not fall.
+const LEAST_ORDER: f64 = 0.5;
+
+/// What is left of the order so far, where the floor is not yet reached.
+const KEPT_ORDER: f64 = 2.0 / 3.0;
+
+/// An error less than so many times that of the floor is partly of the floor.
+const NEAR: f64 = 3.0;
+
+/// The line e = C hᵖ through the rungs above the floor: least squares of ln e = ln C + p ln h, each rung counting alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    order: f64,
+    standard_error: Option<f64>,
+    constant: f64,
+    residual: f64,
+    rungs: usize,
+}
+
+impl Fit {
+    /// The observed order p.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [1e-2, 1e-3, 1e-4].map(|step| Rung::of_errors(step, 30, 7.0 * step * step, step));
+    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
+    /// assert!((ladder.fit(Norm::Largest)?.order() - 2.0).abs() < 1e-12);
+    /// assert!((ladder.fit(Norm::Rms)?.order() - 1.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn order(&self) -> f64 {
+        self.order
+    }
+
+    /// The standard error of the order, √(Σr²/(n − 2)/Σ(ln h − mean)²) with the residuals r of n rungs; none for two, which
+    /// every line goes through.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
+    /// let all = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
+    /// assert!((0.005..0.015).contains(&all.standard_error().unwrap()));
+    /// let two = Ladder::new(Refinement::Stiffness, rungs.into_iter().take(2))?;
+    /// assert_eq!(two.fit(Norm::Largest)?.standard_error(), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn standard_error(&self) -> Option<f64> {
+        self.standard_error
+    }
+
+    /// C, the error at h = 1: for springs and p = 1 in the unit of the stiffness. Infinite or 0 where no float is near
+    /// to it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [1e4, 1e5].map(|k| Rung::of_errors(k, 30, 4.8 / k, 1.0 / k));
+    /// let fit = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
+    /// assert!((fit.constant() - 4.8).abs() < 1e-10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// The root of the mean square of ln e − ln(C hᵖ): 0.01 if the rungs are some 1 % off the line.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [(1e4, 5.1e-4), (1e5, 4.9e-5), (1e6, 5.1e-6)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
+    /// let fit = Ladder::new(Refinement::Stiffness, rungs)?.fit(Norm::Largest)?;
+    /// assert!((0.01..0.03).contains(&fit.residual()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// How many rungs are above the floor.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [1e-2, 1e-3, 1e-4, 1e-5].map(|step: f64| Rung::of_errors(step, 30, step.max(1e-4), step));
+    /// let ladder = Ladder::new(Refinement::TimeStep, rungs)?;
+    /// assert_eq!((ladder.fit(Norm::Largest)?.rungs(), ladder.fit(Norm::Rms)?.rungs()), (2, 4));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn rungs(&self) -> usize {
+        self.rungs
+    }
+
+    /// The error on the line at a refinement parameter h: C hᵖ.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [1e-2, 1e-3].map(|step| Rung::of_errors(step, 30, 7.0 * step, step));
+    /// let fit = Ladder::new(Refinement::TimeStep, rungs)?.fit(Norm::Largest)?;
+    /// assert!((fit.at(1e-5) / 7e-5 - 1.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn at(&self, h: f64) -> f64 {
+        self.constant * h.powf(self.order)
+    }
+
+    /// The line through some points.
+    fn through(points: &[Log]) -> Result<Self, NoOrder> {
+        let few = NoOrder::Few {
+            rungs: points.len(),
+            least: 2,
+        };
+        if points.len() < 2 {
+            return Err(few);
+        }
+        let count = count(points.len());
+        let mean = |of: fn(&Log) -> f64| points.iter().map(of).sum::<f64>() / count;
+        let middle = Log {
+            h: mean(|point| point.h),
+            e: mean(|point| point.e),
+        };
+        let apart = points
+            .iter()
+            .map(|point| (point.h - middle.h, point.e - middle.e));
+        let spread: f64 = apart.clone().map(|(h, _)| h * h).sum();
+        let slope: f64 = apart.clone().map(|(h, e)| h * e).sum();
+        let order = slope / spread;
+        if !order.is_finite() {
+            return Err(NoOrder::Alike);
+        }
+        let squares: f64 = apart.map(|(h, e)| (e - order * h) * (e - order * h)).sum();
+        let free = count - 2.0;
+        Ok(Self {
+            order,
+            standard_error: (free > 0.0).then(|| (squares / free / spread).sqrt()),
+            constant: (middle.e - order * middle.h).exp(),
+            residual: (squares / count).sqrt(),
+            rungs: points.len(),
+        })
+    }
+}
+
+impl Ladder {
+    /// Where each rung is: which ones the order is taken from.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung, RungPlace};
+    ///
+    /// let rungs = [(10.0, 0.2), (1e3, 2e-3), (1e4, 2e-4), (1e5, 5e-5), (1e6, 6e-5)];
+    /// let mut rungs = rungs.map(|(k, error)| Rung::of_errors(k, 30, error, error));
+    /// rungs[0].missing = 3;
+    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+    /// let places = ladder.places(Norm::Largest);
+    /// assert_eq!(places, [RungPlace::Incomplete, RungPlace::Above, RungPlace::Above, RungPlace::Floor, RungPlace::Floor]);
+    /// # Ok::<(), cannonpile_dem::verify::NoLadder>(())
+    /// ```
+    #[must_use]
+    pub fn places(&self, norm: Norm) -> Vec<RungPlace> {
+        let logs: Vec<_> = self.logs(norm).collect();
+        let points: Vec<Log> = logs.iter().filter_map(|log| log.ok()).collect();
+        let above = above(&points);
+        let mut met = 0;
+        let mut place = || {
+            met += 1;
+            if met <= above {
+                RungPlace::Above
+            } else {
+                RungPlace::Floor
+            }
+        };
+        let places = logs
+            .into_iter()
+            .map(|log| log.map_or_else(|place| place, |_| place()));
+        places.collect()
+    }
+
+    /// The line through the rungs above the floor.
+    ///
+    /// # Errors
+    /// [`NoOrder`] for fewer than two such rungs, and for parameters so near to each other that no slope is seen.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, NoOrder, Norm, Refinement, Rung};
+    ///
+    /// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.8 / k, 0.01));
+    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+    /// assert!((ladder.fit(Norm::Largest)?.order() - 1.0).abs() < 1e-12);
+    /// // These do not fall at all: all but the first are on the floor.
+    /// assert_eq!(ladder.fit(Norm::Rms), Err(NoOrder::Few { rungs: 1, least: 2 }));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn fit(&self, norm: Norm) -> Result<Fit, NoOrder> {
+        let mut points: Vec<Log> = self.logs(norm).filter_map(Result::ok).collect();
+        points.truncate(above(&points));
+        Fit::through(&points)
+    }
+
+    /// The points of whole rungs, or why there is none.
+    fn logs(&self, norm: Norm) -> impl Iterator<Item = Result<Log, RungPlace>> {
+        self.rungs().iter().map(move |rung| {
+            if rung.is_whole() {
+                self.log(rung, norm).ok_or(RungPlace::NoLogarithm)
+            } else {
+                Err(RungPlace::Incomplete)
+            }
+        })
+    }
+}
+
+/// How many points are above the floor: see [`ladder`](super).
+fn above(points: &[Log]) -> usize {
+    let last = points.iter().enumerate().position(|(n, from)| {
+        let until_here = points.first().filter(|_| n >= 2);
+        let until_here = until_here.map(|first| KEPT_ORDER * first.order_to(*from));
+        let least = until_here.map_or(LEAST_ORDER, |order| order.max(LEAST_ORDER));
+        let mut finer = points.iter().skip(n + 1);
+        !finer.any(|finer| from.order_to(*finer) >= least)
+    });
+    let (above, floor) = points.split_at(last.map_or(0, |last| last + 1));
+    let (Some(last), Some(floor)) = (above.last(), floor.first()) else {
+        return above.len();
+    };
+    let level = last.e.min(floor.e) + NEAR.ln();
+    let is_near = |point: &&Log| point.e < level;
+    let near = above.iter().skip(2).rev().take_while(is_near).count();
+    above.len() - near
+}
+
+#[expect(clippy::cast_precision_loss, reason = "at most a thousand rungs")]
+pub(super) fn count(rungs: usize) -> f64 {
+    rungs as f64
+}
+
+/// Why a ladder has no order, or no limit: one line with the remedy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum NoOrder {
+    /// Too few rungs.
+    Few {
+        /// How many there are above the floor; for a limit, down to the least error.
+        rungs: usize,
+        /// How many it takes.
+        least: usize,
+    },
+    /// Parameters that differ by less than is seen.
+    Alike,
+    /// Errors that do not fall from rung to rung down to the least of them.
+    Rising {
+        /// The stiffness or the time step of the rung whose error is not below the one before.
+        parameter: f64,
+    },
+    /// An error of 0 among those of which the limit is taken.
+    Zero {
+        /// The stiffness or the time step of its rung.
+        parameter: f64,
+    },
+    /// An order that cannot be one.
+    Order {
+        /// The order.
+        order: f64,
+    },
+}
+
+impl fmt::Display for NoOrder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Few { rungs, least } => write!(
+                f,
+                "{rungs} of the {least} rungs it takes have an error that falls, with all contacts there: add coarser ones, \
+                 which are farther above the floor"
+            ),
+            Self::Alike => f.write_str(
+                "the parameters are too near to each other: choose them a factor of 2 or more apart",
+            ),
+            Self::Rising { parameter } => write!(
+                f,
+                "the error at {parameter:e} is not below that of the coarser rung: only errors that fall have a limit"
+            ),
+            Self::Zero { parameter } => write!(
+                f,
+                "the error at {parameter:e} is 0: leave this rung out, nothing is left of it"
+            ),
+            Self::Order { order } => write!(f, "{order:e} is no order: it is positive"),
+        }
+    }
+}
+
+impl core::error::Error for NoOrder {}

@@ -1,0 +1,258 @@
+//! A ladder as tables, and as json.
+
+use std::io::Write;
+
+use serde_json::{Value, json};
+
+use super::{Fit, Ladder, Limit, NoOrder, Norm, Refinement, Rung};
+use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
+
+/// What a ladder says.
+///
+/// As csv a rung a row, from the coarsest: `stiffness` (or `timestep`), `contacts, matched, missing, extra, largest_error,
+/// rms_error, order, predicted_error, place`; `order` is that of the largest errors of this rung and the one before, `place`
+/// says whether it is [above the floor](super::RungPlace). As text the same, and below it a row for the
+/// largest errors and for the root of their mean square: `error, order, standard_error, constant, residual,
+/// extrapolated_error, extrapolated_standard_error, rungs_used`, with a line for what is not known. As json an array of one
+/// object with `refinement`, the array `rungs`, and the objects `largest` and `rms`, in which `no_order` and
+/// `no_limit` say why there is no order or no limit. An infinite number is `inf`, in json `null`.
+///
+/// The limit is taken with order 1 for stiffnesses, the order of linear springs, and with the observed order for time steps.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::table::FileFormat;
+/// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+///
+/// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
+/// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+/// let mut csv = Vec::new();
+/// LadderReport::new(&ladder).write(FileFormat::Csv, &mut csv)?;
+/// let csv = String::from_utf8(csv)?;
+/// assert!(csv.starts_with("stiffness,contacts,matched,missing,extra,largest_error,"));
+/// assert!(csv.lines().nth(1).unwrap().starts_with("10000.0,30,30,0,0,0.0005,0.0002,,,above"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct LadderReport<'l>(&'l Ladder);
+
+impl<'l> LadderReport<'l> {
+    /// The report of a ladder.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+    ///
+    /// let ladder = Ladder::new(Refinement::TimeStep, [Rung::of_errors(1e-3, 30, 0.1, 0.05)])?;
+    /// let mut text = Vec::new();
+    /// LadderReport::new(&ladder).write(FileFormat::Text, &mut text)?;
+    /// assert!(String::from_utf8(text)?.contains("no order of the largest errors: 1 of the 2 rungs it takes"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn new(ladder: &'l Ladder) -> Self {
+        Self(ladder)
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// [`WriteError::Io`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile_dem::verify::{Ladder, LadderReport, Refinement, Rung};
+    ///
+    /// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
+    /// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+    /// let mut json = Vec::new();
+    /// LadderReport::new(&ladder).write(FileFormat::Json, &mut json)?;
+    /// let json: serde_json::Value = serde_json::from_slice(&json)?;
+    /// assert_eq!(json[0]["largest"]["rungs_used"], 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write(self, format: FileFormat, out: &mut dyn Write) -> Result<(), WriteError> {
+        match format {
+            FileFormat::Json => {
+                serde_json::to_writer_pretty(&mut *out, &json!([self.json()]))?;
+                Ok(writeln!(out)?)
+            }
+            FileFormat::Csv => self.rungs().write(format, NumberFormat::F64, out),
+            FileFormat::Text => {
+                self.rungs().write(format, NumberFormat::F64, out)?;
+                writeln!(out)?;
+                self.fits().write(format, NumberFormat::F64, out)?;
+                for norm in Norm::ALL {
+                    let Known { fit, limit } = self.known(norm);
+                    let errors = of(norm);
+                    if let Err(reason) = fit {
+                        writeln!(out, "no order of {errors}: {reason}")?;
+                    }
+                    if let Some(Err(reason)) = limit {
+                        writeln!(out, "no extrapolated error of {errors}: {reason}")?;
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// The report as a json object: to be kept in a larger record.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Ladder, LadderReport, NoLadder, Refinement, Rung};
+    ///
+    /// let ladder = Ladder::new(Refinement::TimeStep, [Rung::of_errors(1e-3, 30, 0.1, 0.05)])?;
+    /// let json = LadderReport::new(&ladder).json();
+    /// assert_eq!(json["refinement"], "timestep");
+    /// assert_eq!(json["rungs"][0]["largest_error"], 0.1);
+    /// # Ok::<(), NoLadder>(())
+    /// ```
+    #[must_use]
+    pub fn json(self) -> Value {
+        let refinement = self.0.refinement().name();
+        let orders = self.0.orders(Norm::Largest);
+        let places = self.0.places(Norm::Largest);
+        let rungs = self.0.rungs().iter().zip(orders).zip(places);
+        let rungs = rungs.map(|((rung, order), place)| {
+            json!({
+                refinement: rung.parameter,
+                "contacts": rung.contacts,
+                "matched": rung.matched,
+                "missing": rung.missing,
+                "extra": rung.extra,
+                "largest_error": rung.largest_error,
+                "rms_error": rung.rms_error,
+                "order": order,
+                "predicted_error": rung.predicted_error,
+                "place": place.name(),
+            })
+        });
+        json!({
+            "refinement": refinement,
+            "rungs": rungs.collect::<Vec<_>>(),
+            "largest": self.known(Norm::Largest).json(),
+            "rms": self.known(Norm::Rms).json(),
+        })
+    }
+
+    fn rungs(self) -> Table<'static> {
+        let measured = |name| Column::measured(name, "");
+        let columns = vec![
+            measured(self.0.refinement().name()),
+            Column::plain("contacts"),
+            Column::plain("matched"),
+            Column::plain("missing"),
+            Column::plain("extra"),
+            measured("largest_error"),
+            measured("rms_error"),
+            measured("order"),
+            measured("predicted_error"),
+            Column::plain("place"),
+        ];
+        let orders = self.0.orders(Norm::Largest);
+        let places = self.0.places(Norm::Largest);
+        let row = |((rung, order), place): ((&Rung, Option<f64>), super::RungPlace)| {
+            let count = |count: u64| Cell::Integer(count.into());
+            vec![
+                Cell::F64(rung.parameter),
+                count(rung.contacts),
+                count(rung.matched),
+                count(rung.missing),
+                count(rung.extra),
+                Cell::F64(rung.largest_error),
+                Cell::F64(rung.rms_error),
+                number(order),
+                number(rung.predicted_error),
+                place.name().into(),
+            ]
+        };
+        let rungs = self.0.rungs().iter().zip(orders).zip(places);
+        let rows: Vec<_> = rungs.map(row).collect();
+        Table::of_rows(columns, "rungs", rows.into_iter().map(Ok))
+    }
+
+    fn fits(self) -> Table<'static> {
+        let measured = |name| Column::measured(name, "");
+        let columns = vec![
+            Column::plain("error"),
+            measured("order"),
+            measured("standard_error"),
+            measured("constant"),
+            measured("residual"),
+            measured("extrapolated_error"),
+            measured("extrapolated_standard_error"),
+            Column::plain("rungs_used"),
+        ];
+        let rows = Norm::ALL.map(|norm| {
+            let Known { fit, limit } = self.known(norm);
+            let (fit, limit) = (fit.ok(), limit.and_then(Result::ok));
+            let of_fit = |value: fn(&Fit) -> f64| number(fit.as_ref().map(value));
+            let of_limit = |value: fn(&Limit) -> f64| number(limit.as_ref().map(value));
+            Ok(vec![
+                norm.name().into(),
+                of_fit(Fit::order),
+                number(fit.as_ref().and_then(Fit::standard_error)),
+                of_fit(Fit::constant),
+                of_fit(Fit::residual),
+                of_limit(Limit::error),
+                of_limit(Limit::standard_error),
+                fit.map_or(Cell::Missing, |fit| Cell::Integer(fit.rungs().into())),
+            ])
+        });
+        Table::of_rows(columns, "orders", rows.into_iter())
+    }
+
+    fn known(self, norm: Norm) -> Known {
+        let fit = self.0.fit(norm);
+        let order = match self.0.refinement() {
+            Refinement::Stiffness => Some(1.0),
+            Refinement::TimeStep => fit.ok().map(|fit| fit.order()),
+        };
+        Known {
+            fit,
+            limit: order.map(|order| self.0.limit(norm, order)),
+        }
+    }
+}
+
+/// What is known of the errors in a norm; without an order of time steps there is no word on their limit.
+struct Known {
+    fit: Result<Fit, NoOrder>,
+    limit: Option<Result<Limit, NoOrder>>,
+}
+
+impl Known {
+    fn json(&self) -> Value {
+        let fit = self.fit.as_ref().ok();
+        let limit = self.limit.as_ref().and_then(|limit| limit.as_ref().ok());
+        let no_limit = self.limit.as_ref().and_then(|limit| limit.as_ref().err());
+        json!({
+            "order": fit.map(Fit::order),
+            "standard_error": fit.and_then(Fit::standard_error),
+            "constant": fit.map(Fit::constant),
+            "residual": fit.map(Fit::residual),
+            "rungs_used": fit.map(Fit::rungs),
+            "no_order": self.fit.as_ref().err().map(ToString::to_string),
+            "extrapolated_error": limit.map(Limit::error),
+            "extrapolated_standard_error": limit.map(Limit::standard_error),
+            "extrapolated_with_order": limit.map(Limit::order),
+            "extrapolated_rungs": limit.map(Limit::rungs),
+            "no_limit": no_limit.map(ToString::to_string),
+        })
+    }
+}
+
+fn of(norm: Norm) -> &'static str {
+    match norm {
+        Norm::Largest => "the largest errors",
+        Norm::Rms => "the rms errors",
+    }
+}
+
+fn number(value: Option<f64>) -> Cell {
+    value.map_or(Cell::Missing, Cell::F64)
+}

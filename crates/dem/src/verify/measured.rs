@@ -1,0 +1,130 @@
+//! What was measured between two spheres.
+
+/// The most entries that are read, and the most contacts of a pile that they are compared with.
+pub const MAX_ENTRIES: u64 = 100_000_000;
+
+/// The force that was measured between two spheres.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::Measured;
+///
+/// let push = Measured::new([1, 4], 2.0).with_vector([-1.2, 0.0, 1.6]);
+/// assert_eq!(push.reversed(), Measured::new([4, 1], 2.0).with_vector([1.2, 0.0, -1.6]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The numbers of the two spheres, from 1.
+    pub ids: [u64; 2],
+    /// The force along the line between their centres; positive is push.
+    pub force: f64,
+    /// The force on the first of them, z up, if it was measured.
+    pub vector: Option<[f64; 3]>,
+}
+
+impl Measured {
+    /// A force of which the magnitude is known.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Measured;
+    ///
+    /// let pull = Measured::new([1, 4], -2.0);
+    /// assert_eq!((pull.ids, pull.force, pull.vector), ([1, 4], -2.0, None));
+    /// ```
+    #[must_use]
+    pub const fn new(ids: [u64; 2], force: f64) -> Self {
+        Self {
+            ids,
+            force,
+            vector: None,
+        }
+    }
+
+    /// A force of which the vector on the first of the two spheres is known. It pushes unless it pulls the upper sphere,
+    /// that with the lesser number, down.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Measured;
+    ///
+    /// assert_eq!(Measured::of_vector([1, 4], [3.0, 0.0, 4.0]).force, 5.0);
+    /// assert_eq!(Measured::of_vector([4, 1], [3.0, 0.0, 4.0]).force, -5.0);
+    /// ```
+    #[must_use]
+    pub fn of_vector(ids: [u64; 2], vector: [f64; 3]) -> Self {
+        let ([first, second], [_, _, z]) = (ids, vector);
+        let upwards = if first < second { z } else { -z };
+        let force = if upwards < 0.0 {
+            -norm(vector)
+        } else {
+            norm(vector)
+        };
+        Self::new(ids, force).with_vector(vector)
+    }
+
+    /// With the force on the first of the two spheres as a vector.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Measured;
+    ///
+    /// // The magnitude stays what was measured, that of the vector or not.
+    /// let turned = Measured::new([1, 4], 2.0).with_vector([0.0, 0.0, 2.5]);
+    /// assert_eq!((turned.force, turned.vector), (2.0, Some([0.0, 0.0, 2.5])));
+    /// ```
+    #[must_use]
+    pub const fn with_vector(mut self, vector: [f64; 3]) -> Self {
+        self.vector = Some(vector);
+        self
+    }
+
+    /// Returns this contact with its two spheres swapped: the vector, now the force on the other, changes its sign.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::Measured;
+    ///
+    /// let pull = Measured::new([1, 4], -2.0).with_vector([1.2, 0.0, -1.6]);
+    /// // Pull is pull, seen from either sphere.
+    /// assert_eq!((pull.reversed().ids, pull.reversed().force), ([4, 1], -2.0));
+    /// assert_eq!(pull.reversed().reversed(), pull);
+    /// ```
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        let [first, second] = self.ids;
+        Self {
+            ids: [second, first],
+            // 0 stays 0, not -0.
+            vector: self.vector.map(|vector| vector.map(|x| 0.0 - x)),
+            ..self
+        }
+    }
+
+    /// Whether there is no force at all: the two do not touch.
+    pub(super) fn is_zero(&self) -> bool {
+        self.magnitude() == 0.0
+    }
+
+    /// The greater of the magnitude and that of the vector.
+    pub(super) fn magnitude(&self) -> f64 {
+        let vector = self.vector.map_or(0.0, norm);
+        self.force.abs().max(vector)
+    }
+}
+
+/// |a − b|.
+pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [[x, y, z], [u, v, w]] = [a, b];
+    norm([x - u, y - v, z - w])
+}
+
+/// √(x² + y² + z²), without squares that leave the floats.
+pub(super) fn norm(vector: [f64; 3]) -> f64 {
+    let scale = vector.iter().fold(0.0, |scale: f64, x| scale.max(x.abs()));
+    if scale == 0.0 || !scale.is_finite() {
+        return scale;
+    }
+    let squares = vector.map(|x| (x / scale) * (x / scale));
+    scale * squares.iter().sum::<f64>().sqrt()
+}

@@ -1,0 +1,141 @@
+//! What was measured between two spheres that are known by where they are.
+
+use super::comparison::Comparison;
+use super::entry::{Entry, Force, Place, Sink, Spheres};
+use super::frame::Frame;
+use super::gathering::Gathering;
+use super::ledger::Ledger;
+use super::read::checked_within;
+use super::refusal::{Fault, Refusal};
+use cannonpile::{Interrupt, Packing};
+
+/// The force that was measured between two spheres that touch at a place.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::{Force, Placed};
+///
+/// let push = Placed::at([-0.6, 0.0, 0.8], Force::Along(0.625));
+/// assert_ne!(push, Placed::at([-0.6, 0.0, 0.8], Force::Along(-0.625)));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    place: Place,
+    force: Force,
+}
+
+impl Placed {
+    /// The force of a contact whose point is known, in m; a vector is that on either sphere.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Comparison, Force, Placed};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// let measured = [-0.6, 0.6].map(|x| Placed::at([x, 0.0, 0.8], Force::Vector([-0.625 * x, 0.0, 0.5])));
+    /// let (comparison, frame) = Comparison::of_places(&packing, measured, 0.1)?;
+    /// assert!(comparison.accepted(1e-12) && frame.is_none());
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub const fn at(point: [f64; 3], force: Force) -> Self {
+        let place = Place::Point(point);
+        Self { place, force }
+    }
+
+    /// The force of a contact of two spheres whose centres are known, in m; a vector is that on the first.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Comparison, Force, Placed};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// let centres = [-1.2, 1.2].map(|x| [[0.0, 0.0, 1.6], [x, 0.0, 0.0]]);
+    /// let measured = centres.map(|centres| Placed::between(centres, Force::Along(0.625)));
+    /// let (comparison, _) = Comparison::of_places(&packing, measured, 0.1)?;
+    /// assert!(comparison.accepted(1e-12));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub const fn between(centres: [[f64; 3]; 2], force: Force) -> Self {
+        let place = Place::Centres(centres);
+        Self { place, force }
+    }
+
+    /// As a row of a table, all of whose numbers are finite.
+    fn entry(&self) -> Result<Entry, Fault> {
+        let points = match &self.place {
+            Place::Centres(centres) => centres.as_slice(),
+            Place::Point(point) => core::slice::from_ref(point),
+        };
+        let (force, vector) = match self.force {
+            Force::Along(force) => (Some(force), None),
+            Force::Vector(vector) => (None, Some(vector)),
+            Force::Both(force, vector) => (Some(force), Some(vector)),
+        };
+        let coordinates = points.iter().flatten().map(|x| ("a coordinate", *x));
+        let forces = force.into_iter().chain(vector.into_iter().flatten());
+        let mut numbers = coordinates.chain(forces.map(|x| ("force", x)));
+        if let Some((column, value)) = numbers.find(|(_, x)| !x.is_finite()) {
+            return Err(Fault::NotFinite { column, value });
+        }
+        Ok(Entry {
+            spheres: Spheres::Places(self.place),
+            force: self.force,
+        })
+    }
+}
+
+impl Comparison {
+    /// Compares measured forces with those of a packing, the contacts found by where they are: each sphere `within` a share
+    /// of the radius of where it must be. Returns the frame of the places besides, where it is not that of the packing.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new); [`Refusal::Within`] unless 0 < `within` < 1/2; [`Refusal::Elsewhere`] for places in no
+    /// frame of the pile; [`Refusal::Entry`] for a force where no contact can be.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::verify::{Comparison, Force, Placed};
+    /// use cannonpile::{Packing, Pile};
+    ///
+    /// let pile = Pile::discs(2)?;
+    /// let packing = Packing::new(&pile, &"1.2".parse()?)?;
+    /// // Eight metres further up.
+    /// let measured = [-0.6, 0.6].map(|x| Placed::at([x, 0.0, 8.8], Force::Along(0.625)));
+    /// let (comparison, frame) = Comparison::of_places(&packing, measured, 0.1)?;
+    /// assert_eq!(comparison.matched(), 2);
+    /// assert_eq!(frame.unwrap().shift, [0.0, 0.0, -8.0]);
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    pub fn of_places(
+        packing: &Packing<'_>,
+        measured: impl IntoIterator<Item = Placed>,
+        within: f64,
+    ) -> Result<(Self, Option<Frame>), Refusal> {
+        let within = checked_within(within)?;
+        let mut gathering = Gathering::new(Ledger::new(packing)?, within)?;
+        for (entry, placed) in (1..).zip(measured) {
+            Interrupt::check()?;
+            let row = placed.entry().map_err(|fault| fault.at(entry));
+            row.and_then(|row| gathering.take(&row, entry))
+                .map_err(of_entry)?;
+        }
+        let (ledger, frame) = gathering.settle().map_err(of_entry)?;
+        let (judged, _) = ledger.judge(false)?;
+        let frame = Some(frame).filter(|frame| *frame != Frame::OWN);
+        Ok((Self::of(judged), frame))
+    }
+}
+
+/// Entries are counted where a file has lines.
+fn of_entry(refusal: Refusal) -> Refusal {
+    match refusal {
+        Refusal::Line { line, fault } => Refusal::Entry { entry: line, fault },
+        other => other,
+    }
+}

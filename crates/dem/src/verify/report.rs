@@ -1,0 +1,378 @@
+//! A comparison as a table, and as json.
+
+use std::io::Write;
+
+use serde_json::{Value, json};
+
+use super::comparison::Comparison;
+use super::difference::{Difference, Extra};
+use super::read::Compared;
+use super::unbalanced::float;
+use crate::table::{Cell, Column, FileFormat, NumberFormat, Table, WriteError};
+use cannonpile::lattice::{Dimension, Site};
+
+/// How many missing and how many extra contacts the text shows.
+const SHOWN: usize = 5;
+
+/// What a comparison says at an accepted error.
+///
+/// As text and csv one row: `accepted, accept, contacts, matched, missing, extra, noise, fixed, largest_error, rms_error,
+/// worst, beyond, factor, walls, frame, unbalanced, findings`; in the text what they count stands behind them, and it goes on with the first of the missing and the greatest of the extra contacts. As json an array of one
+/// object with the same keys and `largest_force`; `worst` is an object, and up to a thousand of each are in the arrays
+/// `missing_contacts` and `extra_pairs`. An infinite error is `inf`, in json `null`.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::table::FileFormat;
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile_dem::verify::{Comparison, Measured, Report};
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+/// let measured = [2, 3, 4].map(|id| Measured::new([1, id], 0.46225016352102427));
+/// let comparison = Comparison::new(&packing, measured).unwrap();
+/// let mut csv = Vec::new();
+/// Report::new(&comparison, 0.0).write(FileFormat::Csv, &mut csv)?;
+/// let csv = String::from_utf8(csv)?;
+/// assert!(csv.lines().nth(1).unwrap().starts_with("yes,0.0,3,3,0,0,0,0,0.0,0.0,\"contact of sphere 1"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'c> {
+    comparison: &'c Comparison,
+    accept: f64,
+    file: Option<&'c Compared>,
+    source: Option<&'c Source>,
+}
+
+/// What was compared with what: for a record that is kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// The scene, as TOML.
+    pub scene: String,
+    /// The file's name.
+    pub file: String,
+    /// Its length.
+    pub bytes: u64,
+    /// Its SHA-256, in hexadecimal digits.
+    pub sha256: String,
+}
+
+impl<'c> Report<'c> {
+    /// The report at an accepted error.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile_dem::verify::{Comparison, Measured, Report};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let comparison = Comparison::new(&packing, [2, 3, 4].map(|id| Measured::new([1, id], 0.462)))?;
+    /// for (accept, says) in [(1e-3, "yes,"), (1e-4, "no,")] {
+    ///     let mut csv = Vec::new();
+    ///     Report::new(&comparison, accept).write(FileFormat::Csv, &mut csv)?;
+    ///     assert!(String::from_utf8(csv)?.lines().nth(1).unwrap().starts_with(says));
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn new(comparison: &'c Comparison, accept: f64) -> Self {
+        Self {
+            comparison,
+            accept,
+            file: None,
+            source: None,
+        }
+    }
+
+    /// The report of a file that was compared: with its contacts with walls, its frame, and what is unbalanced.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile_dem::verify::{Reader, Report};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let reader = Reader::new().with_columns("id1=id1,id2=id2,force=force,kind=kind:pair".parse()?);
+    /// let table = "id1,id2,force,kind\n1,2,0.46,pair\n1,3,0.46,pair\n1,4,0.46,pair\n4,0,1,wall\n";
+    /// let read = reader.compare(&packing, table.as_bytes())?;
+    /// let mut json = Vec::new();
+    /// Report::of_file(&read, 0.01).write(FileFormat::Json, &mut json)?;
+    /// assert!(String::from_utf8(json)?.contains("\"walls\": 1"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn of_file(file: &'c Compared, accept: f64) -> Self {
+        let report = Self::new(&file.comparison, accept);
+        Self {
+            file: Some(file),
+            ..report
+        }
+    }
+
+    /// Returns the report with what was compared with what, in json.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile_dem::verify::{Reader, Report, Source};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let read = Reader::new().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let source = Source {
+    ///     scene: "layers = 2\n".into(),
+    ///     file: "forces.csv".into(),
+    ///     bytes: 14,
+    ///     sha256: "23ae".into(),
+    /// };
+    /// let mut json = Vec::new();
+    /// Report::of_file(&read, 0.01).with_source(&source).write(FileFormat::Json, &mut json)?;
+    /// assert!(String::from_utf8(json)?.contains("\"scene\": \"layers = 2\\n\""));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub const fn with_source(self, source: &'c Source) -> Self {
+        Self {
+            source: Some(source),
+            ..self
+        }
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// [`WriteError::Io`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_dem::table::FileFormat;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile_dem::verify::{Comparison, Measured, Report};
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let comparison = Comparison::new(&packing, [Measured::new([1, 3], 0.46)])?;
+    /// let mut text = Vec::new();
+    /// Report::new(&comparison, 0.01).write(FileFormat::Text, &mut text)?;
+    /// let text = String::from_utf8(text)?;
+    /// assert!(text.starts_with("accepted "));
+    /// // Those with spheres 2 and 4, a line each.
+    /// assert_eq!(text.matches("\nmissing: contact of sphere 1 (k=0, i=0, j=0) with sphere ").count(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn write(self, format: FileFormat, out: &mut dyn Write) -> Result<(), WriteError> {
+        match format {
+            FileFormat::Json => {
+                serde_json::to_writer_pretty(&mut *out, &self.json())?;
+                Ok(writeln!(out)?)
+            }
+            FileFormat::Csv => self.table().write(format, NumberFormat::F64, out),
+            FileFormat::Text => {
+                self.table().write(format, NumberFormat::F64, out)?;
+                let (comparison, pairs) = (self.comparison, self.extra_pairs());
+                let missing = comparison.missing_contacts();
+                list("missing", missing, comparison.missing(), out)?;
+                list("extra", pairs, comparison.extra(self.accept), out)
+            }
+        }
+    }
+
+    fn table(self) -> Table<'static> {
+        let Self {
+            comparison, accept, ..
+        } = self;
+        let accepted = comparison.accepted(accept);
+        let worst = comparison.worst().map(ToString::to_string);
+        let worst = worst.map_or(Cell::Missing, |words| Cell::Word(words.into()));
+        let count = |name, count: u64, meaning| (said(name, meaning), Cell::Integer(count.into()));
+        let error = |name, error: f64, meaning| (Column::measured(name, meaning), float(error));
+        let measured = "contacts that were measured";
+        let not_measured = "contacts with a force that were not";
+        let other = "other pairs with a force over accept times the largest";
+        let lesser = "other pairs with a lesser force";
+        let fixed = "pairs of the bottom layer, which are not judged";
+        let relative = "of the exact force, of the largest one where that is 0";
+        let beyond = "contacts with an error over accept";
+        let times = "times the exact force is every one that was measured";
+        let factor = comparison.common_factor(accept);
+        let factor = factor.map_or(Cell::Missing, float);
+        let words = |words: Option<String>| match words {
+            Some(words) => Cell::Word(words.into()),
+            None => Cell::Missing,
+        };
+        let findings: Vec<_> = comparison.findings(accept);
+        let findings = findings.iter().map(ToString::to_string).collect::<Vec<_>>();
+        let findings = Some(findings.join("; ")).filter(|findings| !findings.is_empty());
+        let walls = self.file.map_or(0, |file| file.walls);
+        Table::record(vec![
+            (
+                Column::plain("accepted"),
+                if accepted { "yes" } else { "no" }.into(),
+            ),
+            error("accept", accept, ""),
+            count("contacts", comparison.contacts(), ""),
+            count("matched", comparison.matched(), measured),
+            count("missing", comparison.missing(), not_measured),
+            count("extra", comparison.extra(accept), other),
+            count("noise", comparison.noise(accept), lesser),
+            count("fixed", comparison.fixed(), fixed),
+            error("largest_error", comparison.largest_error(), relative),
+            error("rms_error", comparison.rms_error(), relative),
+            (Column::plain("worst"), worst),
+            count("beyond", comparison.beyond(accept), beyond),
+            (Column::measured("factor", times), factor),
+            count("walls", walls, "contacts with walls, which are not judged"),
+            (Column::plain("frame"), words(self.frame())),
+            (Column::plain("unbalanced"), words(self.unbalanced())),
+            (Column::plain("findings"), words(findings)),
+        ])
+    }
+
+    /// Where the table's origin and axes are, if not where the scene has them.
+    fn frame(self) -> Option<String> {
+        self.file?.frame.map(|frame| frame.to_string())
+    }
+
+    /// The greatest unbalanced force.
+    fn unbalanced(self) -> Option<String> {
+        let unbalanced = self.file?.unbalanced.as_ref()?;
+        Some(unbalanced.to_string())
+    }
+
+    fn json(self) -> Value {
+        let Self {
+            comparison, accept, ..
+        } = self;
+        let missing = comparison.missing_contacts();
+        let findings: Vec<_> = comparison.findings(accept);
+        let mut record = json!({
+            "accepted": comparison.accepted(accept),
+            "accept": accept,
+            "contacts": comparison.contacts(),
+            "matched": comparison.matched(),
+            "missing": comparison.missing(),
+            "extra": comparison.extra(accept),
+            "noise": comparison.noise(accept),
+            "fixed": comparison.fixed(),
+            "largest_force": comparison.largest_force(),
+            "largest_error": comparison.largest_error(),
+            "rms_error": comparison.rms_error(),
+            "worst": comparison.worst().map(contact),
+            "beyond": comparison.beyond(accept),
+            "factor": comparison.common_factor(accept),
+            "walls": self.file.map_or(0, |file| file.walls),
+            "frame": self.frame(),
+            "unbalanced": self.unbalanced(),
+            "findings": findings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "missing_contacts": missing.iter().map(contact).collect::<Vec<_>>(),
+            "extra_pairs": self.extra_pairs().iter().map(pair).collect::<Vec<_>>(),
+        });
+        if let (Some(source), Value::Object(entries)) = (self.source, &mut record) {
+            let source = json!({
+                "version": env!("CARGO_PKG_VERSION"),
+                "file": source.file,
+                "bytes": source.bytes,
+                "sha256": source.sha256,
+                "scene": source.scene,
+            });
+            entries.insert("source".into(), source);
+        }
+        Value::Array(vec![record])
+    }
+
+    /// Those of the pairs without a contact that are no noise.
+    fn extra_pairs(self) -> &'c [Extra] {
+        let pairs = self.comparison.extra_pairs();
+        let extra = pairs.partition_point(|pair| pair.error > self.accept);
+        pairs.get(..extra).unwrap_or_default()
+    }
+}
+
+/// A few of many, a line each.
+fn list<T: ToString>(
+    what: &str,
+    items: &[T],
+    count: u64,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let mut left = count;
+    for item in items.iter().take(SHOWN) {
+        writeln!(out, "{what}: {}", item.to_string())?;
+        left = left.saturating_sub(1);
+    }
+    if left > 0 {
+        writeln!(out, "{what}: {left} more")?;
+    }
+    Ok(())
+}
+
+/// A column with what it counts.
+fn said(name: &'static str, meaning: &'static str) -> Column {
+    Column {
+        quantity: false,
+        ..Column::measured(name, meaning)
+    }
+}
+
+fn contact(difference: &Difference) -> Value {
+    let ([upper, lower], measured) = (difference.ids, difference.measured);
+    let [k, i, j] = indices(difference.site);
+    let contact = json!({
+        "id1": upper,
+        "id2": lower,
+        "k": k,
+        "i": i,
+        "j": j,
+        "direction": difference.direction.name(),
+        "measured": measured.map(|measured| measured.force),
+        "exact": difference.exact,
+        "measured_vector": measured.and_then(|measured| measured.vector),
+        "exact_vector": difference.exact_vector,
+        "error": difference.error,
+    });
+    without_j(contact, difference.dimension)
+}
+
+fn pair(extra: &Extra) -> Value {
+    let [first, second] = extra.ids;
+    let sites = extra.sites.map(|site| {
+        let [k, i, j] = indices(site);
+        without_j(json!({ "k": k, "i": i, "j": j }), extra.dimension)
+    });
+    json!({
+        "id1": first,
+        "id2": second,
+        "sites": sites,
+        "measured": extra.force,
+        "error": extra.error,
+    })
+}
+
+/// k, i and j, as far as they fit: a pile of so few contacts may have a single layer that is wide.
+fn indices(Site { i, j, k }: Site) -> [Option<i64>; 3] {
+    [k, i, j].map(|index| i64::try_from(index).ok())
+}
+
+/// Discs have no j.
+fn without_j(mut place: Value, dimension: Dimension) -> Value {
+    if let (Dimension::Two, Value::Object(entries)) = (dimension, &mut place) {
+        entries.shift_remove("j");
+    }
+    place
+}

@@ -1,0 +1,181 @@
+//! Contacts counted, and their errors kept, while they go by.
+
+use super::difference::{Difference, Extra};
+use super::measured::{Measured, distance};
+use super::symptoms::Symptoms;
+use crate::{NumberedContact, NumberedPile};
+use cannonpile::lattice::Dimension;
+use cannonpile::shape::Numbering;
+
+/// How many missing and how many extra contacts are kept; all of them are counted.
+const KEPT: usize = 1000;
+
+/// What is known while contacts go by.
+pub(super) struct Tally {
+    dimension: Dimension,
+    with_vectors: bool,
+    judged: Judged,
+    /// Of contacts without a force: their errors are relative to the largest force, which is known at the end only.
+    idle: Vec<f64>,
+    worst_idle: Option<Difference>,
+}
+
+/// What is known of a comparison.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Judged {
+    pub(super) contacts: u64,
+    pub(super) missing: u64,
+    pub(super) first_missing: Vec<Difference>,
+    pub(super) fixed: u64,
+    pub(super) largest_force: f64,
+    /// The relative errors of the contacts that were measured, from the greatest down.
+    pub(super) errors: Vec<f64>,
+    /// What pairs without a contact carry, over the largest force, from the greatest down.
+    pub(super) strays: Vec<f64>,
+    pub(super) greatest_strays: Vec<Extra>,
+    pub(super) worst: Option<Difference>,
+    /// The least and the greatest of measured over exact, and of how many contacts.
+    pub(super) symptoms: Symptoms,
+}
+
+impl Tally {
+    pub(super) fn new(pile: &NumberedPile<'_>, with_vectors: bool) -> Self {
+        Self {
+            dimension: pile.packing().pile().dimension(),
+            with_vectors,
+            judged: Judged::default(),
+            idle: Vec::new(),
+            worst_idle: None,
+        }
+    }
+
+    /// Adds a contact of the pile, with what was measured of it.
+    pub(super) fn add(
+        &mut self,
+        exact: &NumberedContact,
+        measured: Option<Measured>,
+    ) -> Option<f64> {
+        let judged = &mut self.judged;
+        judged.contacts += 1;
+        judged.largest_force = judged.largest_force.max(exact.force.abs());
+        let difference = || Difference::missing(exact, self.with_vectors, self.dimension);
+        let loaded = exact.force != 0.0;
+        let Some(measured) = measured.filter(|measured| !(loaded && measured.is_zero())) else {
+            if loaded {
+                judged.symptoms.miss(exact);
+                judged.missing += 1;
+                if judged.first_missing.len() < KEPT {
+                    judged.first_missing.push(difference());
+                }
+            }
+            return None;
+        };
+        let vector = measured.vector.map(|vector| distance(vector, exact.vector));
+        let apart = vector
+            .unwrap_or(0.0)
+            .max((measured.force - exact.force).abs());
+        let (error, worst) = if loaded {
+            judged.symptoms.see(exact, &measured);
+            (relative(apart, exact.force.abs()), &mut judged.worst)
+        } else {
+            (apart, &mut self.worst_idle)
+        };
+        if worst.as_ref().is_none_or(|worst| worst.error < error) {
+            *worst = Some(Difference {
+                error,
+                measured: Some(measured),
+                ..difference()
+            });
+        }
+        if loaded {
+            return Some(error);
+        }
+        self.idle.push(error);
+        None
+    }
+
+    /// Judges what was seen, with all contacts seen, and the pairs that are none.
+    pub(super) fn close<'m>(
+        self,
+        errors: Vec<f64>,
+        pairs: impl Iterator<Item = &'m Measured>,
+        numbering: &Numbering<'_>,
+    ) -> Judged {
+        let mut judged = self.judged;
+        judged.errors = errors;
+        let largest = judged.largest_force;
+        let idle = self.idle.into_iter();
+        judged
+            .errors
+            .extend(idle.map(|error| relative(error, largest)));
+        judged.errors.sort_unstable_by(|a, b| b.total_cmp(a));
+        let worst_idle = self.worst_idle.map(|worst| Difference {
+            error: relative(worst.error, largest),
+            ..worst
+        });
+        judged.worst = match (judged.worst, worst_idle) {
+            (Some(a), Some(b)) => Some(if b.error > a.error { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        let first_fixed = numbering.first_on_floor();
+        let is_fixed = |stray: &Measured| stray.ids.iter().all(|id| *id >= first_fixed);
+        let mut strays = Vec::new();
+        for stray in pairs {
+            if is_fixed(stray) {
+                judged.fixed += 1;
+            } else if !stray.is_zero() {
+                strays.push((relative(stray.magnitude(), largest), stray));
+            }
+        }
+        // The greatest first, of equals the one with the lesser numbers.
+        strays.sort_by(|(a, one), (b, other)| b.total_cmp(a).then(one.ids.cmp(&other.ids)));
+        let kept = strays.iter().take(KEPT);
+        let greatest_strays = kept.filter_map(|(error, stray)| {
+            let [one, other] = stray.ids.map(|id| numbering.site(id));
+            Some(Extra {
+                ids: stray.ids,
+                sites: [one?, other?],
+                force: stray.magnitude(),
+                error: *error,
+                dimension: self.dimension,
+            })
+        });
+        judged.greatest_strays = greatest_strays.collect();
+        judged.strays = strays.into_iter().map(|(error, _)| error).collect();
+        judged
+    }
+}
+
+impl Judged {
+    /// How many numbers, sorted from the greatest down, are over a limit.
+    pub(super) fn over(sorted: &[f64], limit: f64) -> u64 {
+        sorted.partition_point(|error| *error > limit) as u64
+    }
+
+    pub(super) fn matched(&self) -> u64 {
+        self.errors.len() as u64
+    }
+
+    /// The root of the mean square of the errors.
+    #[expect(clippy::cast_precision_loss, reason = "a count below 2^53")]
+    pub(super) fn rms_error(&self) -> f64 {
+        // Over the greatest, so that no square leaves the floats.
+        match self.errors.first() {
+            None | Some(0.0) => 0.0,
+            Some(greatest) if greatest.is_infinite() => *greatest,
+            Some(greatest) => {
+                let squares = self.errors.iter().map(|x| (x / greatest) * (x / greatest));
+                greatest * (squares.sum::<f64>() / self.errors.len() as f64).sqrt()
+            }
+        }
+    }
+}
+
+/// A difference over a force. Only a difference of 0 gives 0.
+fn relative(difference: f64, force: f64) -> f64 {
+    if difference == 0.0 {
+        0.0
+    } else {
+        (difference / force).max(f64::from_bits(1))
+    }
+}

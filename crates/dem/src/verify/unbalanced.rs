@@ -1,0 +1,273 @@
+//! The force on each sphere that measured forces leave unbalanced.
+
+use core::fmt;
+use std::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+
+use super::measured::{Measured, norm};
+use super::places::minus;
+use super::refusal::Refusal;
+use crate::Error;
+use crate::error::bug;
+use crate::table::{Cell, Column, Table, indices, places};
+use crate::{NumberedContact, NumberedPile};
+use cannonpile::Packing;
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
+
+/// What the measured forces, the weight and the load of a sphere add up to: nothing for a pile at rest.
+///
+/// For a sphere above the floor **r** = Σ **F** − (w + l)·**e**_z, in N, over all pairs that were measured, contacts of the pile
+/// or not. Where a force has no vector, it acts along the line between the exact centres.
+///
+/// # Examples
+/// ```
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile_dem::verify::Reader;
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(2)?;
+/// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+/// let table = "id1,id2,force\n1,2,0.46225\n1,3,0.46225\n1,4,0.46225\n";
+/// let read = Reader::new().with_balance().compare(&packing, table.as_bytes())?;
+/// let unbalanced = read.unbalanced.unwrap();
+/// assert_eq!(unbalanced.forces().len(), 1);
+/// assert!(unbalanced.greatest().unwrap().1 < 1e-6);
+/// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unbalanced {
+    forces: Vec<[f64; 3]>,
+}
+
+impl Unbalanced {
+    /// Returns the unbalanced force of each sphere above the floor, in N, in the order of their numbers from 1.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::verify::Reader;
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// // Nothing holds it.
+    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// assert_eq!(read.unbalanced.unwrap().forces(), [[0.0, 0.0, -1.0]]);
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn forces(&self) -> &[[f64; 3]] {
+        &self.forces
+    }
+
+    /// Returns the number of the sphere with the greatest unbalanced force, and its magnitude in N.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::verify::Reader;
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// assert_eq!(read.unbalanced.unwrap().greatest(), Some((1, 1.0)));
+    /// # Ok::<(), cannonpile_dem::verify::Refusal>(())
+    /// ```
+    #[must_use]
+    pub fn greatest(&self) -> Option<(u64, f64)> {
+        let norms = self.forces.iter().map(|force| norm(*force));
+        (1..).zip(norms).max_by(|(_, a), (_, b)| a.total_cmp(b))
+    }
+
+    /// Returns a table, a row a sphere above the floor: `id,k,i,j,x,y,z,unbalanced`, forces in N.
+    ///
+    /// # Errors
+    /// None for the packing that was compared.
+    ///
+    /// # Examples
+    /// ```
+    /// # use cannonpile::geometry::Spacing;
+    /// # use cannonpile_dem::table::{FileFormat, NumberFormat};
+    /// # use cannonpile_dem::verify::Reader;
+    /// # use cannonpile::{Packing, Pile};
+    /// # use num_rational::BigRational;
+    /// let pile = Pile::triangular(2)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let read = Reader::new().with_balance().compare(&packing, &b"id1,id2,force\n"[..])?;
+    /// let mut csv = Vec::new();
+    /// read.unbalanced.unwrap().table(&packing)?.write(FileFormat::Csv, NumberFormat::F64, &mut csv)?;
+    /// assert_eq!(String::from_utf8(csv)?, "id,k,i,j,x,y,z,unbalanced\n1,0,0,0,0.0,0.0,-1.0,1.0\n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn table<'t>(&'t self, packing: &Packing<'t>) -> Result<Table<'t>, Error> {
+        let pile = packing.pile();
+        let mut columns = indices(pile, &["id", "k"]);
+        let forces = ["x", "y", "z", "unbalanced"];
+        columns.extend(forces.map(|name| Column::measured(name, "N")));
+        let sites = pile.rows(Selection::All)?.flatten();
+        let rows = (1_u64..).zip(sites.zip(&self.forces));
+        let rows = rows.map(|(id, (site, force))| {
+            let mut cells = vec![Cell::Integer(id.into()), site.k.into()];
+            cells.extend(places(pile, site));
+            let [x, y, z] = *force;
+            cells.extend([x, y, z, norm(*force)].map(float));
+            Ok(cells)
+        });
+        Ok(Table::of_rows(columns, "spheres", rows))
+    }
+}
+
+impl fmt::Display for Unbalanced {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.greatest() {
+            Some((id, force)) => write!(f, "{force:?} N at sphere {id}"),
+            None => f.write_str("no sphere is above the floor"),
+        }
+    }
+}
+
+/// Forces added up while contacts go by.
+pub(super) struct Balance<'p> {
+    pile: NumberedPile<'p>,
+    unbalanced: Unbalanced,
+    /// The layer whose contacts went by last, and their directions from below.
+    layer: Option<(i128, BTreeMap<usize, [f64; 3]>)>,
+}
+
+impl<'p> Balance<'p> {
+    /// The weights and loads of all spheres above the floor.
+    pub(super) fn new(numbered: &NumberedPile<'p>) -> Result<Self, Refusal> {
+        let packing = numbered.packing();
+        let pile = packing.pile();
+        let one = packing.sphere_weight();
+        let weight = |mg: BigRational| (mg * &one).to_f64().ok_or(Refusal::OutOfRange);
+        let ordinary = weight(if pile.is_weightless() {
+            BigRational::zero()
+        } else {
+            BigRational::from_integer(BigInt::from(1))
+        })?;
+        let above = usize::try_from(numbered.numbering().first_on_floor() - 1)
+            .map_err(|_| bug("contacts that are compared fit in memory"))?;
+        let mut forces = vec![[0.0, 0.0, 0.0 - ordinary]; above];
+        let loaded = pile.loads().map(|(site, _)| site);
+        for site in loaded.chain(pile.weights().map(|(site, _)| site)) {
+            let total = weight(pile.sphere_weight(site)? + pile.load(site)?)?;
+            if let Some(force) = place(&mut forces, numbered.numbering().id(site)?) {
+                *force = [0.0, 0.0, 0.0 - total];
+            }
+        }
+        Ok(Self {
+            pile: numbered.clone(),
+            unbalanced: Unbalanced { forces },
+            layer: None,
+        })
+    }
+
+    /// Adds what was measured at a contact of the pile.
+    pub(super) fn add(
+        &mut self,
+        contact: &NumberedContact,
+        measured: &Measured,
+    ) -> Result<(), Error> {
+        let vector = if let Some(vector) = measured.vector {
+            vector
+        } else {
+            let direction = self.direction(contact)?;
+            direction.map(|component| component * measured.force)
+        };
+        self.act(contact.ids, vector);
+        Ok(())
+    }
+
+    /// Adds what was measured between two spheres that are no contact.
+    pub(super) fn add_stray(&mut self, stray: &Measured) -> Result<(), Error> {
+        let vector = if let Some(vector) = stray.vector {
+            vector
+        } else {
+            let numbering = self.pile.numbering();
+            let [Some(one), Some(other)] = stray.ids.map(|id| numbering.site(id)) else {
+                return Ok(());
+            };
+            let direction = between(self.pile.packing(), one, other)?;
+            direction.map(|component| component * stray.force)
+        };
+        self.act(stray.ids, vector);
+        Ok(())
+    }
+
+    pub(super) fn close(self) -> Unbalanced {
+        self.unbalanced
+    }
+
+    /// A force on the first of two spheres, and its reaction on the second.
+    fn act(&mut self, [first, second]: [u64; 2], vector: [f64; 3]) {
+        let forces = &mut self.unbalanced.forces;
+        if let Some([x, y, z]) = place(forces, first) {
+            let [a, b, c] = vector;
+            (*x, *y, *z) = (*x + a, *y + b, *z + c);
+        }
+        if let Some(force) = place(forces, second) {
+            *force = minus(*force, vector);
+        }
+    }
+
+    /// The direction from the second to the first sphere of a contact: along a layer all of a kind are alike.
+    fn direction(&mut self, contact: &NumberedContact) -> Result<[f64; 3], Error> {
+        let Some(direction) = contact.direction.direction() else {
+            let numbering = self.pile.numbering();
+            let [Some(one), Some(other)] = contact.ids.map(|id| numbering.site(id)) else {
+                return Err(bug("a contact has spheres with numbers"));
+            };
+            return between(self.pile.packing(), one, other);
+        };
+        let Site { k, .. } = contact.site;
+        if self.layer.as_ref().is_none_or(|(layer, _)| *layer != k) {
+            self.layer = Some((k, BTreeMap::new()));
+        }
+        let known = self.layer.as_mut().map(|(_, known)| known);
+        let known = known.ok_or_else(|| bug("a layer is being added up"))?;
+        if let Some(direction) = known.get(&direction.index()) {
+            return Ok(*direction);
+        }
+        let packing = self.pile.packing();
+        let below = packing.pile().shape().below(contact.site, direction);
+        let below = below.ok_or_else(|| Error::on_floor(contact.site))?;
+        let made = between(packing, contact.site, below)?;
+        known.insert(direction.index(), made);
+        Ok(made)
+    }
+}
+
+/// The unit vector from one site to another.
+fn between(packing: &Packing<'_>, to: Site, from: Site) -> Result<[f64; 3], Error> {
+    let mut centres = [[0.0; 3]; 2];
+    for (centre, site) in centres.iter_mut().zip([to, from]) {
+        for (x, exact) in centre.iter_mut().zip(packing.position(site)?) {
+            let (quantity, scalar) = ("a position", "f64");
+            *x = exact
+                .nearest()
+                .ok_or_else(|| Error::overflow(quantity, scalar))?;
+        }
+    }
+    let [to, from] = centres;
+    let apart = minus(to, from);
+    let length = norm(apart);
+    Ok(apart.map(|component| component / length))
+}
+
+/// The force of a sphere above the floor.
+fn place(forces: &mut [[f64; 3]], id: u64) -> Option<&mut [f64; 3]> {
+    forces.get_mut(usize::try_from(id.checked_sub(1)?).ok()?)
+}
+
+/// A float as the exact number it is.
+pub(super) fn float(x: f64) -> Cell {
+    let exact = BigRational::from_float(x);
+    exact.map_or(Cell::Word("inf".into()), Cell::from)
+}

@@ -1,0 +1,185 @@
+//! `spheres.vtp` and `contacts.vtp` for ParaView.
+
+use std::io::Write;
+
+use super::numbered::NumberedPile;
+use super::polydata::{Array, Kind, PolyData, Section};
+use super::weights::{PerSphere, nearest_rational};
+use crate::table::WriteError;
+use cannonpile::lattice::{Axis, Direction, Link};
+
+/// A point and a vertex for each sphere.
+pub(super) fn write_spheres(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+    row: &mut dyn FnMut(),
+) -> Result<(), WriteError> {
+    let n = pile.numbering().sphere_count();
+    let sections = [
+        Section {
+            tag: "PointData",
+            arrays: vec![
+                Array::new("id", Kind::Int64, 1, n),
+                Array::new("layer", Kind::Int64, 1, n),
+                Array::new("radius", Kind::Float64, 1, n),
+                Array::new("weight", Kind::Float64, 1, n),
+                Array::new("load", Kind::Float64, 1, n),
+                Array::new("reaction", Kind::Float64, 3, n),
+            ],
+        },
+        Section {
+            tag: "Points",
+            arrays: vec![Array::new("centres", Kind::Float64, 3, n)],
+        },
+        Section {
+            tag: "Verts",
+            arrays: cells(n, n),
+        },
+    ];
+    let mut data = PolyData::begin(out, n, [n, 0], &sections)?;
+
+    data.array()?;
+    (1..=n).try_for_each(|id| data.integer(id))?;
+    data.array()?;
+    for site in pile.sites()? {
+        // Not more layers than spheres, which are numbered.
+        let layer = u64::try_from(site.k).map_err(std::io::Error::other)?;
+        data.integer(layer)?;
+    }
+    data.array()?;
+    let radius = nearest_rational(pile.packing().radius(), "radius")?;
+    (0..n).try_for_each(|_| data.float(radius))?;
+    for forces in [PerSphere::weights(pile)?, PerSphere::loads(pile)?] {
+        data.array()?;
+        for site in pile.sites()? {
+            data.float(forces.of(site))?;
+        }
+    }
+    data.array()?;
+    write_reactions(pile, &mut data)?;
+    data.array()?;
+    for centre in pile.centres()? {
+        let (_, centre) = centre?;
+        data.vector(centre)?;
+        row();
+    }
+    data.array()?;
+    data.count_up(n)?;
+    data.array()?;
+    data.multiples(1, n)?;
+    Ok(data.end()?)
+}
+
+/// The force of the floor on each sphere: none off it.
+fn write_reactions(pile: &NumberedPile<'_>, data: &mut PolyData<'_>) -> Result<(), WriteError> {
+    for _ in 1..pile.numbering().first_on_floor() {
+        data.vector([0.0; 3])?;
+    }
+    for force in pile.on_floor()? {
+        let (_, force) = force?;
+        // Not −0.
+        data.vector([0.0 - force.shear_x, 0.0 - force.shear_y, force.normal])?;
+    }
+    Ok(())
+}
+
+/// A line for each contact, with two points of its own, so that the force can be at both ends: tubes are as wide as
+/// what their points say.
+pub(super) fn write_contacts(
+    pile: &NumberedPile<'_>,
+    out: &mut dyn Write,
+    row: &mut dyn FnMut(),
+) -> Result<(), WriteError> {
+    // Not more than the most rows.
+    let n = u64::try_from(pile.contact_count()).map_err(std::io::Error::other)?;
+    let sections = [
+        Section {
+            tag: "PointData",
+            arrays: vec![Array::new("force", Kind::Float64, 1, 2 * n)],
+        },
+        Section {
+            tag: "CellData",
+            arrays: vec![
+                Array::new("force", Kind::Float64, 1, n),
+                Array::new("force_vector", Kind::Float64, 3, n),
+                Array::new("direction", Kind::UInt8, 1, n),
+                Array::new("id1", Kind::Int64, 1, n),
+                Array::new("id2", Kind::Int64, 1, n),
+            ],
+        },
+        Section {
+            tag: "Points",
+            arrays: vec![Array::new("centres", Kind::Float64, 3, 2 * n)],
+        },
+        Section {
+            tag: "Lines",
+            arrays: cells(2 * n, n),
+        },
+    ];
+    let mut data = PolyData::begin(out, 2 * n, [0, n], &sections)?;
+
+    data.array()?;
+    each_force(pile, |[force, ..]| {
+        data.float(force)?;
+        data.float(force)
+    })?;
+    data.array()?;
+    each_force(pile, |[force, ..]| data.float(force))?;
+    data.array()?;
+    each_force(pile, |[_, x, y, z]| data.vector([x, y, z]))?;
+    data.array()?;
+    for touch in pile.touches()? {
+        let (link, _) = touch?;
+        data.byte(match link {
+            Link::Sloping(Direction::Alpha) => 0,
+            Link::Sloping(Direction::Beta) => 1,
+            Link::Sloping(Direction::Gamma) => 2,
+            Link::Horizontal(Axis::AlphaBeta) => 3,
+            Link::Horizontal(Axis::AlphaGamma) => 4,
+            Link::Horizontal(Axis::GammaBeta) => 5,
+        })?;
+    }
+    data.array()?;
+    for touch in pile.touches()? {
+        data.integer(touch?.1[0])?;
+    }
+    data.array()?;
+    for touch in pile.touches()? {
+        data.integer(touch?.1[1])?;
+    }
+    data.array()?;
+    for link in pile.links()? {
+        let [upper, lower] = link?;
+        data.vector(upper)?;
+        data.vector(lower)?;
+        row();
+    }
+    data.array()?;
+    data.count_up(2 * n)?;
+    data.array()?;
+    data.multiples(2, n)?;
+    Ok(data.end()?)
+}
+
+/// All forces in turn: magnitude, and vector on the upper sphere.
+///
+/// Once for each array, because an array is written to its end before the next, and none has room in memory.
+fn each_force(
+    pile: &NumberedPile<'_>,
+    mut write: impl FnMut([f64; 4]) -> std::io::Result<()>,
+) -> Result<(), WriteError> {
+    for contact in pile.forces()? {
+        let contact = contact?;
+        let [x, y, z] = contact.vector;
+        write([contact.force, x, y, z])?;
+    }
+    Ok(())
+}
+
+/// The points of cells, and where those of each end.
+fn cells(points: u64, cells: u64) -> Vec<Array> {
+    vec![
+        Array::new("connectivity", Kind::Int64, 1, points),
+        Array::new("offsets", Kind::Int64, 1, cells),
+    ]
+}

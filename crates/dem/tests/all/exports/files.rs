@@ -1,0 +1,381 @@
+//! What is in the files: the numbers of the tables, each rounded by itself there.
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Axis, Dimension, Site};
+use cannonpile::shape::Selection;
+use cannonpile_dem::scene::State;
+use cannonpile_dem::table::{self, FileFormat, NumberFormat, Table, Units};
+use cannonpile_dem::{PileExport, PileFile};
+use cannonpile_testkit::scenes::{bytes, columns, for_each_pile, packing, text};
+
+fn ratio(n: i64) -> num_rational::BigRational {
+    num_rational::BigRational::from_integer(n.into())
+}
+
+/// A csv without its last column.
+fn without_last(csv: &str) -> String {
+    let lines = csv
+        .lines()
+        .map(|line| line.rsplit_once(',').expect("columns").0);
+    lines.fold(String::new(), |text, line| text + line + "\n")
+}
+
+fn csv_of(table: Table<'_>) -> String {
+    let mut csv = Vec::new();
+    table
+        .write(FileFormat::Csv, NumberFormat::F64, &mut csv)
+        .expect("a table");
+    String::from_utf8(csv).expect("text")
+}
+
+#[test]
+fn spheres_and_base_are_the_tables() {
+    for_each_pile(|scene, export| {
+        let packing = export.packing();
+        let spheres = table::spheres(packing, Selection::All).expect("a table");
+        let written = text(export, PileFile::SpheresCsv);
+        assert!(without_last(&written) == csv_of(spheres), "{scene:?}");
+        let units = Units::of_packing(packing.clone());
+        let base = table::base(&units, Selection::Base).expect("a table");
+        let written = text(export, PileFile::BaseCsv);
+        assert!(without_last(&written) == csv_of(base), "{scene:?}");
+        let first = export.numbering().first_on_floor();
+        for (id, line) in (first..).zip(written.lines().skip(1)) {
+            assert!(line.ends_with(&format!(",{id}")), "{line}");
+        }
+    });
+}
+
+#[test]
+fn contacts_are_the_table_with_numbers_besides() {
+    for_each_pile(|scene, export| {
+        let units = Units::of_packing(export.packing().clone());
+        let table = table::contacts(&units, Selection::All).expect("a table");
+        let flat = export.packing().pile().dimension() == Dimension::Two;
+        let places = if flat { 3 } else { 4 };
+        let wanted = csv_of(table);
+        let wanted = wanted.lines().map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            [&cells[places..places + 4], &cells[..places]]
+                .concat()
+                .join(",")
+        });
+        let found = text(export, PileFile::ContactsCsv);
+        let found = found.lines().map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            assert_eq!(cells.len(), 6 + places);
+            cells[2..].join(",")
+        });
+        if scene.state == State::Isostatic {
+            assert!(found.eq(wanted), "{scene:?}");
+            return;
+        }
+        // There horizontal contacts come last.
+        let [mut found, mut wanted] = [found.collect::<Vec<_>>(), wanted.collect()];
+        let is_horizontal = |line: &str| Axis::ALL.iter().any(|axis| line.ends_with(axis.name()));
+        assert!(found.iter().any(|line| is_horizontal(line)));
+        found.sort_unstable();
+        wanted.sort_unstable();
+        assert_eq!(found, wanted);
+    });
+}
+
+#[test]
+fn loads_are_in_the_csv() {
+    let at = |i, j, k| Site { i, j, k };
+    let pile = Pile::triangular(3).expect("a pile");
+    let pile = pile.with_load(at(0, 0, 0), ratio(5)).expect("a sphere");
+    let pile = pile.with_load(at(1, 1, 2), ratio(7)).expect("a sphere");
+    let packing = packing(&pile);
+    let export = PileExport::new(&packing).expect("files");
+    let spheres = columns(&text(&export, PileFile::SpheresCsv));
+    assert_eq!(
+        spheres["load"],
+        [5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 7.0, 0.0]
+    );
+    assert!(
+        spheres["mass"]
+            .iter()
+            .all(|mass| mass.to_bits() == 1.0_f64.to_bits())
+    );
+}
+
+#[test]
+fn every_column_is_described() {
+    for_each_pile(|scene, export| {
+        let described = text(export, PileFile::ColumnsCsv);
+        let mut described = described.lines();
+        assert_eq!(described.next(), Some("file,column,unit,meaning"));
+        let files = [
+            PileFile::SpheresCsv,
+            PileFile::ContactsCsv,
+            PileFile::BaseCsv,
+        ];
+        for file in files {
+            let csv = text(export, file);
+            for column in csv.lines().next().expect("a head").split(',') {
+                let begin = format!("{},{column},", file.name());
+                let line = described.next().expect("a line");
+                assert!(line.starts_with(&begin), "{line} of {scene:?}");
+            }
+        }
+        assert_eq!(described.next(), None);
+    });
+}
+
+/// The arrays of a file of ParaView: name, components, numbers; bytes as numbers too.
+fn arrays(file: &[u8]) -> Vec<(String, Vec<f64>)> {
+    let start = file.windows(2).position(|two| two == b"\n_").expect("data") + 2;
+    let head = std::str::from_utf8(&file[..start]).expect("a head");
+    let attribute = |line: &str, name: &str| {
+        let from = line.find(&format!(" {name}=\"")).expect("an attribute") + name.len() + 3;
+        line[from..].split('"').next().expect("a value").to_owned()
+    };
+    let mut arrays = Vec::new();
+    let mut end = start;
+    for line in head.lines().filter(|line| line.starts_with("<DataArray")) {
+        let offset: usize = attribute(line, "offset").parse().expect("an offset");
+        // One after the other, with nothing between.
+        assert_eq!(start + offset, end);
+        let data = &file[end..];
+        let size = u64::from_le_bytes(data[..8].try_into().expect("eight bytes"));
+        let size = usize::try_from(size).expect("a size");
+        let data = &data[8..8 + size];
+        let eight = |n: &[u8]| <[u8; 8]>::try_from(n).expect("eight bytes");
+        let numbers = match &*attribute(line, "type") {
+            "Float64" => data
+                .chunks(8)
+                .map(|n| f64::from_le_bytes(eight(n)))
+                .collect(),
+            #[expect(clippy::cast_precision_loss, reason = "numbers of few spheres")]
+            "Int64" => data
+                .chunks(8)
+                .map(|n| i64::from_le_bytes(eight(n)) as f64)
+                .collect(),
+            "UInt8" => data.iter().map(|n| f64::from(*n)).collect(),
+            other => panic!("{other}"),
+        };
+        arrays.push((attribute(line, "Name"), numbers));
+        end += 8 + size;
+    }
+    assert_eq!(&file[end..], b"\n</AppendedData>\n</VTKFile>\n");
+    arrays
+}
+
+fn array<'a>(arrays: &'a [(String, Vec<f64>)], name: &str) -> &'a [f64] {
+    let found = arrays.iter().rev().find(|(found, _)| found == name);
+    &found.expect("an array").1
+}
+
+#[test]
+fn paraview_gets_the_numbers_of_the_csv() {
+    for_each_pile(|scene, export| {
+        let spheres = columns(&text(export, PileFile::SpheresCsv));
+        let points = arrays(&bytes(export, PileFile::SpheresVtp));
+        for (name, column) in [("id", "id"), ("layer", "k"), ("radius", "radius")] {
+            assert_eq!(array(&points, name), spheres[column], "{name} of {scene:?}");
+        }
+        let centre = |id: f64| {
+            let row = spheres["id"]
+                .iter()
+                .position(|other| other.to_bits() == id.to_bits())
+                .expect("a sphere");
+            ["x", "y", "z"].map(|axis| spheres[axis][row])
+        };
+        let centres: Vec<f64> = spheres["id"].iter().flat_map(|id| centre(*id)).collect();
+        assert!(array(&points, "centres") == centres, "{scene:?}");
+        // The floor pushes with what it feels, turned round; it pushes nobody else.
+        let base = columns(&text(export, PileFile::BaseCsv));
+        let felt = |name: &str, row: usize| base.get(name).map_or(0.0, |shear| shear[row]);
+        let pushed = (0..base["normal"].len()).flat_map(|row| {
+            [
+                -felt("shear_x", row),
+                -felt("shear_y", row),
+                felt("normal", row),
+            ]
+        });
+        let above = centres.len() - 3 * base["normal"].len();
+        let reactions: Vec<f64> = std::iter::repeat_n(0.0, above).chain(pushed).collect();
+        assert!(array(&points, "reaction") == reactions, "{scene:?}");
+
+        let contacts = columns(&text(export, PileFile::ContactsCsv));
+        let lines = arrays(&bytes(export, PileFile::ContactsVtp));
+        for name in ["force", "id1", "id2"] {
+            assert_eq!(array(&lines, name), contacts[name], "{name} of {scene:?}");
+        }
+        let ids = contacts["id1"].iter().zip(&contacts["id2"]);
+        let ends: Vec<f64> = ids
+            .flat_map(|(a, b)| [centre(*a), centre(*b)])
+            .flatten()
+            .collect();
+        assert!(array(&lines, "centres") == ends, "{scene:?}");
+        // At the ends of each line.
+        let (name, at_ends) = &lines[0];
+        assert_eq!(name, "force");
+        assert!(
+            at_ends
+                .chunks(2)
+                .map(|two| two[0])
+                .eq(contacts["force"].iter().copied())
+        );
+        assert!(
+            at_ends
+                .chunks(2)
+                .all(|two| two[0].to_bits() == two[1].to_bits())
+        );
+    });
+}
+
+/// The atoms of `pile.data`: id, type, diameter, density, x, y, z.
+fn atoms(export: &PileExport<'_>) -> Vec<Vec<f64>> {
+    let data = text(export, PileFile::LammpsData);
+    let (_, atoms) = data.split_once("Atoms # sphere\n\n").expect("atoms");
+    let rows = atoms.lines().map(|line| {
+        let row: Vec<f64> = line
+            .split(' ')
+            .map(|cell| cell.parse().expect("a number"))
+            .collect();
+        assert_eq!(row.len(), 7);
+        row
+    });
+    rows.collect()
+}
+
+#[test]
+fn lammps_and_yade_get_the_same_spheres() {
+    for_each_pile(|scene, export| {
+        let spheres = columns(&text(export, PileFile::SpheresCsv));
+        let atoms = atoms(export);
+        let column = |n: usize| atoms.iter().map(|row| row[n]).collect::<Vec<_>>();
+        for (place, name) in [(0, "id"), (4, "x"), (5, "y"), (6, "z")] {
+            assert_eq!(column(place), spheres[name], "{name} of {scene:?}");
+        }
+        for (atom, (radius, fixed)) in atoms
+            .iter()
+            .zip(spheres["radius"].iter().zip(&spheres["fixed"]))
+        {
+            assert_eq!((atom[1], atom[2]), (1.0 + fixed, 2.0 * radius));
+            // Weightless spheres have their mass too: gravity is left out.
+            let mass = std::f64::consts::PI / 6.0 * atom[2].powi(3) * atom[3];
+            let wanted = export.packing().mass();
+            let wanted: f64 = cannonpile::scalar::Surd::from(wanted.clone())
+                .nearest()
+                .expect("a float");
+            assert!((mass / wanted - 1.0).abs() < 1e-15, "{mass} {wanted}");
+        }
+        let data = text(export, PileFile::LammpsData);
+        for (axis, place) in [("x", 4), ("y", 5), ("z", 6)] {
+            let line = data
+                .lines()
+                .find(|line| line.ends_with(&format!("{axis}hi")))
+                .expect("a bound");
+            let bounds: Vec<f64> = line
+                .split(' ')
+                .take(2)
+                .map(|cell| cell.parse().expect("a number"))
+                .collect();
+            for atom in &atoms {
+                assert!(bounds[0] < atom[place] - atom[2] && atom[place] + atom[2] < bounds[1]);
+            }
+        }
+        let yade = text(export, PileFile::YadeSpheres);
+        for (line, atom) in yade.lines().zip(&atoms) {
+            let row: Vec<f64> = line
+                .split(' ')
+                .map(|cell| cell.parse().expect("a number"))
+                .collect();
+            assert_eq!(row, [atom[4], atom[5], atom[6], atom[2] / 2.0]);
+        }
+        assert_eq!(yade.lines().count(), atoms.len());
+    });
+}
+
+#[test]
+fn scripts_carry_loads_weight_and_plane() {
+    let (mut loaded, mut weightless, mut flat) = (0, 0, 0);
+    for_each_pile(|scene, export| {
+        let input = text(export, PileFile::LammpsInput);
+        let script = text(export, PileFile::YadeScript);
+        let pile = export.packing().pile();
+        let numbering = export.numbering();
+        for (at, load) in &scene.loads {
+            let site = at.site(pile.layers());
+            let on_floor = site.k + 1 == pile.layers();
+            let id = numbering.id(site).expect("a number");
+            let load = load * export.packing().sphere_weight();
+            let load: f64 = cannonpile::scalar::Surd::from(load)
+                .nearest()
+                .expect("a float");
+            // What stands on the floor is frozen, and pushes nobody.
+            assert_eq!(
+                input.contains(&format!("set             atom {id} d_load -{load:?}\n")),
+                !on_floor
+            );
+            assert_eq!(
+                script.contains(&format!("    {id}: {load:?},\n")),
+                !on_floor
+            );
+            loaded += 1;
+        }
+        assert_eq!(input.contains("addforce"), !scene.loads.is_empty());
+        assert_eq!(input.contains("gravity"), !scene.weightless);
+        assert_eq!(
+            input.contains("setforce"),
+            pile.dimension() == Dimension::Two
+        );
+        assert_eq!(
+            script.contains("'yXYZ'"),
+            pile.dimension() == Dimension::Two
+        );
+        weightless += i32::from(scene.weightless);
+        flat += i32::from(pile.dimension() == Dimension::Two);
+        let first = numbering.first_on_floor();
+        assert!(script.contains(&format!("FIRST_ON_FLOOR = {first} ")));
+    });
+    assert!(loaded > 3 && weightless > 0 && flat > 1);
+}
+
+#[test]
+fn weights_of_their_own_become_masses_or_loads() {
+    let weight = |n: i64, d: i64| num_rational::BigRational::new(n.into(), d.into());
+    let at = |i, j, k| Site { i, j, k };
+    let pile = Pile::triangular(4).expect("a pile");
+    let pile = pile
+        .with_weight(at(0, 0, 0), weight(3, 1))
+        .expect("a sphere");
+    let pile = pile
+        .with_weight(at(1, 0, 1), weight(0, 1))
+        .expect("a sphere");
+    // Together as heavy as any other.
+    let pile = pile
+        .with_weight(at(0, 1, 1), weight(1, 2))
+        .expect("a sphere");
+    let pile = pile.with_load(at(0, 1, 1), weight(1, 2)).expect("a sphere");
+    let packing = packing(&pile);
+    let export = PileExport::new(&packing).expect("files");
+    let density = |id: usize| atoms(&export)[id - 1][3];
+    assert!((density(1) / density(2) - 3.0).abs() < 1e-15);
+    assert!((density(3) / density(2) - 1.0).abs() < 1e-15);
+    assert!((density(4) / density(2) - 0.5).abs() < 1e-15);
+    let input = text(&export, PileFile::LammpsInput);
+    let loads: Vec<&str> = input
+        .lines()
+        .filter(|line| line.starts_with("set "))
+        .collect();
+    // Gravity pulls at a mass that is not there: as much pushes up.
+    let [third, fourth] = [
+        "set             atom 3 d_load 1.0",
+        "set             atom 4 d_load -0.5",
+    ];
+    assert!(
+        loads.len() == 2 && loads.contains(&third) && loads.contains(&fourth),
+        "{loads:?}"
+    );
+    let script = text(&export, PileFile::YadeScript);
+    for line in ["    3: -1.0,", "    4: 0.5,", "    1: 3.0,"] {
+        assert!(script.lines().any(|other| other == line), "{line}");
+    }
+    let points = arrays(&bytes(&export, PileFile::SpheresVtp));
+    assert_eq!(array(&points, "weight")[..5], [3.0, 1.0, 0.0, 0.5, 1.0]);
+    assert_eq!(array(&points, "load")[..5], [0.0, 0.0, 0.0, 0.5, 0.0]);
+}

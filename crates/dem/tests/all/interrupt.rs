@@ -1,0 +1,220 @@
+//! What takes long ends when it is asked to, in all its rooms, and nothing else does.
+
+use std::thread;
+use std::time::Duration;
+
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::{Interrupt, Packing, Pile, census};
+use cannonpile_dem::Error;
+use cannonpile_dem::verify::Refusal;
+use cannonpile_dem::verify::{Comparison, Measured};
+use cannonpile_dem::{NumberedPile, PileArrays};
+use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+const INTERRUPTED: Error = Error::Core(cannonpile::Error::Interrupted);
+
+fn half() -> BigRational {
+    BigRational::new(1.into(), 2.into())
+}
+
+fn one() -> BigRational {
+    BigRational::from_integer(1.into())
+}
+
+fn hcp(layers: i128) -> Pile {
+    let stacking = Stacking::hcp(layers).expect("a stacking");
+    Pile::under(Region::SITE, stacking).expect("a pile")
+}
+
+/// The error of the core that random stackings pass through.
+fn of_core(error: cannonpile_disorder::Error) -> Error {
+    match error {
+        cannonpile_disorder::Error::Core(error) => error.into(),
+        error => panic!("{error}"),
+    }
+}
+
+/// All that takes long, of a small pile.
+fn work(pile: &Pile, name: &str) -> Result<(), Error> {
+    let part = Selection::All;
+    let packing = Packing::new(pile, &Spacing::new(one())?)?;
+    let arrays = PileArrays::of_packing(&packing)?;
+    let exact = pile.forces::<BigRational>();
+    let last = pile.layers() - 1;
+    let base = pile.shape().base();
+    let bottom = Site {
+        i: *base.x().start(),
+        j: *base.y().end(),
+        k: last,
+    };
+    let above = pile.rows(Selection::Layer(last - 1))?.flatten().last();
+    let above = above.expect("a sphere");
+    match name {
+        "a force" => drop(exact.to_below(above)?),
+        "floats" => {
+            let layers = pile.forces::<f64>().layers(part)?;
+            let mut columns = [(); 3].map(|()| vec![0.0; layers.spheres().expect("a number")]);
+            layers.fill(columns.each_mut().map(Vec::as_mut_slice))?;
+        }
+        "forces" => arrays.fill_forces(&mut vec![0.0; arrays.contacts()])?,
+        "vectors" => arrays.fill_vectors(&mut vec![[0.0; 3]; arrays.contacts()])?,
+        "multiples" => {
+            let mut numerators = vec![BigInt::ZERO; arrays.contacts()];
+            arrays.fill_multiples(&mut numerators)?;
+        }
+        "centres" => arrays.fill_centres(&mut vec![[0.0; 3]; arrays.spheres()])?,
+        "points" => arrays.fill_points(&mut vec![[0.0; 3]; arrays.contacts()])?,
+        "ids" => arrays.fill_ids(&mut vec![[0_u64; 2]; arrays.contacts()])?,
+        "sites" => arrays.fill_sites(&mut vec![[0_i64; 3]; arrays.spheres()])?,
+        "contacts" => NumberedPile::new(&packing)?
+            .contacts()?
+            .try_for_each(|c| c.map(|_| ()))?,
+        "standing" => drop(pile.standing()?),
+        "extremes" => drop(pile.base_extremes()?),
+        "elastic" => drop(cannonpile_horizontal::elastic(pile, &half())?),
+        "bounds" => drop(cannonpile_horizontal::bounds(pile, bottom)?),
+        "census" => census::under_one_sphere(6, true)?.try_for_each(|entry| entry.map(|_| ()))?,
+        "horizontal census" => cannonpile_horizontal::census::under_one_sphere(6, true)?
+            .try_for_each(|entry| entry.map(|_| ()))?,
+        "mean" => {
+            let stackings = RandomStackings::new(6, FirstSign::Plus).map_err(of_core)?;
+            let mean = RandomPiles::under(Region::SITE, stackings).exact(&half());
+            drop(mean.map_err(of_core)?);
+        }
+        "comparison" => {
+            let measured = [Measured::new([1, 2], 0.4)];
+            match Comparison::new(&packing, measured) {
+                Ok(_) => {}
+                Err(Refusal::Scene(error)) => return Err(error),
+                Err(refusal) => panic!("{refusal}"),
+            }
+        }
+        _ => panic!("{name}"),
+    }
+    Ok(())
+}
+
+const NAMES: [&str; 18] = [
+    "a force",
+    "floats",
+    "forces",
+    "vectors",
+    "multiples",
+    "centres",
+    "points",
+    "ids",
+    "sites",
+    "contacts",
+    "standing",
+    "extremes",
+    "elastic",
+    "bounds",
+    "census",
+    "horizontal census",
+    "mean",
+    "comparison",
+];
+
+#[test]
+fn all_that_takes_long_ends_after_a_request_and_nothing_without() {
+    let pile = hcp(6);
+    for name in NAMES {
+        assert_eq!(work(&pile, name), Ok(()), "{name}");
+        let interrupt = Interrupt::new();
+        assert_eq!(interrupt.during(|| work(&pile, name)), Ok(()), "{name}");
+        interrupt.request();
+        let ended = interrupt.during(|| work(&pile, name));
+        assert_eq!(ended, Err(INTERRUPTED), "{name}");
+        // The thread is as it was.
+        assert_eq!(work(&pile, name), Ok(()), "{name}");
+    }
+}
+
+#[test]
+fn straight_piles_end_too() {
+    let pile = Pile::triangular(6).expect("a pile");
+    for name in ["floats", "forces", "vectors", "multiples"] {
+        let interrupt = Interrupt::new();
+        interrupt.request();
+        let ended = interrupt.during(|| work(&pile, name));
+        assert_eq!(ended, Err(INTERRUPTED), "{name}");
+    }
+}
+
+#[test]
+fn long_work_in_several_threads_ends() {
+    // Each of these takes seconds in release, and longer here: a hundred times what is waited for.
+    let wide = Region::hexagon(40, 40).expect("a region");
+    let tall = Pile::under(wide, Stacking::hcp(1000).expect("a stacking")).expect("a pile");
+    let straight = Pile::triangular(16).expect("a pile");
+    let stackings = RandomStackings::new(200, FirstSign::Plus).expect("stackings");
+    let mean = RandomPiles::under(Region::SITE, stackings);
+    let works: [&(dyn Fn() -> Result<(), Error> + Sync); 3] = [
+        &|| Ok(tall.base_extremes().map(|_| ())?),
+        &|| {
+            cannonpile_horizontal::base_bounds(&straight, Selection::Base)?
+                .try_for_each(|bounds| Ok(bounds.map(|_| ())?))
+        },
+        &|| mean.exact(&half()).map(|_| ()).map_err(of_core),
+    ];
+    for (number, work) in works.into_iter().enumerate() {
+        let interrupt = Interrupt::new();
+        thread::scope(|scope| {
+            let working = scope.spawn(|| interrupt.during(work));
+            thread::sleep(Duration::from_millis(30));
+            interrupt.request();
+            let ended = working.join().expect("no panic");
+            assert_eq!(ended, Err(INTERRUPTED), "{number}");
+        });
+    }
+}
+
+#[test]
+fn one_thread_is_not_ended_for_another() {
+    let (one, other) = (Interrupt::new(), Interrupt::new());
+    one.request();
+    // The inner one alone ends what is done during it.
+    let answer = one.during(|| other.during(|| work(&hcp(6), "forces")));
+    assert_eq!(answer, Ok(()));
+    let answer = thread::scope(|scope| {
+        let other = scope.spawn(|| work(&hcp(6), "forces"));
+        let ended = one.during(|| work(&hcp(6), "forces"));
+        (other.join().expect("no panic"), ended)
+    });
+    assert_eq!(answer, (Ok(()), Err(INTERRUPTED)));
+}
+
+#[test]
+fn without_a_request_an_error_is_what_it_was() {
+    let interrupt = Interrupt::new();
+    assert!(!interrupt.is_requested());
+    let refused = interrupt.during(|| Pile::triangular(0)).err();
+    assert_eq!(refused, Some(cannonpile::Error::layers(0.into())));
+    interrupt.clone().request();
+    assert!(interrupt.is_requested());
+    let ended = interrupt.during(Interrupt::check);
+    assert_eq!(ended, Err(cannonpile::Error::Interrupted));
+    assert_eq!(Interrupt::check(), Ok(()));
+}
+
+/// So many spheres that threads take parts of them: each knows what it is ended by.
+#[test]
+fn a_fill_that_threads_share_ends() {
+    let pile = Pile::triangular(80).unwrap();
+    let layers = pile.forces::<f64>().layers(Selection::All).unwrap();
+    let n = layers.spheres().unwrap();
+    assert!(n > 1 << 16);
+    let mut columns = [(); 3].map(|()| vec![0.0; n]);
+    let interrupt = Interrupt::new();
+    interrupt.request();
+    let slices = columns.each_mut().map(Vec::as_mut_slice);
+    assert_eq!(
+        interrupt.during(|| layers.fill(slices)),
+        Err(cannonpile::Error::Interrupted)
+    );
+}

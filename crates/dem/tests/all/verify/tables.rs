@@ -1,0 +1,205 @@
+//! Tables as codes write them: their separators, comments, columns, signs, kinds of contacts and first numbers.
+
+use cannonpile::Pile;
+use cannonpile_dem::verify::{Columns, Compared, Measured, Preset, Reader, Refusal};
+
+use super::{packing, perfect, ratio};
+use cannonpile_testkit::codes::{centres, head, row};
+
+fn columns(text: &str) -> Columns {
+    text.parse().unwrap()
+}
+
+/// Two layers: three contacts of sphere 1, 0.46225 N each at a = 6/5 R.
+#[track_caller]
+fn read(reader: &Reader, table: &str) -> Compared {
+    let pile = Pile::triangular(2).unwrap();
+    reader
+        .compare(&packing(&pile, ratio(6, 5)), table.as_bytes())
+        .unwrap()
+}
+
+#[track_caller]
+fn refused(reader: &Reader, table: &str) -> String {
+    let pile = Pile::triangular(2).unwrap();
+    let refusal: Refusal = reader
+        .compare(&packing(&pile, ratio(6, 5)), table.as_bytes())
+        .unwrap_err();
+    let line = refusal.to_string();
+    assert!(line.len() < 500 && !line.contains('\n'), "{line}");
+    line
+}
+
+#[test]
+fn any_separator_and_comments_are_read() {
+    for table in [
+        "id1,id2,force\n1,2,0.46225\n1,3,0.46225\n1,4,0.46225\n",
+        "id1;id2;force\n1;2;0.46225\n1;3;0.46225\n1;4;0.46225\n",
+        "id1\tid2\tforce\n1\t2\t0.46225\n1\t3\t0.46225\n1\t4\t0.46225\n",
+        "id1 id2   force\n 1 2 0.46225\n1  3 0.46225 \n\n1\t4 0.46225",
+        "# id1 id2 force\n1 2 0.46225\n1 3 0.46225\n1 4 0.46225\n",
+        "# made on Monday\n#\n## id1, id2, force\n1,2,0.46225\n# half\n1,3,0.46225\n1,4,0.46225\n",
+        "# id1 id2 force\n1,2,0.46225\n1,3,0.46225\n1,4,0.46225\n",
+        "\u{feff}#id1 id2 force\r\n1 2 0.46225\r\n1 3 0.46225\r\n1 4 0.46225\r\n",
+    ] {
+        let read = read(&Reader::new(), table);
+        assert!(
+            read.comparison.accepted(1e-5),
+            "{table:?}: {}",
+            read.comparison
+        );
+    }
+}
+
+#[test]
+fn columns_have_any_name_sign_factor_and_sum() {
+    let reader = |text: &str| Reader::new().with_columns(columns(text));
+    let by_name = reader("id1=A,id2=B,force=-1e3*Fn");
+    let table = "n,A,Fn,B\n0,1,-0.00046225,2\n1,1,-0.00046225,3\n2,1,-0.00046225,4\n";
+    assert!(read(&by_name, table).comparison.accepted(1e-5));
+    let by_place = reader("id1=#2,id2=#4,force=#1-#3");
+    let table = "0.5 1 0.03775 2\n0.5 1 0.03775 3\n0.5 1 0.03775 4\n";
+    assert!(read(&by_place, table).comparison.accepted(1e-5));
+    let sum = reader("force=normal+2*half");
+    let table = "id1,id2,normal,half\n1,2,0.4,0.031125\n1,3,0.4,0.031125\n1,4,0.46225,0\n";
+    assert!(read(&sum, table).comparison.accepted(1e-5));
+    for text in [
+        "id1=A,id2=B,fx=-f_x,fy=-f_y,fz=-f_z",
+        "id1=#1,id2=#2,force=-#3+0.5*#4",
+        "force=a+-b,kind=type:0|1|SS",
+    ] {
+        assert_eq!(columns(text).to_string(), text);
+    }
+}
+
+#[test]
+fn contacts_with_walls_are_counted_and_not_judged() {
+    let reader = Reader::new().with_columns(columns("kind=t:SS|PP"));
+    let table =
+        "t,id1,id2,force\nSS,1,2,0.46225\nSM,9,0,-7\nPP,1,3,0.46225\nSS,1,4,0.46225\nSA,x,y,z\n";
+    let read = read(&reader, table);
+    assert_eq!(read.walls, 2);
+    assert!(read.comparison.accepted(1e-5));
+}
+
+#[test]
+fn spheres_are_counted_from_any_number() {
+    for (first, table) in [
+        (0, "id1,id2,force\n0,1,0.46225\n0,2,0.46225\n3,0,0.46225\n"),
+        (
+            100,
+            "id1,id2,force\n100,101,0.46225\n100,102,0.46225\n103,100,0.46225\n",
+        ),
+    ] {
+        let reader = Reader::new().with_columns(Columns::default().with_first_id(first));
+        assert!(read(&reader, table).comparison.accepted(1e-5));
+    }
+    let reader = Reader::new().with_columns(Columns::default().with_first_id(5));
+    let line = refused(&reader, "id1,id2,force\n4,6,0.46\n");
+    assert!(
+        line.starts_with("line 2: id1 '4' is not the number of a sphere"),
+        "{line}"
+    );
+    // Yade counts from 0.
+    let yade = Reader::of(Preset::Yade);
+    assert!(
+        read(
+            &yade,
+            "id1,id2,force\n0,1,0.46225\n0,2,0.46225\n0,3,0.46225\n"
+        )
+        .comparison
+        .accepted(1e-5)
+    );
+}
+
+#[test]
+fn what_is_not_a_table_is_refused_with_the_remedy() {
+    let named = Reader::new().with_columns(columns("id1=A"));
+    assert_eq!(
+        refused(&named, "id1,id2,force\n"),
+        "line 1: no column 'A' for id1, only 'id1', 'id2', 'force': name one of these"
+    );
+    let numbered = Reader::new().with_columns(columns("id1=#1,id2=#2,force=#9"));
+    assert_eq!(
+        refused(&numbered, "1,2,3\n"),
+        "line 1: 3 fields where the header has 9: give every column a value"
+    );
+    for text in [
+        "",
+        "A",
+        "mass=A",
+        "id1=",
+        "id1=A,id1=B",
+        "id1=-A",
+        "id1=2*A",
+        "id1=A+B",
+        "id2=#1+#2",
+        "id1=#0",
+        "id1=#x",
+        "id1=A,id2=#2",
+        "kind=type",
+        "force=x*F",
+        "force=0*F",
+        "force=inf*F",
+    ] {
+        assert!(text.parse::<Columns>().is_err(), "{text:?}");
+    }
+}
+
+/// A name that could be taken for a sign or a factor is printed with one.
+#[test]
+fn columns_are_read_as_they_are_printed() {
+    for text in [
+        "id1=A,id2=B,fx=-f_x",
+        "fx=2.5*a+b+-c",
+        "fy=#10+#13-#2,fz=-2*#1",
+        "fz=1*7*overlap",
+        "force=-1*7*overlap+3*-a+1*-a",
+        "id1=1*a*b,id2=1*-c",
+        "kind=2*-type:SS|SP",
+    ] {
+        let read = columns(text);
+        assert_eq!(read.to_string(), text);
+        assert_eq!(read.to_string().parse(), Ok(read));
+    }
+}
+
+#[test]
+fn every_preset_reads_its_code_and_finds_a_fault_in_it() {
+    let pile = Pile::triangular(4).unwrap();
+    let packing = packing(&pile, ratio(11, 10));
+    let centres = centres(&packing).unwrap();
+    for preset in Preset::ALL {
+        let Some(head) = head(preset) else { continue };
+        let mut reader = Reader::of(preset);
+        if preset == Preset::Mddem {
+            let spring = columns("force=1024*overlap");
+            reader = reader.with_columns(preset.columns().overridden(&spring));
+        }
+        let mut measured = perfect(&packing);
+        for swapped in measured.iter_mut().step_by(2) {
+            *swapped = swapped.reversed();
+        }
+        let compare = |measured: &[Measured]| {
+            let rows = measured.iter().map(|one| row(preset, one, &centres));
+            let table = head.to_owned() + &rows.collect::<String>();
+            reader.compare(&packing, table.as_bytes()).unwrap()
+        };
+        let read = compare(&measured);
+        let comparison = &read.comparison;
+        assert!(comparison.accepted(1e-12), "{preset}: {comparison}");
+        assert_eq!(comparison.matched(), comparison.contacts(), "{preset}");
+        assert_eq!(read.frame, None, "{preset}");
+        let walls = matches!(preset, Preset::DemEngine | Preset::ExaDem);
+        assert_eq!(read.walls, u64::from(walls), "{preset}");
+        // One force is wrong.
+        let wrong = &mut measured[7];
+        wrong.force *= 1.001;
+        wrong.vector = wrong.vector.map(|vector| vector.map(|x| x * 1.001));
+        let [one, other] = wrong.ids;
+        let comparison = compare(&measured).comparison;
+        assert_eq!(comparison.beyond(1e-6), 1, "{preset}: {comparison}");
+        let worst = comparison.worst().unwrap();
+        assert_eq!(worst.ids, [one.min(other), one.max(other)], "{preset}");
+    }
+}

@@ -1,0 +1,117 @@
+//! Lines with data are read as VTK writes them: files of vtkXMLPolyDataWriter and vtkXMLUnstructuredGridWriter (9.5), each
+//! of the eighteen contacts of three layers at a = 6/5 R, and those of this crate's own export.
+
+use cannonpile::Pile;
+use cannonpile_dem::verify::{Compared, Preset, Reader, Refusal};
+use cannonpile_dem::{PileExport, PileFile};
+
+use super::{packing, ratio};
+
+fn read(reader: &Reader, file: &[u8]) -> Result<Compared, Refusal> {
+    let pile = Pile::triangular(3).unwrap();
+    reader.compare(&packing(&pile, ratio(6, 5)), file)
+}
+
+const LINES: [(&str, &[u8]); 6] = [
+    ("text", include_bytes!("vtk/ascii.vtp")),
+    ("base64", include_bytes!("vtk/based.vtp")),
+    ("base64, compressed", include_bytes!("vtk/packed.vtp")),
+    ("appended", include_bytes!("vtk/raw.vtp")),
+    (
+        "appended, compressed, big-endian",
+        include_bytes!("vtk/raw_packed.vtp"),
+    ),
+    (
+        "appended in base64, compressed",
+        include_bytes!("vtk/appended.vtp"),
+    ),
+];
+
+const GRIDS: [&[u8]; 2] = [
+    include_bytes!("vtk/lines.vtu"),
+    include_bytes!("vtk/lines_ascii.vtu"),
+];
+
+#[test]
+fn every_coding_is_read() {
+    for (coding, file) in LINES {
+        // By numbers, by places, and the vectors of points, which are those on the second.
+        let by_vectors = Reader::of(Preset::ExaDemVtp);
+        for reader in [Reader::new(), Reader::of(Preset::Lethe), by_vectors] {
+            let read = read(&reader, file).unwrap();
+            let comparison = read.comparison;
+            assert_eq!(comparison.matched(), 12, "{coding}");
+            // ParaView's text has eleven digits.
+            let accept = if coding == "text" { 1e-10 } else { 1e-15 };
+            assert!(comparison.accepted(accept), "{coding}: {comparison}");
+        }
+    }
+    for file in GRIDS {
+        let read = read(&Reader::of(Preset::Lethe), file).unwrap();
+        assert!(read.comparison.accepted(1e-10), "{}", read.comparison);
+    }
+}
+
+#[test]
+fn the_export_of_this_crate_is_read_with_its_vectors() {
+    let pile = Pile::triangular(9).unwrap();
+    let packing = packing(&pile, ratio(6, 5));
+    let mut file = Vec::new();
+    let export = PileExport::new(&packing).unwrap();
+    export
+        .write_file(PileFile::ContactsVtp, &mut file, &mut |_| {})
+        .unwrap();
+    for reader in [Reader::new(), Reader::of(Preset::Lethe)] {
+        let read = reader.compare(&packing, &*file).unwrap();
+        assert!(read.comparison.accepted(0.0), "{}", read.comparison);
+        assert!(read.comparison.worst().unwrap().exact_vector.is_some());
+    }
+}
+
+#[test]
+fn whatever_is_wrong_is_refused_in_one_line() {
+    let reader = Reader::of(Preset::Lethe);
+    for (_, file) in LINES {
+        let mut cut_short = 0;
+        for end in (1..file.len()).step_by(13) {
+            let Err(refusal) = read(&reader, &file[..end]) else {
+                continue;
+            };
+            let line = refusal.to_string();
+            assert!(line.len() < 500 && !line.contains('\n'), "{line}");
+            cut_short += 1;
+        }
+        assert!(cut_short > file.len() / 52);
+        for place in (0..file.len()).step_by(31) {
+            let mut hurt = file.to_vec();
+            hurt[place] = hurt[place].wrapping_add(13);
+            if let Err(refusal) = read(&reader, &hurt) {
+                assert!(refusal.to_string().len() < 500, "{refusal}");
+            }
+        }
+    }
+    let text = String::from_utf8(LINES[0].1.to_vec()).unwrap();
+    for (from, to, said) in [
+        (
+            "\"connectivity\"",
+            "\"else\"",
+            "a piece without the array connectivity of lines",
+        ),
+        (
+            "\"Float64\" Name=\"force\"",
+            "\"Float80\" Name=\"force\"",
+            "'Float80' is not one of the types",
+        ),
+        (
+            "Name=\"force\"",
+            "Name=\"power\"",
+            "line 1: no column force, only",
+        ),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let line = read(&reader, text.replace(from, to).as_bytes())
+            .unwrap_err()
+            .to_string();
+        assert!(line.contains(said), "{line}");
+    }
+}

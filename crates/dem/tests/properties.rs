@@ -1,0 +1,62 @@
+//! The claims about scenes and tables on random input: deterministic, from the generators that fuzzing shares.
+//!
+//! Each claim is a function of bytes; its planted faults stand beside it in `cannonpile_testkit`. A failure prints the
+//! shortest bytes that proptest could find, and the claim's own witness.
+
+use cannonpile::lattice::Dimension;
+use cannonpile_dem::Error;
+use cannonpile_dem::scene::{Scene, parse};
+use cannonpile_testkit::claims;
+use cannonpile_testkit::generators::{scene, text};
+use cannonpile_testkit::properties;
+use cannonpile_testkit::properties::census;
+
+properties! {
+    scenes_are_made_or_refused: claims::scene::any_scene, 512;
+    parsers_survive_any_text: claims::options::any_text, 1024;
+    layers_are_read_as_they_are_printed: claims::options::layers, 512;
+    words_are_read_as_they_are_printed: claims::options::any_word, 2048;
+    scenes_are_written_and_read_back: claims::scene_file::written, 512;
+    scene_files_are_read_or_refused: claims::scene_file::any_file, 1024;
+    numbers_in_scene_files_are_exact: claims::scene_file::a_number, 512;
+    scenes_come_back_from_json: claims::scene_file::json, 512;
+    damaged_scenes_are_refused_or_valid: claims::scene_file::damaged_json, 512;
+    any_file_of_measured_forces_is_read_or_refused: claims::measured::any_file, 1024;
+    any_table_of_another_code_is_compared_or_refused: claims::measured::any_table, 512;
+    measured_forces_are_read_as_written: claims::measured::a_file, 512;
+    tables_are_accepted_by_place_in_any_frame: claims::measured::by_place, 96;
+    a_fault_among_measured_forces_is_found: claims::measured::planted, 256;
+    a_planted_order_of_accuracy_is_found: claims::ladder::planted, 1024;
+    any_ladder_comes_back_from_its_record: claims::ladder::any_rungs, 1024;
+    any_record_of_a_ladder_is_read_or_refused: claims::ladder::any_record, 1024;
+}
+
+#[test]
+fn texts_are_accepted_and_refused() {
+    let kinds = census(|u| {
+        let text = text::any(u)?;
+        let number = parse::rational(&text).is_ok();
+        let site = parse::at(&text, Dimension::Three).is_ok();
+        Ok(format!("number={number} site={site}"))
+    });
+    // A site has commas, a number none.
+    assert_eq!(kinds.len(), 3, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 10), "{kinds:?}");
+}
+
+#[test]
+fn scene_files_are_of_every_kind() {
+    let kinds = census(|u| {
+        let file = scene::file(u)?;
+        Ok(match Scene::from_toml(&file) {
+            Ok(_) if file.is_empty() => "empty",
+            Ok(_) => "read",
+            Err(Error::NotToml { .. }) => "no TOML",
+            Err(Error::UnknownKey { .. }) => "unknown key",
+            Err(_) => "refused",
+        }
+        .into())
+    });
+    assert_eq!(kinds.len(), 5, "{kinds:?}");
+    assert!(kinds.values().all(|count| *count >= 8), "{kinds:?}");
+}

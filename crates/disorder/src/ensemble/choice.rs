@@ -1,0 +1,240 @@
+//! Which stackings are looked at, and which part of them.
+
+use core::fmt;
+use core::ops::Range;
+use core::str::FromStr;
+
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use crate::Error;
+use crate::check_fault_probability;
+
+/// Which stackings are looked at: all of them, or some drawn at random.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::{Choice, Samples};
+/// use num_rational::BigRational;
+///
+/// let half = BigRational::new(1.into(), 2.into());
+/// let drawn = Choice::Drawn(Samples::new(1000, 1, half)?);
+/// assert_ne!(drawn, Choice::All);
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Choice {
+    /// Each stacking once.
+    All,
+    /// Stackings drawn with their probabilities, each as often as it is drawn.
+    Drawn(Samples),
+}
+
+/// How stackings are drawn: sample n depends on the seed, the fault probability and n, and on nothing else.
+///
+/// The samples are numbered from 0. Sample n reads the keystream of ChaCha with eight rounds whose key is the seed (its
+/// eight bytes, the least first, and 24 zeros) and whose nonce is n, in words of 64 bits, the least byte first. A word x
+/// below b⌊2⁶⁴/b⌋ is the integer x mod b, which is as likely as any below b; another word is passed over. With q = a/b in
+/// lowest terms a sign differs from the one before if that integer is below a; a random first sign is + if it is 0 with b = 2.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::Samples;
+/// use num_rational::BigRational;
+///
+/// let third = BigRational::new(1.into(), 3.into());
+/// let samples = Samples::new(1000, 42, third)?;
+/// assert_eq!((samples.count(), samples.seed()), (1000, 42));
+/// assert_eq!(samples.fault_probability().to_string(), "1/3");
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Samples {
+    count: u64,
+    seed: u64,
+    /// 0 ≤ a ≤ b, with b below 2⁶⁴.
+    fault_probability: BigRational,
+}
+
+impl Samples {
+    /// Returns `count` samples with this seed, whose signs change with the probability `fault_probability`.
+    ///
+    /// # Errors
+    /// [`Syntax`](cannonpile::Error::Syntax) for no sample at all, and for a denominator of 2⁶⁴ or more; [`Error::FaultProbability`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::Samples;
+    /// use num_rational::BigRational;
+    ///
+    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    /// assert!(Samples::new(1, 0, ratio(1, 1)).is_ok());
+    /// assert!(Samples::new(0, 0, ratio(1, 2)).is_err());
+    /// assert!(Samples::new(1, 0, ratio(3, 2)).is_err());
+    /// ```
+    pub fn new(count: u64, seed: u64, fault_probability: BigRational) -> Result<Self, Error> {
+        if count == 0 {
+            return Err(Error::syntax("0", "a number of samples, 1 at least"));
+        }
+        check_fault_probability(&fault_probability)?;
+        if fault_probability.denom().to_u64().is_none() {
+            return Err(Error::syntax(
+                &fault_probability.to_string(),
+                "a fault probability to draw with, whose denominator is below 2^64",
+            ));
+        }
+        Ok(Self {
+            count,
+            seed,
+            fault_probability,
+        })
+    }
+
+    /// Returns the number of samples.
+    ///
+    /// # Examples
+    /// See [`Samples`].
+    #[must_use]
+    pub const fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Returns the seed.
+    ///
+    /// # Examples
+    /// See [`Samples`].
+    #[must_use]
+    pub const fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Returns the probability q that a sign differs from the one before.
+    ///
+    /// # Examples
+    /// See [`Samples`].
+    #[must_use]
+    pub const fn fault_probability(&self) -> &BigRational {
+        &self.fault_probability
+    }
+}
+
+/// A part I of N, counted from 1: what one of N machines looks at.
+///
+/// Of T stackings, or samples, it has those from ⌊T(I−1)/N⌋ to before ⌊TI/N⌋, in their order.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::Shard;
+///
+/// let shard: Shard = "2/3".parse()?;
+/// assert_eq!((shard.index(), shard.of()), (2, 3));
+/// assert_eq!(Shard::WHOLE.to_string(), "1/1");
+/// assert!("4/3".parse::<Shard>().is_err());
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Shard {
+    index: u64,
+    of: u64,
+}
+
+impl Shard {
+    /// All of it, 1/1.
+    pub const WHOLE: Self = Self { index: 1, of: 1 };
+
+    /// Returns the part `index` of `of`.
+    ///
+    /// # Errors
+    /// [`Syntax`](cannonpile::Error::Syntax) unless 1 ≤ `index` ≤ `of`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::Shard;
+    ///
+    /// assert!(Shard::new(3, 3).is_ok());
+    /// assert!(Shard::new(0, 3).is_err());
+    /// ```
+    pub fn new(index: u64, of: u64) -> Result<Self, Error> {
+        if (1..=of).contains(&index) {
+            return Ok(Self { index, of });
+        }
+        let text = Self { index, of }.to_string();
+        Err(Error::syntax(&text, EXPECTED))
+    }
+
+    /// Returns which part it is, from 1.
+    ///
+    /// # Examples
+    /// See [`Shard`].
+    #[must_use]
+    pub const fn index(&self) -> u64 {
+        self.index
+    }
+
+    /// Returns how many parts there are.
+    ///
+    /// # Examples
+    /// See [`Shard`].
+    #[must_use]
+    pub const fn of(&self) -> u64 {
+        self.of
+    }
+
+    /// Its range of this many stackings.
+    pub(super) fn range(self, total: u64) -> Range<u64> {
+        let end = |part: u64| {
+            let end = u128::from(total) * u128::from(part) / u128::from(self.of);
+            // Not a default: it is at most the total, which is a u64.
+            u64::try_from(end).unwrap_or(total)
+        };
+        end(self.index - 1)..end(self.index)
+    }
+}
+
+const EXPECTED: &str = "a part I/N with I from 1 to N, such as 2/3";
+
+impl fmt::Display for Shard {
+    /// Prints `2/3`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.of)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = Error;
+
+    /// Reads `2/3`.
+    ///
+    /// # Errors
+    /// [`Syntax`](cannonpile::Error::Syntax).
+    ///
+    /// # Examples
+    /// See [`Shard`].
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let parts = text.split_once('/');
+        let parts = parts.and_then(|(index, of)| index.parse().ok().zip(of.parse().ok()));
+        let (index, of) = parts.ok_or_else(|| Error::syntax(text, EXPECTED))?;
+        Self::new(index, of)
+    }
+}
+
+cannonpile::data::as_text!(Shard);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_follow_one_another() -> Result<(), Error> {
+        for (total, of) in [(7, 3), (2, 5), (0, 2), (u64::MAX, 7)] {
+            let mut end = 0;
+            for index in 1..=of {
+                let range = Shard::new(index, of)?.range(total);
+                assert_eq!(range.start, end, "{index} of {of}");
+                end = range.end;
+            }
+            assert_eq!(end, total);
+        }
+        Ok(())
+    }
+}

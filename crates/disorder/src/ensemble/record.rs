@@ -1,0 +1,265 @@
+//! Tallies of ensembles as JSON files.
+
+use std::io::{self, BufReader, Read, Write};
+
+use cannonpile::data::number;
+use num_rational::BigRational;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+
+use super::{By, Choice, Ensemble, Shard, Tally, Unmergeable, WithFaults};
+use crate::Error;
+
+/// The most bytes of a tally that is read: 512 MiB.
+const MOST_BYTES: u64 = 512 << 20;
+
+/// A tally, with what its file says of it: the version of this crate that has counted, and the fault probability at which
+/// probabilities are given.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard, TallyRecord};
+/// use cannonpile::lattice::Region;
+/// use num_rational::BigRational;
+///
+/// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
+/// let ensemble = Ensemble::under(Region::SITE, stackings)?;
+/// let third = BigRational::new(1.into(), 3.into());
+/// let part = |index| {
+///     let tally = ensemble.run(&Choice::All, Shard::new(index, 2)?)?;
+///     TallyRecord::new(tally, third.clone())
+/// };
+/// let merged = TallyRecord::merge(&[part(2)?, part(1)?]).unwrap();
+/// let mut text = Vec::new();
+/// merged.write(&mut text)?;
+/// assert_eq!(TallyRecord::read(&*text)?, merged);
+///
+/// // Word for word what the whole says.
+/// let whole = TallyRecord::new(ensemble.run(&Choice::All, Shard::WHOLE)?, third)?;
+/// let mut of_whole = Vec::new();
+/// whole.write(&mut of_whole)?;
+/// assert_eq!(text, of_whole);
+/// assert!(String::from_utf8(text)?.contains("\n  \"standing_probability\": \"62/81\",\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TallyRecord {
+    version: String,
+    fault_probability: BigRational,
+    tally: Tally,
+}
+
+/// What is read of a file; what follows from the counts is not.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parts {
+    cannonpile: String,
+    ensemble: Ensemble,
+    choice: Choice,
+    shard: Shard,
+    #[serde(with = "number")]
+    fault_probability: BigRational,
+    #[serde(rename = "stackings")]
+    _stackings: IgnoredAny,
+    #[serde(rename = "standing")]
+    _standing: IgnoredAny,
+    #[serde(default, rename = "standing_probability")]
+    _standing_probability: Option<IgnoredAny>,
+    #[serde(default, rename = "standing_interval")]
+    _standing_interval: Option<IgnoredAny>,
+    #[serde(default, rename = "held")]
+    _held: Option<IgnoredAny>,
+    #[serde(default, rename = "held_probability")]
+    _held_probability: Option<IgnoredAny>,
+    #[serde(default, rename = "held_interval")]
+    _held_interval: Option<IgnoredAny>,
+    faults: Vec<WithFaults>,
+}
+
+impl TallyRecord {
+    /// Returns the record of a tally that was counted here; of samples `fault_probability` is that which they were drawn with.
+    ///
+    /// # Errors
+    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
+    ///
+    /// # Examples
+    /// See [`TallyRecord`].
+    pub fn new(tally: Tally, fault_probability: BigRational) -> Result<Self, Error> {
+        let fault_probability = match &tally.choice {
+            Choice::Drawn(samples) => samples.fault_probability().clone(),
+            Choice::All => fault_probability,
+        };
+        tally.weights(&fault_probability)?;
+        Ok(Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            fault_probability,
+            tally,
+        })
+    }
+
+    /// Returns what was counted.
+    ///
+    /// # Examples
+    /// See [`TallyRecord`].
+    #[must_use]
+    pub const fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// Returns the fault probability at which probabilities are given.
+    ///
+    /// # Examples
+    /// See [`TallyRecord`].
+    #[must_use]
+    pub const fn fault_probability(&self) -> &BigRational {
+        &self.fault_probability
+    }
+
+    /// Returns the record of the whole, of those of all its parts, in any order.
+    ///
+    /// # Errors
+    /// [`Unmergeable`], also for parts of another version and at another fault probability.
+    ///
+    /// # Examples
+    /// See [`TallyRecord`].
+    pub fn merge(parts: &[Self]) -> Result<Self, Unmergeable> {
+        let first = parts.first().ok_or(Unmergeable::Nothing)?;
+        let said = |part: &Self| {
+            let q = part.fault_probability.to_string();
+            [("version", part.version.clone()), ("fault probability", q)]
+        };
+        for (place, part) in parts.iter().enumerate() {
+            let pairs = said(part).into_iter().zip(said(first));
+            for ((what, found), (_, expected)) in pairs {
+                if found != expected {
+                    return Err(Unmergeable::Other {
+                        place,
+                        what,
+                        found,
+                        expected,
+                    });
+                }
+            }
+        }
+        let tallies: Vec<Tally> = parts.iter().map(|part| part.tally.clone()).collect();
+        Ok(Self {
+            tally: Tally::merge(&tallies)?,
+            ..first.clone()
+        })
+    }
+
+    /// Writes the record as JSON, with a line for each number of faults; the same bytes for the same record.
+    ///
+    /// # Errors
+    /// Those of the output.
+    ///
+    /// # Examples
+    /// See [`TallyRecord`].
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let Self {
+            version,
+            fault_probability,
+            tally,
+        } = self;
+        let mut object = Object { out, gap: "{\n" };
+        object.entry("cannonpile", version)?;
+        object.entry("ensemble", &tally.ensemble)?;
+        object.entry("choice", &tally.choice)?;
+        object.entry("shard", &tally.shard)?;
+        object.entry("fault_probability", &fault_probability.to_string())?;
+        object.entry("stackings", &tally.stackings().to_string())?;
+        let names = [
+            (
+                By::Sloping,
+                ["standing", "standing_probability", "standing_interval"],
+            ),
+            (
+                By::Horizontal,
+                ["held", "held_probability", "held_interval"],
+            ),
+        ];
+        for (by, [count, probability, interval]) in names {
+            let Some(standing) = tally.standing(by) else {
+                continue;
+            };
+            object.entry(count, &standing.to_string())?;
+            let exact = tally.standing_probability(by, fault_probability);
+            if let Some(exact) = exact.map_err(io::Error::other)? {
+                object.entry(probability, &exact.to_string())?;
+            }
+            if let Some(bounds) = tally.standing_interval(by) {
+                object.entry(interval, &bounds)?;
+            }
+        }
+        let Object { out, .. } = object;
+        out.write_all(b",\n  \"faults\": ")?;
+        lines(tally.faults.iter(), out)?;
+        out.write_all(b"\n}\n")
+    }
+
+    /// Reads what [`write`](Self::write) has written. What follows from the counts is not read but found again.
+    ///
+    /// # Errors
+    /// Those of the input; of the kind [`InvalidData`](io::ErrorKind::InvalidData) or
+    /// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line, what is no such record, or has more than 512 MiB.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::TallyRecord;
+    ///
+    /// assert!(TallyRecord::read(&b"{}"[..]).is_err());
+    /// ```
+    pub fn read(input: impl Read) -> io::Result<Self> {
+        let input = BufReader::new(input.take(MOST_BYTES));
+        let parts: Parts = serde_json::from_reader(input)?;
+        let Parts {
+            cannonpile: version,
+            ensemble,
+            choice,
+            shard,
+            fault_probability,
+            faults,
+            ..
+        } = parts;
+        let tally = Tally::from_parts(ensemble, choice, shard, faults);
+        let refused = |said: String| io::Error::new(io::ErrorKind::InvalidData, said);
+        let tally = tally.ok_or_else(|| {
+            refused("its counts are not those of its stackings: run it again".to_owned())
+        })?;
+        let record = Self::new(tally, fault_probability.clone());
+        let record = record.map_err(|error| refused(error.to_string()))?;
+        if record.fault_probability != fault_probability {
+            return Err(refused(format!(
+                "its samples were drawn with another fault probability, {}: run it again",
+                record.fault_probability
+            )));
+        }
+        Ok(Self { version, ..record })
+    }
+}
+
+/// An object whose entries have a line each.
+struct Object<'w, W> {
+    out: &'w mut W,
+    gap: &'static str,
+}
+
+impl<W: Write> Object<'_, W> {
+    fn entry(&mut self, key: &str, value: &impl Serialize) -> io::Result<()> {
+        write!(self.out, "{}  \"{key}\": ", self.gap)?;
+        self.gap = ",\n";
+        Ok(serde_json::to_writer(&mut *self.out, value)?)
+    }
+}
+
+/// Writes a list, with a line for each entry.
+fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) -> io::Result<()> {
+    let mut gap = "[\n    ";
+    for entry in entries {
+        out.write_all(gap.as_bytes())?;
+        serde_json::to_writer(&mut *out, &entry)?;
+        gap = ",\n    ";
+    }
+    let end = if gap.starts_with('[') { "[]" } else { "\n  ]" };
+    out.write_all(end.as_bytes())
+}

@@ -1,0 +1,261 @@
+//! What was counted of an ensemble, in exact numbers.
+
+use core::iter::successors;
+
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::count::Counted;
+use super::distribution::Distribution;
+use super::layer::Numerator;
+use super::setup::Setup;
+use super::{Choice, Ensemble, Shard};
+use crate::Error;
+use crate::check_fault_probability;
+use crate::error::bug;
+
+/// What was counted of an ensemble, or of a part of it: exact numbers only, so that it is the same however the work was
+/// cut up.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+/// use cannonpile::lattice::Region;
+///
+/// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
+/// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+/// // Of six layers under one sphere the straight pile stands, three stackings with one fault, and so on.
+/// let standing = tally.faults.iter().map(|with| with.standing.stackings.to_string());
+/// assert_eq!(standing.collect::<Vec<_>>(), ["1", "3", "4", "3", "0"]);
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Tally {
+    /// The ensemble.
+    pub ensemble: Ensemble,
+    /// Which stackings were looked at.
+    pub choice: Choice,
+    /// Which part of them.
+    pub shard: Shard,
+    /// What was counted of those with d changes of sign, d = 0, 1, …, the most there can be.
+    pub faults: Vec<WithFaults>,
+}
+
+/// What was counted of the stackings with one number of faults.
+///
+/// # Examples
+/// See [`Tally`].
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+#[non_exhaustive]
+pub struct WithFaults {
+    /// The number d of changes of sign.
+    pub faults: u32,
+    /// Of all of them, those included that only a prestressed pile can have.
+    pub all: Distribution,
+    /// Of those that stand: no contact pulls.
+    pub standing: Distribution,
+    /// How many stand at a = R with horizontal contacts; `None` where that was not asked.
+    #[serde(with = "cannonpile::data::number")]
+    pub held: Option<BigUint>,
+}
+
+impl WithFaults {
+    pub(super) fn of<T: Numerator>(
+        [all, standing]: [&Counted<T>; 2],
+        held: Option<u64>,
+        setup: &Setup<T>,
+        faults: usize,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            faults: u32::try_from(faults).map_err(|_| bug("layers that fit in memory are few"))?,
+            all: Distribution::of(all, setup, faults)?,
+            standing: Distribution::of(standing, setup, faults)?,
+            held: held.map(|held| BigUint::from(held) * setup.order.factor),
+        })
+    }
+
+    pub(super) fn nothing(faults: u32, has_held: bool) -> Self {
+        Self {
+            faults,
+            all: Distribution::nothing(),
+            standing: Distribution::nothing(),
+            held: has_held.then(BigUint::zero),
+        }
+    }
+
+    pub(super) fn add(&mut self, other: &Self) {
+        self.all.add(&other.all);
+        self.standing.add(&other.standing);
+        if let (Some(ours), Some(theirs)) = (&mut self.held, &other.held) {
+            *ours += theirs;
+        }
+    }
+}
+
+/// Which piles are meant where it is asked how many stand.
+///
+/// # Examples
+/// See [`Tally::standing`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum By {
+    /// Those that stand by α, β and γ alone.
+    Sloping,
+    /// Those that stand at a = R, with horizontal contacts.
+    Horizontal,
+}
+
+impl Tally {
+    /// Nothing counted yet, of a whole ensemble.
+    pub(super) fn nothing(ensemble: Ensemble, choice: Choice, shard: Shard) -> Result<Self, Error> {
+        let most = ensemble.stackings().most_faults();
+        let most = u32::try_from(most).map_err(|_| bug("layers that fit in memory are few"))?;
+        let has_held = ensemble.has_horizontal_contacts();
+        let faults = (0..=most)
+            .map(|d| WithFaults::nothing(d, has_held))
+            .collect();
+        Ok(Self {
+            ensemble,
+            choice,
+            shard,
+            faults,
+        })
+    }
+
+    /// Returns how many stackings were looked at, of samples with repetitions.
+    ///
+    /// # Examples
+    /// See [`standing`](Self::standing).
+    #[must_use]
+    pub fn stackings(&self) -> BigUint {
+        self.faults.iter().map(|with| &with.all.stackings).sum()
+    }
+
+    /// Returns how many of them stand; `None` with horizontal contacts, where that was not asked.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let stackings = RandomStackings::new(8, FirstSign::Random)?;
+    /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// assert_eq!(tally.stackings(), 128_u32.into());
+    /// // Eleven, and their mirror images.
+    /// assert_eq!(tally.standing(By::Sloping), Some(22_u32.into()));
+    /// assert_eq!(tally.standing(By::Horizontal), None);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    #[must_use]
+    pub fn standing(&self, by: By) -> Option<BigUint> {
+        let mut sum = BigUint::zero();
+        for with in &self.faults {
+            sum += with.that_stand(by)?;
+        }
+        Some(sum)
+    }
+
+    /// Returns the weights of means, by number of faults: what each stacking that was looked at counts for. Of all stackings
+    /// it is the probability of one with d faults, q^d (1−q)^(n−1−d) with n steps, half of it with a random first sign; of
+    /// samples it is one over their number, whatever `q`. `None` of a part.
+    ///
+    /// So the mean number of contacts of a bin in a pile is the sum over d of the weight times the count.
+    ///
+    /// # Errors
+    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(4, FirstSign::Plus)?;
+    /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// let weights = tally.weights(&BigRational::new(1.into(), 3.into()))?.unwrap();
+    /// assert_eq!(weights.iter().map(|w| w.to_string()).collect::<Vec<_>>(), ["4/9", "2/9", "1/9"]);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn weights(&self, q: &BigRational) -> Result<Option<Vec<BigRational>>, Error> {
+        check_fault_probability(q)?;
+        if self.shard != Shard::WHOLE {
+            return Ok(None);
+        }
+        let Choice::Drawn(samples) = &self.choice else {
+            let powers = |of: BigRational| {
+                let first = BigRational::one();
+                successors(Some(first), move |power| Some(power * &of)).take(self.faults.len())
+            };
+            let (change, stay) = (powers(q.clone()), powers(BigRational::one() - q));
+            let stay: Vec<_> = stay.collect();
+            let weights = change.zip(stay.into_iter().rev());
+            let first_signs = self.first_signs();
+            let weights = weights.map(|(change, stay)| change * stay / &first_signs);
+            return Ok(Some(weights.collect()));
+        };
+        let weight = BigRational::new(BigInt::one(), samples.count().into());
+        Ok(Some(vec![weight; self.faults.len()]))
+    }
+
+    /// Returns the probability that a stacking stands at the fault probability q, Σ_d c_d q^d (1−q)^(n−1−d), half of it with
+    /// a random first sign: exact, with c_d the number of those that stand among all with d faults and n the number of
+    /// steps. `None` of samples, of a part, and with horizontal contacts where that was not asked.
+    ///
+    /// # Errors
+    /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{By, Choice, Ensemble, FirstSign, RandomStackings, Shard};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(6, FirstSign::Random)?;
+    /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+    /// let probability = |q: (i32, i32)| {
+    ///     let q = BigRational::new(q.0.into(), q.1.into());
+    ///     Ok::<_, cannonpile_disorder::Error>(tally.standing_probability(By::Sloping, &q)?.unwrap().to_string())
+    /// };
+    /// // 11 of 16; FCC, which stands; HCP, which does not.
+    /// assert_eq!([probability((1, 2))?, probability((0, 1))?, probability((1, 1))?], ["11/16", "1", "0"]);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn standing_probability(
+        &self,
+        by: By,
+        q: &BigRational,
+    ) -> Result<Option<BigRational>, Error> {
+        let Some(weights) = self.weights(q)?.filter(|_| self.choice == Choice::All) else {
+            return Ok(None);
+        };
+        let mut sum = BigRational::zero();
+        for (with, weight) in self.faults.iter().zip(weights) {
+            let Some(count) = with.that_stand(by) else {
+                return Ok(None);
+            };
+            sum += weight * BigInt::from(count);
+        }
+        Ok(Some(sum))
+    }
+
+    /// How many first signs there are, each as likely.
+    fn first_signs(&self) -> BigInt {
+        self.ensemble.stackings().first_signs().len().into()
+    }
+}
+
+impl WithFaults {
+    /// Returns how many of these stackings stand; `None` with horizontal contacts, where that was not asked.
+    ///
+    /// # Examples
+    /// See [`Tally::standing`].
+    #[must_use]
+    pub fn that_stand(&self, by: By) -> Option<BigUint> {
+        match by {
+            By::Sloping => Some(self.standing.stackings.clone()),
+            By::Horizontal => self.held.clone(),
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! What bottom spheres bear in all stackings with so many faults: the answer for every fault probability.
+
+use cannonpile::scalar::{Algebra, Polynomial, Symbol};
+use num_bigint::{BigInt, BigUint};
+use num_integer::binomial;
+use num_rational::BigRational;
+use num_traits::{One, Zero, pow};
+
+use super::floor::FLOOR_UNIT;
+use super::frame::{Frame, Load};
+use super::mean::{Mean, MeanForce};
+use super::number::{All, Number};
+use super::piles::RandomPiles;
+use super::place::Place;
+use super::stackings::check_fault_probability;
+use super::transfer::{Spot, Transfer};
+use super::width::{Width, bits_of_counts, bits_of_sources};
+use crate::Error;
+use crate::error::bug;
+
+/// What is at one place of the bottom layer, summed over all stackings with so many faults.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::{FirstSign, Place, RandomPiles, RandomStackings};
+/// use cannonpile::lattice::Region;
+///
+/// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus)?);
+/// let rows: Result<Vec<_>, _> = piles.by_faults()?.rows().collect();
+/// // Straight under the apex there is a sphere in HCP only, the stacking +-.
+/// let middle = rows?.into_iter().find(|row| row.place == Place { a: 0, b: 0 }).unwrap();
+/// assert_eq!((middle.faults, middle.stackings, middle.normal.to_string()), (1, 1_u32.into(), "5/3".into()));
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct FaultForce {
+    /// The place.
+    pub place: Place,
+    /// The number d of faults.
+    pub faults: u32,
+    /// How many of these stackings have a sphere there.
+    pub stackings: BigUint,
+    /// The sum of the normal forces on the floor, in mg: an integer over 3^(d+1) times the denominator of the loads.
+    pub normal: BigRational,
+    /// The sum of the shears along x, in mg·tanθ: as `normal` an integer, over twice that.
+    pub shear_x: BigRational,
+    /// The sum of the shears along y, in √3·mg·tanθ: over the same.
+    pub shear_y: BigRational,
+}
+
+/// What the bottom layer bears, summed over the stackings with each number of faults: exactly, for every fault probability.
+///
+/// The mean at the fault probability q is Σ_d S_d q^d (1−q)^(n−1−d), with S_d the sum over the C(n−1,d) stackings with d
+/// faults (over twice as many if the first sign is random, and half of it): a polynomial of degree n − 1 at most. Inside are
+/// integers, over 2·3^(d+1) and the denominator of the loads. So the coefficient of q^j has a denominator that divides
+/// 2·3^(j+1) times that of the loads, and of a normal force 3^(j+1) times it: S_d goes into it times an integer for d ≤ j
+/// alone. (With a random first sign all that is doubled.)
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::{FirstSign, Place, RandomPiles, RandomStackings};
+/// use cannonpile::lattice::Site;
+/// use num_rational::BigRational;
+///
+/// let plane = RandomPiles::plane(RandomStackings::new(3, FirstSign::Plus)?).weightless();
+/// let plane = plane.with_load(Site::APEX, BigRational::from_integer(1.into()))?;
+/// let by_faults = plane.by_faults()?;
+/// // Under the load HCP has a sphere that bears −1/3, FCC has none.
+/// let place = Place { a: 0, b: 0 };
+/// assert_eq!(by_faults.polynomial()?.at(place).unwrap().normal.to_string(), "-q/3");
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ByFaults {
+    /// In order of b, then a, each with its place in the sums.
+    places: Vec<(Place, usize)>,
+    /// How many numbers of faults there are: n − 1 and one, or one.
+    classes: usize,
+    sums: Sums,
+    /// Of the loads.
+    denominator: BigInt,
+    /// The signs that the first step can have.
+    firsts: BigInt,
+}
+
+/// By place and number d of faults: 3^d times the number of stackings, and six times 3^d times the sums of normal, shear_x
+/// and shear_y, over the denominator of the loads.
+#[derive(Clone, Debug)]
+enum Sums {
+    Narrow(Vec<[i64; 4]>),
+    Wide(Vec<[i128; 4]>),
+    Big(Vec<[BigInt; 4]>),
+}
+
+impl Sums {
+    fn get(&self, at: usize) -> Option<[BigInt; 4]> {
+        Some(match self {
+            Self::Narrow(sums) => sums.get(at)?.map(BigInt::from),
+            Self::Wide(sums) => sums.get(at)?.map(BigInt::from),
+            Self::Big(sums) => sums.get(at)?.clone(),
+        })
+    }
+}
+
+impl RandomPiles {
+    /// Returns what the bottom layer bears by the number of faults.
+    ///
+    /// Takes about 20 n⁴ additions of integers for a single load or sphere on top, n = L − 1: of 64 bits up to about n = 28,
+    /// of 128 bits up to about n = 60.
+    ///
+    /// # Errors
+    /// [`TooLarge`](cannonpile::Error::TooLarge) of what would not fit in memory; [`Error::OnlyOfLoads`] for a plane with weight or without loads;
+    /// [`Error::NoStacking`] for a base that carries no stacking.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(6, FirstSign::Plus)?);
+    /// let by_faults = piles.by_faults()?;
+    /// assert_eq!(by_faults.most_faults(), 4);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn by_faults(&self) -> Result<ByFaults, Error> {
+        let denominator = self.denominator();
+        let growth = bits_of_counts(self.stackings.steps());
+        let rough = Load {
+            classes: self.stackings.most_faults().unsigned_abs() + 1,
+            words: Width::of(growth).words(growth),
+        };
+        let frame = Frame::new(self, rough)?;
+        let bits = growth + bits_of_sources(&frame, &denominator)?;
+        let width = Width::of(bits);
+        let cells = frame.bottom()?.into_iter().enumerate();
+        let places = cells.map(|(at, cell)| Ok((frame.place(cell)?, at)));
+        let mut places = places.collect::<Result<Vec<_>, Error>>()?;
+        places.sort_unstable();
+        let question = Question {
+            frame: &frame,
+            denominator: &denominator,
+            classes: usize::try_from(rough.classes).map_err(|_| bug("the size was checked"))?,
+        };
+        let sums = match width {
+            Width::Narrow => Sums::Narrow(question.sums(|n| i64::try_from(n).ok())?),
+            Width::Wide => Sums::Wide(question.sums(|n| i128::try_from(n).ok())?),
+            Width::Big => Sums::Big(question.sums(|n| Some(n.clone()))?),
+        };
+        Ok(ByFaults {
+            places,
+            classes: question.classes,
+            sums,
+            firsts: self.firsts().get().into(),
+            denominator,
+        })
+    }
+}
+
+/// A question by faults.
+struct Question<'f> {
+    frame: &'f Frame<'f>,
+    denominator: &'f BigInt,
+    classes: usize,
+}
+
+impl Question<'_> {
+    fn sums<T: Number>(&self, number: impl Fn(&BigInt) -> Option<T>) -> Result<Vec<[T; 4]>, Error> {
+        let piles = self.frame.piles;
+        let over = |x: &BigRational| {
+            let numerator = number(&(x.numer() * (self.denominator / x.denom())));
+            numerator.ok_or_else(|| bug("the bound is that of all numbers"))
+        };
+        let loads = piles
+            .loads()
+            .iter()
+            .map(|(site, load)| Ok((*site, over(load)?)));
+        let transfer = Transfer {
+            frame: self.frame,
+            classes: self.classes,
+            same: All,
+            change: All,
+            weight: over(&piles.weight())?,
+            loads: loads.collect::<Result<_, Error>>()?,
+        };
+        let classes = transfer
+            .run()?
+            .into_iter()
+            .flat_map(|Spot { classes, .. }| classes);
+        let sums = classes
+            .map(|(stackings, floor)| [stackings, floor.normal, floor.shear_x, floor.shear_y]);
+        Ok(sums.collect())
+    }
+}
+
+impl ByFaults {
+    /// Returns the greatest number of faults, n − 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(4, FirstSign::Plus)?);
+    /// assert_eq!(piles.by_faults()?.most_faults(), 2);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    #[must_use]
+    pub fn most_faults(&self) -> usize {
+        self.classes - 1
+    }
+
+    /// Returns the common denominator of the normal forces, summed over stackings with this many faults: 3^(d+1), times that
+    /// of the loads. That of the shears is twice it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(4, FirstSign::Plus)?);
+    /// assert_eq!(piles.by_faults()?.denominator(2), 27.into());
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    #[must_use]
+    pub fn denominator(&self, faults: u32) -> BigInt {
+        BigInt::from(3).pow(faults) * 3 * &self.denominator
+    }
+
+    /// Returns the sums, by place and number of faults; those numbers at which no stacking has a sphere are left out.
+    ///
+    /// # Errors
+    /// In an item: [`Bug`](cannonpile::Error::Bug).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(3, FirstSign::Plus)?);
+    /// // Six places of FCC, with no fault, and seven of HCP, with one.
+    /// assert_eq!(piles.by_faults()?.rows().count(), 13);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn rows(&self) -> impl Iterator<Item = Result<FaultForce, Error>> + '_ {
+        let mut powers = Vec::with_capacity(self.classes);
+        powers.extend(
+            core::iter::successors(Some(BigInt::one()), |power| Some(power * 3)).take(self.classes),
+        );
+        let classes = self.classes;
+        let rows = self.places.iter();
+        let rows = rows.flat_map(move |(place, at)| (0..classes).map(move |d| (*at, *place, d)));
+        rows.filter_map(move |(at, place, d)| {
+            let row = self.row(at, place, d, powers.get(d)?);
+            row.transpose()
+        })
+    }
+
+    fn row(
+        &self,
+        at: usize,
+        place: Place,
+        d: usize,
+        power: &BigInt,
+    ) -> Result<Option<FaultForce>, Error> {
+        let sums = self.sums.get(at * self.classes + d);
+        let [stackings, normal, shear_x, shear_y] = sums.ok_or_else(|| bug(SUMS))?;
+        if stackings.is_zero() {
+            return Ok(None);
+        }
+        let scale = power * &self.denominator * FLOOR_UNIT.get();
+        let of = |n: BigInt| {
+            BigRational::from_ratio(n, &scale).ok_or_else(|| bug("denominators are not zero"))
+        };
+        Ok(Some(FaultForce {
+            place,
+            faults: u32::try_from(d).map_err(|_| bug("the size was checked"))?,
+            stackings: (stackings / power).into_parts().1,
+            normal: of(normal)?,
+            shear_x: of(shear_x)?,
+            shear_y: of(shear_y)?,
+        }))
+    }
+
+    /// Returns the mean at a fault probability.
+    ///
+    /// # Errors
+    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    /// use num_rational::BigRational;
+    ///
+    /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(6, FirstSign::Random)?);
+    /// let q = BigRational::new(1.into(), 3.into());
+    /// assert_eq!(piles.by_faults()?.at(&q)?, piles.exact(&q)?);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn at(&self, q: &BigRational) -> Result<Mean<BigRational>, Error> {
+        check_fault_probability(q)?;
+        let (a, b) = (q.numer(), q.denom());
+        let [faults, straight] = [a.clone(), (b - a) * 3];
+        let most = self.most_faults();
+        // The sum of 3^d S_d times a^d (3(b−a))^(n−1−d), over (3b)^(n−1).
+        let shares =
+            (0..self.classes).map(|d| pow(faults.clone(), d) * pow(straight.clone(), most - d));
+        let shares: Vec<_> = shares.collect();
+        let scale = pow(b * 3, most) * &self.firsts;
+        let over = |n: BigInt, scale: &BigInt| BigRational::from_ratio(n, scale);
+        self.mean(&scale, over, |sums| {
+            let mut totals = [(); 4].map(|()| BigInt::zero());
+            for (share, sums) in shares.iter().zip(sums) {
+                for (total, sum) in totals.iter_mut().zip(sums) {
+                    *total += share * sum;
+                }
+            }
+            totals
+        })
+    }
+
+    /// Returns the means as polynomials in the fault probability, the symbol `q`.
+    ///
+    /// # Errors
+    /// [`Bug`](cannonpile::Error::Bug).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, Place, RandomPiles, RandomStackings};
+    /// use cannonpile::lattice::Region;
+    ///
+    /// let piles = RandomPiles::under(Region::SITE, RandomStackings::new(4, FirstSign::Plus)?);
+    /// let polynomials = piles.by_faults()?.polynomial()?;
+    /// let row = polynomials.at(Place { a: -1, b: -1 }).unwrap();
+    /// assert_eq!(row.probability.to_string(), "q");
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn polynomial(&self) -> Result<Mean<Polynomial>, Error> {
+        let most = self.most_faults();
+        // q^d (1−q)^m = Σ_i C(m,i) (−1)^i q^(d+i), with m = n−1−d; over 3^(n−1).
+        let powers = (0..self.classes).map(|d| {
+            let third = pow(BigInt::from(3), most - d);
+            let terms = (0..=most - d).map(|i| {
+                let term = binomial(BigInt::from(most - d), BigInt::from(i)) * &third;
+                if i % 2 == 0 { term } else { -term }
+            });
+            terms.collect::<Vec<_>>()
+        });
+        let powers: Vec<_> = powers.collect();
+        let scale = pow(BigInt::from(3), most) * &self.firsts;
+        let over = |terms: Vec<BigInt>, scale: &BigInt| {
+            Polynomial::in_powers(Symbol("q"), terms, scale.clone())
+        };
+        self.mean(&scale, over, |sums| {
+            let mut totals = [(); 4].map(|()| vec![BigInt::zero(); self.classes]);
+            for (d, (powers, sums)) in powers.iter().zip(sums).enumerate() {
+                for (total, sum) in totals.iter_mut().zip(sums) {
+                    if sum.is_zero() {
+                        continue;
+                    }
+                    for (coefficient, power) in total.iter_mut().skip(d).zip(powers) {
+                        *coefficient += power * sum;
+                    }
+                }
+            }
+            totals
+        })
+    }
+
+    /// The rows made of the totals of each place, over the denominator of probabilities.
+    fn mean<U, T>(
+        &self,
+        scale: &BigInt,
+        over: impl Fn(U, &BigInt) -> Option<T>,
+        totals: impl Fn(&[[BigInt; 4]]) -> [U; 4],
+    ) -> Result<Mean<T>, Error> {
+        let forces = scale * &self.denominator * FLOOR_UNIT.get();
+        let over = |total: U, scale: &BigInt| {
+            over(total, scale).ok_or_else(|| bug("denominators are not zero"))
+        };
+        let rows = self.places.iter().map(|(place, at)| {
+            let sums = (0..self.classes).map(|d| self.sums.get(at * self.classes + d));
+            let sums = sums.collect::<Option<Vec<_>>>().ok_or_else(|| bug(SUMS))?;
+            let [probability, normal, shear_x, shear_y] = totals(&sums);
+            Ok(MeanForce {
+                place: *place,
+                probability: over(probability, scale)?,
+                normal: over(normal, &forces)?,
+                shear_x: over(shear_x, &forces)?,
+                shear_y: over(shear_y, &forces)?,
+            })
+        });
+        Ok(Mean::of(rows.collect::<Result<_, Error>>()?))
+    }
+}
+
+const SUMS: &str = "there is a sum for each place and number of faults";

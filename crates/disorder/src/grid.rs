@@ -1,0 +1,284 @@
+//! The cells of a recursion over places: row after row, and of each row what can be reached.
+
+use core::array;
+use core::ops::Range;
+
+use cannonpile::engine::refuse_beyond_memory;
+use cannonpile::lattice::{Direction, Sign};
+use num_bigint::BigUint;
+
+use super::place::Place;
+use crate::Error;
+use crate::error::bug;
+
+/// The most 64-bit words that a recursion keeps.
+const MAX_WORDS: u64 = 100_000_000;
+
+/// What a contact of each direction adds to the coordinates of a cell, for each sign.
+pub(super) type Moves = fn(Sign) -> [[isize; 2]; 3];
+
+/// How sites of one layer move: the moves of a pile whose layers are named by their sites.
+pub(super) fn of_sites(sign: Sign) -> [[isize; 2]; 3] {
+    let step = match sign {
+        Sign::Plus => 1,
+        Sign::Minus => -1,
+    };
+    [[0, 0], [step, 0], [0, step]]
+}
+
+/// How places move.
+pub(super) fn of_places(sign: Sign) -> [[isize; 2]; 3] {
+    Place::descents(sign)
+}
+
+/// Cells in rows, with one free cell all around, and of each layer the range of every row that forces can reach.
+///
+/// The ranges of a layer are within those of the next.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    /// The coordinates of the first cell.
+    origin: [i128; 2],
+    stride: usize,
+    rows: usize,
+    /// By layer and row.
+    windows: Vec<Vec<Range<usize>>>,
+    moves: Moves,
+}
+
+/// The rows of the first layer: its second coordinate and the range of the first.
+pub(super) type FirstRows = Vec<(i128, Range<i128>)>;
+
+/// How large the cells of a recursion would be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Size {
+    /// Least and greatest coordinates of the first layer.
+    least: [i128; 2],
+    greatest: [i128; 2],
+    /// How far each layer reaches beyond the one above; 0 or 1.
+    reach: i128,
+    steps: i128,
+}
+
+impl Size {
+    /// Of a first layer with coordinates between these, and layers that each `reach` 0 or 1 cells beyond the one above.
+    pub(super) const fn new(
+        least: [i128; 2],
+        greatest: [i128; 2],
+        reach: i128,
+        steps: i128,
+    ) -> Self {
+        Self {
+            least,
+            greatest,
+            reach,
+            steps,
+        }
+    }
+
+    /// Refuses what takes more memory than is sensible: so many numbers a cell, of so many words.
+    ///
+    /// # Errors
+    /// [`TooLarge`](cannonpile::Error::TooLarge).
+    pub(super) fn check(
+        &self,
+        quantity: &'static str,
+        per_cell: &BigUint,
+        words: u64,
+    ) -> Result<(), Error> {
+        let mut cells = BigUint::from(1_u32);
+        for axis in [0, 1] {
+            let side = BigUint::from(self.greatest[axis].abs_diff(self.least[axis]));
+            let reach = BigUint::from(2 * self.reach.unsigned_abs()) * self.steps.unsigned_abs();
+            cells *= side + reach + 3_u32;
+        }
+        // The windows: two words for each row of each layer.
+        let needed = cells * per_cell + BigUint::from(self.steps.unsigned_abs());
+        let words = words.max(1);
+        // Not a default: no machine has as many.
+        let bytes = usize::try_from(words).map_or(usize::MAX, |words| words.saturating_mul(8));
+        refuse_beyond_memory(
+            quantity,
+            &needed,
+            (MAX_WORDS / words, bytes),
+            "ask for fewer layers, or a smaller pile",
+        )?;
+        Ok(())
+    }
+}
+
+impl Grid {
+    /// Returns the cells of a recursion over so many steps. The size must have been checked.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn new(size: &Size, first: &FirstRows, moves: Moves) -> Result<Self, Error> {
+        let small = |n: i128| usize::try_from(n).map_err(|_| bug("the size was checked"));
+        let margin = size.reach * size.steps + 1;
+        let origin: [i128; 2] = array::from_fn(|axis| size.least[axis] - margin);
+        let side = |axis: usize| small(size.greatest[axis] + margin - origin[axis] + 1);
+        let (stride, rows) = (side(0)?, side(1)?);
+        let mut window = vec![0..0; rows];
+        for (row, range) in first {
+            let cells = small(range.start - origin[0])?..small(range.end - origin[0])?;
+            let place = window.get_mut(small(row - origin[1])?);
+            *place.ok_or_else(|| bug("the size was checked"))? = cells;
+        }
+        let mut windows = vec![window];
+        for _ in 0..small(size.steps)? {
+            let above = windows
+                .last()
+                .ok_or_else(|| bug("there is a first layer"))?;
+            let next = if size.reach == 0 {
+                above.clone()
+            } else {
+                dilated(above)
+            };
+            windows.push(next);
+        }
+        Ok(Self {
+            origin,
+            stride,
+            rows,
+            windows,
+            moves,
+        })
+    }
+
+    /// How many cells a plane has.
+    pub(super) const fn cells(&self) -> usize {
+        self.stride * self.rows
+    }
+
+    /// How many cells of a layer can be reached.
+    ///
+    /// # Errors
+    /// [`Error::Bug`].
+    pub(super) fn reached(&self, layer: usize) -> Result<usize, Error> {
+        Ok(self.window(layer)?.map(|cells| cells.len()).sum())
+    }
+
+    /// The rows of a layer that have cells: their ranges, counted from the first cell of the plane.
+    ///
+    /// # Errors
+    /// [`Error::Bug`] of a layer that is not there.
+    pub(super) fn window(
+        &self,
+        layer: usize,
+    ) -> Result<impl Iterator<Item = Range<usize>> + '_, Error> {
+        let window = self.windows.get(layer);
+        let window = window.ok_or_else(|| bug("there are as many windows as layers"))?;
+        let rows = window.iter().enumerate();
+        let rows = rows.filter(|(_, cells)| !cells.is_empty());
+        Ok(rows.map(|(row, cells)| {
+            let start = row * self.stride;
+            start + cells.start..start + cells.end
+        }))
+    }
+
+    /// The coordinates of a cell.
+    pub(super) fn coordinates(&self, cell: usize) -> [i128; 2] {
+        let [a, b] = [cell % self.stride, cell / self.stride];
+        // No plane has more cells than memory.
+        [self.origin[0] + a as i128, self.origin[1] + b as i128]
+    }
+
+    /// The cell of coordinates that are within the box.
+    pub(super) fn cell(&self, at: [i128; 2]) -> Option<usize> {
+        let [a, b] = [0, 1].map(|axis| usize::try_from(at[axis] - self.origin[axis]).ok());
+        let (a, b) = (a?, b?);
+        (a < self.stride && b < self.rows).then(|| b * self.stride + a)
+    }
+
+    /// The cells from which the contacts of a direction lead to these, under a step of a sign.
+    pub(super) fn above(
+        &self,
+        cells: &Range<usize>,
+        sign: Sign,
+        direction: Direction,
+    ) -> Result<Range<usize>, Error> {
+        let [da, db] = (self.moves)(sign)[direction.index()];
+        let stride = isize::try_from(self.stride).map_err(|_| bug("the size was checked"))?;
+        let back = -(db * stride + da);
+        let moved = |cell: usize| cell.checked_add_signed(back);
+        let (Some(start), Some(end)) = (moved(cells.start), moved(cells.end)) else {
+            return Err(bug("there is a free cell all around"));
+        };
+        Ok(start..end)
+    }
+}
+
+/// What the contacts below a layer can reach, whichever their signs: the hull of every row.
+fn dilated(window: &[Range<usize>]) -> Vec<Range<usize>> {
+    let range = |row: Option<usize>| {
+        let range = row.and_then(|row| window.get(row));
+        range.filter(|range| !range.is_empty())
+    };
+    let hulls = (0..window.len()).map(|row| {
+        // From the row itself by ±u_β, from the next by u_α and −u_γ, from the one before by −u_α and u_γ. A range that
+        // is not empty begins beyond the first cell.
+        let parts = [
+            range(Some(row)).map(|range| range.start - 1..range.end + 1),
+            range(row.checked_add(1)).map(|range| range.start - 1..range.end),
+            range(row.checked_sub(1)).map(|range| range.start..range.end + 1),
+        ];
+        let hull = |hull: Range<usize>, part: Range<usize>| {
+            hull.start.min(part.start)..hull.end.max(part.end)
+        };
+        // Not a default: a row that nothing reaches has no cells.
+        parts.into_iter().flatten().reduce(hull).unwrap_or(0..0)
+    });
+    hulls.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 97 and 997 further than the first cell, and a free one at each end: 10⁵ cells.
+    #[test]
+    fn as_many_words_as_may_be_kept_and_no_more() {
+        let needed = |reach, steps, per_cell: u32, words| {
+            let size = Size::new([-7, 5], [90, 1002], reach, steps);
+            match size.check("cells", &per_cell.into(), words) {
+                Ok(()) => None,
+                Err(Error::Core(cannonpile::Error::TooLarge { needed, limit, .. })) => {
+                    assert_eq!(limit, MAX_WORDS / words.max(1));
+                    u64::try_from(needed).ok()
+                }
+                Err(error) => panic!("{error}"),
+            }
+        };
+        assert_eq!(needed(0, 0, 1000, 1), None);
+        assert_eq!(needed(0, 0, 1000, 0), None);
+        assert_eq!(needed(0, 0, 1001, 1), Some(100_100_000));
+        // Windows of one layer more.
+        assert_eq!(needed(0, 1, 1000, 1), Some(100_000_001));
+        assert_eq!(needed(0, 0, 500, 2), None);
+        assert_eq!(needed(0, 0, 501, 2), Some(50_100_000));
+        // 50 cells more at each end.
+        assert_eq!(needed(1, 50, 454, 1), None);
+        assert_eq!(needed(1, 50, 455, 1), Some(200 * 1100 * 455 + 50));
+    }
+
+    /// Two steps around two cells, and a free cell at each end.
+    #[test]
+    fn cells_are_those_of_the_box() {
+        let size = Size::new([2, -1], [3, -1], 1, 2);
+        let first = FirstRows::from([(-1, 2..4)]);
+        let grid = Grid::new(&size, &first, of_places).unwrap();
+        assert_eq!(grid.cells(), 8 * 7);
+        for (a, b) in (-9..=12).flat_map(|a| (-9..=9).map(move |b| (a, b))) {
+            let is_inside = (-1..=6).contains(&a) && (-4..=2).contains(&b);
+            let cell = grid.cell([a, b]);
+            assert_eq!(cell.is_some(), is_inside, "{a} {b}");
+            if let Some(cell) = cell {
+                assert!(cell < grid.cells());
+                assert_eq!(grid.coordinates(cell), [a, b]);
+            }
+        }
+        // Rows of 2; of 3, 4, 3; of 4, 5, 6, 5, 4.
+        for (layer, cells) in [2, 10, 24].into_iter().enumerate() {
+            assert_eq!(grid.reached(layer).unwrap(), cells);
+        }
+    }
+}

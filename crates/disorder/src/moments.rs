@@ -1,0 +1,214 @@
+//! How far a load spreads: moments in one stacking and in the mean, and the waves that the mean is made of.
+
+use cannonpile::engine::refuse_beyond;
+use cannonpile::scalar::{Algebra, Field, Ring};
+use cannonpile::stacking::Stacking;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::stackings::{FirstSign, MOST_LAYERS, RandomStackings, check_fault_probability};
+use crate::Error;
+use crate::TWO;
+use crate::formula::{
+    fourth_moment, fourth_moment_of_pair, mean_fourth_moment_of_pairs, mean_third_moment,
+    third_moment, wave,
+};
+
+/// Moments of the loads v that a unit load on a wide flat top makes on the bottom layer: Σv = 1, Σv r = 0, and these, in
+/// powers of ρ = 2R sinθ, the horizontal part of a contact.
+///
+/// r is the horizontal distance from the load's line, φ the azimuth from α under a + step. Exact. Theorems `point-load`,
+/// `third-moment` and `fourth-moment` prove them, of every stacking and of the mean.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::Moments;
+///
+/// // FCC: three loads of 1/3 at r = n. HCP spreads as far, to no side, and with fewer far off.
+/// let fcc = Moments::of(&"+++".parse()?)?;
+/// assert_eq!([fcc.second, fcc.third, fcc.fourth].map(|m| m.to_string()), ["9", "27", "81"]);
+/// let hcp = Moments::of(&"+-+".parse()?)?;
+/// assert_eq!([hcp.second, hcp.third, hcp.fourth].map(|m| m.to_string()), ["9", "1", "57"]);
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Moments {
+    /// Σ v r² = n², n the number of steps, in every stacking: also Σ v r_i r_j = δ_ij n²/2.
+    pub second: BigRational,
+    /// Σ v r³cos3φ: to which of the corners of a triangle the response points.
+    pub third: BigRational,
+    /// Σ v r⁴.
+    pub fourth: BigRational,
+}
+
+impl Moments {
+    /// Returns the moments in one stacking, by formulas in its signs.
+    ///
+    /// # Errors
+    /// [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ layers.
+    ///
+    /// # Examples
+    /// See [`Moments`].
+    pub fn of(stacking: &Stacking) -> Result<Self, Error> {
+        let n = steps(stacking.layers())?;
+        let (mut third, mut fourth) = (BigRational::zero(), fourth_moment(&n));
+        // Σσ_s(2s−1) over the steps before t.
+        let mut before = BigRational::zero();
+        let mut t = BigRational::zero();
+        for sign in stacking.signs() {
+            t += BigRational::one();
+            let sigma = BigRational::from_i128(sign.factor().into());
+            third += third_moment(&n, &t) * &sigma;
+            // It is linear in 2s−1, so the sum may stand for it.
+            let s = (before.clone() + BigRational::one()).div_int(TWO);
+            fourth += fourth_moment_of_pair(&n, &s, &t) * &sigma;
+            before += (BigRational::from_i128(2) * &t - BigRational::one()) * sigma;
+        }
+        Ok(Self {
+            second: n.clone() * n,
+            third,
+            fourth,
+        })
+    }
+}
+
+impl RandomStackings {
+    /// Returns the moments of the mean response at the fault probability `q`.
+    ///
+    /// With a random first sign the mean points nowhere, and the third moment is 0.
+    ///
+    /// # Errors
+    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1; [`TooLarge`](cannonpile::Error::TooLarge) for more than 10⁴ layers.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::{FirstSign, RandomStackings};
+    /// use num_rational::BigRational;
+    ///
+    /// let stackings = RandomStackings::new(4, FirstSign::Plus)?;
+    /// let half = BigRational::new(1.into(), 2.into());
+    /// // Of three steps whose signs are independent: 3n − 2, and n(2n³+2n²−2n+1)/3.
+    /// let moments = stackings.moments(&half)?;
+    /// assert_eq!([moments.third, moments.fourth].map(|m| m.to_string()), ["7", "67"]);
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn moments(&self, q: &BigRational) -> Result<Moments, Error> {
+        check_fault_probability(q)?;
+        let n = steps(self.layers())?;
+        let one = BigRational::one();
+        let mu = one.clone() - BigRational::from_i128(2) * q;
+        let gap = one - &mu;
+        let square = n.clone() * &n;
+        let straight = || Moments {
+            second: square.clone(),
+            third: square.clone() * &n,
+            fourth: square.clone() * &square,
+        };
+        let mean = || {
+            let power = (1..self.layers()).fold(BigRational::one(), |power, _| power * &mu);
+            let cube = gap.clone() * &gap * &gap;
+            let pairs = mean_fourth_moment_of_pairs(&n, &mu, &power);
+            let pairs = pairs.checked_div(&(cube.clone() * &gap))?;
+            Some(Moments {
+                second: square.clone(),
+                third: mean_third_moment(&n, &mu, &power).checked_div(&cube)?,
+                fourth: fourth_moment(&n) + pairs,
+            })
+        };
+        // Not a default: where 1−μ is 0 no sign ever changes.
+        let moments = mean().unwrap_or_else(straight);
+        let third = match self.first() {
+            FirstSign::Plus => moments.third,
+            FirstSign::Minus => -moments.third,
+            FirstSign::Random => BigRational::zero(),
+        };
+        Ok(Moments { third, ..moments })
+    }
+}
+
+/// What becomes of waves of the mean response at great depth: a wave of the number k, κ = kρ, is multiplied by
+/// exp(±iκ/√2·(1 + bκ²) − aκ² + …) by every layer.
+///
+/// Its speed is ρ/√2 a layer at every fault probability but 0, where forces go on along three rays. So the mean response
+/// is a ring of the radius r = nρ/√2 after n steps, as wide as [`squared_width`](Self::squared_width) says. Theorem
+/// `mean-spectrum` proves both numbers; that no other mode stays but one that changes its sign from place to place is
+/// proved, in words, in [`paper`](cannonpile::paper#random-stackings).
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::Wave;
+/// use num_rational::BigRational;
+///
+/// let q = |n: i32, d: i32| BigRational::new(n.into(), d.into());
+/// assert_eq!(Wave::at(&q(1, 2))?.unwrap().damping, q(1, 16));
+/// assert_eq!(Wave::at(&q(0, 1))?, None);
+/// # Ok::<(), cannonpile_disorder::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Wave {
+    /// a = (1−q)/(16q).
+    pub damping: BigRational,
+    /// b = (13q²−42q+21)/(768q²).
+    pub dispersion: BigRational,
+}
+
+impl Wave {
+    /// Returns damping and dispersion at the fault probability `q`; `None` at 0, where there is no wave.
+    ///
+    /// # Errors
+    /// [`Error::FaultProbability`] unless 0 ≤ `q` ≤ 1.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::Wave;
+    /// use num_rational::BigRational;
+    ///
+    /// // HCP is not damped, and spreads by b = −1/96 alone.
+    /// let wave = Wave::at(&BigRational::from_integer(1.into()))?.unwrap();
+    /// assert_eq!((wave.damping.to_string(), wave.dispersion.to_string()), ("0".into(), "-1/96".into()));
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    pub fn at(q: &BigRational) -> Result<Option<Self>, Error> {
+        check_fault_probability(q)?;
+        let [damping, dispersion] = wave(q);
+        let over = || {
+            Some(Self {
+                damping: damping.checked_div(q)?,
+                dispersion: dispersion.checked_div(&(q.clone() * q))?,
+            })
+        };
+        Ok(over())
+    }
+
+    /// Returns w², the square of the width of the front after `n` steps, in ρ²: 2an = (1−q)n/(8q).
+    ///
+    /// The front is the ring of a wave in two dimensions, smoothed by a Gaussian of the standard deviation w. At q = 1 it
+    /// is as narrow as dispersion leaves it.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_disorder::Wave;
+    /// use num_rational::BigRational;
+    ///
+    /// let wave = Wave::at(&BigRational::new(1.into(), 2.into()))?.unwrap();
+    /// assert_eq!(wave.squared_width(16).to_string(), "2");
+    /// # Ok::<(), cannonpile_disorder::Error>(())
+    /// ```
+    #[must_use]
+    pub fn squared_width(&self, n: i128) -> BigRational {
+        BigRational::from_i128(2) * &self.damping * BigRational::from_i128(n)
+    }
+}
+
+/// The number of steps.
+fn steps(layers: i128) -> Result<BigRational, Error> {
+    refuse_beyond(
+        "moments of the response to a load",
+        layers.unsigned_abs(),
+        MOST_LAYERS,
+        "ask for fewer layers",
+    )?;
+    Ok(BigRational::from_i128(layers - 1))
+}

@@ -1,0 +1,397 @@
+//! Theorems on stackings of any signs, and on the mean over random ones: what is kept, moments, waves, faults.
+//!
+//! Each proof runs the formulas of this crate, and of the core, on polynomials
+//! ([how](cannonpile::theorem#kinds-of-proof)). A theorem takes its [`Formulas`] as an argument, so that a test can
+//! replace one by a wrong one and see the proof fail.
+//!
+//! # Examples
+//! ```
+//! use cannonpile_disorder::theorem;
+//! use cannonpile_disorder::theorem::Formulas;
+//!
+//! let registry = theorem::find("registry").unwrap();
+//! assert!(registry.prove().holds());
+//!
+//! let wrong: Formulas = Formulas { registry_excess: |x, _, _| x.clone(), ..Formulas::LIBRARY };
+//! assert!(!registry.prove_for(&wrong).holds());
+//! ```
+
+mod formulas;
+mod mean;
+mod moments;
+mod registry;
+
+pub use formulas::Formulas;
+
+use cannonpile::geometry::Vector;
+use cannonpile::lattice::Direction;
+use cannonpile::scalar::Algebra;
+use cannonpile::theorem::setting::{
+    P, Setting, by_component, by_line, equations, int, passed_on, symbol,
+};
+use cannonpile::theorem::{ProofKind, Step};
+use num_traits::{One, Zero};
+
+use crate::{THREE, TWO};
+
+/// A theorem about the formulas of this crate.
+pub type Theorem = cannonpile::theorem::Theorem<Formulas>;
+
+/// Returns every theorem of this crate, in the order in which one would read them.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::theorem;
+///
+/// assert!(theorem::all().any(|theorem| theorem.name == "wave"));
+/// for theorem in theorem::all() {
+///     assert!(theorem.prove().holds(), "{}", theorem.name);
+/// }
+/// ```
+pub fn all() -> impl Iterator<Item = &'static Theorem> {
+    THEOREMS.iter()
+}
+
+/// Returns the theorem of this name.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::theorem;
+///
+/// assert!(theorem::find("one-fault").is_some());
+/// assert!(theorem::find("equilibrium").is_none());
+/// ```
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Theorem> {
+    all().find(|theorem| theorem.name == name)
+}
+
+const THEOREMS: &[Theorem] = &[
+    Theorem {
+        name: "resultant-form",
+        statement: "Three numbers ψ that do without the signs: of forces g that arrive on a sphere let ψ be g under + steps and \
+                    Gg under − steps. Along the directions of + they have the resultant that g has along its own; a sphere \
+                    without weight passes on ψ if the step below is +, and Gψ if it is −, whatever the step above; on an \
+                    equilateral base; an identity",
+        hypotheses: "s = 1/2; any g_1, g_2, g_3",
+        method: ProofKind::Identity,
+        symbols: "g_1, g_2, g_3",
+        derive: resultant_form,
+    },
+    Theorem {
+        name: "squares",
+        statement: "Sums and squares: a sphere of weight n·mg that receives g and passes on f = Tg + n, whether the sign is kept \
+                    or changes, has Σf = Σg + 3n and Σf² = Σg² + 2nΣg + 3n². So (in words, by summing over the spheres of \
+                    all layers) in every stacking the contacts below layer k have Σf = 3W_k and Σf² = Σ_j (3n_j + 6W_{j−1}), \
+                    j ≤ k, of n_j spheres of weight mg in layer j, and W_j in all down to it; an identity",
+        hypotheses: "s = 1/2; any g_1, g_2, g_3, n",
+        method: ProofKind::Identity,
+        symbols: "g_1, g_2, g_3, n",
+        derive: squares,
+    },
+    Theorem {
+        name: "third-moment",
+        statement: "Which way a response points: a unit load at depth n has Σv r³cos3φ = Σ_s σ_s[3(n−s)(2s−1) + 3s−2] in units of \
+                    ρ³, φ from α, σ_s the sign of step s ≤ n. Of a sphere at z, in the complex plane, with load V and \
+                    horizontal force h, z³V, z̄²h and zh̄ grow by what the contacts below make of them, whatever the two \
+                    signs are; the sum solves that recursion. Its mean over random stackings that begin with + and \
+                    change with probability q, μ = 1−2q, is 3(1+μ)n(1+μⁿ)/(1−μ)² − 2(μ²+4μ+1)(1−μⁿ)/(1−μ)³; by induction",
+        hypotheses: "s = 1/2, n ≥ 1, 0 < q ≤ 1",
+        method: ProofKind::Induction,
+        symbols: "g_1, g_2, g_3, x, y, n, s, μ, X = μⁿ",
+        derive: moments::third_moment,
+    },
+    Theorem {
+        name: "fourth-moment",
+        statement: "How a response spreads: a unit load at depth n has Σv r⁴ = n(2n³+2n²−2n+1)/3 + 2Σ_{s<t}(2n−2t+1)(2s−1)σ_sσ_t \
+                    in units of ρ⁴, in every stacking. Of a sphere at z with load V and horizontal force h, |z|⁴V and |z|²zh̄ \
+                    grow by what the contacts below make of them, whatever the two signs are; the sum solves that recursion. \
+                    Its mean over random stackings, μ = 1−2q, is n(2n³+2n²−2n+1)/3 + 4μn³/(3(1−μ)) − 4μn²/(1−μ)² + \
+                    2μ(μ²+4μ+7)n/(3(1−μ)³) − 2μ(1+μ)²(1−μⁿ)/(1−μ)⁴; by induction",
+        hypotheses: "s = 1/2, n ≥ 1, 0 < q ≤ 1",
+        method: ProofKind::Induction,
+        symbols: "g_1, g_2, g_3, x, y, n, s, t, μ, X = μⁿ",
+        derive: moments::fourth_moment,
+    },
+    Theorem {
+        name: "mean-modes",
+        statement: "Modes of the mean: with f₊ and f₋, the parts of the mean before a + and a − step, a step makes of them \
+                    (1−q)f_σ + qGf_−σ where nothing moves. The operator M has (M−1)(M−μ) = 0, μ = 1−2q: it keeps the load \
+                    and the horizontal force, three numbers, and shrinks three others. And of forces that change their \
+                    sign from site to site along two directions ψ = (1, −1, 0) on f₊, −ψ on f₋ is turned into its \
+                    negative, for every q: (in words) it never decays; an identity",
+        hypotheses: "any forces, any q",
+        method: ProofKind::Identity,
+        symbols: "f_1, f_2, f_3, h_1, h_2, h_3, q",
+        derive: mean::mean_modes,
+    },
+    Theorem {
+        name: "mean-spectrum",
+        statement: "The spectrum of the mean: with D_l = exp(iθ_l), θ_α+θ_β+θ_γ = 0, det(λ−M) = λ³Q(λ+μ/λ), where \
+                    Q(y) = y³ − 2(1−q)T₁y² + [8q²/3 + 2(1−q)²T₁ + (2/9)(3−q)(3−5q)S]y − 2(1−q)³ − (16/9)q²(1−q)T₁ − \
+                    (2/9)(1−q)(q²−18q+9)T₂, T₁ = Σcosθ_l, T₂ = Σcos2θ_l, S = Σ_{i<j}cos(θ_i−θ_j), μ = 1−2q: six eigenvalues in \
+                    three pairs λ, μ/λ. The columns of f₋ are multiplied by D_l, which changes nothing as D_αD_βD_γ = 1; what \
+                    is left is a multiple of D_αD_βD_γ − 1. Of waves of the number k, κ = kρ, two roots are ±iκ/√2(1+bκ²) − \
+                    (1−q)κ²/16q in the exponent, b = (13q²−42q+21)/(768q²), and one −(1−q)κ²/8q, up to terms that leave of Q \
+                    none below κ⁶: a speed of ρ/√2 for every q; an identity",
+        hypotheses: "any q, and of waves q > 0; a = D_α, b = D_β, c = D_γ with abc = 1",
+        method: ProofKind::Identity,
+        symbols: "a, b, c, q, λ, t",
+        derive: mean::mean_spectrum,
+    },
+    Theorem {
+        name: "wave",
+        statement: "HCP is a wave: where the sign changes at every step, three spheres that receive g, h, k along the directions \
+                    of one sign pass on Gg, Gh, Gk along those of the other, and to the sphere between them their α, β and γ \
+                    parts, which are 2/3 of their loads less the parts g_α, h_β, k_γ, that one sphere two layers above has passed on: \
+                    so (in words) v_{n+1} = 2Pv_n − v_{n−1}, P the mean over the three, v_1 = Pv_0, and v_n = T_n(P)v_0 with the \
+                    Chebyshev polynomial; an identity",
+        hypotheses: "any forces; spheres without weight",
+        method: ProofKind::Identity,
+        symbols: "g_1, g_2, g_3, h_1, h_2, h_3, k_1, k_2, k_3",
+        derive: wave,
+    },
+    Theorem {
+        name: "faults",
+        statement: "Few faults: a run passes a force on along its line, a change of sign turns a third of it into three, G g, of \
+                    −1/3 along the line itself and 2/3 along the others. So d changes make 3^(d+1) of a unit load, whose sum \
+                    stays 1, whose squares sum to 1/3, and whose absolute values to (5/3)^d: each change multiplies \
+                    the sum of 3^(d+1)v by 3, of squares by 9, of absolute values by 5; by induction",
+        hypotheses: "places where several arrive counted apart",
+        method: ProofKind::Induction,
+        symbols: "v",
+        derive: faults,
+    },
+    Theorem {
+        name: "one-fault",
+        statement: "One fault, m steps above and n below it: six loads 2/9 at m u_a − n u_b, where r² = m²+mn+n² in units of ρ², and \
+                    three of −1/9 at (m−n)u_a, where r² = (m−n)². They are at nine places, since two places differ by \
+                    m u + n w with u or w not zero and of length √3ρ; but for m = n, where (in words) the last three meet \
+                    under the load; an identity",
+        hypotheses: "s = 1/2, m, n ≥ 1",
+        method: ProofKind::Identity,
+        symbols: "m, n",
+        derive: one_fault,
+    },
+    Theorem {
+        name: "registry",
+        statement: "Registries: a + step leads from the registry r to r+1, a − step to r−1 (mod 3), and each sign differs from the one \
+                    before with probability q. So with p_r and m_r, the shares of the stackings that come to registry r by a + and by \
+                    a − step, a step more makes (1−q)p_{r−1} + q m_{r−1} and (1−q)m_{r+1} + q p_{r+1} of them. Of any six such \
+                    numbers x_r = p_r + m_r less a third of the sum of all six is −(1−q)x' − (1−2q)x'' with its values x' one step \
+                    and x'' two steps before; and so it is two steps below a top layer of registry 0, if the shares of the first \
+                    signs are u and v: it is how the probability of a registry exceeds 1/3 in every layer; by induction",
+        hypotheses: "any shares of first signs, any q; below a single layer and the next",
+        method: ProofKind::Induction,
+        symbols: "p_0, p_1, p_2, m_0, m_1, m_2, u, v, q",
+        derive: registry::registry,
+    },
+];
+
+const SIGNS: [&str; 2] = ["+", "−"];
+
+fn symbols(names: [&'static str; 3]) -> [P; 3] {
+    names.map(symbol)
+}
+
+fn sum(terms: impl IntoIterator<Item = P>) -> P {
+    terms.into_iter().fold(P::zero(), |sum, term| sum + &term)
+}
+
+fn square(x: &P) -> P {
+    x.clone() * x
+}
+
+fn power(x: &P, n: usize) -> P {
+    (0..n).fold(P::one(), |power, _| power * x)
+}
+
+/// A vector along one line.
+fn unit(line: usize) -> [P; 3] {
+    core::array::from_fn(|other| int(i128::from(other == line)))
+}
+
+/// What a sphere makes of g where the sign is kept, or changes.
+fn turned(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
+    if changes {
+        (f.core.half_turn)(g)
+    } else {
+        g.clone()
+    }
+}
+
+/// Numbers x + iy√3 of the complex plane, in ρ.
+type Complex = Vector<P>;
+
+fn complex(x: P, y: P) -> Complex {
+    Vector { x, y, z: P::zero() }
+}
+
+fn times(a: &Complex, b: &Complex) -> Complex {
+    complex(
+        a.x.clone() * &b.x - &(int(3) * &(a.y.clone() * &b.y)),
+        a.x.clone() * &b.y + &(a.y.clone() * &b.x),
+    )
+}
+
+fn conjugate(a: &Complex) -> Complex {
+    complex(a.x.clone(), -a.y.clone())
+}
+
+/// Re(a b̄).
+fn dot(a: &Complex, b: &Complex) -> P {
+    times(a, &conjugate(b)).x
+}
+
+/// The horizontal steps down the three lines, under + and under −.
+fn steps_down(f: &Formulas) -> [[Complex; 3]; 2] {
+    let setting = Setting::equilateral(&f.core);
+    [
+        setting.directions.clone(),
+        setting.turned_directions(&f.core),
+    ]
+    .map(|directions| {
+        core::array::from_fn(|line| {
+            let Vector { x, y, .. } = (f.core.position)(&unit(line), &directions);
+            complex(x, y)
+        })
+    })
+}
+
+fn resultant_form(f: &Formulas) -> Vec<Step> {
+    let (setting, g) = (
+        Setting::equilateral(&f.core),
+        symbols(["g_1", "g_2", "g_3"]),
+    );
+    let below = setting.turned_directions(&f.core);
+    let form = |minus: bool, g: &[P; 3]| turned(f, minus, g);
+    let mut steps = by_component(
+        "under −, the resultant of g is that of Gg under +",
+        (f.core.resultant)(&g, &below),
+        (f.core.resultant)(&form(true, &g), &setting.directions),
+    );
+    let twice = form(true, &form(true, &g));
+    steps.extend(by_line(
+        "under −, Gψ = GGg = g is passed on under −",
+        twice,
+        g,
+    ));
+    steps
+}
+
+fn squares(f: &Formulas) -> Vec<Step> {
+    let setting = Setting::equilateral(&f.core);
+    let (g, n) = (symbols(["g_1", "g_2", "g_3"]), symbol("n"));
+    let (own, weight) = setting.loaded(&f.core, &n);
+    let mut steps = equations! { "3n is the weight": weight => int(3) * &n };
+    let (whole, all) = (sum(g.clone()), sum(g.each_ref().map(square)));
+    for (name, changes) in [("kept", false), ("changed", true)] {
+        let passed = passed_on(&f.core, turned(f, changes, &g), &own);
+        let more = int(2) * &n * &whole + &(int(3) * &square(&n));
+        steps.extend(equations! {
+            (format!("the sign is {name}: Σf")):
+                sum(passed.clone()) => whole.clone() + &(int(3) * &n),
+            (format!("the sign is {name}: Σf²")):
+                sum(passed.each_ref().map(square)) => all.clone() + &more,
+        });
+    }
+    steps
+}
+
+fn wave(f: &Formulas) -> Vec<Step> {
+    let received = [
+        symbols(["g_1", "g_2", "g_3"]),
+        symbols(["h_1", "h_2", "h_3"]),
+        symbols(["k_1", "k_2", "k_3"]),
+    ];
+    let lines = Direction::ALL.into_iter().zip(&received);
+    let lines = lines.map(|(direction, received)| {
+        let l = direction.index();
+        let load = sum(received.clone());
+        let passed = (f.core.half_turn)(received)[l].clone() * &int(3);
+        let expected = int(2) * &load - &(int(3) * &received[l]);
+        Step::equal(
+            format!("along {direction}: 2/3 of the load, less what arrives along it"),
+            passed,
+            expected,
+        )
+    });
+    lines.collect()
+}
+
+fn faults(f: &Formulas) -> Vec<Step> {
+    let v = symbol("v");
+    let mut steps = Vec::new();
+    for direction in Direction::ALL {
+        let l = direction.index();
+        let turned = (f.core.half_turn)(&unit(l).map(|one| one * &v)).map(|part| part * &int(3));
+        let expected = unit(l).map(|one| (int(2) - &(int(3) * &one)) * &v);
+        let claim = format!("along {direction}: −v along it, 2v along the others, of 3v");
+        steps.extend(by_line(&claim, turned.clone(), expected));
+        let apart = turned.iter().enumerate();
+        // What is along its own line is negative.
+        let absolute = apart.map(|(line, part)| {
+            if line == l {
+                -part.clone()
+            } else {
+                part.clone()
+            }
+        });
+        let absolute = sum(absolute);
+        steps.extend(equations! {
+            (format!("from {direction}: sums by 3")): sum(turned.clone()) => int(3) * &v,
+            (format!("from {direction}: squares by 9")):
+                sum(turned.each_ref().map(square)) => int(9) * &square(&v),
+            (format!("from {direction}: absolute values by 5")): absolute => int(5) * &v,
+        });
+    }
+    let thirds = (f.core.increments)(&int(1).div_int(TWO));
+    steps.extend(equations! {
+        "base case: Σ3v = 3": sum(thirds.clone()) => int(3),
+        "base case: Σ(3v)² = 9/3": sum(thirds.each_ref().map(square)) => int(3),
+    });
+    steps
+}
+
+fn one_fault(f: &Formulas) -> Vec<Step> {
+    let [m, n] = ["m", "n"].map(symbol);
+    let [plus, minus] = steps_down(f);
+    let place = |a: usize, b: usize| {
+        let [above, below] = [(&plus[a], &m), (&minus[b], &n)]
+            .map(|(d, n)| complex(d.x.clone() * n, d.y.clone() * n));
+        above + &below
+    };
+    let mut steps = Vec::new();
+    for a in 0..3 {
+        let thirds = unit(a).map(|one| one.div_int(THREE));
+        let loads = (f.core.half_turn)(&thirds);
+        for (b, load) in loads.into_iter().enumerate() {
+            let [from, to] = [a, b].map(|line| Direction::ALL[line]);
+            let z = place(a, b);
+            let at = |claim: &str| format!("from {from} to {to}: {claim}");
+            let (nines, square_of) = if a == b {
+                (-1, square(&(m.clone() - &n)))
+            } else {
+                (2, square(&m) + &(m.clone() * &n) + &square(&n))
+            };
+            steps.extend(equations! {
+                (at("9v")): load * &int(9) => int(nines),
+                (at("r²")): dot(&z, &z) => square_of,
+            });
+        }
+    }
+    for a in 0..3 {
+        for b in 0..3 {
+            if a != b {
+                let apart = plus[a].clone() - &plus[b];
+                let claim = format!(
+                    "u_a − u_b of {} and {}",
+                    Direction::ALL[a],
+                    Direction::ALL[b]
+                );
+                steps.extend(equations! { (claim): dot(&apart, &apart) => int(3) });
+            }
+        }
+    }
+    steps
+}

@@ -1,0 +1,184 @@
+//! What a step makes of the mean over random stackings.
+
+use core::num::NonZeroI64;
+use std::collections::BTreeMap;
+
+use cannonpile::scalar::{Algebra, Symbol};
+use cannonpile::theorem::Step;
+use cannonpile::theorem::setting::{P, by_line, equations, int, symbol};
+use num_traits::{One, Zero};
+
+use super::{Formulas, power, square, sum, symbols};
+use crate::{THREE, TWO};
+
+/// M, of f₊ and f₋: what a step makes of the mean where D_l are factors of f₊, and their inverses of f₋.
+fn mean_step(f: &Formulas, q: &P, shifted: &[[P; 3]; 2]) -> [[P; 3]; 2] {
+    let stay = P::one() - q;
+    core::array::from_fn(|sign| {
+        let other = (f.core.half_turn)(&shifted[1 - sign]);
+        core::array::from_fn(|line| {
+            shifted[sign][line].clone() * &stay + &(other[line].clone() * q)
+        })
+    })
+}
+
+pub(super) fn mean_modes(f: &Formulas) -> Vec<Step> {
+    let q = symbol("q");
+    let parts = [
+        symbols(["f_1", "f_2", "f_3"]),
+        symbols(["h_1", "h_2", "h_3"]),
+    ];
+    let mu = P::one() - &(int(2) * &q);
+    let once = mean_step(f, &q, &parts);
+    let twice = mean_step(f, &q, &once);
+    let mut steps = Vec::new();
+    for sign in [0, 1] {
+        for line in 0..3 {
+            let [x, y, z] = [&twice, &once, &parts].map(|parts| parts[sign][line].clone());
+            let zero = x - &(y * &(P::one() + &mu)) + &(z * &mu);
+            let claim = format!("(M−1)(M−μ) = 0, of f{}", ["₊", "₋"][sign]);
+            steps.extend(equations! { (claim): zero => P::zero() });
+        }
+    }
+    let across = |sign: i128| [sign, -sign, 0].map(int);
+    let mode = [across(1), across(-1)];
+    // Along α and β the factors are −1, along γ 1.
+    let shifted = mode.clone().map(|[a, b, c]| [-a, -b, c]);
+    let after = mean_step(f, &q, &shifted);
+    for (after, mode) in after.into_iter().zip(mode) {
+        steps.extend(by_line("Mψ = −ψ", after, mode.map(|part| -part)));
+    }
+    steps
+}
+
+/// The determinant, by the columns that are left to the first rows.
+fn determinant(rows: &[[P; 6]; 6]) -> P {
+    let mut minors = BTreeMap::from([(0_u32, P::one())]);
+    for row in rows {
+        let mut longer = BTreeMap::new();
+        for (taken, minor) in &minors {
+            for (column, entry) in row.iter().enumerate() {
+                let bit = 1 << column;
+                if taken & bit == 0 && !entry.is_zero() {
+                    // As many inversions as columns to the right are taken.
+                    let inversions = (taken >> column).count_ones();
+                    let sign = int(if inversions % 2 == 0 { 1 } else { -1 });
+                    let term = minor.clone() * entry * &sign;
+                    let sum = longer.entry(taken | bit).or_insert_with(P::zero);
+                    *sum = sum.clone() + &term;
+                }
+            }
+        }
+        minors = longer;
+    }
+    sum(minors.into_values())
+}
+
+pub(super) fn mean_spectrum(f: &Formulas) -> Vec<Step> {
+    let (q, lambda) = (symbol("q"), symbol("λ"));
+    let d = symbols(["a", "b", "c"]);
+    let none = || [P::zero(), P::zero(), P::zero()];
+    // The columns: what M makes of each of six units, those of f₋ times D_l; and λ on the diagonal.
+    let mut rows: [[P; 6]; 6] = core::array::from_fn(|_| core::array::from_fn(|_| P::zero()));
+    for sign in [0, 1] {
+        for line in 0..3 {
+            let mut shifted = [none(), none()];
+            let plus = sign == 0;
+            shifted[sign][line] = if plus { d[line].clone() } else { P::one() };
+            let column = 3 * sign + line;
+            let made = mean_step(f, &q, &shifted);
+            for (row, made) in made.into_iter().flatten().enumerate() {
+                rows[row][column] = -made;
+            }
+            let scale = if plus { P::one() } else { d[line].clone() };
+            rows[column][column] = rows[column][column].clone() + &(lambda.clone() * &scale);
+        }
+    }
+    let [a, b, c] = &d;
+    let product = a.clone() * b * c;
+    // The inverses are the products of the other two.
+    let inverse = [b.clone() * c, a.clone() * c, a.clone() * b];
+    let half = |sum: P| sum.div_int(TWO);
+    let t1 = half(sum(d.clone()) + &sum(inverse.clone()));
+    let t2 = half(sum(d.each_ref().map(square)) + &sum(inverse.each_ref().map(square)));
+    let ratios = (0..3).flat_map(|i| {
+        let others = (0..3).filter(move |j| *j != i);
+        others.map(move |j| (i, j))
+    });
+    let s = half(sum(ratios.map(|(i, j)| d[i].clone() * &inverse[j])));
+    // λ³Q(λ+μ/λ), with λ times y = λ² + μ.
+    let mu = P::one() - &(int(2) * &q);
+    let q_of = cubic(&q, [&t1, &t2, &s], &(square(&lambda) + &mu), &lambda);
+    let left = determinant(&rows) - &q_of;
+    let relation = product - &P::one();
+    // Not a default: what is no multiple is not equal to none.
+    let multiple = left.divide_exactly(&relation).unwrap_or_else(P::zero);
+    let mut steps = equations! {
+        "det(λ−M) − λ³Q(λ+μ/λ) is a multiple of abc − 1": left => multiple * &relation,
+    };
+    // Great waves: κ² in t, and θ_l = κ cos of three angles 120° apart, of which sums of even powers up to the fourth are
+    // those of any direction; S has √3κ.
+    let of_angle = |square_of: &P| {
+        let fourth = (int(3) * &square(square_of)).div_int(SIXTY_FOUR);
+        int(3) - &(int(3) * square_of).div_int(FOUR) + &fourth
+    };
+    let t = symbol("t");
+    let mut wave = |what: &str, square_of: &P, exponent: &P, order: usize| {
+        let [lambda, inverse] =
+            [exponent.clone(), -exponent.clone()].map(|x| exponential(&x, order));
+        let [t1, t2, s] = [1, 4, 3].map(|n| of_angle(&(int(n) * square_of)));
+        let y = lambda + &(mu.clone() * &inverse);
+        let q_of = cubic(&q, [&t1, &t2, &s], &y, &P::one());
+        let claim = format!("{what}: nothing is left of Q");
+        steps.push(Step::equal(claim, lowest(&q_of, order), P::zero()));
+    };
+    // iκ = √2qt: the wave runs at ρ/√2, and κ² = −2q²t².
+    let [damping, dispersion] = (f.wave)(&q);
+    let exponent = q.clone()
+        * &(t.clone() + &(int(2) * &damping * &square(&t))
+            - &(int(2) * &dispersion * &power(&t, 3)));
+    let square_of = int(-2) * &square(&q) * &square(&t);
+    wave("the wave, below κ⁶", &square_of, &exponent, 6);
+    // κ² = 8qt.
+    let across = int(-16) * &damping * &t;
+    wave("across, below κ⁶", &(int(8) * &q * &t), &across, 3);
+    steps
+}
+
+// Unwrapped by the compiler: zero would not build.
+const FOUR: NonZeroI64 = NonZeroI64::new(4).unwrap();
+const SIXTY_FOUR: NonZeroI64 = NonZeroI64::new(64).unwrap();
+
+/// e^x of an x without constant, below the power of t of this order.
+fn exponential(x: &P, order: usize) -> P {
+    let mut term = P::one();
+    let mut series = P::one();
+    for n in (1..).filter_map(NonZeroI64::new).take(order) {
+        term = lowest(&(term * x).div_int(n), order);
+        series = series + &term;
+    }
+    series
+}
+
+/// What a polynomial has below the power of t of this order.
+fn lowest(p: &P, order: usize) -> P {
+    let coefficients = p.coefficients(Symbol("t"));
+    let terms = (0..order)
+        .zip(0..)
+        .filter_map(|(n, power)| Some((n, coefficients.get(&power)?)));
+    sum(terms.map(|(n, coefficient)| coefficient.clone() * &power(&symbol("t"), n)))
+}
+
+/// Q of y/λ, times λ³, with the sums T₁, T₂ and S.
+fn cubic(q: &P, [t1, t2, s]: [&P; 3], y: &P, lambda: &P) -> P {
+    let stay = P::one() - q;
+    let ninth = |p: P| p.div_int(THREE).div_int(THREE);
+    let linear = (int(8) * &square(q)).div_int(THREE)
+        + &(int(2) * &square(&stay) * t1)
+        + &ninth(int(2) * &(int(3) - q) * &(int(3) - &(int(5) * q)) * s);
+    let constant = int(2) * &power(&stay, 3)
+        + &ninth(int(16) * &square(q) * &stay * t1)
+        + &ninth(int(2) * &stay * &(square(q) - &(int(18) * q) + &int(9)) * t2);
+    power(y, 3) - &(int(2) * &stay * t1 * &square(y) * lambda) + &(linear * y * &square(lambda))
+        - &(constant * &power(lambda, 3))
+}

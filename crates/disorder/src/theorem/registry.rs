@@ -1,0 +1,60 @@
+//! In which registry a layer lies.
+
+use core::array;
+
+use cannonpile::scalar::Algebra;
+use cannonpile::theorem::Step;
+use cannonpile::theorem::setting::{P, equations, symbol};
+use num_traits::{One, Zero};
+
+use super::{Formulas, sum, symbols};
+use crate::THREE;
+
+/// Of stackings that come to a registry by a + step, and by a − step.
+type Shares = [[P; 3]; 2];
+
+/// What one step more makes of them.
+fn stepped([plus, minus]: &Shares, q: &P) -> Shares {
+    let straight = P::one() - q;
+    let chosen = |same: &P, other: &P| same.clone() * &straight + &(other.clone() * q);
+    [
+        array::from_fn(|r| chosen(&plus[(r + 2) % 3], &minus[(r + 2) % 3])),
+        array::from_fn(|r| chosen(&minus[(r + 1) % 3], &plus[(r + 1) % 3])),
+    ]
+}
+
+/// By how much each registry exceeds a third of all.
+fn excesses([plus, minus]: &Shares) -> [P; 3] {
+    let third = sum(plus.iter().chain(minus).cloned()).div_int(THREE);
+    array::from_fn(|r| plus[r].clone() + &minus[r] - &third)
+}
+
+pub(super) fn registry(f: &Formulas) -> Vec<Step> {
+    let q = symbol("q");
+    let shares = [
+        symbols(["p_0", "p_1", "p_2"]),
+        symbols(["m_0", "m_1", "m_2"]),
+    ];
+    let once = stepped(&shares, &q);
+    let twice = stepped(&once, &q);
+    // A single layer has no sign: its share may stand with either.
+    let [u, v] = ["u", "v"].map(symbol);
+    let nothing = || [(); 3].map(|()| P::zero());
+    let begun = [[u.clone() + &v, P::zero(), P::zero()], nothing()];
+    let first = [[P::zero(), u, P::zero()], [P::zero(), P::zero(), v]];
+    let second = stepped(&first, &q);
+    let mut steps = Vec::new();
+    for (case, layers) in [
+        ("two steps below a single layer", [begun, first, second]),
+        ("two steps more", [shares, once, twice]),
+    ] {
+        let [before, after, below] = layers.each_ref().map(excesses);
+        for r in 0..3 {
+            steps.extend(equations! {
+                (format!("{case}: registry {r}")):
+                    (f.registry_excess)(&before[r], &after[r], &q) => below[r].clone(),
+            });
+        }
+    }
+    steps
+}

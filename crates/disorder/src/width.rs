@@ -1,0 +1,159 @@
+//! How wide the integers of a recursion have to be.
+//!
+//! A step of a stacking is orthogonal: it leads each force to another place, and a [half-turn](cannonpile::formula::half_turn)
+//! keeps the sum of squares. So the forces of one stacking, all of a layer, have a norm of at most
+//! B = Σ_j ‖w_j‖, with w_j what the spheres of layer j add: √(3 n_j) for n_j of them, and √3·W for a load of W mg on one.
+//! By faults the numerators over 3^d are a sum over at most C(k,d) beginnings, so that none is greater than 3^d C(k,d) B; by
+//! probability, over N^k, they are a mean, and none is greater than N^k B. Within 3G g no term is greater than 2√3 ‖g‖, and
+//! what the floor feels is, for two signs, at most twice the sum of three forces each, and six times its own weight: all
+//! less than 16 times these bounds.
+
+use num_bigint::{BigInt, BigUint};
+use num_integer::binomial;
+use num_traits::{One, Signed};
+
+use super::frame::Frame;
+use crate::Error;
+
+/// The integers of a recursion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Width {
+    /// `i64`.
+    Narrow,
+    /// `i128`.
+    Wide,
+    /// As long as they get.
+    Big,
+}
+
+impl Width {
+    /// Of numbers of so many bits, the sign aside.
+    pub(super) const fn of(bits: u64) -> Self {
+        match bits {
+            0..=62 => Self::Narrow,
+            63..=126 => Self::Wide,
+            _ => Self::Big,
+        }
+    }
+
+    /// How many words a number takes.
+    pub(super) const fn words(self, bits: u64) -> u64 {
+        match self {
+            Self::Narrow => 1,
+            Self::Wide => 2,
+            // The list of digits, its place in memory and its sign.
+            Self::Big => 6 + bits / 64,
+        }
+    }
+}
+
+/// The greatest 3^d C(n−1, d), in bits: at most that of 4^(n−1).
+pub(super) fn bits_of_counts(steps: i128) -> u64 {
+    let Ok(of) = u32::try_from((steps - 1).max(0)) else {
+        return u64::MAX / 4;
+    };
+    if of > 1000 {
+        // 4^(n−1).
+        return 2 * u64::from(of);
+    }
+    // The terms grow as long as 3(n−1−d) > d+1: the greatest is at d = ⌊3n/4⌋.
+    let greatest =
+        |d: u32| binomial(BigUint::from(of), BigUint::from(d)) * BigUint::from(3_u32).pow(d);
+    let around = (3 * of) / 4;
+    let bits = [around, (around + 1).min(of)].map(|d| greatest(d).bits());
+    bits[0].max(bits[1])
+}
+
+/// The bits of B over a denominator, sixteenfold; of a frame, or before there is one as many steps as memory allows.
+///
+/// # Errors
+/// [`Error::Bug`].
+pub(super) fn bits_of_sources(frame: &Frame<'_>, denominator: &BigInt) -> Result<u64, Error> {
+    let mut sum = BigUint::one();
+    if !frame.piles.is_weightless() {
+        for layer in 0..=frame.steps {
+            // No layer has more spheres than cells. ⌊√⌋ + 1 is above the root.
+            sum += BigUint::from(3 * frame.grid.reached(layer)?).sqrt() + 1_u32;
+        }
+    }
+    let loads = frame.piles.loads().values();
+    for load in loads {
+        // √3 < 2.
+        sum += load.abs().ceil().to_integer().magnitude() * 2_u32;
+    }
+    Ok((sum * denominator.magnitude()).bits() + 4)
+}
+
+#[cfg(test)]
+mod tests {
+    use num_rational::BigRational;
+
+    use super::super::frame::Load;
+    use super::*;
+    use crate::{FirstSign, RandomPiles, RandomStackings};
+    use cannonpile::lattice::{Region, Site};
+
+    #[test]
+    fn counts_take_the_bits_of_the_greatest() {
+        for steps in 0..=60_u32 {
+            let of = steps.saturating_sub(1);
+            let count = |d: u32| {
+                let ways = binomial(BigUint::from(of), BigUint::from(d));
+                (ways * BigUint::from(3_u32).pow(d)).bits()
+            };
+            let greatest = (0..=of).map(count).max();
+            assert_eq!(Some(bits_of_counts(steps.into())), greatest, "{steps}");
+        }
+        assert_eq!(bits_of_counts(1001), 1995);
+        // From there on those of 4^(n−1), that is two for each step but one, and never fewer.
+        for steps in [1002, 5000, 1 << 32] {
+            assert_eq!(i128::from(bits_of_counts(steps)), 2 * (steps - 1));
+        }
+        assert!(i128::from(bits_of_counts(1 << 40)) >= 2 * ((1 << 40) - 1));
+    }
+
+    /// 1, the roots of three times the cells of each layer, rounded up, and twice each load: over the denominator, and sixteenfold.
+    #[test]
+    fn sources_take_the_bits_of_their_bound() {
+        let load = |piles: RandomPiles| {
+            let load = BigRational::new(199.into(), 2.into());
+            piles.with_load(Site::APEX, load).unwrap()
+        };
+        for steps in 0..=40_u64 {
+            let stackings = RandomStackings::new(i128::from(steps) + 1, FirstSign::Plus).unwrap();
+            let under = RandomPiles::under(Region::SITE, stackings);
+            let roots = (0..=steps).map(|k| (3 * (3 * k * k + 3 * k + 1)).isqrt() + 1);
+            let roots: u64 = roots.sum();
+            for (piles, denominator, bound) in [
+                (under.clone(), 1_u64, 1 + roots),
+                (load(under.clone()), 2, 1 + roots + 200),
+                (load(under.weightless()), 6, 1 + 200),
+            ] {
+                let one = Load {
+                    classes: 1,
+                    words: 1,
+                };
+                let frame = Frame::new(&piles, one).unwrap();
+                let found = bits_of_sources(&frame, &denominator.into()).unwrap();
+                let bits = u64::from(64 - (bound * denominator).leading_zeros()) + 4;
+                assert_eq!(found, bits, "{steps} {denominator}");
+            }
+        }
+    }
+
+    /// The sign aside: 62 bits leave one of 63 free.
+    #[test]
+    fn words_of_each_width() {
+        for (bits, words) in [
+            (0, 1),
+            (62, 1),
+            (63, 2),
+            (126, 2),
+            (127, 7),
+            (128, 8),
+            (640, 16),
+        ] {
+            assert_eq!(Width::of(bits).words(bits), words, "{bits}");
+        }
+    }
+}

@@ -1,0 +1,354 @@
+//! Tallies against plain enumeration: every stacking made as a pile, its forces asked for one by one, and counted.
+
+use cannonpile::census;
+use cannonpile::lattice::Region;
+use cannonpile_disorder::{
+    By, Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard,
+};
+use cannonpile_horizontal::certificate::Claim;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::{AnyError, held, ratio};
+use cannonpile_testkit::tally::{Counted, Scene, all_signs, counted, text};
+
+fn is_as_enumerated(case: &Scene, steps: u32) -> Result<(), Error> {
+    let tally = case.ensemble(steps)?.run(&Choice::All, Shard::WHOLE)?;
+    let expected = case.counted(steps)?;
+    assert_eq!(counted(&tally), expected, "{} {steps}", case.top);
+    Ok(())
+}
+
+const FIRST: [FirstSign; 3] = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
+
+#[test]
+fn of_tops_under_their_weight() -> Result<(), Error> {
+    for (top, most) in [("hexagon:1", 7), ("hexagon:3", 5), ("triangle:3", 6)] {
+        for first in FIRST {
+            for steps in 0..=most {
+                is_as_enumerated(&Scene::of(top, first), steps)?;
+            }
+        }
+    }
+    // Bounds of another corner, of no symmetry.
+    for first in FIRST {
+        is_as_enumerated(&Scene::of("region:-2..1,3..5,2..5", first), 4)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn of_loads() -> Result<(), Error> {
+    for first in FIRST {
+        let mut case = Scene::of("hexagon:2", first);
+        // In the middle, where they are their own mirror image, and then not.
+        case.loads.push(([0, 0], ratio(5, 7)));
+        case.width = ratio(2, 5);
+        is_as_enumerated(&case, 5)?;
+        case.loads.push(([1, 0], ratio(1, 4)));
+        is_as_enumerated(&case, 5)?;
+        case.loads.push(([-1, 0], ratio(1, 4)));
+        is_as_enumerated(&case, 4)?;
+        case.weightless = true;
+        case.width = ratio(1, 24);
+        is_as_enumerated(&case, 5)?;
+        // No turn leads these two to their mirror image.
+        let mut case = Scene::of("hexagon:2", first);
+        case.loads = [[1, 0], [0, 1]].map(|at| (at, ratio(1, 4))).into();
+        is_as_enumerated(&case, 4)?;
+    }
+    Ok(())
+}
+
+/// Numerators of a load with a great denominator take 128 bits, and of a greater one any number.
+#[test]
+fn in_wide_numbers() -> Result<(), Error> {
+    for digits in [9, 18, 60] {
+        let mut case = Scene::of("triangle:2", FirstSign::Random);
+        let great = num_traits::pow(ratio(10, 1), digits) + ratio(1, 1);
+        case.loads.push(([1, 0], ratio(3, 1) / great));
+        is_as_enumerated(&case, 5)?;
+    }
+    Ok(())
+}
+
+/// Of long stackings: some of the shard are enough.
+#[test]
+fn of_parts() -> Result<(), Error> {
+    let case = Scene::of("hexagon:1", FirstSign::Plus);
+    let ensemble = case.ensemble(9)?;
+    let (mut from, of) = (0, 7);
+    let all = all_signs(9, FirstSign::Plus);
+    for index in 1..=of {
+        let tally = ensemble.run(&Choice::All, Shard::new(index, of)?)?;
+        let to = all.len() * usize::try_from(index).unwrap() / 7;
+        let mut expected: Vec<[Counted; 2]> = Vec::new();
+        expected.resize_with(9, Default::default);
+        for signs in &all[from..to] {
+            let faults = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            let pile = case.pile(signs)?;
+            let signs = text(signs.iter().copied());
+            expected[faults][0].meet(&pile, &signs, &case.width)?;
+            if pile.standing()?.first_failure.is_none() {
+                expected[faults][1].meet(&pile, &signs, &case.width)?;
+            }
+        }
+        assert_eq!(counted(&tally), expected, "{index}");
+        from = to;
+    }
+    Ok(())
+}
+
+/// Of a response the greatest force is below the top layer, and no other is as great if the sign changes at once. So of parts that begin so it
+/// is the beginning that has it, and the first stacking that goes on from it is named.
+#[test]
+fn of_parts_of_a_response() -> Result<(), Error> {
+    let mut scene = Scene::of("hexagon:1", FirstSign::Plus);
+    scene.loads.push(([0, 0], ratio(1, 1)));
+    scene.weightless = true;
+    let steps = 6;
+    let all = all_signs(steps, scene.first);
+    for of in [2, 3, 5, 7] {
+        for index in 1..=of {
+            let shard = Shard::new(index, of)?;
+            let tally = scene.ensemble(steps)?.run(&Choice::All, shard)?;
+            let [from, to] = [index - 1, index].map(|part| all.len() as u64 * part / of);
+            let [from, to] = [from, to].map(|end| usize::try_from(end).unwrap());
+            let expected = scene.counted_of(steps, &all[from..to])?;
+            assert_eq!(counted(&tally), expected, "{index} of {of}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn as_many_stand_as_in_the_census() -> Result<(), Error> {
+    for layers in 1..=12 {
+        let census = census::under_one_sphere(layers, false)?.count();
+        for (first, pairs) in [
+            (FirstSign::Plus, 1),
+            (FirstSign::Minus, 1),
+            (FirstSign::Random, if layers > 1 { 2 } else { 1 }),
+        ] {
+            let stackings = RandomStackings::new(layers, first)?;
+            let tally =
+                Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+            assert_eq!(tally.standing(By::Sloping), Some((census * pairs).into()));
+            for (d, with) in (0..).zip(&tally.faults) {
+                assert_eq!(with.all.stackings, stackings.count_with(d)?);
+            }
+            // At q = ½ all are equally likely.
+            let probability = tally.standing_probability(By::Sloping, &ratio(1, 2))?;
+            let standing = BigRational::from_integer((census * pairs).into());
+            let all = BigRational::from_integer(tally.stackings().into());
+            assert_eq!(probability, Some(standing / all));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn probabilities_are_sums_over_stackings() -> Result<(), Error> {
+    let q = ratio(2, 7);
+    for first in FIRST {
+        let case = Scene::of("triangle:3", first);
+        let tally = case.ensemble(5)?.run(&Choice::All, Shard::WHOLE)?;
+        let mut expected = BigRational::zero();
+        for signs in all_signs(5, first) {
+            if case.pile(&signs)?.standing()?.first_failure.is_none() {
+                let factors = signs.windows(2).map(|pair| {
+                    if pair[0] == pair[1] {
+                        ratio(1, 1) - &q
+                    } else {
+                        q.clone()
+                    }
+                });
+                expected += factors.product::<BigRational>();
+            }
+        }
+        expected /= BigRational::from_integer(first.signs().len().into());
+        let found = tally.standing_probability(By::Sloping, &q)?;
+        assert_eq!(found, Some(expected), "{first}");
+    }
+    Ok(())
+}
+
+#[test]
+fn as_many_stand_with_horizontal_contacts() -> Result<(), AnyError> {
+    for layers in 1..=9 {
+        let stackings = RandomStackings::new(layers, FirstSign::Random)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_horizontal_contacts()?;
+        let tally = held(&ensemble, &Choice::All, Shard::WHOLE)?;
+        let census = cannonpile_horizontal::census::under_one_sphere(layers, false)?.count();
+        let pairs = if layers > 1 { 2 } else { 1 };
+        assert_eq!(
+            tally.standing(By::Horizontal),
+            Some((census * pairs).into())
+        );
+    }
+    // Another top, each pile for itself; a load that is not its own mirror image.
+    let mut case = Scene::of("triangle:2", FirstSign::Random);
+    case.loads.push(([0, 0], ratio(1, 2)));
+    let ensemble = case.ensemble(5)?.with_horizontal_contacts()?;
+    let tally = held(&ensemble, &Choice::All, Shard::WHOLE)?;
+    let mut held = vec![0_u32; 5];
+    for signs in all_signs(5, FirstSign::Random) {
+        let certificate = cannonpile_horizontal::equilibrium(&case.pile(&signs)?)?;
+        if certificate.claim == Claim::Stands {
+            held[signs.windows(2).filter(|pair| pair[0] != pair[1]).count()] += 1;
+        }
+    }
+    let found = tally.faults.iter().map(|with| with.held.clone());
+    assert!(found.eq(held.into_iter().map(|held| Some(held.into()))));
+    Ok(())
+}
+
+/// Two layers have three forces of 1 and three normal forces of 4/3, all in the bin of 0; three widths must fit into a
+/// number.
+#[test]
+fn of_bins_as_wide_as_numbers_hold() -> Result<(), Error> {
+    for (width, exponent) in [
+        (3, 18),
+        (4, 18),
+        (6, 18),
+        (5, 37),
+        (6, 37),
+        (9, 37),
+        (1, 60),
+    ] {
+        let width = num_traits::pow(ratio(10, 1), exponent) * ratio(width, 1);
+        let stackings = RandomStackings::new(2, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bins(width.clone())?;
+        let tally = ensemble.run(&Choice::All, Shard::WHOLE)?;
+        let all = &tally.faults[0].all;
+        for histogram in [&all.forces, &all.normals] {
+            assert_eq!(histogram.first, 0, "{width}");
+            assert_eq!(histogram.counts, [3_u32.into()], "{width}");
+        }
+    }
+    Ok(())
+}
+
+/// What a single sphere bears is the sum of three forces, and so three times as great.
+#[test]
+fn of_loads_as_great_as_numbers_hold() -> Result<(), Error> {
+    for (load, exponent) in [(29, 17), (32, 17), (5, 37), (6, 37)] {
+        let unit = num_traits::pow(ratio(10, 1), exponent);
+        let stackings = RandomStackings::new(1, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.weightless();
+        let ensemble = ensemble.with_load([0, 0], &unit * ratio(load, 1))?;
+        let tally = ensemble.with_bins(unit)?.run(&Choice::All, Shard::WHOLE)?;
+        let normals = &tally.faults[0].all.normals;
+        assert_eq!((normals.first, normals.counts.len()), (load, 1));
+    }
+    Ok(())
+}
+
+/// In units of its denominator it is greater than a machine integer.
+#[test]
+fn of_a_load_with_a_great_denominator() -> Result<(), Error> {
+    let stackings = RandomStackings::new(1, FirstSign::Plus)?;
+    let ensemble = Ensemble::under(Region::SITE, stackings)?.weightless();
+    let load = ratio(3_000_000_000, 1) + ratio(1, 10_000_000_019);
+    let ensemble = ensemble.with_load([0, 0], load)?;
+    let bins = ensemble.with_bins(ratio(1_000_000, 1))?;
+    let tally = bins.run(&Choice::All, Shard::WHOLE)?;
+    let normals = &tally.faults[0].all.normals;
+    assert_eq!((normals.first, normals.counts.len()), (3_000, 1));
+    Ok(())
+}
+
+/// No force of a single sphere is greater than 2, so that 10⁵ bins from −2 to 2 are 1/25000 wide; it bears 1.
+#[test]
+fn as_many_bins_as_there_may_be() -> Result<(), Error> {
+    let of = |width| {
+        let stackings = RandomStackings::new(1, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(Region::SITE, stackings)?.with_bins(width)?;
+        ensemble.run(&Choice::All, Shard::WHOLE)
+    };
+    let tally = of(ratio(1, 25_000))?;
+    let normals = &tally.faults[0].all.normals;
+    assert_eq!((normals.first, normals.counts.len()), (25_000, 1));
+    let refused = of(ratio(1, 25_001)).unwrap_err();
+    let Error::Core(cannonpile::Error::TooLarge { needed, limit, .. }) = refused else {
+        panic!("there are too many bins");
+    };
+    assert_eq!((needed, limit), (100_004_u32.into(), 100_000));
+    Ok(())
+}
+
+/// The most spheres of each of so many layers under one: after p + steps and m − steps a hexagon of p + 1 and m + 1 spheres.
+fn spheres(layers: u64) -> u64 {
+    let hexagon = |p: u64, q: u64| (p * p + q * q + 4 * p * q + 2 - 3 * p - 3 * q) / 2;
+    let most = |k: u64| (0..=k).map(|plus| hexagon(plus + 1, k - plus + 1)).max();
+    (0..layers).map(|k| most(k).unwrap()).sum()
+}
+
+/// Six numbers for each sphere, each as long as the forces can get.
+#[test]
+fn what_is_too_large_says_how_large() -> Result<(), Error> {
+    let one = Choice::Drawn(Samples::new(1, 1, ratio(1, 2))?);
+    let needed = |ensemble: &Ensemble| match ensemble.size(&one, Shard::WHOLE) {
+        Err(Error::Core(cannonpile::Error::TooLarge { needed, limit, .. })) => {
+            assert_eq!(limit, 50_000_000);
+            u64::try_from(needed).unwrap()
+        }
+        other => panic!("{other:?}"),
+    };
+    // A hexagon of 4000 has 3·4000·3999 + 1 spheres.
+    let stackings = RandomStackings::new(3, FirstSign::Plus)?;
+    let wide = Ensemble::under("hexagon:4000".parse()?, stackings)?;
+    assert_eq!(needed(&wide), 6 * (3 * 4000 * 3999 + 1));
+    // A load of 2^−1640, 17 bits for forces, and 3^108 for changes of sign: 28 words and a half, and five to keep them.
+    let stackings = RandomStackings::new(110, FirstSign::Plus)?;
+    let load = num_traits::pow(ratio(1, 2), 1640);
+    let fine = Ensemble::under(Region::SITE, stackings)?.with_load([0, 0], load)?;
+    assert_eq!(needed(&fine), 6 * spheres(110) * 33);
+    Ok(())
+}
+
+#[test]
+fn what_is_too_much_is_refused() -> Result<(), Error> {
+    let run = |top: &str, layers, width, shard| {
+        let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
+        let ensemble = Ensemble::under(top.parse()?, stackings)?.with_bins(width)?;
+        ensemble.run(&Choice::All, shard)
+    };
+    for (top, layers, width, expected) in [
+        (
+            "hexagon:1",
+            27,
+            ratio(1, 3),
+            "33554432 stackings are too many to go through at a time, at most 16777216: draw samples, take a smaller shard, or fewer layers",
+        ),
+        ("hexagon:1", 200, ratio(1, 3), "stackings are too many"),
+        (
+            "hexagon:1",
+            10_i128.pow(30),
+            ratio(1, 3),
+            "use fewer layers, or a smaller top",
+        ),
+        (
+            "hexagon:1e30",
+            3,
+            ratio(1, 3),
+            "use fewer layers, or a smaller top",
+        ),
+        (
+            "hexagon:1",
+            9,
+            ratio(1, 10_000),
+            "use wider bins, or fewer layers",
+        ),
+    ] {
+        let error = run(top, layers, width, Shard::WHOLE)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    // A part of them is no more than the whole of fewer layers.
+    let part = run("hexagon:1", 30, ratio(1, 3), Shard::new(1, 1 << 22)?)?;
+    assert_eq!(part.stackings(), 64_u32.into());
+    assert_eq!(part.standing_probability(By::Sloping, &ratio(1, 2))?, None);
+    Ok(())
+}

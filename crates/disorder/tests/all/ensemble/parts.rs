@@ -1,0 +1,509 @@
+//! Parts: cut up in any way they come to the whole, and what is no part of it is refused by name.
+
+use cannonpile_disorder::{
+    Choice, Ensemble, Error, FirstSign, RandomStackings, Samples, Shard, Tally, TallyRecord,
+    Unmergeable, WithFaults,
+};
+use num_bigint::BigUint;
+use num_rational::BigRational;
+
+use super::{AnyError, held, ratio};
+
+fn ensemble(top: &str, layers: i128) -> Result<Ensemble, Error> {
+    Ensemble::under(
+        top.parse()?,
+        RandomStackings::new(layers, FirstSign::Random)?,
+    )
+}
+
+fn drawn(count: u64, seed: u64, q: BigRational) -> Result<Choice, Error> {
+    Ok(Choice::Drawn(Samples::new(count, seed, q)?))
+}
+
+#[test]
+fn cut_up_in_any_way() -> Result<(), Error> {
+    let choices = [Choice::All, drawn(9000, 1, ratio(1, 3))?];
+    for (top, layers) in [("hexagon:1", 10), ("triangle:2", 6), ("hexagon:1", 1)] {
+        let ensemble = ensemble(top, layers)?;
+        for choice in &choices {
+            let whole = ensemble.run(choice, Shard::WHOLE)?;
+            for of in [1, 2, 3, 5, 64, 700] {
+                let parts = (1..=of).map(|index| ensemble.run(choice, Shard::new(index, of)?));
+                let mut parts = parts.collect::<Result<Vec<_>, _>>()?;
+                // In another order than that of their numbers.
+                parts.sort_by_key(|part| part.shard.index() * 389 % of);
+                assert_eq!(Tally::merge(&parts).as_ref(), Ok(&whole), "{top} {of}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// More parts than samples: some have none, of a single layer too.
+#[test]
+fn parts_of_nothing() -> Result<(), Error> {
+    for layers in [1, 2, 4] {
+        let ensemble = ensemble("hexagon:1", layers)?;
+        for choice in [Choice::All, drawn(2, 1, ratio(1, 3))?] {
+            let whole = ensemble.run(&choice, Shard::WHOLE)?;
+            let parts = (1..=33).map(|index| ensemble.run(&choice, Shard::new(index, 33)?));
+            let parts = parts.collect::<Result<Vec<_>, _>>()?;
+            let nothing = parts.iter().filter(|part| part.stackings() == 0_u32.into());
+            assert!(nothing.clone().count() >= 25);
+            for with in nothing.flat_map(|part| &part.faults) {
+                assert!(with.all.normals.counts.is_empty() && with.all.least_normal.is_none());
+            }
+            assert_eq!(Tally::merge(&parts), Ok(whole), "{layers}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_no_part_is_refused() -> Result<(), Error> {
+    let load = |ensemble: Ensemble| ensemble.with_load([0, 0], ratio(1, 2));
+    let this = || load(ensemble("hexagon:2", 4)?);
+    let choice = drawn(90, 7, ratio(1, 3))?;
+    let first = Shard::new(1, 3)?;
+    let second = Shard::new(2, 3)?;
+    let begin = this()?.run(&choice, first)?;
+    let others: [(Ensemble, Choice, Shard, [&str; 3]); 10] = [
+        (
+            load(ensemble("hexagon:2", 5)?)?,
+            choice.clone(),
+            second,
+            ["number of layers", "5", "4"],
+        ),
+        (
+            load(Ensemble::under(
+                "hexagon:2".parse()?,
+                RandomStackings::new(4, FirstSign::Minus)?,
+            )?)?,
+            choice.clone(),
+            second,
+            ["first sign", "-", "random"],
+        ),
+        (
+            load(ensemble("hexagon:3", 4)?)?,
+            choice.clone(),
+            second,
+            ["top", "hexagon:3", "hexagon:2"],
+        ),
+        (
+            load(this()?)?,
+            choice.clone(),
+            second,
+            ["load", "0,0=1", "0,0=1/2"],
+        ),
+        (
+            this()?.weightless(),
+            choice.clone(),
+            second,
+            ["weight of spheres", "0", "1"],
+        ),
+        (
+            this()?.with_bins(ratio(1, 2))?,
+            choice.clone(),
+            second,
+            ["width of bins", "1/2", "1/3"],
+        ),
+        (
+            this()?,
+            Choice::All,
+            second,
+            ["number of samples", "none", "90"],
+        ),
+        (
+            this()?,
+            drawn(90, 8, ratio(1, 3))?,
+            second,
+            ["seed", "8", "7"],
+        ),
+        (
+            this()?,
+            drawn(90, 7, ratio(1, 4))?,
+            second,
+            ["fault probability", "1/4", "1/3"],
+        ),
+        (
+            this()?,
+            choice.clone(),
+            Shard::new(2, 4)?,
+            ["number of parts", "4", "3"],
+        ),
+    ];
+    for (ensemble, choice, shard, [name, has, of_first]) in others {
+        let other = ensemble.run(&choice, shard)?;
+        let refused = Tally::merge(&[begin.clone(), other]).unwrap_err();
+        assert!(refused.to_string().contains(name), "{refused}");
+        let Unmergeable::Other {
+            place,
+            what,
+            found,
+            expected,
+        } = refused
+        else {
+            panic!("{refused}");
+        };
+        assert_eq!(
+            (place, what, found.as_str(), expected.as_str()),
+            (1, name, has, of_first)
+        );
+    }
+    Ok(())
+}
+
+/// ⌊128 I/3⌋ and so on; one of two mirror images is looked at where both have the same forces, and every sample.
+#[test]
+fn a_part_is_as_large_as_it_says() -> Result<(), Error> {
+    let sizes = |top: &str, choice: &Choice, of: u64| -> Result<Vec<u64>, Error> {
+        let ensemble = ensemble(top, 9)?;
+        let size = |index| ensemble.size(choice, Shard::new(index, of)?);
+        (1..=of).map(size).collect()
+    };
+    let drawn = drawn(100, 1, ratio(1, 3))?;
+    for (top, choice, of, expected) in [
+        ("hexagon:1", &Choice::All, 3, vec![42, 43, 43]),
+        ("hexagon:1", &Choice::All, 4, vec![32; 4]),
+        ("triangle:2", &Choice::All, 3, vec![85, 85, 86]),
+        ("hexagon:1", &drawn, 3, vec![33, 33, 34]),
+    ] {
+        assert_eq!(sizes(top, choice, of)?, expected, "{top}");
+    }
+    Ok(())
+}
+
+/// A load on each of these sites of a top layer, and whether the whole is its own mirror image: then of 16 stackings 8 are looked at.
+#[test]
+fn loads_are_their_own_mirror_image_or_not() -> Result<(), Error> {
+    let hexagon = "hexagon:2";
+    let elsewhere = "region:1..3,-6..-4,-4..-2";
+    let same: [(&str, &[[i128; 2]]); 6] = [
+        (hexagon, &[]),
+        (hexagon, &[[0, 0]]),
+        (hexagon, &[[1, 0], [-1, 0]]),
+        (hexagon, &[[0, 1], [0, -1], [1, -1], [-1, 1]]),
+        (elsewhere, &[[2, -5]]),
+        (elsewhere, &[[3, -5], [1, -5], [2, -4], [2, -6]]),
+    ];
+    let other: [(&str, &[[i128; 2]]); 7] = [
+        (hexagon, &[[1, 0]]),
+        (hexagon, &[[0, 1]]),
+        (hexagon, &[[1, 0], [0, 1], [-1, 0]]),
+        (hexagon, &[[0, 1], [1, 0], [0, -1]]),
+        (elsewhere, &[[3, -5]]),
+        (elsewhere, &[[2, -4]]),
+        ("triangle:2", &[]),
+    ];
+    let looked_at = |(top, sites): (&str, &[[i128; 2]]), last: BigRational| -> Result<u64, Error> {
+        let mut ensemble = ensemble(top, 5)?;
+        for (n, site) in sites.iter().enumerate() {
+            let is_last = n + 1 == sites.len();
+            let load = if is_last { last.clone() } else { ratio(1, 2) };
+            ensemble = ensemble.with_load(*site, load)?;
+        }
+        ensemble.size(&Choice::All, Shard::WHOLE)
+    };
+    for (top, sites) in same {
+        assert_eq!(looked_at((top, sites), ratio(1, 2))?, 8, "{top} {sites:?}");
+        // As many loads, of which one is another.
+        let expected = if sites.len() > 1 { 16 } else { 8 };
+        let found = looked_at((top, sites), ratio(1, 3))?;
+        assert_eq!(found, expected, "{top} {sites:?}");
+    }
+    for (top, sites) in other {
+        assert_eq!(looked_at((top, sites), ratio(1, 2))?, 16, "{top} {sites:?}");
+    }
+    Ok(())
+}
+
+/// Places of stackings are counted in 62 bits; beyond that not even a small part of them has any.
+#[test]
+fn a_part_of_more_stackings_than_are_counted_is_refused() {
+    let size = |layers, of| {
+        let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
+        let ensemble = Ensemble::under("hexagon:1".parse()?, stackings)?;
+        ensemble.size(&Choice::All, Shard::new(1, of)?)
+    };
+    assert_eq!(size(63, 1 << 45), Ok(1 << 16));
+    let refused = |layers, of, expected: u128| {
+        let refused = size(layers, of).unwrap_err();
+        let Error::TooManyStackings {
+            stackings, limit, ..
+        } = refused
+        else {
+            panic!("{refused:?}");
+        };
+        assert_eq!((stackings, limit), (BigUint::from(expected), 1 << 24));
+    };
+    refused(64, 1 << 45, 1 << 62);
+    refused(80, 1 << 63, 1 << 78);
+    // As large as a part may be, and one larger.
+    assert_eq!(size(26, 1), Ok(1 << 24));
+    assert_eq!(size(27, 2), Ok(1 << 24));
+    refused(27, 1, 1 << 25);
+    refused(31, 31, (1 << 29) / 31);
+}
+
+/// The first twenty are named.
+#[test]
+fn many_missing_parts_are_named_as_far_as_twenty() -> Result<(), Error> {
+    for (of, names) in [(2, 1), (3, 2), (21, 20), (22, 20), (40, 20)] {
+        let part = ensemble("hexagon:1", 3)?.run(&Choice::All, Shard::new(1, of)?)?;
+        let missing = Tally::merge(&[part]).unwrap_err();
+        let named: Vec<_> = (2..names + 2)
+            .map(|index| format!("{index}/{of}"))
+            .collect();
+        let (count, more) = (of - 1, if of > 21 { ", …" } else { "" });
+        let parts = if count == 1 { "part is" } else { "parts are" };
+        let expected = format!(
+            "{count} {parts} missing, {}{more}: run ensemble with --shard for each, and give its file too",
+            named.join(", ")
+        );
+        assert_eq!(missing.to_string(), expected);
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_missing_or_there_twice_is_said() -> Result<(), Error> {
+    let part = |index| ensemble("hexagon:2", 4)?.run(&Choice::All, Shard::new(index, 3)?);
+    let begin = part(1)?;
+    let third = part(3)?;
+    let missing = Tally::merge(&[third.clone(), begin.clone()]).unwrap_err();
+    assert_eq!(
+        missing,
+        Unmergeable::Missing {
+            shards: vec![Shard::new(2, 3)?],
+            count: 1
+        }
+    );
+    assert!(
+        missing
+            .to_string()
+            .starts_with("1 part is missing, 2/3: run ensemble with --shard")
+    );
+    let twice = Tally::merge(&[third.clone(), begin.clone(), third.clone()]).unwrap_err();
+    assert_eq!(
+        twice,
+        Unmergeable::Twice {
+            place: 2,
+            shard: third.shard
+        }
+    );
+    assert_eq!(Tally::merge(&[]), Err(Unmergeable::Nothing));
+    // As a file would have it that was cut, or changed.
+    let mut cut = begin;
+    cut.faults.pop();
+    assert_eq!(
+        Tally::merge(&[third, cut]),
+        Err(Unmergeable::Impossible { place: 1 })
+    );
+    Ok(())
+}
+
+/// What is changed in the counts of a number of faults.
+type Change = fn(&mut WithFaults);
+
+/// Bins as far out as a run may have them, of a number that is there; not one further, and none without the number it begins or ends
+/// with.
+#[test]
+fn bins_that_no_run_can_have_are_refused() -> Result<(), Error> {
+    let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
+    let changed_of = |faults: usize, change: &dyn Fn(&mut WithFaults)| {
+        let mut changed = whole.clone();
+        change(&mut changed.faults[faults]);
+        let merged = Tally::merge(std::slice::from_ref(&changed));
+        match merged {
+            Err(Unmergeable::Impossible { place: 0 }) => false,
+            merged => {
+                assert_eq!(merged, Ok(changed));
+                true
+            }
+        }
+    };
+    let changed = |change: &dyn Fn(&mut WithFaults)| changed_of(1, change);
+    let up_to = |last: i64| {
+        changed(&|with| {
+            let normals = &mut with.all.normals;
+            let length = usize::try_from(last - normals.first + 1).unwrap();
+            normals.counts.resize(length, 0_u32.into());
+            *normals.counts.last_mut().unwrap() = 1_u32.into();
+            let greatest = with.all.greatest_normal.as_mut();
+            greatest.unwrap().force = ratio(last, 3);
+        })
+    };
+    assert!(up_to(99_999));
+    assert!(!up_to(100_000));
+    let down_to = |first: i64| {
+        changed(&|with| {
+            let normals = &mut with.all.normals;
+            let more = usize::try_from(normals.first - first).unwrap();
+            let zeros = vec![0_u32.into(); more];
+            normals.counts.splice(0..0, zeros);
+            normals.counts[0] = 1_u32.into();
+            normals.first = first;
+            with.all.least_normal.as_mut().unwrap().force = ratio(first, 3);
+        })
+    };
+    assert!(down_to(-100_000));
+    assert!(!down_to(-100_001));
+    assert!(!changed(&|with| {
+        let counts = &mut with.all.normals.counts;
+        let first = std::mem::take(&mut counts[0]);
+        counts[1] += first;
+    }));
+    assert!(!changed(&|with| {
+        let counts = &mut with.all.normals.counts;
+        let last = counts.len() - 1;
+        let count = std::mem::take(&mut counts[last]);
+        counts[last - 1] += count;
+    }));
+    // With three faults none stands: without numbers there is no first bin, and no end.
+    assert!(whole.faults[3].standing.normals.counts.is_empty());
+    assert!(changed_of(3, &|_| {}));
+    let refused: [Change; 4] = [
+        |with| with.standing.normals.first = 1,
+        |with| with.standing.forces.first = -1,
+        |with| with.standing.least_normal = with.all.least_normal.clone(),
+        |with| with.standing.greatest = with.all.greatest.clone(),
+    ];
+    for change in refused {
+        assert!(!changed_of(3, &change));
+    }
+    Ok(())
+}
+
+/// Bins that no run has are counted as they are, though the last one ends beyond all that counts them.
+#[test]
+fn bins_at_the_end_of_the_numbers_are_counted() -> Result<(), Error> {
+    let mut tally = ensemble("triangle:1", 2)?.run(&Choice::All, Shard::WHOLE)?;
+    let bins = &mut tally.faults[0].all.forces;
+    bins.first = i64::MAX;
+    bins.counts = vec![4_u32.into(); 2];
+    let last = i128::from(i64::MAX) + 1;
+    let counts = [last - 2, last - 1, last, last + 1].map(|bin| bins.count(bin));
+    assert_eq!(counts, [0_u32, 4, 4, 0].map(Into::into));
+    Ok(())
+}
+
+/// As a file would have it in which numbers were changed by hand.
+#[test]
+fn what_no_run_has_counted_is_refused() -> Result<(), Error> {
+    let whole = ensemble("hexagon:2", 5)?.run(&Choice::All, Shard::WHOLE)?;
+    assert_eq!(
+        Tally::merge(std::slice::from_ref(&whole)).as_ref(),
+        Ok(&whole)
+    );
+    let refused = |name: &str, changed: Tally| {
+        let found = Tally::merge(&[changed]);
+        assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }), "{name}");
+    };
+    let changes: [(&str, Change); 10] = [
+        ("another number of faults", |with| with.faults += 1),
+        ("more stand than there are", |with| {
+            with.standing.stackings = with.all.stackings.clone() + 1_u32;
+        }),
+        ("horizontal contacts", |with| with.held = Some(1_u32.into())),
+        ("a contact lost", |with| with.all.contacts -= 1_u32),
+        ("another least force", |with| {
+            with.all.least.as_mut().unwrap().force += ratio(1, 1);
+        }),
+        ("another greatest normal force", |with| {
+            with.standing.greatest_normal.as_mut().unwrap().force -= ratio(1, 1);
+        }),
+        ("a stacking with other faults", |with| {
+            with.all.greatest.as_mut().unwrap().stacking = "++++".parse().unwrap();
+        }),
+        ("a stacking of other layers", |with| {
+            with.all.greatest.as_mut().unwrap().stacking = "+-".parse().unwrap();
+        }),
+        ("no least force", |with| with.all.least = None),
+        ("a bin before the first", |with| {
+            with.all.normals.counts.insert(0, 0_u32.into());
+            with.all.normals.first -= 1;
+        }),
+    ];
+    for (name, change) in changes {
+        let mut changed = whole.clone();
+        change(&mut changed.faults[1]);
+        refused(name, changed);
+    }
+    // As many in all, but more of a number of faults than there are.
+    let mut changed = whole;
+    changed.faults[1].all.stackings += 1_u32;
+    changed.faults[2].all.stackings -= 1_u32;
+    refused("a stacking counted elsewhere", changed);
+    Ok(())
+}
+
+#[test]
+fn a_file_of_another_fault_probability_is_refused() -> Result<(), Box<dyn std::error::Error>> {
+    let q = ratio(1, 3);
+    for (choice, wrong, said) in [
+        (Choice::All, "7/3", "at least 0 and at most 1, not 7/3"),
+        (
+            drawn(9, 1, q.clone())?,
+            "1/4",
+            "another fault probability, 1/3",
+        ),
+    ] {
+        let tally = ensemble("hexagon:1", 5)?.run(&choice, Shard::WHOLE)?;
+        let record = TallyRecord::new(tally, q.clone())?;
+        let mut text = Vec::new();
+        record.write(&mut text)?;
+        let text = String::from_utf8(text)?;
+        assert_eq!(TallyRecord::read(text.as_bytes())?, record);
+        let changed = text.replace(
+            "\n  \"fault_probability\": \"1/3\"",
+            &format!("\n  \"fault_probability\": \"{wrong}\""),
+        );
+        let refused = TallyRecord::read(changed.as_bytes()).unwrap_err();
+        assert_eq!(refused.kind(), std::io::ErrorKind::InvalidData);
+        assert!(refused.to_string().contains(said), "{refused}");
+    }
+    Ok(())
+}
+
+#[test]
+fn more_held_than_there_are_or_fewer_than_stand_is_refused() -> Result<(), AnyError> {
+    let touching = ensemble("hexagon:1", 6)?.with_horizontal_contacts()?;
+    let whole = held(&touching, &Choice::All, Shard::WHOLE)?;
+    assert_eq!(
+        Tally::merge(std::slice::from_ref(&whole)).as_ref(),
+        Ok(&whole)
+    );
+    let row = &whole.faults[2];
+    for held in [
+        row.all.stackings.clone() + 1_u32,
+        row.standing.stackings.clone() - 1_u32,
+    ] {
+        let mut changed = whole.clone();
+        changed.faults[2].held = Some(held);
+        let found = Tally::merge(&[changed]);
+        assert_eq!(found, Err(Unmergeable::Impossible { place: 0 }));
+    }
+    Ok(())
+}
+
+#[test]
+fn another_spacing_is_refused() -> Result<(), AnyError> {
+    let part = |index| -> Result<_, Error> {
+        ensemble("hexagon:1", 5)?.run(&Choice::All, Shard::new(index, 2)?)
+    };
+    let touching = ensemble("hexagon:1", 5)?.with_horizontal_contacts()?;
+    let other = held(&touching, &Choice::All, Shard::new(2, 2)?)?;
+    let refused = Tally::merge(&[part(1)?, other]).unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .starts_with("another spacing than that of the first part, 1 and not above 1:")
+    );
+    let parts =
+        [1, 2].map(|index| held(&touching, &Choice::All, Shard::new(index, 2).unwrap()).unwrap());
+    assert_eq!(
+        Tally::merge(&parts),
+        Ok(held(&touching, &Choice::All, Shard::WHOLE)?)
+    );
+    Ok(())
+}

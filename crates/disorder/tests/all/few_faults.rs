@@ -1,0 +1,200 @@
+//! Stackings with few faults: each force is a sum over the directions of the runs, in closed form.
+
+use std::collections::BTreeMap;
+
+use cannonpile_disorder::FirstSign;
+use num_rational::BigRational;
+
+use cannonpile_testkit::answers::ratio;
+use cannonpile_testkit::disorder::{Piles, Sums, by_faults};
+use cannonpile_testkit::oracles::one_by_one::Place;
+
+type Loads = BTreeMap<Place, BigRational>;
+
+/// The place that runs of so many steps along these directions lead to, with signs in turn: α, β, γ are 0, 1, 2.
+fn place(runs: &[i64], labels: &[usize]) -> Place {
+    let mut steps = [0; 3];
+    let signs = [1, -1].into_iter().cycle();
+    for ((run, label), sign) in runs.iter().zip(labels).zip(signs) {
+        steps[*label] += sign * run;
+    }
+    let [a, b, c] = steps;
+    [b - a, c - a]
+}
+
+/// ⅓ Π over the changes of direction: −⅓ for one that is none, else ⅔.
+fn amplitude(labels: &[usize]) -> BigRational {
+    let factor = |pair: &[usize]| {
+        if pair[0] == pair[1] {
+            ratio(-1, 3)
+        } else {
+            ratio(2, 3)
+        }
+    };
+    labels
+        .windows(2)
+        .map(factor)
+        .fold(ratio(1, 3), |product, factor| product * factor)
+}
+
+/// All sequences of as many directions as there are runs.
+fn labels(runs: usize) -> Vec<Vec<usize>> {
+    let mut all = vec![Vec::new()];
+    for _ in 0..runs {
+        let longer =
+            |labels: &Vec<usize>| [0, 1, 2].map(|label| [labels.as_slice(), &[label]].concat());
+        all = all.iter().flat_map(longer).collect();
+    }
+    all
+}
+
+/// The response below runs of so many steps.
+fn response(runs: &[i64]) -> Loads {
+    let mut loads = Loads::new();
+    for labels in labels(runs.len()) {
+        *loads.entry(place(runs, &labels)).or_default() += amplitude(&labels);
+    }
+    loads
+}
+
+/// All ways to cut n steps into so many runs.
+fn compositions(n: i64, runs: usize) -> Vec<Vec<i64>> {
+    if runs == 1 {
+        return vec![vec![n]];
+    }
+    let first = 1..=n - i64::try_from(runs).unwrap() + 1;
+    let cut = |first: i64| {
+        compositions(n - first, runs - 1)
+            .into_iter()
+            .map(move |rest| [&[first], &rest[..]].concat())
+    };
+    first.flat_map(cut).collect()
+}
+
+/// By faults, from the closed form alone.
+fn closed(n: i64, faults: usize) -> Loads {
+    let mut sums = Loads::new();
+    for runs in compositions(n, faults + 1) {
+        for (place, load) in response(&runs) {
+            *sums.entry(place).or_default() += load;
+        }
+    }
+    sums.retain(|_, load| *load != ratio(0, 1));
+    sums
+}
+
+fn of_library(sums: &Sums, of: usize) -> Loads {
+    let rows = sums.iter().filter(|((_, faults), _)| *faults == of);
+    let loads = rows.map(|((place, _), (_, floor))| (*place, floor[0].clone()));
+    loads.filter(|(_, load)| *load != ratio(0, 1)).collect()
+}
+
+#[test]
+fn sums_over_runs_and_their_directions() {
+    for (n, steps) in (1..=8).zip(1..) {
+        let piles = Piles::response(n, FirstSign::Plus).piles().unwrap();
+        let sums = by_faults(&piles).unwrap();
+        for faults in 0..n {
+            assert_eq!(
+                of_library(&sums, faults),
+                closed(steps, faults),
+                "{n} {faults}"
+            );
+        }
+    }
+    // Few faults of many steps.
+    let piles = Piles::response(20, FirstSign::Plus).piles().unwrap();
+    let sums = by_faults(&piles).unwrap();
+    for faults in 0..=2 {
+        assert_eq!(of_library(&sums, faults), closed(20, faults));
+    }
+}
+
+/// How often each load occurs.
+fn spots(loads: &Loads) -> BTreeMap<BigRational, usize> {
+    let mut counts = BTreeMap::new();
+    for load in loads.values() {
+        *counts.entry(load.clone()).or_default() += 1;
+    }
+    counts
+}
+
+/// The sum over stackings with one fault, of which one is left: the others have their own places, or are taken away.
+#[test]
+fn one_fault_has_nine_spots_or_seven() {
+    let spots_of = |runs: &[i64]| spots(&response(runs));
+    let nine = BTreeMap::from([(ratio(2, 9), 6), (ratio(-1, 9), 3)]);
+    assert_eq!(spots_of(&[2, 3]), nine);
+    assert_eq!(spots_of(&[5, 1]), nine);
+    // Under the load, where the fault is in the middle.
+    let seven = BTreeMap::from([(ratio(2, 9), 6), (ratio(-1, 3), 1)]);
+    for half in 1..=4 {
+        assert_eq!(spots_of(&[half, half]), seven);
+        assert_eq!(response(&[half, half])[&[0, 0]], ratio(-1, 3));
+    }
+    // Of two steps there is one way, and the library says it.
+    let piles = Piles::response(2, FirstSign::Plus).piles().unwrap();
+    assert_eq!(
+        of_library(&by_faults(&piles).unwrap(), 1),
+        response(&[1, 1])
+    );
+}
+
+#[test]
+fn two_faults_have_27_spots_or_21_or_18() {
+    let general = BTreeMap::from([(ratio(1, 27), 3), (ratio(-2, 27), 12), (ratio(4, 27), 12)]);
+    assert_eq!(spots(&response(&[2, 7, 3])), general);
+    let two_alike = spots(&response(&[3, 3, 7]));
+    assert_eq!(two_alike.values().sum::<usize>(), 21);
+    assert_eq!(two_alike[&ratio(-1, 9)], 3);
+    let ends_alike = spots(&response(&[3, 5, 3]));
+    let expected = [
+        (ratio(1, 27), 3),
+        (ratio(-4, 27), 6),
+        (ratio(4, 27), 6),
+        (ratio(8, 27), 3),
+    ];
+    assert_eq!(ends_alike, BTreeMap::from(expected));
+}
+
+/// The slope at q = 0 is the sum over one fault, less n − 1 times FCC.
+#[test]
+fn the_slope_at_fcc() {
+    for n in 1..=9 {
+        let piles = Piles::response(n, FirstSign::Plus).piles().unwrap();
+        let polynomials = piles.by_faults().unwrap().polynomial().unwrap();
+        let under = polynomials.at(cannonpile_disorder::Place { a: 0, b: 0 });
+        let slope = under.map_or_else(
+            || ratio(0, 1),
+            |row| {
+                let q = cannonpile::scalar::Symbol("q");
+                let at = |x: BigRational| row.normal.evaluate(&[(q, x)]).unwrap();
+                // Exact in the end: a difference quotient of polynomials, for smaller and smaller steps.
+                let step = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(40));
+                let quotient = (at(step.clone()) - at(ratio(0, 1))) / &step;
+                (quotient * ratio(9, 1)).round() / ratio(9, 1)
+            },
+        );
+        let expected = if n > 1 && n % 2 == 0 {
+            ratio(-1, 3)
+        } else {
+            ratio(0, 1)
+        };
+        assert_eq!(slope, expected, "{n}");
+    }
+}
+
+/// A wrong factor, a wrong place or a wrong sign of a run is another response.
+#[test]
+fn planted_faults_are_found() {
+    let piles = Piles::response(4, FirstSign::Plus).piles().unwrap();
+    let sums = by_faults(&piles).unwrap();
+    let right = closed(4, 2);
+    assert_eq!(of_library(&sums, 2), right);
+    let mut load = right.clone();
+    *load.values_mut().next().unwrap() += ratio(1, 27);
+    assert_ne!(of_library(&sums, 2), load);
+    assert_ne!(of_library(&sums, 1), right);
+    let minus = by_faults(&Piles::response(4, FirstSign::Minus).piles().unwrap()).unwrap();
+    assert_ne!(of_library(&minus, 2), of_library(&sums, 2));
+}

@@ -1,0 +1,86 @@
+//! The integers are as wide as they have to be: 64 bits, 128 bits or any number, with one answer.
+
+use cannonpile::lattice::{Region, Site};
+use cannonpile_disorder::{FirstSign, RandomPiles, RandomStackings};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+
+use cannonpile_testkit::answers::ratio;
+use cannonpile_testkit::disorder::{Anchor, Piles, by_faults, by_place};
+
+fn power(bits: usize) -> BigRational {
+    BigRational::from_integer(BigInt::one() << bits)
+}
+
+/// A load as heavy or as fine as this makes the numbers longer, and changes nothing else.
+#[test]
+fn answers_scale_with_the_load() {
+    let stackings = RandomStackings::new(10, FirstSign::Random).unwrap();
+    let loaded = |load: &BigRational| {
+        let plane = RandomPiles::plane(stackings).weightless();
+        let plane = plane.with_load(Site::APEX, load.clone()).unwrap();
+        plane
+            .with_load(Site { i: 1, j: -2, k: 0 }, load * ratio(2, 3))
+            .unwrap()
+    };
+    let one = ratio(1, 1);
+    let by_one = by_faults(&loaded(&one)).unwrap();
+    let exact = by_place(loaded(&one).exact(&ratio(3, 7)).unwrap());
+    // Sums of 9 steps take some 25 bits: every width, and both sides of where the next one is needed.
+    for bits in (1..=130).chain([300]) {
+        for load in [power(bits), power(bits).recip() * ratio(1, 3)] {
+            let piles = loaded(&load);
+            if bits % 8 == 0 {
+                let exact_of = by_place(piles.exact(&ratio(3, 7)).unwrap());
+                for (place, [probability, normal, shear_x, shear_y]) in exact_of {
+                    let [normal, shear_x, shear_y] = [normal, shear_x, shear_y].map(|x| x / &load);
+                    assert_eq!(
+                        [probability, normal, shear_x, shear_y],
+                        exact[&place],
+                        "{bits}"
+                    );
+                }
+            }
+            for (key, (count, floor)) in by_faults(&piles).unwrap() {
+                let floor = floor.map(|force| force / &load);
+                assert_eq!((count, floor), by_one[&key], "{bits} {key:?}");
+            }
+        }
+    }
+}
+
+/// Probabilities with long denominators make the same means as polynomials.
+#[test]
+fn fine_probabilities() {
+    let piles = Piles::heavy(Anchor::Top(Region::SITE), 6, FirstSign::Plus)
+        .piles()
+        .unwrap();
+    let by_faults = piles.by_faults().unwrap();
+    for bits in 1..=40 {
+        let q = (power(bits) - ratio(1, 1)) / (power(bits) * ratio(3, 1));
+        assert_eq!(
+            piles.exact(&q).unwrap(),
+            by_faults.at(&q).unwrap(),
+            "{bits}"
+        );
+    }
+}
+
+/// At the depths where the widths change the sums are whole.
+#[test]
+fn deep_enough_for_each_width() {
+    for steps in [25, 26, 27, 28, 29, 30] {
+        let piles = Piles::response(steps, FirstSign::Plus).piles().unwrap();
+        let answer = piles.by_faults().unwrap();
+        let mut sums = vec![ratio(0, 1); steps];
+        for row in answer.rows() {
+            let row = row.unwrap();
+            sums[row.faults as usize] += row.normal;
+        }
+        for (d, sum) in (0..).zip(sums) {
+            let count = piles.stackings().count_with(d).unwrap();
+            assert_eq!(sum, BigRational::from_integer(count.into()), "{steps} {d}");
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! A pile in a line: its layers, how they are stacked, what is on it, how far apart the spheres are.
+
+use cannonpile_dem::{anchor, brief, stacking};
+use num_bigint::{BigInt, BigUint};
+use num_traits::One;
+
+use super::subject::Subject;
+use crate::Error;
+
+/// Returns the line.
+pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
+    let pile = subject.pile();
+    let discs = subject.is_of_discs();
+    let mut parts = vec![counted(&pile.layers().into(), "layer")];
+    if discs {
+        parts.push("discs".into());
+    } else {
+        parts.extend(stacking(pile));
+        parts.extend(anchor(pile.shape()));
+    }
+    if !pile.is_regular() && !discs {
+        let s = pile.sin_phi().to_string();
+        parts.push(format!("sin φ = {}", brief(&s, 20)));
+    }
+    if pile.is_weightless() {
+        parts.push("spheres without weight".into());
+    }
+    let mut loads = pile.loads();
+    match (loads.len(), loads.next()) {
+        (0, _) | (_, None) => {}
+        (1, Some((site, load))) => {
+            let place = format!("{},{}", site.k, subject.indices(site));
+            parts.push(brief(&format!("{load} mg on {place}"), 20));
+        }
+        (count, _) => parts.push(counted(&count.into(), "load")),
+    }
+    parts.extend(subject.horizontal_state());
+    let spacing = subject.spacing()?.ratio().to_string();
+    parts.push(format!("a/R = {}", brief(&spacing, 20)));
+    Ok(parts.join(", "))
+}
+
+/// Returns `1 layer`, `10 layers`.
+pub(super) fn counted(count: &BigInt, noun: &str) -> String {
+    let plural = if count.is_one() { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}
+
+/// The most spheres or cells of a figure.
+pub(super) const LIMIT: u32 = 20_000;
+
+/// Refuses what nobody could tell apart on a page.
+pub(super) fn readable(
+    marks: &BigUint,
+    limit: u32,
+    what: &'static str,
+    remedy: &'static str,
+) -> Result<(), Error> {
+    if marks <= &limit.into() {
+        return Ok(());
+    }
+    let marks = marks.clone();
+    Err(Error::TooManyMarks {
+        marks,
+        what,
+        limit,
+        remedy,
+    })
+}

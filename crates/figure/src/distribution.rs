@@ -1,0 +1,137 @@
+//! How forces are distributed over random stackings.
+
+use cannonpile_disorder::Binned;
+use cannonpile_disorder::{Choice, Tally};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+
+use super::caption::counted;
+use super::chart::{Chart, colours};
+use super::mark::Point;
+use super::page::Figure;
+use crate::Error;
+
+/// Returns the distribution P(f) of the contact forces, or of the normal forces on the floor, over random stackings at the fault
+/// probability `q`: of all of them, and of those that stand. `None` of a part of an ensemble.
+///
+/// Upwards is log₁₀ of the share of the forces in a bin over its width; bins without forces are left out. Of samples, which
+/// are drawn at one fault probability, it is that one.
+///
+/// # Errors
+/// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Error::TooManyMarks`] for more than 20 000 bins.
+///
+/// # Examples
+/// ```
+/// use cannonpile_disorder::{Choice, Ensemble, FirstSign, RandomStackings, Shard};
+/// use cannonpile::lattice::Region;
+/// use cannonpile_disorder::Binned;
+/// use num_rational::BigRational;
+///
+/// let stackings = RandomStackings::new(6, FirstSign::Plus)?;
+/// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
+/// let half = BigRational::new(1.into(), 2.into());
+/// let figure = cannonpile_figure::distribution(&tally, Binned::Forces, &half)?.unwrap();
+/// assert!(figure.to_string().contains("those that stand"));
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+pub fn distribution(
+    tally: &Tally,
+    binned: Binned,
+    q: &BigRational,
+) -> Result<Option<Figure>, Error> {
+    let Some(weights) = tally.weights(q)? else {
+        return Ok(None);
+    };
+    let width = tally.ensemble.bins();
+    let mut curves = Vec::new();
+    for (n, name) in ["all stackings", "those that stand"]
+        .into_iter()
+        .enumerate()
+    {
+        let faults = || {
+            tally
+                .faults
+                .iter()
+                .map(|with| binned.histograms(with)[n])
+                .zip(&weights)
+        };
+        let bins = faults().flat_map(|(of, _)| (of.first..).zip(&of.counts).map(|(bin, _)| bin));
+        let Some((first, last)) = bins.clone().min().zip(bins.max()) else {
+            continue;
+        };
+        let count = (i128::from(last) - i128::from(first) + 1).unsigned_abs();
+        super::caption::readable(
+            &count.into(),
+            super::caption::LIMIT,
+            "bins",
+            "use wider bins",
+        )?;
+        let share = |bin: i64| {
+            faults().fold(BigRational::zero(), |sum, (of, weight)| {
+                sum + weight * BigInt::from(of.count(bin))
+            })
+        };
+        let shares: Vec<BigRational> = (first..=last).map(share).collect();
+        let all: BigRational = shares.iter().sum();
+        if all.is_zero() {
+            continue;
+        }
+        let density = |share: &BigRational| (share / &all / width).to_f64();
+        let end = |bin: i64| (width * BigInt::from(bin)).to_f64();
+        let steps = (first..).zip(&shares).filter_map(|(bin, share)| {
+            let density = density(share)?;
+            Some([end(bin)?, end(bin + 1)?, density])
+        });
+        curves.push((name, steps.collect::<Vec<_>>()));
+    }
+    let met = || {
+        let steps = curves.iter().flat_map(|(_, steps)| steps);
+        steps.filter(|[.., density]| *density > 0.0)
+    };
+    let across = met().fold([0.0_f64; 2], |[least, most], [from, to, _]| {
+        [least.min(*from), most.max(*to)]
+    });
+    let upwards = met().map(|[.., density]| density.log10());
+    let upwards = upwards.fold([0.0_f64; 2], |[least, most], log| {
+        [least.min(log), most.max(log)]
+    });
+    let margin = ((upwards[1] - upwards[0]) * 0.05).max(0.1);
+    // An axis has a length, whatever was counted.
+    let across = [across[0], across[1].max(across[0] + 1.0)];
+    let chart = Chart::new(across, [upwards[0] - margin, upwards[1] + margin]);
+    let colours = colours(2);
+    let mut marks = Vec::new();
+    for ((_, steps), colour) in curves.iter().zip(&colours) {
+        for run in steps.split(|[.., density]| *density <= 0.0) {
+            let ends = run.iter().flat_map(|[from, to, density]| -> [Point; 2] {
+                [[*from, density.log10()], [*to, density.log10()]]
+            });
+            if !run.is_empty() {
+                marks.push(chart.curve(ends, colour));
+            }
+        }
+    }
+    let names = curves.iter().map(|(name, _)| (*name).to_owned());
+    marks.extend(chart.legend(names.zip(colours.iter().cloned())));
+    let (title, name, unit) = match binned {
+        Binned::Forces => ("Contact forces of random stackings", "f", "mg/(3cosθ)"),
+        Binned::Normals => ("Normal forces of random stackings on the floor", "N", "mg"),
+    };
+    let stackings = counted(&tally.stackings().into(), "stacking");
+    let layers = counted(&tally.ensemble.stackings().layers().into(), "layer");
+    let top = tally.ensemble.top().shape().base();
+    let drawn = match &tally.choice {
+        Choice::All => format!("q = {q}"),
+        Choice::Drawn(_) => "drawn at random".into(),
+    };
+    Ok(Some(Figure {
+        axes: Some(chart.axes([format!("{name} in {unit}"), format!("log₁₀ P({name})")])),
+        ..Figure::new(
+            title.into(),
+            format!("{layers}, top {top:#}, {stackings}, {drawn}"),
+            chart.panel,
+            marks,
+        )
+    }))
+}

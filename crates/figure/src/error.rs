@@ -1,0 +1,109 @@
+//! Errors of this crate.
+
+use core::fmt;
+
+use cannonpile::engine::shortened;
+use num_bigint::BigUint;
+
+/// Why a figure or a page is not drawn.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile_figure::{Error, Subject};
+///
+/// let pile = Pile::triangular(1000)?;
+/// let refused = cannonpile_figure::pile(&Subject::of_pile(&pile, &"6/5".parse()?)?);
+/// assert!(matches!(refused, Err(Error::TooManyMarks { limit: 20_000, .. })));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A figure would have more marks than a reader can tell apart.
+    #[non_exhaustive]
+    TooManyMarks {
+        /// The number of marks.
+        marks: BigUint,
+        /// What the marks stand for.
+        what: &'static str,
+        /// The greatest number allowed.
+        limit: u32,
+        /// A narrower question.
+        remedy: &'static str,
+    },
+    /// An error of the core.
+    Core(cannonpile::Error),
+    /// An error of bounds and elastic states.
+    Horizontal(cannonpile_horizontal::Error),
+    /// An error of random stackings.
+    Disorder(cannonpile_disorder::Error),
+    /// An error of the numbered pile that a page shows.
+    Dem(cannonpile_dem::Error),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManyMarks {
+                marks,
+                what,
+                limit,
+                remedy,
+            } => f.write_str(&shortened(&format!(
+                "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
+            ))),
+            Self::Core(error) => error.fmt(f),
+            Self::Horizontal(error) => error.fmt(f),
+            Self::Disorder(error) => error.fmt(f),
+            Self::Dem(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for Error {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::TooManyMarks { .. } => None,
+            // The message is the inner one, so the chain goes on below it.
+            Self::Core(error) => error.source(),
+            Self::Horizontal(error) => error.source(),
+            Self::Disorder(error) => error.source(),
+            Self::Dem(error) => error.source(),
+        }
+    }
+}
+
+impl From<cannonpile::Error> for Error {
+    fn from(error: cannonpile::Error) -> Self {
+        Self::Core(error)
+    }
+}
+
+impl From<cannonpile_horizontal::Error> for Error {
+    fn from(error: cannonpile_horizontal::Error) -> Self {
+        match error {
+            cannonpile_horizontal::Error::Core(error) => Self::Core(error),
+            error => Self::Horizontal(error),
+        }
+    }
+}
+
+impl From<cannonpile_disorder::Error> for Error {
+    fn from(error: cannonpile_disorder::Error) -> Self {
+        match error {
+            cannonpile_disorder::Error::Core(error) => Self::Core(error),
+            error => Self::Disorder(error),
+        }
+    }
+}
+
+impl From<cannonpile_dem::Error> for Error {
+    fn from(error: cannonpile_dem::Error) -> Self {
+        match error {
+            cannonpile_dem::Error::Core(error) => Self::Core(error),
+            cannonpile_dem::Error::Horizontal(error) => error.into(),
+            error => Self::Dem(error),
+        }
+    }
+}

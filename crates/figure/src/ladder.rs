@@ -1,0 +1,229 @@
+//! The errors of a ladder of simulations, and the order in which they vanish.
+
+use cannonpile_dem::verify::{Fit, Ladder, Norm, Refinement, Rung, RungPlace};
+
+use super::chart::Chart;
+use super::colour::{BLUE, DIM, ORANGE, WHITE};
+use super::mark::{Mark, Point, circle, line, polygon, text};
+use super::page::Figure;
+use super::ticks::digits;
+
+/// Returns the errors of a ladder over its refinement parameter, both as log₁₀: of each rung the largest error, a disc, and
+/// the rms error, a square.
+///
+/// A line is the fit of its order, over the rungs above the floor; marks of rungs on the floor, or of another pile, are
+/// hollow. A dashed line joins what theory says of the largest errors. The triangle rises with order 1. An error of 0 or an
+/// infinite one has no place, and is left out.
+///
+/// # Examples
+/// ```
+/// use cannonpile_dem::verify::{Ladder, Refinement, Rung};
+///
+/// let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 495, 4.2 / k, 1.9 / k));
+/// let ladder = Ladder::new(Refinement::Stiffness, rungs)?;
+/// let svg = cannonpile_figure::ladder(&ladder).to_string();
+/// assert_eq!(svg.matches("class=\"rung\"").count(), 6);
+/// assert!(svg.contains("largest error, order 1.000"));
+/// # Ok::<(), cannonpile_dem::verify::NoLadder>(())
+/// ```
+#[must_use]
+pub fn ladder(ladder: &Ladder) -> Figure {
+    let refinement = ladder.refinement();
+    let across = |rung: &Rung| log_h(refinement, rung.parameter);
+    let drawn = Norm::ALL.map(|norm| {
+        let rungs = ladder.rungs().iter().zip(ladder.places(norm));
+        let seen = rungs.filter(|(rung, _)| has_log(rung.error(norm)));
+        seen.collect::<Vec<(&Rung, RungPlace)>>()
+    });
+    let predicted = ladder.rungs().iter().filter_map(|rung| {
+        let error = rung.predicted_error.filter(|error| has_log(*error))?;
+        Some([across(rung), error.log10()])
+    });
+    let predicted: Vec<Point> = predicted.collect();
+    let logs = Norm::ALL.into_iter().zip(&drawn).flat_map(|(norm, rungs)| {
+        let point = move |rung: &Rung| [across(rung), rung.error(norm).log10()];
+        rungs.iter().map(move |(rung, _)| point(rung))
+    });
+    let points = || logs.clone().chain(predicted.iter().copied());
+    let mut ends = [0, 1].map(|axis| ends(points().map(|point| point[axis])));
+    if points().any(|point| is_in_the_way(point, ends)) {
+        ends[1][1] += (ends[1][1] - ends[1][0]) * HEADROOM;
+    }
+    let chart = Chart::new(ends[0], ends[1]);
+    let mut marks = triangle(&chart, ends);
+    let mut legend = Vec::new();
+    let fits = Norm::ALL.map(|norm| ladder.fit(norm).ok());
+    for ((norm, fit), colour) in Norm::ALL.into_iter().zip(&fits).zip(COLOURS) {
+        let fit = fit.as_ref();
+        marks.extend(fit.and_then(|fit| fitted(&chart, ladder, norm, fit, colour)));
+        legend.push((named(norm, fit), colour, Sample::Of(norm)));
+    }
+    if !predicted.is_empty() {
+        let dashed = chart.curve(predicted, ORANGE).class("predicted");
+        marks.push(dashed.set("stroke-dasharray", "7 5"));
+        let name = "theory of springs, largest error".to_owned();
+        legend.push((name, ORANGE, Sample::Dashed));
+    }
+    for ((norm, rungs), colour) in Norm::ALL.into_iter().zip(&drawn).zip(COLOURS) {
+        for (rung, place) in rungs {
+            let at = chart.at([across(rung), rung.error(norm).log10()]);
+            let shape = shape(norm, at).class("rung").set("data-norm", norm.name());
+            let shape = shape.valued("data-parameter", rung.parameter);
+            let shape = shape.valued("data-error", rung.error(norm));
+            let shape = shape.set("data-place", place.name());
+            let fill = if *place == RungPlace::Above {
+                colour
+            } else {
+                WHITE
+            };
+            marks.push(shape.fill(fill).stroke(colour, 1.5));
+        }
+    }
+    let hollow = |(_, place): &(&Rung, RungPlace)| *place != RungPlace::Above;
+    if drawn.iter().flatten().any(hollow) {
+        let name = "on the floor, or not all contacts there".to_owned();
+        legend.push((name, COLOURS[0], Sample::Hollow));
+    }
+    marks.extend(key(&chart, legend));
+    let rungs = ladder.rungs().len();
+    let above = ladder.places(Norm::Largest);
+    let above = above.iter().filter(|place| **place == RungPlace::Above);
+    let (title, name) = match refinement {
+        Refinement::Stiffness => ("Errors over the softness of springs", "log₁₀ 1/k"),
+        Refinement::TimeStep => ("Errors over the time step", "log₁₀ Δt"),
+    };
+    let caption = format!("{rungs} rungs, {} of them above the floor", above.count());
+    let names = [name.into(), "log₁₀ relative error".into()];
+    Figure {
+        axes: Some(chart.axes(names)),
+        ..Figure::new(title.into(), caption, chart.panel, marks)
+    }
+}
+
+/// log₁₀ h, which no float is too great or too small for.
+fn log_h(refinement: Refinement, parameter: f64) -> f64 {
+    match refinement {
+        Refinement::Stiffness => -parameter.log10(),
+        Refinement::TimeStep => parameter.log10(),
+    }
+}
+
+fn has_log(error: f64) -> bool {
+    error > 0.0 && error.is_finite()
+}
+
+/// The ends of an axis around some numbers: a little more on each side, or a unit around nothing.
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let ends = values.map(|value| [value; 2]);
+    let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+    // Not a default: where nothing is drawn any ends will do.
+    let [least, most] = ends.unwrap_or([0.0; 2]);
+    let margin = ((most - least) / 25.0).max(0.5);
+    [least - margin, most + margin]
+}
+
+/// Of the largest errors and of the rms errors.
+const COLOURS: [&str; 2] = [BLUE, DIM];
+
+/// How much higher a chart is with the key above what is drawn.
+const HEADROOM: f64 = 0.3;
+
+/// Whether a point is where the key is.
+fn is_in_the_way(point: Point, ends: [[f64; 2]; 2]) -> bool {
+    let [x, y] = [0, 1].map(|n| (point[n] - ends[n][0]) / (ends[n][1] - ends[n][0]));
+    x < 0.55 && y > 0.75
+}
+
+/// The fitted line, from the coarsest rung above the floor to the finest.
+fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -> Option<Mark> {
+    let places = ladder.places(norm);
+    let above = ladder.rungs().iter().zip(places);
+    let above = above.filter(|(_, place)| *place == RungPlace::Above);
+    let mut ends = above.map(|(rung, _)| rung.parameter);
+    let first = ends.next()?;
+    let ends = [first, ends.next_back()?].map(|parameter| {
+        let error = fit.at(ladder.refinement().h(parameter));
+        has_log(error).then(|| [log_h(ladder.refinement(), parameter), error.log10()])
+    });
+    let [Some(from), Some(to)] = ends else {
+        return None;
+    };
+    let curve = chart.curve([from, to], colour).class("fit");
+    let curve = curve.set("data-norm", norm.name());
+    Some(curve.valued("data-order", fit.order()))
+}
+
+/// A triangle that rises with order 1, in the lower right corner.
+fn triangle(chart: &Chart, [across, upwards]: [[f64; 2]; 2]) -> Vec<Mark> {
+    // A fifth of the shorter axis.
+    let side = (across[1] - across[0]).min(upwards[1] - upwards[0]) / 5.0;
+    let right = across[1] - (across[1] - across[0]) / 12.0;
+    let low = upwards[0] + (upwards[1] - upwards[0]) / 10.0;
+    let corners = [[right - side, low], [right, low], [right, low + side]];
+    let [left, corner, top] = corners.map(|corner| chart.at(corner));
+    let triangle = polygon(&[left, corner, top]).class("slope");
+    let below = [left[0].midpoint(corner[0]), corner[1] + 11.0];
+    let beside = [corner[0] + 10.0, corner[1].midpoint(top[1])];
+    vec![
+        triangle.fill("none").stroke(DIM, 1.0),
+        text(below, 13.0, "1").fill(DIM),
+        text(beside, 13.0, "1").fill(DIM),
+    ]
+}
+
+fn shape(norm: Norm, [x, y]: Point) -> Mark {
+    const HALF: f64 = 4.5;
+    if norm == Norm::Largest {
+        return circle([x, y], HALF + 0.5);
+    }
+    polygon(&[
+        [x - HALF, y - HALF],
+        [x + HALF, y - HALF],
+        [x + HALF, y + HALF],
+        [x - HALF, y + HALF],
+    ])
+}
+
+fn named(norm: Norm, fit: Option<&Fit>) -> String {
+    let error = format!("{} error", norm.name());
+    let Some(fit) = fit else {
+        return format!("{error}, no order");
+    };
+    let order = format!("{error}, order {:.3}", fit.order()).replace('-', "−");
+    match fit.standard_error() {
+        // Of rungs that are on a line but for their last digits.
+        Some(error) if error >= 5e-4 => format!("{order} ± {}", digits(error, 1)),
+        _ => order,
+    }
+}
+
+/// What stands before a name.
+enum Sample {
+    Of(Norm),
+    Dashed,
+    Hollow,
+}
+
+/// What marks mean, in the upper left corner, where errors that fall are not.
+fn key(chart: &Chart, names: Vec<(String, &'static str, Sample)>) -> Vec<Mark> {
+    let left = chart.panel.left + 14.0;
+    let mut y = 20.0;
+    let mut marks = Vec::new();
+    for (name, colour, sample) in names {
+        let stroke = line([left, y], [left + 30.0, y], colour, 2.0);
+        match sample {
+            Sample::Of(norm) => {
+                let mark = shape(norm, [left + 15.0, y]).fill(colour);
+                marks.extend([stroke, mark]);
+            }
+            Sample::Dashed => marks.push(stroke.set("stroke-dasharray", "7 5")),
+            Sample::Hollow => {
+                let mark = shape(Norm::Largest, [left + 15.0, y]).fill(WHITE);
+                marks.push(mark.stroke(colour, 1.5));
+            }
+        }
+        marks.push(text([left + 38.0, y], 14.0, name).start());
+        y += 20.0;
+    }
+    marks
+}

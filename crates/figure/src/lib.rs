@@ -1,0 +1,89 @@
+//! Figures of sphere piles as SVG, and a page to look into a pile.
+//!
+//! A [`Subject`] is a pile with a spacing and units. A function below draws it from exact answers, which are rounded once.
+//! The result is a [`Figure`]: an SVG document whose marks carry the numbers they stand for. It needs no fonts of its own.
+//!
+//! # Examples
+//! ```
+//! use cannonpile::Pile;
+//! use cannonpile::geometry::Spacing;
+//! use cannonpile_figure::Subject;
+//! use num_rational::BigRational;
+//!
+//! let pile = Pile::triangular(10)?;
+//! let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+//! let svg = cannonpile_figure::shear(&Subject::of_pile(&pile, &spacing)?)?.to_string();
+//! // 54 arrows: under the apex the shear vanishes.
+//! assert_eq!(svg.matches("class=\"arrow\"").count(), 54);
+//! # Ok::<(), cannonpile_figure::Error>(())
+//! ```
+//!
+//! # Map
+//! | item | what it shows |
+//! |---|---|
+//! | [`pile()`] | the pile in perspective (paper, fig. 1) |
+//! | [`indexing()`] | the indices of a layer (paper, fig. 2) |
+//! | [`sphere()`] | the forces on one sphere (paper, fig. 3) |
+//! | [`shear()`] | the shear on the floor as arrows (paper, fig. 4) |
+//! | [`base()`] | the normal force on the floor as a map |
+//! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
+//! | [`bounds()`] | the least and the greatest normal force of each bottom sphere at a = R |
+//! | [`response()`] | the forces in a layer under a load on the top |
+//! | [`mean_response()`], [`mean_profile()`] | the mean of these forces on the floor over random stackings: as maps, and by distance |
+//! | [`distribution()`] | how often forces occur over random stackings |
+//! | [`ladder()`] | the errors of a code at several stiffnesses or time steps, and their order |
+//! | [`viewer`] | a page of HTML, which shows the pile and its forces in a browser |
+//! | [`Error`] | why a figure or a page is not drawn |
+//!
+//! # Axes
+//! The axes are those of the exported files: x and y as in the paper, z **up**. A figure seen from above has x to the
+//! right and y upwards, as every program shows the files from above. In the paper z points down. Its figures 2 and 4 show
+//! the layer from below, and are the mirror images of these.
+//!
+//! # Features
+//! `rayon` sweeps layers on all cores.
+
+mod base;
+mod bounds;
+mod caption;
+mod chart;
+mod colour;
+mod distribution;
+mod error;
+mod indexing;
+mod ladder;
+mod layer;
+mod map;
+mod mark;
+mod mean;
+mod network;
+mod page;
+mod panel;
+mod pile;
+mod response;
+mod shear;
+mod sphere;
+mod subject;
+mod ticks;
+mod view;
+pub mod viewer;
+
+pub use base::base;
+pub use bounds::bounds;
+pub use distribution::distribution;
+pub use error::Error;
+pub use indexing::indexing;
+pub use ladder::ladder;
+pub use mean::{mean_profile, mean_response};
+pub use network::{layer, section};
+pub use page::{Figure, Layout};
+pub use pile::pile;
+pub use response::{of_unit_load, response};
+pub use shear::shear;
+pub use sphere::{example, sphere};
+pub use subject::Subject;
+
+/// The examples of README.md, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

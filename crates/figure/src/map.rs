@@ -1,0 +1,146 @@
+//! A layer as a map: one coloured cell a sphere.
+
+use cannonpile::lattice::Site;
+use cannonpile::scalar::Surd;
+
+use super::caption::caption;
+use super::colour::{PALE, Scale, WHITE};
+use super::layer::Layer;
+use super::mark::{Mark, cross, fitting, polygon, text, width};
+use super::page::{Bar, Figure};
+use super::panel::{BAR, Panel, WIDTH};
+use super::subject::{Subject, nearest};
+use super::ticks::digits;
+use crate::Error;
+
+/// The vertical forces of the spheres of a layer, in row order.
+pub(super) struct Map<'a> {
+    pub(super) layer: Layer,
+    pub(super) title: String,
+    pub(super) name: &'static str,
+    pub(super) forces: Vec<Surd>,
+    pub(super) scale: fn(&[f64]) -> Scale,
+    pub(super) note: Option<String>,
+    /// Spheres above which a cross is drawn, and what it means.
+    pub(super) marked: Vec<Site>,
+    pub(super) mark: &'a str,
+}
+
+/// The longest exact number that a cell carries as an attribute.
+const LONGEST: usize = 60;
+
+impl Map<'_> {
+    /// Returns the figure: cells are `<polygon class="cell" data-value="…" data-exact="…">`.
+    pub(super) fn figure(self, subject: &Subject<'_>) -> Result<Figure, Error> {
+        let layer = &self.layer;
+        let panel = layer.panel(1.5, BAR).lowest(262.0);
+        let mut values = Vec::new();
+        for force in &self.forces {
+            values.push(nearest(force, "a force")?);
+        }
+        let scale = (self.scale)(&values);
+        let across = panel.length(layer.apart());
+        let rim_colour = if scale.is_around_zero() { PALE } else { WHITE };
+        // A rim that does not hide small cells.
+        let rim = (across * 0.04).min(1.2);
+        let mut marks = Vec::new();
+        let cells = layer.spheres.iter().zip(self.forces.iter().zip(&values));
+        for ((site, at), (exact, value)) in cells {
+            let mut cell = polygon(&layer.cell(&panel, *at)).class("cell").of(*site);
+            let text = exact.to_string();
+            if text.len() <= LONGEST {
+                cell = cell.set("data-exact", text);
+            }
+            let cell = cell.valued("data-value", *value).fill(scale.colour(*value));
+            marks.push(cell.stroke(rim_colour, rim).set("stroke-linejoin", "round"));
+        }
+        marks.extend(self.numbers(&panel, &values, &scale));
+        for site in &self.marked {
+            let at = layer.place(subject, *site)?;
+            marks.extend(cross(panel.at(at), across * 0.12));
+        }
+        if !self.marked.is_empty() {
+            let [x, y] = [WIDTH - 116.0, panel.bottom() + 38.0];
+            marks.extend(cross([x, y], 6.0));
+            marks.push(text([x + 13.0, y], 14.0, self.mark).start());
+        }
+        let bar = Bar {
+            scale,
+            name: self.name,
+            unit: subject.force_unit(),
+            remarks: Vec::new(),
+        };
+        Ok(Figure {
+            note: self.note,
+            axes: Some(layer.axes(subject)?),
+            bar: Some(bar),
+            ..Figure::new(self.title, caption(subject)?, panel, marks)
+        })
+    }
+
+    /// Returns the numbers in the cells; those that vanish are left to their colour, and cells without room have none.
+    fn numbers(&self, panel: &Panel, values: &[f64], scale: &Scale) -> Vec<Mark> {
+        const LEAST: f64 = 26.0;
+        let across = panel.length(self.layer.apart());
+        if across < LEAST {
+            return Vec::new();
+        }
+        let size = (across * 0.27).min(14.0);
+        let Some(texts) = texts(&self.forces, values, across * 0.86 / size) else {
+            return Vec::new();
+        };
+        let cells = self.layer.spheres.iter().zip(values).zip(texts);
+        let shown = cells.filter(|(_, text)| !text.is_empty());
+        let label = |(((_, at), value), words): ((&(Site, [f64; 2]), &f64), String)| {
+            let size = fitting(&words, size, across * 0.86);
+            text(panel.at(*at), size, words).fill(scale.ink(*value))
+        };
+        shown.map(label).collect()
+    }
+}
+
+/// Returns the numbers as texts with room for `room` letters of their size: all exact, or all with as many decimals as there
+/// is room for, four digits at most. Of a number that is not 0 at least one digit is shown. `None` if there is no room.
+pub(super) fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<String>> {
+    let fits = |text: &String| width(text, 1.0) < room;
+    let shown = |show: &dyn Fn(&Surd, f64) -> String| -> Vec<String> {
+        let numbers = exact.iter().zip(values);
+        let text = |(exact, value): (&Surd, &f64)| match *value {
+            0.0 => String::new(),
+            value => show(exact, value).replace('-', "−"),
+        };
+        numbers.map(text).collect()
+    };
+    let whole = shown(&|exact, _| exact.to_string());
+    if whole.iter().all(fits) {
+        return Some(whole);
+    }
+    let greatest = values
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let decimals = (0..=9_u8)
+        .rev()
+        // Two digits of the greatest are the least that says something.
+        .filter(|places| (10.0..10_000.0).contains(&(greatest * 10_f64.powi((*places).into()))))
+        .map(|places| {
+            let least = 0.5 * 10_f64.powi(-i32::from(places));
+            shown(&|exact, value| {
+                if value.abs() >= least {
+                    return format!("{value:.*}", usize::from(places));
+                }
+                let exact = exact.to_string();
+                if fits(&exact) {
+                    exact
+                } else {
+                    digits(value, 1)
+                }
+            })
+        });
+    let long = |value: &f64| value.abs() >= 1e-3;
+    // Of small numbers among great ones the power of ten may be set smaller.
+    let all_fit = |texts: &Vec<String>| {
+        let mut texts = texts.iter().zip(values);
+        texts.all(|(text, value)| fits(text) || !long(value))
+    };
+    decimals.into_iter().find(all_fit)
+}

@@ -1,0 +1,188 @@
+//! Marks: the elements of a page, at places in pixels.
+
+use cannonpile::lattice::Site;
+use svg::Node;
+use svg::node::element::Element;
+use svg::node::{Text, Value};
+
+use super::colour::{BLACK, WHITE};
+
+/// A point of the page: to the right and downwards.
+pub(super) type Point = [f64; 2];
+
+/// Returns a length on the page, to a ten thousandth of a pixel, which is finer than any printer. What is no number is 0.
+pub(super) fn px(length: f64) -> f64 {
+    if length.is_finite() {
+        (length * 1e4).round() / 1e4 + 0.0
+    } else {
+        0.0
+    }
+}
+
+/// An SVG element that is being described.
+#[derive(Clone, Debug)]
+pub(super) struct Mark(Element);
+
+impl Mark {
+    pub(super) fn new(name: &str) -> Self {
+        Self(Element::new(name))
+    }
+
+    pub(super) fn set(mut self, attribute: &str, value: impl Into<Value>) -> Self {
+        self.0.assign(attribute, value);
+        self
+    }
+
+    /// Sets lengths on the page.
+    pub(super) fn measured<const N: usize>(self, lengths: [(&str, f64); N]) -> Self {
+        let set = |mark: Self, (name, length)| mark.set(name, px(length));
+        lengths.into_iter().fold(self, set)
+    }
+
+    pub(super) fn class(self, class: &str) -> Self {
+        self.set("class", class)
+    }
+
+    pub(super) fn fill(self, colour: impl Into<Value>) -> Self {
+        self.set("fill", colour)
+    }
+
+    pub(super) fn stroke(self, colour: impl Into<Value>, width: f64) -> Self {
+        self.set("stroke", colour).set("stroke-width", px(width))
+    }
+
+    /// Names the sphere that the mark stands for.
+    pub(super) fn of(self, site: Site) -> Self {
+        let indices = [("data-k", site.k), ("data-i", site.i), ("data-j", site.j)];
+        let set = |mark: Self, (name, index): (&str, i128)| mark.set(name, index.to_string());
+        indices.into_iter().fold(self, set)
+    }
+
+    /// Gives the value that the mark stands for.
+    pub(super) fn valued(self, name: &str, value: f64) -> Self {
+        self.set(name, format!("{value:?}"))
+    }
+
+    pub(super) fn with(mut self, child: Self) -> Self {
+        self.0.append(child.0);
+        self
+    }
+
+    pub(super) fn words(mut self, words: impl Into<String>) -> Self {
+        self.0.append(Text::new(words));
+        self
+    }
+
+    pub(super) fn into_element(self) -> Element {
+        self.0
+    }
+
+    // Of text.
+
+    pub(super) fn bold(self) -> Self {
+        self.set("font-weight", "bold")
+    }
+
+    pub(super) fn italic(self) -> Self {
+        self.set("font-style", "italic")
+    }
+
+    /// Holds a text at its beginning.
+    pub(super) fn start(self) -> Self {
+        self.set("text-anchor", "start")
+    }
+
+    /// Holds a text at its end.
+    pub(super) fn end(self) -> Self {
+        self.set("text-anchor", "end")
+    }
+
+    /// Returns the mark and, to be drawn before it, a white rim for it.
+    pub(super) fn with_rim(self) -> [Self; 2] {
+        let rim = self.clone().set("aria-hidden", "true").fill(WHITE);
+        let rim = rim.stroke(WHITE, 4.0).set("stroke-linejoin", "round");
+        [rim, self]
+    }
+}
+
+/// Returns a line of text, centred on its point.
+pub(super) fn text([x, y]: Point, size: f64, words: impl Into<String>) -> Mark {
+    let text = Mark::new("text").measured([("x", x), ("y", y), ("font-size", size)]);
+    let text = text.set("dy", "0.35em").set("text-anchor", "middle");
+    text.fill(BLACK).words(words)
+}
+
+/// Returns about how wide a text will be: what a viewer's font makes of it is not known.
+pub(super) fn width(words: &str, size: f64) -> f64 {
+    let letters = u32::try_from(words.chars().count()).unwrap_or(u32::MAX);
+    f64::from(letters) * size * 0.62
+}
+
+/// Returns the size, or a smaller one at which the text is no wider than `room`.
+pub(super) fn fitting(words: &str, size: f64, room: f64) -> f64 {
+    size * (room / width(words, size).max(1.0)).min(1.0)
+}
+
+pub(super) fn line([x1, y1]: Point, [x2, y2]: Point, colour: impl Into<Value>, width: f64) -> Mark {
+    let line = Mark::new("line").measured([("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)]);
+    line.stroke(colour, width)
+}
+
+pub(super) fn circle([x, y]: Point, radius: f64) -> Mark {
+    Mark::new("circle").measured([("cx", x), ("cy", y), ("r", radius)])
+}
+
+/// Returns a circle of which only the outline shows.
+pub(super) fn ring(centre: Point, radius: f64, colour: &str, width: f64) -> Mark {
+    circle(centre, radius).fill("none").stroke(colour, width)
+}
+
+pub(super) fn rectangle([x, y]: Point, [width, height]: Point) -> Mark {
+    Mark::new("rect").measured([("x", x), ("y", y), ("width", width), ("height", height)])
+}
+
+pub(super) fn polygon(corners: &[Point]) -> Mark {
+    let corner = |[x, y]: &Point| format!("{},{}", px(*x), px(*y));
+    let points: Vec<String> = corners.iter().map(corner).collect();
+    Mark::new("polygon").set("points", points.join(" "))
+}
+
+/// Returns an arrow as one outline: its first and last corners are on both sides of the tail, the fourth is the tip.
+///
+/// The tip is where the vector ends, exactly; a short arrow has a short head.
+pub(super) fn arrow(tail: Point, tip: Point, width: f64, colour: &str) -> Mark {
+    let [dx, dy] = [tip[0] - tail[0], tip[1] - tail[1]];
+    let length = dx.hypot(dy);
+    let [x, y] = if length > 0.0 {
+        [dx / length, dy / length]
+    } else {
+        [1.0, 0.0]
+    };
+    let head = (4.5 * width).min(0.6 * length);
+    let half_head = head * 0.42;
+    let half = (width / 2.0).min(half_head * 0.6);
+    let place =
+        |back: f64, aside: f64| [tip[0] - x * back - y * aside, tip[1] - y * back + x * aside];
+    let corners = [
+        place(length, half),
+        place(head, half),
+        place(head, half_head),
+        tip,
+        place(head, -half_head),
+        place(head, -half),
+        place(length, -half),
+    ];
+    polygon(&corners).class("arrow").fill(colour)
+}
+
+/// Returns a cross with a white rim.
+pub(super) fn cross([x, y]: Point, half: f64) -> Vec<Mark> {
+    let strokes = [(WHITE, 3.5), (BLACK, 1.5)].map(|(colour, width)| {
+        [-half, half].map(|side| line([x - half, y - side], [x + half, y + side], colour, width))
+    });
+    strokes
+        .into_iter()
+        .flatten()
+        .map(|stroke| stroke.class("cross"))
+        .collect()
+}

@@ -1,0 +1,129 @@
+//! How a layer feels what is put on the top: the response of a pile to a load.
+
+use cannonpile::Pile;
+use cannonpile::lattice::Site;
+use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use num_rational::BigRational;
+use num_traits::One;
+
+use super::caption::LIMIT;
+use super::colour::Scale;
+use super::layer::Layer;
+use super::map::Map;
+use super::page::Figure;
+use super::subject::Subject;
+use crate::Error;
+
+/// Returns the pile without weight, and with a load of 1 mg on the sphere in the middle of its top; unless it carries loads
+/// of its own.
+///
+/// # Errors
+/// Those of [`Pile::with_load`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Site;
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// assert_eq!(cannonpile_figure::of_unit_load(pile.clone())?.weight().to_string(), "1");
+/// let loaded = pile.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
+/// assert_eq!(cannonpile_figure::of_unit_load(loaded)?.weight().to_string(), "2");
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
+    let pile = pile.weightless().without_horizontal_forces();
+    if pile.loads().len() > 0 {
+        return Ok(pile);
+    }
+    let middle = middle(&pile, 0)?;
+    Ok(pile.with_load(middle, BigRational::one())?)
+}
+
+/// Returns the vertical forces that the spheres of layer `k` hand on downwards, as a map seen from above: blue is pull, red
+/// is push.
+///
+/// Of a unit load on one sphere of a weightless pile they add up to 1. All + steps lead it along three lines; where the
+/// signs change it spreads, and some spheres are pulled: the response needs a pile that presses on them.
+///
+/// # Errors
+/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyMarks`] for a layer of more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for
+/// forces beyond floats; those of the forces of the pile.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile_figure::Subject;
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::lattice::Region;
+/// use cannonpile::stacking::Stacking;
+/// use num_rational::BigRational;
+///
+/// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+/// let floor = |stacking: Stacking| {
+///     let pile = cannonpile_figure::of_unit_load(Pile::under(Region::hexagon(3, 3)?, stacking)?)?;
+///     cannonpile_figure::response(&Subject::of_pile(&pile, &spacing)?, pile.layers() - 1).map(|figure| figure.to_string())
+/// };
+/// assert_eq!(floor(Stacking::fcc(6)?)?.matches("data-exact=\"1/3\"").count(), 3);
+/// assert!(floor(Stacking::hcp(6)?)?.contains("data-exact=\"-"));
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+pub fn response(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
+    let pile = subject.pile();
+    let layer = Layer::new(subject, k, LIMIT, "use a higher layer, or a smaller top")?;
+    let floor = k == pile.layers() - 1;
+    let (title, forces) = if floor {
+        let forces = subject.base()?.map(|force| force.map(|force| force.normal));
+        (
+            "Response of the floor".into(),
+            forces.collect::<Result<_, _>>()?,
+        )
+    } else {
+        (format!("Response of layer {k}"), handed_on(subject, k)?)
+    };
+    // Loads below do not act on it.
+    let loads = pile.loads().filter(|(site, _)| site.k <= k);
+    let map = Map {
+        layer,
+        title,
+        name: "vertical force",
+        forces,
+        scale: |values| Scale::around_zero(values.iter().copied()),
+        note: None,
+        marked: loads.take(LIMIT as usize).map(|(site, _)| site).collect(),
+        mark: "below a load",
+    };
+    map.figure(subject)
+}
+
+/// Returns the sphere nearest to the middle of a layer.
+pub(super) fn middle(pile: &Pile, k: i128) -> Result<Site, Error> {
+    let region = pile.shape().layer(k)?;
+    let corners = region.corners();
+    // To the nearest integer.
+    let mean = |n: usize| (corners.iter().map(|corner| corner[n]).sum::<i128>() + 3).div_euclid(6);
+    let j = mean(1).clamp(*region.y().start(), *region.y().end());
+    let ([x, s], i) = ([region.x(), region.s()], mean(0));
+    let i = i
+        .max(*x.start())
+        .max(s.start() - j)
+        .min(*x.end())
+        .min(s.end() - j);
+    Ok(Site { i, j, k })
+}
+
+/// Returns the vertical parts of what each sphere of a layer passes on, together.
+fn handed_on(subject: &Subject<'_>, k: i128) -> Result<Vec<Surd>, Error> {
+    let mut forces: Vec<(Site, BigRational)> = Vec::new();
+    for contact in subject.forces().contacts(Selection::Layer(k))? {
+        let contact = contact?;
+        match forces.last_mut() {
+            Some((site, sum)) if *site == contact.site => *sum += contact.force,
+            _ => forces.push((contact.site, contact.force)),
+        }
+    }
+    let forces = forces.into_iter();
+    forces.map(|(_, sum)| subject.vertical(&sum)).collect()
+}

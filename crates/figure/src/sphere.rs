@@ -1,0 +1,320 @@
+//! The forces on one sphere: the paper's fig. 3.
+
+use cannonpile::Pile;
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::caption::caption;
+use super::colour::{BLACK, DIM, GREY, ORANGE, PULL, PUSH, Scale};
+use super::mark::{Mark, Point, arrow, circle, line, ring, text};
+use super::page::Figure;
+use super::panel::Panel;
+use super::pile::shade;
+use super::response::middle;
+use super::subject::{Subject, below};
+use super::ticks::{exact_or_short, short};
+use super::view::{Vector, View, moved, norm};
+use crate::Error;
+
+/// The camera, so turned that no force hides another.
+const AZIMUTH: f64 = 190.0;
+const ELEVATION: f64 = 24.0;
+
+/// The length of the greatest force, and the greatest of the weight, in R.
+const LONGEST: f64 = 1.55;
+const WEIGHT: f64 = 0.85;
+
+/// The length below which an arrow gets a ring, in pixels.
+const SMALL: f64 = 9.0;
+
+/// Where the table is on the page.
+const TABLE: f64 = 40.0;
+const LEFT: f64 = 532.0;
+
+const UP: Vector = [0.0, 0.0, 1.0];
+const DOWN: Vector = [0.0, 0.0, -1.0];
+
+/// A force on a sphere.
+struct Force {
+    /// `a`, `b`, `c` from below, `a′`, `b′`, `c′` from above, `w` for the weight, `p` for a load, `n` for the floor.
+    name: &'static str,
+    origin: &'static str,
+    /// Negative is pull.
+    magnitude: f64,
+    /// The unit vector along it.
+    along: Vector,
+    /// Where it acts, from the centre, in R.
+    at: Vector,
+    /// A contact force in f₀.
+    multiple: Option<BigRational>,
+    /// The length of its arrow, in R.
+    length: f64,
+}
+
+impl Force {
+    fn new(
+        [name, origin]: [&'static str; 2],
+        magnitude: f64,
+        along: Vector,
+        at: Vector,
+        multiple: Option<BigRational>,
+    ) -> Self {
+        Self {
+            name,
+            origin,
+            magnitude,
+            along,
+            at,
+            multiple,
+            length: 0.0,
+        }
+    }
+}
+
+/// Returns the sphere that is shown where none is chosen: one near the middle of the layer in the middle.
+///
+/// # Errors
+/// None: every pile has such a sphere.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Site;
+///
+/// let site = cannonpile_figure::example(&Pile::triangular(10)?)?;
+/// assert_eq!(site, Site { i: 2, j: 2, k: 5 });
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+pub fn example(pile: &Pile) -> Result<Site, Error> {
+    middle(pile, pile.layers() / 2)
+}
+
+/// Returns the forces that act on one sphere, as arrows as long as the forces, and a table of their values.
+///
+/// Paper, fig. 3: **a**, **b** and **c** from the three spheres below, **a**′, **b**′ and **c**′ from those above, and the
+/// weight **w**. A load **p** is a force of its own; under a bottom sphere is the floor, with its force **n**. A force that
+/// pushes ends on the surface of the sphere, where it acts; one that pulls begins there. One too small for an arrow has a
+/// ring. Arrows are `<polygon class="arrow" data-name="a" data-force="…" data-x="…" …>`, with the components of the force.
+///
+/// # Errors
+/// [`SiteOutside`](cannonpile::Error::SiteOutside); [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile_figure::Subject;
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::lattice::Site;
+/// use num_rational::BigRational;
+///
+/// let pile = Pile::triangular(10)?;
+/// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+/// let svg = cannonpile_figure::sphere(&Subject::of_pile(&pile, &spacing)?, Site { i: 1, j: 2, k: 5 })?.to_string();
+/// // Six forces of neighbours, and the weight.
+/// assert_eq!(svg.matches("class=\"neighbour\"").count(), 6);
+/// assert_eq!(svg.matches("class=\"arrow\"").count(), 7);
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
+    let site = subject.pile().shape().check(site)?;
+    let (mut forces, neighbours) = forces(subject, site)?;
+    to_scale(&mut forces);
+    let discs = subject.is_of_discs();
+    let view = View::of(discs, [0.0; 3], [AZIMUTH, ELEVATION], f64::INFINITY);
+    let around = neighbours.iter().map(|centre| view.across(*centre));
+    let centres = around.chain([[0.0; 2]]);
+    let panel = Panel::around(centres, 1.1, [6.4, 6.8], [20.0, 290.0, 24.0]);
+    let radius = panel.length(1.0);
+    let place = |vector: Vector| panel.at(view.across(vector));
+
+    // The sphere in its neighbours' midst: what is behind it first.
+    let mut marks = vec![shade("sphere", ["#ebf1f7", "#9db9d6", "#4b5661"])];
+    for centre in &neighbours {
+        let outline = ring(place(*centre), radius, GREY, 1.0).class("neighbour");
+        marks.push(outline.set("stroke-dasharray", "5 4"));
+    }
+    let shown = forces.iter().filter(|force| force.magnitude != 0.0);
+    let (behind, before): (Vec<_>, Vec<_>) =
+        shown.partition(|force| view.towards(force.at) < -1e-9);
+    marks.extend(behind.iter().flat_map(|force| force.arrow(place)));
+    let centre = circle(place([0.0; 3]), radius).class("sphere").of(site);
+    let centre = centre.fill("url(#sphere)").set("fill-opacity", 0.62);
+    marks.push(centre.stroke(BLACK, 1.0));
+    marks.extend(before.iter().flat_map(|force| force.arrow(place)));
+    marks.extend(forces.iter().flat_map(|force| force.letter(place)));
+    let mut shown = behind.iter().chain(&before);
+    let small = shown.any(|force| force.is_small(place));
+    marks.extend(table(subject, &forces, small)?);
+    marks.extend(view.axes([92.0, panel.page - 34.0], discs));
+    let Site { i, j, k } = site;
+    let title = if discs {
+        format!("Forces on the disc k = {k}, i = {i}")
+    } else {
+        format!("Forces on the sphere k = {k}, i = {i}, j = {j}")
+    };
+    let title = title.replace('-', "−");
+    Ok(Figure {
+        note: subject.note_of_part(forces.iter().any(|force| force.magnitude < 0.0)),
+        ..Figure::new(title, caption(subject)?, panel, marks)
+    })
+}
+
+/// Returns the forces on a sphere, and where its neighbours are from its centre, in R.
+fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>), Error> {
+    let pile = subject.pile();
+    let directions = pile.dimension().directions();
+    let mut touching = Vec::new();
+    let received = subject.forces().from_above(site)?;
+    let lines = directions.iter().zip(received);
+    for ((direction, force), name) in lines.zip(["a′", "b′", "c′"]) {
+        if let Some(upper) = pile.shape().above(site, *direction) {
+            touching.push(([name, "from above"], force, upper));
+        }
+    }
+    let on_floor = site.k == pile.layers() - 1;
+    if !on_floor {
+        let contacts = subject.forces().contacts(Selection::One(site))?;
+        for (contact, name) in contacts.zip(["a", "b", "c"]) {
+            let contact = contact?;
+            let lower = below(pile, site, contact.direction)?;
+            touching.push(([name, "from below"], contact.force, lower));
+        }
+    }
+    let (mut forces, mut neighbours) = (Vec::new(), Vec::new());
+    for (words, multiple, other) in touching {
+        let apart = subject.from(site, other)?;
+        neighbours.push(apart);
+        let (at, along) = (apart.map(|x| x / 2.0), apart.map(|x| x / -2.0));
+        let magnitude = subject.force(&multiple)?;
+        forces.push(Force::new(words, magnitude, along, at, Some(multiple)));
+    }
+    if on_floor {
+        forces.push(from_floor(subject.on_floor(site)?));
+    }
+    let weight = subject.weight(pile.sphere_weight(site)?)?;
+    let centre = [0.0; 3];
+    forces.push(Force::new(["w", "weight"], weight, DOWN, centre, None));
+    let load = pile.load(site)?;
+    if !load.is_zero() {
+        let load = subject.weight(load)?;
+        forces.push(Force::new(["p", "load"], load, DOWN, UP, None));
+    }
+    Ok((forces, neighbours))
+}
+
+/// Returns what the floor does to a bottom sphere: the opposite of what it feels, which is normal downwards.
+fn from_floor([x, y, normal]: Vector) -> Force {
+    let magnitude = x.hypot(y).hypot(normal);
+    let along = [-x, -y, normal].map(|part| part / magnitude);
+    let along = if magnitude > 0.0 { along } else { UP };
+    Force::new(["n", "from the floor"], magnitude, along, DOWN, None)
+}
+
+/// Gives the arrows their lengths: all in one scale, in which the weight stays within the sphere.
+fn to_scale(forces: &mut [Force]) {
+    let scale = Scale::around_zero(forces.iter().map(|force| force.magnitude));
+    let weight = forces.iter().find(|force| force.name == "w");
+    let weight = weight.map_or(0.0, |weight| scale.part(weight.magnitude));
+    let longest = LONGEST.min(WEIGHT / weight);
+    for force in forces {
+        force.length = scale.part(force.magnitude) * longest;
+    }
+}
+
+impl Force {
+    /// Returns the ends of the arrow: the weight begins in the centre, what pushes ends on the surface, and what pulls
+    /// begins there.
+    fn ends(&self) -> [Vector; 2] {
+        let far = |length| moved(self.at, length, self.along);
+        if norm(self.at) == 0.0 || self.length < 0.0 {
+            [self.at, far(self.length)]
+        } else {
+            [far(-self.length), self.at]
+        }
+    }
+
+    /// Whether the arrow is too short to be seen.
+    fn is_small(&self, place: impl Fn(Vector) -> Point) -> bool {
+        let [tail, tip] = self.ends().map(place);
+        (tip[0] - tail[0]).hypot(tip[1] - tail[1]) < SMALL
+    }
+
+    /// Returns the arrow, and a ring where it is too short to be seen.
+    fn arrow(&self, place: impl Fn(Vector) -> Point) -> Vec<Mark> {
+        let [tail, tip] = self.ends().map(&place);
+        let [x, y, z] = self.along.map(|part| part * self.magnitude);
+        let mark = arrow(tail, tip, 4.0, self.colour()).set("data-name", self.name);
+        let mark = mark.valued("data-force", self.magnitude);
+        let mark = mark.valued("data-x", x).valued("data-y", y);
+        let mut marks = vec![mark.valued("data-z", z)];
+        if self.is_small(&place) {
+            marks.push(ring(place(self.at), 7.0, self.colour(), 2.0).class("small"));
+        }
+        marks
+    }
+
+    /// Returns the letter, at the end that is farther from the sphere; that of the weight at its side.
+    fn letter(&self, place: impl Fn(Vector) -> Point) -> [Mark; 2] {
+        const BEYOND: f64 = 16.0;
+        let [tail, tip] = self.ends();
+        let at = if norm(self.at) == 0.0 {
+            let [[x, y], [_, below]] = [place(tail), place(tip)];
+            [x - BEYOND, y.midpoint(below)]
+        } else {
+            let far = if norm(tail) > norm(tip) { tail } else { tip };
+            let [from, to] = [place([0.0; 3]), place(self.at)];
+            let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+            let beyond = BEYOND / dx.hypot(dy).max(1.0);
+            let [x, y] = place(far);
+            [x + dx * beyond, y + dy * beyond]
+        };
+        let letter = text(at, 19.0, self.name).bold().italic();
+        letter.fill(self.colour()).with_rim()
+    }
+
+    fn colour(&self) -> &'static str {
+        match self.name {
+            "w" | "p" => ORANGE,
+            _ if self.magnitude < 0.0 => PULL,
+            _ => PUSH,
+        }
+    }
+}
+
+fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mark>, Error> {
+    let unit = subject.force_unit();
+    let [words, multiples, values] = [LEFT + 30.0, LEFT + 172.0, LEFT + 248.0];
+    let mut y = TABLE + 14.0;
+    let mut marks = vec![
+        text([multiples, TABLE], 13.0, "f₀").fill(DIM).end(),
+        text([values, TABLE], 13.0, unit).fill(DIM).end(),
+        line([LEFT, y], [values, y], GREY, 1.0),
+    ];
+    for force in forces {
+        y += 22.0;
+        let name = text([LEFT, y], 14.0, force.name).bold().italic().start();
+        marks.push(name.fill(force.colour()));
+        marks.push(text([words, y], 13.0, force.origin).start());
+        if let Some(multiple) = &force.multiple {
+            let words = exact_or_short(multiple);
+            marks.push(text([multiples, y], 14.0, words).end());
+        }
+        marks.push(text([values, y], 14.0, short(force.magnitude)).end());
+    }
+    let (value, formula) = subject.unit_force()?;
+    let unit_force = format!("f₀ = {formula} = {} {unit}", short(value));
+    let pulls = forces.iter().any(|force| force.magnitude < 0.0);
+    let remarks = [
+        (true, BLACK, unit_force.as_str()),
+        (pulls, PULL, "− is pull"),
+        (small, DIM, "○ is too small for an arrow"),
+    ];
+    y += 12.0;
+    for (_, colour, words) in remarks.into_iter().filter(|(shown, ..)| *shown) {
+        y += 22.0;
+        marks.push(text([LEFT, y], 13.0, words).fill(colour).start());
+    }
+    Ok(marks)
+}

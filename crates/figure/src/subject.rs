@@ -1,0 +1,350 @@
+//! What a figure is of: a pile with a spacing, and the units of its forces and lengths.
+
+use cannonpile::engine::bug;
+use cannonpile::geometry;
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Dimension, Direction, HorizontalContact, Site};
+use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use cannonpile::{FloorForce, Forces, Packing, Pile};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::mark::Point;
+use super::view::Vector;
+use crate::Error;
+
+/// A pile as figures measure it.
+///
+/// # Examples
+/// ```
+/// use cannonpile_figure::Subject;
+/// use cannonpile::geometry::Spacing;
+/// use cannonpile::{Packing, Pile};
+/// use num_rational::BigRational;
+///
+/// let (pile, spacing) = (Pile::triangular(10)?, Spacing::new(BigRational::new(6.into(), 5.into()))?);
+/// let in_mg = cannonpile_figure::base(&Subject::of_pile(&pile, &spacing)?)?.to_string();
+/// assert!(in_mg.contains("in mg") && in_mg.contains("data-value=\"4.0\""));
+///
+/// let packing = Packing::new(&pile, &spacing)?.with_gravity(BigRational::new(981.into(), 100.into()))?;
+/// let in_newtons = cannonpile_figure::base(&Subject::of_packing(packing))?.to_string();
+/// assert!(in_newtons.contains("in N") && in_newtons.contains("data-value=\"39.24\""));
+/// # Ok::<(), cannonpile_figure::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Subject<'p> {
+    packing: Packing<'p>,
+    si: bool,
+    /// Whether horizontal contacts are drawn, also open ones.
+    horizontal: bool,
+}
+
+impl<'p> Subject<'p> {
+    /// Returns the pile measured in multiples of R, of mg, and for shear of mg·tanθ.
+    ///
+    /// # Errors
+    /// Those of [`Packing::new`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_figure::Subject;
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
+    /// let svg = cannonpile_figure::shear(&Subject::of_pile(&pile, &spacing)?)?.to_string();
+    /// assert!(svg.contains("greatest 3 mg·tanθ"));
+    /// # Ok::<(), cannonpile_figure::Error>(())
+    /// ```
+    pub fn of_pile(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
+        let packing = Packing::new(pile, spacing)?;
+        Ok(Self {
+            packing,
+            si: false,
+            horizontal: false,
+        })
+    }
+
+    /// Returns the pile measured in metres and newtons.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_figure::Subject;
+    /// use cannonpile::geometry::Spacing;
+    /// use cannonpile::{Packing, Pile};
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
+    /// let svg = cannonpile_figure::shear(&Subject::of_packing(packing))?.to_string();
+    /// assert!(svg.contains("greatest 2.882 N") && svg.contains("x in m"));
+    /// # Ok::<(), cannonpile_figure::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_packing(packing: Packing<'p>) -> Self {
+        Self {
+            packing,
+            si: true,
+            horizontal: false,
+        }
+    }
+
+    /// Returns the subject with the horizontal contacts of its pile, of which those that bear no force are open.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_figure::Subject;
+    /// use cannonpile::geometry::Spacing;
+    /// use num_rational::BigRational;
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let spacing = Spacing::new(BigRational::from_integer(1.into()))?;
+    /// let subject = Subject::of_pile(&pile, &spacing)?.with_horizontal_contacts();
+    /// let mut svg = Vec::new();
+    /// cannonpile_figure::layer(&subject, 2)?.write(&mut svg)?;
+    /// assert_eq!(String::from_utf8(svg)?.matches("gamma-beta").count(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_horizontal_contacts(self) -> Self {
+        Self {
+            horizontal: true,
+            ..self
+        }
+    }
+
+    /// Says what horizontal contacts do, if they are counted in.
+    pub(super) fn horizontal_state(&self) -> Option<String> {
+        match self.pile().horizontal_forces().len() {
+            0 => self.horizontal.then(|| "horizontal contacts open".into()),
+            1 => Some("1 horizontal contact pushes".into()),
+            pushing => Some(format!("{pushing} horizontal contacts push")),
+        }
+    }
+
+    /// Says how open horizontal contacts are drawn, if they are.
+    pub(super) fn sight(&self) -> &'static str {
+        if self.horizontal {
+            "; dashed: open"
+        } else {
+            ""
+        }
+    }
+
+    /// Returns the horizontal contacts of a part that are drawn, with their forces.
+    pub(super) fn horizontal(
+        &self,
+        part: Selection,
+    ) -> Result<impl Iterator<Item = (HorizontalContact, BigRational)> + use<'p>, Error> {
+        let (pile, all) = (self.pile(), self.horizontal);
+        let spheres = pile.rows(part)?.off_the_floor().flatten();
+        let contacts = spheres.flat_map(move |site| pile.shape().horizontal_contacts(site));
+        let forces = contacts.map(move |contact| (contact, pile.horizontal_force(contact)));
+        Ok(forces.filter(move |(_, force)| all || !force.is_zero()))
+    }
+
+    pub(super) fn pile(&self) -> &'p Pile {
+        self.packing.pile()
+    }
+
+    pub(super) fn is_of_discs(&self) -> bool {
+        self.pile().dimension() == Dimension::Two
+    }
+
+    /// Returns the unit of forces.
+    pub(super) fn force_unit(&self) -> &'static str {
+        if self.si { "N" } else { "mg" }
+    }
+
+    /// Returns the unit of shears.
+    pub(super) fn shear_unit(&self) -> &'static str {
+        if self.si { "N" } else { "mg·tanθ" }
+    }
+
+    /// Returns the unit of lengths.
+    pub(super) fn length_unit(&self) -> &'static str {
+        if self.si { "m" } else { "R" }
+    }
+
+    /// Returns f₀ in the unit of forces, and its formula.
+    pub(super) fn unit_force(&self) -> Result<(f64, &'static str), Error> {
+        let formula = match (self.is_of_discs(), self.pile().is_regular()) {
+            (true, _) => "mg/(2 cosθ)",
+            (false, true) => "mg/(3 cosθ)",
+            (false, false) => "mg/(2(1+sinφ) cosθ)",
+        };
+        Ok((
+            nearest(&self.packing.unit_force(), "the unit of forces")?,
+            formula,
+        ))
+    }
+
+    /// Returns a/R.
+    pub(super) fn spacing(&self) -> Result<Spacing, Error> {
+        // (a/R)² = 2d/(d−1)·sin²θ.
+        let factor = if self.is_of_discs() { 4 } else { 3 };
+        let factor = BigRational::from_integer(factor.into());
+        Ok(Spacing::from_square(
+            self.packing.inclination().sin2() * factor,
+        )?)
+    }
+
+    /// Returns R in the unit of lengths.
+    pub(super) fn radius(&self) -> Result<f64, Error> {
+        nearest(&self.packing.radius().clone().into(), "the radius")
+    }
+
+    /// Returns where a sphere is, in the unit of lengths.
+    pub(super) fn position(&self, site: Site) -> Result<Vector, Error> {
+        rounded(&self.packing.position(site)?)
+    }
+
+    /// Returns where a sphere is from another, in R; as exact for sites 10³⁰ from the apex.
+    pub(super) fn from(&self, origin: Site, site: Site) -> Result<Vector, Error> {
+        let radii = self.packing.radius().recip();
+        let [origin, site] = [self.packing.position(origin)?, self.packing.position(site)?];
+        let mut apart = [0.0; 3];
+        for (apart, (from, to)) in apart.iter_mut().zip(origin.iter().zip(&site)) {
+            let (from, to) = (from.scaled(&-radii.clone()), to.scaled(&radii));
+            let difference = to.checked_add(&from);
+            let difference = difference
+                .ok_or_else(|| bug("coordinates of one axis are multiples of one root"))?;
+            *apart = nearest(&difference, "a position")?;
+        }
+        Ok(apart)
+    }
+
+    /// Returns how many rows of its layer a sphere is from the middle of x, in the steps j → j+1.
+    pub(super) fn rows(&self, site: Site) -> Result<BigRational, Error> {
+        let x = self.packing.forces().position(site)?.x;
+        Ok(x / (BigRational::one() + self.pile().sin_phi()))
+    }
+
+    /// Returns the unit vectors from the spheres below to a sphere above a + step, up to rounding.
+    pub(super) fn directions(&self) -> Result<[Vector; 3], Error> {
+        let sin = nearest(&self.packing.inclination().sin(), "an angle")?;
+        let cos = nearest(&self.packing.inclination().cos(), "an angle")?;
+        let s = nearest(&self.pile().sin_phi().clone().into(), "an angle")?;
+        let directions = if self.is_of_discs() {
+            geometry::disc_directions()
+        } else {
+            geometry::directions(&s)
+        };
+        let basis = [sin, 2.0 * (1.0 - s * s).sqrt() * sin, -cos];
+        Ok(directions.map(|direction| direction.on(&basis)))
+    }
+
+    /// Returns the steps i → i+1 and j → j+1 in a layer, in R; of discs the second is as long, across their plane.
+    pub(super) fn steps(&self) -> Result<[Point; 2], Error> {
+        let [a, b, c] = self.directions()?;
+        let step = |to: Vector| [2.0 * (a[0] - to[0]), 2.0 * (a[1] - to[1])];
+        let [i, j] = [step(b), step(c)];
+        Ok([i, if self.is_of_discs() { [0.0, i[0]] } else { j }])
+    }
+
+    /// `i,j` of a sphere, `i` of a disc.
+    pub(super) fn indices(&self, Site { i, j, .. }: Site) -> String {
+        if self.is_of_discs() {
+            format!("{i}")
+        } else {
+            format!("{i},{j}")
+        }
+    }
+
+    /// The contact forces, in f₀.
+    pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
+        self.packing.forces()
+    }
+
+    /// Returns a contact force, in its unit.
+    pub(super) fn force(&self, multiple: &BigRational) -> Result<f64, Error> {
+        nearest(
+            &self.packing.unit_force().scaled(multiple),
+            "a contact force",
+        )
+    }
+
+    /// Returns the vertical part of a contact force, in its unit: f·mg/W.
+    pub(super) fn vertical(&self, multiple: &BigRational) -> Result<Surd, Error> {
+        let sum = self.packing.forces().increment_sum()?;
+        Ok((multiple * self.packing.sphere_weight() / sum).into())
+    }
+
+    /// Returns a weight, in the unit of forces.
+    pub(super) fn weight(&self, multiple: BigRational) -> Result<f64, Error> {
+        nearest(&self.normal(multiple), "a weight")
+    }
+
+    /// Returns the force of a bottom sphere on the floor, all of it in the unit of forces.
+    pub(super) fn normal(&self, multiple: BigRational) -> Surd {
+        (multiple * self.packing.sphere_weight()).into()
+    }
+
+    pub(super) fn on_floor(&self, site: Site) -> Result<Vector, Error> {
+        let force = self.packing.on_floor(site)?;
+        rounded(&[force.shear_x, force.shear_y, force.normal])
+    }
+
+    /// Returns the forces on the floor, each in its unit.
+    pub(super) fn base(
+        &self,
+    ) -> Result<impl Iterator<Item = Result<FloorForce<Surd>, Error>> + '_, Error> {
+        let cot = self.packing.inclination().tan().checked_recip();
+        let cot = cot.ok_or_else(|| bug("θ is positive"))?;
+        let in_units = move |force: FloorForce<Surd>| {
+            if self.si {
+                return force;
+            }
+            FloorForce {
+                shear_x: force.shear_x * &cot,
+                shear_y: force.shear_y * &cot,
+                ..force
+            }
+        };
+        let forces = self.packing.base(Selection::Base)?;
+        Ok(forces.map(move |force| Ok(in_units(force?))))
+    }
+
+    /// Returns what is to be said of a pile of which a part is shown, whether a contact in it pulls.
+    pub(super) fn note_of_part(&self, pulls: bool) -> Option<String> {
+        (pulls && !self.pile().is_weightless()).then(|| {
+            "this pile does not stand without further contacts: spheres would have to pull here; no other forces of these \
+             contacts are in balance"
+                .into()
+        })
+    }
+
+    /// Returns what is to be said of a pile that cannot stand.
+    pub(super) fn note(&self) -> Option<String> {
+        if self.pile().is_weightless() {
+            return None;
+        }
+        match self.pile().first_failure() {
+            Ok(failure) => failure.map(|k| {
+                format!("this pile does not stand without further contacts: below layer k = {k} spheres would have to pull")
+            }),
+            Err(error) => Some(format!("whether this pile stands is not known: {error}")),
+        }
+    }
+}
+
+/// Returns the sphere below another, of the pile.
+pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Site, Error> {
+    let below = pile.shape().below(site, direction);
+    below.ok_or_else(|| cannonpile::Error::on_floor(site).into())
+}
+
+/// Returns the nearest float.
+pub(super) fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
+    let float = number.nearest::<f64>();
+    float.ok_or_else(|| cannonpile::Error::overflow(quantity, "f64").into())
+}
+
+fn rounded([x, y, z]: &[Surd; 3]) -> Result<Vector, Error> {
+    let nearest = |part| nearest(part, "a coordinate");
+    Ok([nearest(x)?, nearest(y)?, nearest(z)?])
+}

@@ -1,0 +1,103 @@
+//! What a page knows of a pile.
+
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Axis, Dimension, Site};
+use cannonpile_dem::scene::State;
+use cannonpile_dem::weights::{nearest_rational, ordinary_weight};
+use cannonpile_dem::{CardTitle, Error, NumberedPile, anchor, stacking};
+use colorous::{Gradient, RED_BLUE, VIRIDIS};
+use num_rational::BigRational;
+use serde_json::{Value, json};
+
+use super::places::rows;
+use super::states::{Quantities, states};
+
+/// The colours of a map that are given; between them lie mixtures.
+const COLOURS: u32 = 64;
+
+/// All that the page says, as data.
+pub(super) fn of(
+    pile: &NumberedPile<'_>,
+    title: &CardTitle,
+    heading: &str,
+    scene: Option<&str>,
+) -> Result<Value, Error> {
+    let (packing, of_pile) = (pile.packing(), pile.pile());
+    let directions = of_pile.dimension().directions().iter();
+    let mut quantities = Quantities::of(pile);
+    let states = states(pile, title, &mut quantities)?;
+    let anchor = (of_pile.dimension() == Dimension::Three).then(|| anchor(of_pile.shape()));
+    let ratio = title.stiffness_ratio.as_ref().map(ToString::to_string);
+    Ok(json!({
+        "program": concat!("cannonpile ", env!("CARGO_PKG_VERSION")),
+        "title": heading,
+        "purpose": title.purpose,
+        "scene": scene,
+        "dimension": of_pile.dimension().number(),
+        "layers": of_pile.layers().to_string(),
+        "stacking": stacking(of_pile),
+        "anchor": anchor.flatten(),
+        "spheres": pile.numbering().sphere_count(),
+        "contacts": pile.contact_count().to_string(),
+        "weightless": of_pile.is_weightless(),
+        "spacing": spacing(pile)?,
+        "stiffness_ratio": ratio,
+        "touching": neighbours_touch(pile, title),
+        "radius": nearest_rational(packing.radius(), "the radius")?,
+        "directions": directions.map(|direction| direction.name()).collect::<Vec<_>>(),
+        "axes": Axis::ALL.map(Axis::name),
+        "rows": rows(pile)?,
+        "weight": ordinary_weight(of_pile).to_string(),
+        "special": special(pile)?,
+        "quantities": quantities.to_json()?,
+        "states": states,
+        "colours": { "rising": map(VIRIDIS), "diverging": map(RED_BLUE) },
+    }))
+}
+
+/// a/R, from sin²θ = (a/R)²(d−1)/(2d).
+fn spacing(pile: &NumberedPile<'_>) -> Result<String, Error> {
+    let factor = match pile.pile().dimension() {
+        Dimension::Two => 4,
+        Dimension::Three => 3,
+    };
+    let factor = BigRational::from_integer(factor.into());
+    let spacing = Spacing::from_square(pile.packing().inclination().sin2() * factor)?;
+    Ok(spacing.ratio().to_string())
+}
+
+/// Whether neighbours of a layer touch, all of them, so that contacts between them are open where they bear nothing.
+fn neighbours_touch(pile: &NumberedPile<'_>, title: &CardTitle) -> bool {
+    let touches = pile
+        .packing()
+        .touching()
+        .iter()
+        .any(|apart| apart.layers == 0);
+    let of_pile = pile.pile();
+    let all = of_pile.dimension() == Dimension::Two || of_pile.is_regular();
+    title.state == State::Elastic || of_pile.horizontal_forces().len() > 0 || touches && all
+}
+
+/// The spheres with a weight of their own or a load, by number: `[id, weight, load]`, in mg.
+fn special(pile: &NumberedPile<'_>) -> Result<Vec<Value>, Error> {
+    let of_pile = pile.pile();
+    let loads = of_pile.loads().map(|(site, _)| site);
+    let mut sites: Vec<Site> = loads
+        .chain(of_pile.weights().map(|(site, _)| site))
+        .collect();
+    sites.sort_unstable();
+    sites.dedup();
+    let sites = sites.into_iter().map(|site| {
+        let weight = of_pile.sphere_weight(site)?.to_string();
+        let load = of_pile.load(site)?.to_string();
+        Ok(json!([pile.numbering().id(site)?, weight, load]))
+    });
+    sites.collect()
+}
+
+/// A colour map, as its colours from the least number to the greatest, six digits each.
+fn map(gradient: Gradient) -> String {
+    let colours = 0..=COLOURS;
+    let colours = colours.map(|n| gradient.eval_continuous(f64::from(n) / f64::from(COLOURS)));
+    colours.fold(String::new(), |map, colour| map + &format!("{colour:x}"))
+}

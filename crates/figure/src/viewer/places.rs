@@ -1,0 +1,82 @@
+//! Where spheres are: rows, of which the first sphere is enough.
+
+use cannonpile::engine::bug;
+use cannonpile::lattice::Site;
+use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use cannonpile_dem::numbered::nearest;
+use cannonpile_dem::{Error, NumberedPile};
+use num_rational::BigRational;
+use num_traits::One;
+use serde_json::{Value, json};
+
+use super::encoding::floats;
+
+/// The rows of spheres, in the order of their numbers: indices and places from the first of all, so that both are as exact
+/// 10³⁰ away from the apex; the spheres below the first one of each.
+pub(super) fn rows(pile: &NumberedPile<'_>) -> Result<Value, Error> {
+    let mut rows = pile.pile().rows(Selection::All)?;
+    let first = rows.next().ok_or_else(|| bug("a pile has a row"))?;
+    let origin = Site {
+        i: first.i.start,
+        j: first.j,
+        k: first.k,
+    };
+    let mut step = None;
+    let (mut layers, mut i, mut j, mut counts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut places = [Vec::new(), Vec::new(), Vec::new()];
+    let centre = pile.packing().position(origin)?;
+    for row in pile.pile().rows(Selection::All)? {
+        let site = Site {
+            i: row.i.start,
+            j: row.j,
+            k: row.k,
+        };
+        layers.push(small(site.k)?);
+        i.push(small(site.i - origin.i)?);
+        j.push(small(site.j - origin.j)?);
+        counts.push(small(row.i.end - row.i.start)?);
+        let own = pile.packing().position(site)?;
+        if step.is_none() && row.i.end - row.i.start > 1 {
+            let i = site.i + 1;
+            let next = pile.packing().position(Site { i, ..site })?;
+            let steps = own.iter().zip(next).map(|(from, to)| difference(&to, from));
+            step = Some(floats(steps)?);
+        }
+        let from = centre.iter().zip(own);
+        for (along, (from, to)) in places.iter_mut().zip(from) {
+            along.push(difference(&to, from));
+        }
+    }
+    let mut below = Vec::new();
+    for row in pile.linked_rows()? {
+        below.push(row?.below.into_iter().map(|(_, id)| id).collect::<Vec<_>>());
+    }
+    let [x, y, z] = places;
+    Ok(json!({
+        "origin": { "i": origin.i.to_string(), "j": origin.j.to_string() },
+        "k": layers,
+        "i": i,
+        "j": j,
+        "spheres": counts,
+        "step": step.map_or_else(|| floats([0.0; 3].map(Ok)), Ok)?,
+        "x": floats(x)?,
+        "y": floats(y)?,
+        "z": floats(z)?,
+        "below": below,
+    }))
+}
+
+/// An index from the first sphere, of a pile that a page shows.
+fn small(index: i128) -> Result<i64, Error> {
+    i64::try_from(index).map_err(|_| bug("a pile of few spheres has few rows").into())
+}
+
+fn difference(to: &Surd, from: &Surd) -> Result<f64, Error> {
+    let opposite = from.scaled(&-BigRational::one());
+    let apart = to.checked_add(&opposite);
+    nearest(
+        &apart.ok_or_else(|| bug("coordinates of one axis are multiples of one root"))?,
+        "a position",
+    )
+}

@@ -1,0 +1,140 @@
+//! The exact numbers of one kind, each once: multiples of a unit, and the floats nearest to them.
+
+use std::collections::HashMap;
+
+use cannonpile::engine::common_denominator;
+use cannonpile::scalar::Surd;
+use cannonpile_dem::Error;
+use cannonpile_dem::numbered::nearest;
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+use serde_json::{Value, json};
+
+use super::encoding::floats;
+
+/// The most digits that the numbers of one kind have together.
+const MAX_DIGITS: u64 = 30_000_000;
+
+/// The exact numbers of one kind that occur.
+pub(super) struct Quantity {
+    /// What they are multiples of, as tables say it.
+    unit: &'static str,
+    /// The unit in N.
+    newtons: Surd,
+    /// What they are called where one of them is refused.
+    name: &'static str,
+    numbers: Vec<BigRational>,
+    /// Where each of them is, by numerator and denominator.
+    places: HashMap<(BigInt, BigInt), u32>,
+}
+
+impl Quantity {
+    pub(super) fn new(unit: &'static str, newtons: Surd, name: &'static str) -> Self {
+        Self {
+            unit,
+            newtons,
+            name,
+            numbers: Vec::new(),
+            places: HashMap::new(),
+        }
+    }
+
+    /// The place of a number in the list, which it is put into if it is new.
+    pub(super) fn place(&mut self, number: BigRational) -> Result<u32, Error> {
+        let key = (number.numer().clone(), number.denom().clone());
+        if let Some(place) = self.places.get(&key) {
+            return Ok(*place);
+        }
+        let new = u32::try_from(self.numbers.len())
+            .map_err(|_| self.too_large(self.numbers.len() as u64))?;
+        self.places.insert(key, new);
+        self.numbers.push(number);
+        Ok(new)
+    }
+
+    /// Digits are what takes room.
+    fn too_large(&self, needed: u64) -> Error {
+        let remedy = "use fewer layers, or loads with one small denominator";
+        cannonpile::Error::too_large(self.name, needed.into(), MAX_DIGITS, remedy).into()
+    }
+
+    /// The list: numerators over one denominator, and the floats nearest to the multiples and to these in N.
+    pub(super) fn to_json(&self) -> Result<Value, Error> {
+        let denominator = common_denominator(&self.numbers);
+        // 0.302 digits a bit.
+        let digits = self.numbers.iter();
+        let bits = digits.map(|x| x.numer().bits() + denominator.bits() - x.denom().bits());
+        let digits = bits.map(|bits| bits * 302 / 1000 + 1).sum();
+        if digits > MAX_DIGITS {
+            return Err(self.too_large(digits));
+        }
+        let numerators = self.numbers.iter();
+        let numerators = numerators.map(|x| (x.numer() * (&denominator / x.denom())).to_string());
+        let numerators: Vec<String> = numerators.collect();
+        let multiples = self
+            .numbers
+            .iter()
+            .map(|x| nearest(&x.clone().into(), self.name));
+        let newtons = self
+            .numbers
+            .iter()
+            .map(|x| nearest(&self.newtons.scaled(x), self.name));
+        let [coefficient, radicand] = [
+            self.newtons.coefficient().clone(),
+            BigRational::from_integer(BigUint::clone(self.newtons.radicand()).into()),
+        ];
+        Ok(json!({
+            "unit": self.unit,
+            "newtons": {
+                "numerator": coefficient.numer().to_string(),
+                "denominator": coefficient.denom().to_string(),
+                "radicand": radicand.to_string(),
+            },
+            "denominator": denominator.to_string(),
+            "numerators": numerators.join(" "),
+            "multiples": floats(multiples)?,
+            "floats": floats(newtons)?,
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::One;
+
+    use super::*;
+
+    fn quantity(numbers: impl IntoIterator<Item = BigRational>) -> Quantity {
+        let mut quantity = Quantity::new("mg", Surd::sqrt(BigRational::one()).unwrap(), "a force");
+        for number in numbers {
+            quantity.place(number).unwrap();
+        }
+        quantity
+    }
+
+    #[test]
+    fn each_number_stands_once_over_one_denominator() {
+        let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+        let mut quantity = quantity([ratio(1, 2), ratio(-2, 3), ratio(1, 2), ratio(0, 1)]);
+        assert_eq!(quantity.place(ratio(-4, 6)), Ok(1));
+        let json = quantity.to_json().unwrap();
+        assert_eq!(
+            (&json["denominator"], &json["numerators"]),
+            (&json!("6"), &json!("3 -4 0"))
+        );
+    }
+
+    #[test]
+    fn too_many_digits_are_refused() {
+        // Its own numerator is short; that of 1 is not.
+        let long = BigRational::new(BigInt::one(), BigInt::one() << 150_000_000_u64);
+        let refused = quantity([long, BigRational::one()]).to_json();
+        assert!(
+            matches!(
+                refused,
+                Err(Error::Core(cannonpile::Error::TooLarge { .. }))
+            ),
+            "{refused:?}"
+        );
+    }
+}

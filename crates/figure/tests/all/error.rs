@@ -1,0 +1,22 @@
+//! The errors of this crate say in one line what was given and what would do.
+
+use cannonpile::Pile;
+use cannonpile::lattice::MAX_LAYERS;
+use cannonpile_figure::{Error, Subject, shear};
+use cannonpile_testkit::errors::says;
+
+#[test]
+fn too_many_marks() {
+    let pile = Pile::triangular(MAX_LAYERS).unwrap();
+    let subject = Subject::of_pile(&pile, &"6/5".parse().unwrap()).unwrap();
+    let error = shear(&subject).unwrap_err();
+    assert!(matches!(
+        &error,
+        Error::TooManyMarks { marks, what: "bottom spheres", limit: 20_000, remedy: "use fewer layers", .. }
+            if *marks == pile.base_spheres()
+    ));
+    says(
+        &error,
+        &["5000000", "bottom spheres", "20000", "use fewer layers"],
+    );
+}

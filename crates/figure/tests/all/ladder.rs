@@ -1,0 +1,187 @@
+//! A ladder in a figure: marks, lines and triangle are where its numbers say.
+
+use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
+use cannonpile_figure as figure;
+use roxmltree::{Document, Node};
+
+use crate::svg::{number, of_class};
+
+/// Errors of 4/k down to a floor, with a coarsest rung that has lost contacts.
+fn stiffnesses() -> Ladder {
+    let rungs = [1e3, 1e4, 1e5, 1e6, 1e7, 1e8].map(|k| {
+        let error = 4.0 / k + 2e-15 * k;
+        let missing = u64::from(k < 2e3);
+        Rung {
+            missing,
+            matched: 30 - missing,
+            ..Rung::of_errors(k, 30, error, error / 2.0)
+        }
+    });
+    let ladder = Ladder::new(Refinement::Stiffness, rungs).unwrap();
+    ladder.predicted(|k| 4.4 / k).unwrap()
+}
+
+/// The middle of a disc or a square.
+fn middle(mark: &Node<'_, '_>) -> [f64; 2] {
+    if mark.has_tag_name("circle") {
+        return ["cx", "cy"].map(|name| number(mark, name));
+    }
+    let corners = points(mark);
+    [0, 1].map(|n| corners.iter().map(|at| at[n]).sum::<f64>() / 4.0)
+}
+
+fn points(mark: &Node<'_, '_>) -> Vec<[f64; 2]> {
+    let points = mark.attribute("points").unwrap().split(' ');
+    let points = points.map(|point| {
+        let (x, y) = point.split_once(',').unwrap();
+        [x, y].map(|n| n.parse().unwrap())
+    });
+    points.collect()
+}
+
+/// How far on the page a factor of ten is to the right, and upwards, with the place of h = e = 1.
+fn decades(document: &Document<'_>, h: impl Fn(f64) -> f64) -> [[f64; 2]; 2] {
+    let rungs = of_class(document, "rung");
+    let log = |mark: &Node<'_, '_>| {
+        let [parameter, error] = ["data-parameter", "data-error"].map(|name| number(mark, name));
+        [h(parameter).log10(), error.log10()]
+    };
+    let (one, other) = (&rungs[1], rungs.last().unwrap());
+    let ([a, b], [at, to]) = ([one, other].map(middle), [one, other].map(log));
+    [0, 1].map(|n| {
+        let decade = (b[n] - a[n]) / (to[n] - at[n]);
+        [decade, a[n] - at[n] * decade]
+    })
+}
+
+fn check(ladder: &Ladder) {
+    let svg = figure::ladder(ladder).to_string();
+    let document = Document::parse(&svg).unwrap();
+    let h = |parameter| ladder.refinement().h(parameter);
+    let axes = decades(&document, h);
+    let at = |h: f64, error: f64| [h, error].map(f64::log10);
+    let near = |[x, y]: [f64; 2], log: [f64; 2]| {
+        let place = [0, 1].map(|n| axes[n][1] + log[n] * axes[n][0]);
+        assert!(
+            (x - place[0]).abs() < 1e-2 && (y - place[1]).abs() < 1e-2,
+            "{log:?}"
+        );
+    };
+    // To the right h grows, and upwards the error.
+    assert!(axes[0][0] > 0.0 && axes[1][0] < 0.0);
+    let rungs = of_class(&document, "rung");
+    for norm in Norm::ALL {
+        let marks = rungs
+            .iter()
+            .filter(|mark| mark.attribute("data-norm") == Some(norm.name()));
+        let marks: Vec<_> = marks.collect();
+        assert_eq!(marks.len(), ladder.rungs().len());
+        for ((mark, rung), place) in marks.iter().zip(ladder.rungs()).zip(ladder.places(norm)) {
+            assert_eq!(
+                number(mark, "data-parameter").to_bits(),
+                rung.parameter.to_bits()
+            );
+            assert_eq!(
+                number(mark, "data-error").to_bits(),
+                rung.error(norm).to_bits()
+            );
+            assert_eq!(mark.attribute("data-place"), Some(place.name()));
+            assert_eq!(
+                mark.attribute("fill") == Some("#ffffff"),
+                place.name() != "above"
+            );
+            near(middle(mark), at(h(rung.parameter), rung.error(norm)));
+        }
+        let fit = ladder.fit(norm).unwrap();
+        let lines = of_class(&document, "fit");
+        let line = lines
+            .iter()
+            .find(|line| line.attribute("data-norm") == Some(norm.name()));
+        let line = line.unwrap();
+        assert_eq!(number(line, "data-order").to_bits(), fit.order().to_bits());
+        let ends = points(line);
+        let places = ladder.places(norm);
+        let above = ladder
+            .rungs()
+            .iter()
+            .zip(places)
+            .filter(|(_, place)| place.name() == "above");
+        let above: Vec<f64> = above.map(|(rung, _)| h(rung.parameter)).collect();
+        for (end, h) in [(ends[0], above[0]), (ends[1], *above.last().unwrap())] {
+            near(end, at(h, fit.at(h)));
+        }
+    }
+    let predicted = of_class(&document, "predicted");
+    let known = ladder
+        .rungs()
+        .iter()
+        .filter(|rung| rung.predicted_error.is_some())
+        .count();
+    assert_eq!(predicted.len(), usize::from(known > 0));
+    for line in predicted {
+        for (point, rung) in points(&line).into_iter().zip(ladder.rungs()) {
+            near(point, at(h(rung.parameter), rung.predicted_error.unwrap()));
+        }
+    }
+    let [left, corner, top] = points(&of_class(&document, "slope")[0])[..] else {
+        panic!("a triangle")
+    };
+    let [across, upwards] = [
+        (corner[0] - left[0]) / axes[0][0],
+        (top[1] - corner[1]) / axes[1][0],
+    ];
+    assert!((across / upwards - 1.0).abs() < 1e-3 && across > 0.0);
+}
+
+#[test]
+fn marks_are_where_the_errors_are() {
+    check(&stiffnesses());
+    let steps =
+        [0.1, 0.05, 0.025].map(|step: f64| Rung::of_errors(step, 30, step.powi(2), step.powi(3)));
+    check(&Ladder::new(Refinement::TimeStep, steps).unwrap());
+    // Errors that stay are where the key would be: there is room for both.
+    let staying =
+        [1.0, 0.1, 0.01, 0.001].map(|step: f64| Rung::of_errors(step, 30, step.max(0.1), step));
+    check(&Ladder::new(Refinement::TimeStep, staying).unwrap());
+}
+
+#[test]
+fn the_key_tells_orders_and_the_floor() {
+    let svg = figure::ladder(&stiffnesses()).to_string();
+    for says in [
+        "largest error, order 1.000",
+        "rms error, order 1.000",
+        "theory of springs",
+        "on the floor",
+        "6 rungs, 3 of them above the floor",
+        "log₁₀ 1/k",
+    ] {
+        assert!(svg.contains(says), "{says}");
+    }
+    let bent = [(0.1, 0.1), (0.01, 0.02), (0.001, 0.001)]
+        .map(|(step, error)| Rung::of_errors(step, 30, error, step));
+    let svg = figure::ladder(&Ladder::new(Refinement::TimeStep, bent).unwrap()).to_string();
+    assert!(
+        svg.contains("largest error, order 1.000 ± 0.2") && svg.contains("log₁₀ Δt"),
+        "{svg}"
+    );
+    assert!(!svg.contains("theory") && !svg.contains("on the floor"));
+}
+
+#[test]
+fn what_has_no_logarithm_is_left_out() {
+    let rungs =
+        [(1e3, 0.0), (1e4, f64::INFINITY)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
+    let none = Ladder::new(Refinement::Stiffness, rungs).unwrap();
+    let none = none.predicted(|_| f64::INFINITY).unwrap();
+    let svg = figure::ladder(&none).to_string();
+    assert!(Document::parse(&svg).is_ok() && !svg.contains("NaN") && !svg.contains("inf\""));
+    assert_eq!(svg.matches("class=\"rung\"").count(), 0);
+    assert!(svg.contains("largest error, no order"));
+    for k in [1e-300, 1e300] {
+        let rungs = [k, 2.0 * k].map(|k| Rung::of_errors(k, 30, 5e-324, 1e308));
+        let svg = figure::ladder(&Ladder::new(Refinement::Stiffness, rungs).unwrap()).to_string();
+        assert!(Document::parse(&svg).is_ok() && !svg.contains("NaN"));
+        assert_eq!(svg.matches("class=\"rung\"").count(), 4);
+    }
+}

@@ -1,0 +1,378 @@
+#!/usr/bin/env python3
+"""Checks a certificate of what a pile of spheres bears at a = R: check_certificate.py FILE (- for stdin).
+
+Prints `accepted` (exit status 0) or `refused: ` and the equation that does not hold (1); 2, and a line on stderr, for what
+is no certificate. Python 3.9 or later, and nothing but its standard library.
+
+What is trusted: this file, Python's integers and fractions, and the two pages of mathematics that it follows, in
+`src/paper.md` ("Stackings", "Regions", "Horizontal contacts") of the core and `src/certificate.rs` beside this file. It
+shares no line with the library. Where the library counts, this grows layers as sets of sites; where the library walks down
+from sphere to sphere, this hands forces on to the layer below.
+
+Forces are in f0 = mg/(n cos theta), n = 3 directions for spheres and 2 for discs. A sphere is (k, i, j), layer k from the
+top; under a step of sign s it rests on (k+1, i + s x, j + s y), (x, y) = (0, 0), (1, 0), (0, 1) for alpha, beta, gamma.
+"""
+
+import json
+import re
+import sys
+from fractions import Fraction
+
+OFFSETS = {"alpha": (0, 0), "beta": (1, 0), "gamma": (0, 1)}
+AXES = {"alpha-beta": ("alpha", "beta"), "alpha-gamma": ("alpha", "gamma"), "gamma-beta": ("gamma", "beta")}
+MOST_SPHERES = 1_000_000
+MOST_DIGITS = 5_000
+
+
+class Unreadable(Exception):
+    """This is no certificate."""
+
+
+class Refused(Exception):
+    """An equation that does not hold."""
+
+
+def need(holds, equation):
+    if not holds:
+        raise Refused(equation)
+
+
+# Reading
+
+
+def record(given, keys):
+    """The values of a JSON object that has these keys and no other."""
+    if not isinstance(given, dict) or sorted(given) != sorted(keys.split()):
+        raise Unreadable(f"an object with the keys {keys} is missing")
+    return [given[key] for key in keys.split()]
+
+
+def matched(pattern, given, what):
+    found = re.fullmatch(pattern, given, re.ASCII) if isinstance(given, str) else None
+    if not found:
+        raise Unreadable(f"{str(given)[:60]!r} is not {what}")
+    return found
+
+
+def number(given):
+    digits = r"\d{1,%d}" % MOST_DIGITS
+    matched(rf"-?{digits}(/0*[1-9]\d{{0,{MOST_DIGITS - 1}}})?", given, "a number such as -7/3")
+    return Fraction(given)
+
+
+def integer(given):
+    return int(matched(r"-?\d{1,38}", given, "an integer")[0])
+
+
+def sphere(given):
+    i, j, k = map(integer, record(given, "i j k"))
+    return k, i, j
+
+
+def listed(given, keys, entry):
+    """A list of records as a dictionary; what is there twice is refused."""
+    held = {}
+    if not isinstance(given, list):
+        raise Unreadable("a list is missing")
+    for one in given:
+        key, value = entry(*record(one, keys))
+        if key in held:
+            raise Unreadable(f"{key} is there twice")
+        held[key] = value
+    return held
+
+
+def signs_of(given):
+    """The steps from the top: Hagg signs, or lengths of runs, the first of +, of - after a minus sign; A is one layer."""
+    if given == "A":
+        return []
+    found = matched(r"([+-]+)|(-?)\((\d{1,9}(?:,\d{1,9})*)\)", given, "a stacking such as +-+ or (100,3,100)")
+    if found[1]:
+        return [1 if sign == "+" else -1 for sign in found[1]]
+    runs = [int(run) for run in found[3].split(",")]
+    if sum(runs) > MOST_SPHERES:
+        raise Unreadable("the pile is too large for this checker")
+    first = -1 if found[2] else 1
+    return [first * (-1) ** n for n, run in enumerate(runs) for _ in range(run)]
+
+
+def region_of(given):
+    """The sites of a region: bounds of i, j and i + j."""
+    between = r"-?\d{1,38}\.\.-?\d{1,38}"
+    sides = r"(hexagon|triangle):\d{1,38}(,\d{1,38})?"
+    found = matched(rf"{sides}|region:{between},{between},{between}", given, "a region")
+    bounds = [int(bound) for bound in re.findall(r"-?\d+", given)]
+    if found[1] == "triangle":
+        bounds = [bounds[0], 1]
+    if len(bounds) < 6:
+        bounds = [1 - bounds[-1], bounds[0] - 1] * 3
+    x0, x1, y0, y1, s0, s1 = bounds
+    if (x1 - x0 + 1) * (y1 - y0 + 1) > 4 * MOST_SPHERES:
+        raise Unreadable("the pile is too large for this checker")
+    return {(i, j) for i in range(x0, x1 + 1) for j in range(y0, y1 + 1) if s0 <= i + j <= s1}
+
+
+# The pile
+
+
+class Pile:
+    """Layers as sets of sites, signs of the steps between them, and weights with loads."""
+
+    def __init__(self, given):
+        # A pile may name forces of its own in horizontal contacts; that of a certificate has none.
+        if isinstance(given, dict) and given.get("horizontal") == []:
+            given = {key: value for key, value in given.items() if key != "horizontal"}
+        dimension, sine, stacking, anchor, weightless, weights, loads = record(
+            given, "dimension sin_phi stacking anchor weightless weights loads"
+        )
+        if dimension not in (2, 3) or isinstance(dimension, bool) or not isinstance(weightless, bool):
+            raise Unreadable("dimension is 2 or 3, and weightless true or false")
+        self.signs = signs_of(stacking)
+        self.directions = ["alpha", "beta", "gamma"][:dimension]
+        sine = number(sine)
+        if not isinstance(anchor, dict) or len(anchor) != 1:
+            raise Unreadable("the anchor is a top or a base")
+        ((side, region),) = anchor.items()
+        straight = side == "top" and region_of(region) == {(0, 0)} and -1 not in self.signs
+        if dimension == 2 and not (straight and sine == 0):
+            raise Unreadable("discs are piled straight, under one, with sin_phi 0")
+        if dimension == 3 and not (sine == Fraction(1, 2) or straight and 0 < sine < 1):
+            raise Unreadable("sin_phi is 1/2, or between 0 and 1 in a straight pile under one sphere")
+        self.sine = sine
+        self.layers = self.grown(side, region_of(region))
+        self.floor = len(self.layers) - 1
+        weight_at = lambda site, weight: (sphere(site), number(weight))
+        self.own = listed(weights, "site weight", weight_at)
+        self.ordinary = 0 if weightless else 1
+        if weightless:
+            self.own = dict.fromkeys(self.own, 0)
+        self.loads = {}
+        for one in loads if isinstance(loads, list) else [None]:
+            site, load = weight_at(*record(one, "site weight"))
+            self.loads[site] = self.loads.get(site, 0) + load
+        for held in (self.own, self.loads):
+            if any(site not in self or weight < 0 for site, weight in held.items()):
+                raise Unreadable("a weight is negative, or on no sphere")
+
+    def grown(self, side, sites):
+        """Down from a top: every support. Up from a base: all sites whose supports are there."""
+        layers, count = [sites], len(sites)
+        for sign in self.signs if side == "top" else reversed(self.signs):
+            steps = [(sign * x, sign * y) for x, y in (OFFSETS[l] for l in self.directions)]
+            if side == "top":
+                sites = {(i + x, j + y) for i, j in sites for x, y in steps}
+            elif side == "base":
+                candidates = {(i - x, j - y) for i, j in sites for x, y in steps}
+                sites = {(i, j) for i, j in candidates if all((i + x, j + y) in sites for x, y in steps)}
+            else:
+                raise Unreadable("the anchor is a top or a base")
+            layers.append(sites)
+            count += len(sites)
+            if count > MOST_SPHERES:
+                raise Unreadable("the pile is too large for this checker")
+        if not all(layers):
+            raise Unreadable("there is a layer without a sphere")
+        return layers if side == "top" else layers[::-1]
+
+    def __contains__(self, site):
+        k, i, j = site
+        return 0 <= k <= self.floor and (i, j) in self.layers[k]
+
+    def above_floor(self):
+        """From the top, layer by layer."""
+        in_rows = lambda site: site[::-1]
+        return ((k, i, j) for k in range(self.floor) for i, j in sorted(self.layers[k], key=in_rows))
+
+    def weight(self, site):
+        return self.own.get(site, self.ordinary) + self.loads.get(site, 0)
+
+    def support(self, site, direction):
+        (k, i, j), (x, y) = site, OFFSETS[direction]
+        return k + 1, i + self.signs[k] * x, j + self.signs[k] * y
+
+    def crossed(self, k, values):
+        """T of layer k: the half-turn 2/3 J - 1 where the sign changes, else the identity."""
+        if 0 < k < self.floor and self.signs[k - 1] != self.signs[k]:
+            twice = Fraction(2, 3) * sum(values.values())
+            return {direction: twice - value for direction, value in values.items()}
+        return values
+
+    def neighbour(self, site, axis):
+        """The other sphere of a horizontal contact: p + d_b - d_a."""
+        (k, i, j), (a, b) = site, (OFFSETS[end] for end in AXES[axis])
+        return k, i + b[0] - a[0], j + b[1] - a[1]
+
+    def contacts(self, site):
+        """The horizontal contacts that lead from a sphere."""
+        return [(site, axis) for axis in AXES if self.neighbour(site, axis) in self]
+
+
+# The equations
+
+
+class Certificate:
+    def __init__(self, given):
+        pile, self.claim, horizontal, field = record(given, "pile claim horizontal field")
+        self.pile = Pile(pile)
+        axis = lambda given: matched("|".join(AXES), given, "an axis")[0]
+        push = lambda site, along, force: ((sphere(site), axis(along)), number(force))
+        values = lambda site, *three: (sphere(site), dict(zip(OFFSETS, map(number, three))))
+        self.horizontal = listed(horizontal, "site axis force", push)
+        self.phi = listed(field, "site alpha beta gamma", values)
+
+    def check(self):
+        kind, claimed = self.claim, None
+        if isinstance(kind, dict) and len(kind) == 1:
+            ((kind, claimed),) = kind.items()
+        if kind in ("least", "greatest"):
+            site, normal, attained = record(claimed, "site normal attained")
+            if not isinstance(attained, bool):
+                raise Unreadable("attained is true or false")
+            proved = lambda: self.extreme(kind, sphere(site), number(normal), attained)
+        elif kind == "elastic":
+            (ratio,) = record(claimed, "stiffness_ratio")
+            proved = lambda: self.elastic(number(ratio))
+        elif kind in ("stands", "cannot-stand") and claimed is None:
+            proved = self.forces if kind == "stands" else self.cannot_stand
+        else:
+            raise Unreadable("the claim is not known")
+        self.well_posed()
+        proved()
+
+    def well_posed(self):
+        pile = self.pile
+        need(len(pile.directions) == 2 or pile.sine == Fraction(1, 2), f"sin phi = 1/2, not {pile.sine}")
+        for (site, axis), force in self.horizontal.items():
+            there = site in pile and site[0] < pile.floor and pile.neighbour(site, axis) in pile
+            need(there, f"no horizontal contact {axis} at (k,i,j) = {site} above the floor")
+            need(force >= 0, f"X = {force} >= 0 at (k,i,j) = {site}, {axis}")
+        for site in self.phi:
+            need(site in pile and site[0] < pile.floor, f"no sphere at (k,i,j) = {site} above the floor")
+
+    def field(self, site):
+        zero = dict.fromkeys(OFFSETS, 0)
+        return {direction: self.phi.get(site, zero)[direction] for direction in self.pile.directions}
+
+    def forces(self):
+        """What every sphere receives; by balance each passes on T g + w - sign H, and none may pull."""
+        pile = self.pile
+        received, pushed = {}, {}
+        for (site, axis), force in self.horizontal.items():
+            a, b = AXES[axis]
+            for end, sign in ((site, 1), (pile.neighbour(site, axis), -1)):
+                at = pushed.setdefault(end, dict.fromkeys(OFFSETS, 0))
+                at[a] -= sign * force
+                at[b] += sign * force
+        self.passed_on = {}
+        for site in pile.above_floor():
+            g = received.setdefault(site, dict.fromkeys(pile.directions, 0))
+            for direction, force in pile.crossed(site[0], g).items():
+                force += pile.weight(site)
+                if site in pushed:
+                    force -= pile.signs[site[0]] * pushed[site][direction]
+                need(force >= 0, f"f = {force} >= 0 at (k,i,j) = {site}, {direction}")
+                self.passed_on[site, direction] = force
+                support = received.setdefault(pile.support(site, direction), dict.fromkeys(pile.directions, 0))
+                support[direction] = force
+        return received
+
+    def drops(self):
+        """D of every sloping contact: phi above minus (T phi) below."""
+        for site in self.pile.above_floor():
+            for direction, value in self.field(site).items():
+                support = self.pile.support(site, direction)
+                below = self.pile.crossed(support[0], self.field(support))[direction]
+                yield site, direction, support, value - below
+
+    def compressions(self):
+        """c of every horizontal contact above the floor."""
+        for site in self.pile.above_floor():
+            for contact in self.pile.contacts(site):
+                a, b = AXES[contact[1]]
+                here, there = self.field(site), self.field(self.pile.neighbour(*contact))
+                yield contact, self.pile.signs[site[0]] * (here[b] - here[a] - there[b] + there[a])
+
+    def work(self):
+        """Sum of w phi, over spheres and directions."""
+        return sum(self.pile.weight(site) * sum(self.field(site).values()) for site in self.phi)
+
+    def one_sided(self, side, needed):
+        """Every D is at most (side 1) or at least (side -1) what its support needs, every c so of zero."""
+        relation = "<=" if side > 0 else ">="
+        for site, direction, support, drop in self.drops():
+            bound = needed(support)
+            need(side * (bound - drop) >= 0, f"D = {drop} {relation} {bound} at (k,i,j) = {site}, {direction}")
+        for (site, axis), compression in self.compressions():
+            need(side * compression <= 0, f"c = {compression} {relation} 0 at (k,i,j) = {site}, {axis}")
+
+    def cannot_stand(self):
+        """Then 0 >= sum f D + sum X c = sum w phi > 0 for all f and X that push."""
+        self.one_sided(1, lambda support: 0)
+        need(self.work() > 0, f"sum of w phi = {self.work()} > 0")
+
+    def extreme(self, kind, site, claimed, attained):
+        """Then the forces on the sphere sum to no less (no more) than the sum of w phi."""
+        pile = self.pile
+        need(site in pile and site[0] == pile.floor, f"no sphere at (k,i,j) = {site} on the floor")
+        self.one_sided(1 if kind == "least" else -1, lambda support: int(support == site))
+        normal = lambda total: pile.weight(site) + Fraction(total) / len(pile.directions)
+        proved = normal(self.work())
+        need(proved == claimed, f"N = w + (sum of w phi)/{len(pile.directions)} = {proved}, not {claimed}")
+        if attained:
+            reached = normal(sum(self.forces().get(site, {}).values()))
+            need(reached == claimed, f"N = {reached}, not {claimed}, is attained")
+
+    def elastic(self, ratio):
+        """The conditions of least energy, sufficient since it is convex: D <= f and ratio c <= X, equal if positive."""
+        need(ratio > 0, f"stiffness ratio {ratio} > 0")
+        self.forces()
+        for site, direction, _, drop in self.drops():
+            force = self.passed_on[site, direction]
+            holds = drop == force if force > 0 else drop <= 0
+            need(holds, f"D = {drop} to f = {force} at (k,i,j) = {site}, {direction}")
+        for (site, axis), compression in self.compressions():
+            force = self.horizontal.get((site, axis), 0)
+            holds = ratio * compression == force if force > 0 else compression <= 0
+            need(holds, f"stiffness ratio c = {ratio * compression} to X = {force} at (k,i,j) = {site}, {axis}")
+
+
+def once(pairs):
+    """A JSON object; a key that is there twice is refused."""
+    if len(dict(pairs)) < len(pairs):
+        raise Unreadable("a key is there twice")
+    return dict(pairs)
+
+
+def verdict(file, name="-"):
+    """The exit status of a file's certificates, one or an array of them, and the line that tells why."""
+    try:
+        given = json.load(file, object_pairs_hook=once)
+        if given == []:
+            raise Unreadable("an empty array certifies nothing")
+        for certificate in given if isinstance(given, list) else [given]:
+            Certificate(certificate).check()
+    except Refused as refusal:
+        return 1, f"refused: {refusal}"
+    except (Unreadable, OSError, ValueError, RecursionError) as error:
+        return 2, f"error: {name}: {error}"
+    return 0, "accepted"
+
+
+def main(arguments):
+    # Numbers of 5000 digits are read; newer versions stop at 4300.
+    getattr(sys, "set_int_max_str_digits", lambda _: None)(0)
+    if len(arguments) != 1:
+        print("usage: check_certificate.py FILE, or - for stdin", file=sys.stderr)
+        return 2
+    (name,) = arguments
+    try:
+        with sys.stdin if name == "-" else open(name, encoding="utf-8") as file:
+            status, said = verdict(file, name)
+    except OSError as error:
+        status, said = 2, f"error: {name}: {error}"
+    print(said, file=sys.stderr if status == 2 else sys.stdout)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

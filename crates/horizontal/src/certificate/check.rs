@@ -1,0 +1,481 @@
+//! The checker: the balance of a sphere, its transpose, and signs.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use cannonpile::engine::{bug, common_multiple, refuse_beyond_memory};
+use cannonpile::formula::{beside, pushed, tripled_half_turn};
+use cannonpile::lattice::{Axis, Direction, HorizontalContact, Sign, Site};
+use cannonpile::{Error, Pile};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::{Certificate, Claim, Extreme, Refusal, Relation};
+use crate::formula;
+
+/// The most words of 64 bits that the numbers of a direction may take.
+const MOST_WORDS: u64 = 4_000_000;
+
+/// Three numbers of a sphere, by direction.
+type Triple = [BigRational; 3];
+
+impl Certificate {
+    /// Checks every equation of the claim.
+    ///
+    /// Takes a few operations on rationals for each contact of the pile; of a claim that it cannot stand,
+    /// only for those around the spheres of the field, however large the pile is.
+    ///
+    /// # Errors
+    /// The first equation that does not hold; [`Refusal::Pile`] with [`TooLarge`](Error::TooLarge) of what would not fit into memory.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile_horizontal::certificate::{Certificate, Claim, Refusal};
+    ///
+    /// let pile = Pile::triangular(4)?;
+    /// let claim = Claim::CannotStand;
+    /// let certificate = Certificate { pile, claim, horizontal: [].into(), field: [].into() };
+    /// assert!(matches!(*certificate.check().unwrap_err(), Refusal::Work { .. }));
+    /// # Ok::<(), cannonpile_horizontal::Error>(())
+    /// ```
+    pub fn check(&self) -> Result<(), Box<Refusal>> {
+        let pile = &self.pile;
+        if !pile.is_regular() {
+            let sin_phi = pile.sin_phi().clone();
+            return Err(Box::new(Refusal::NoSuchPile { sin_phi }));
+        }
+        if let Some((contact, _)) = pile.horizontal_forces().next() {
+            return Err(Box::new(Refusal::GivenForces { contact }));
+        }
+        self.fits()?;
+        let floor = pile.layers() - 1;
+        for (contact, force) in &self.horizontal {
+            let mut from = contacts(pile, contact.site).into_iter();
+            if !from.any(|(there, _)| there == *contact) {
+                let contact = *contact;
+                return Err(Box::new(Refusal::NoContact { contact }));
+            }
+            if force.is_negative() {
+                let (contact, force) = (*contact, force.clone());
+                return Err(Box::new(Refusal::HorizontalPulls { contact, force }));
+            }
+        }
+        let outside = |site: &&Site| !pile.shape().contains(**site) || site.k == floor;
+        if let Some(site) = self.field.keys().find(outside) {
+            return Err(Box::new(Refusal::NoSphere { site: *site }));
+        }
+        match &self.claim {
+            Claim::Stands => self.forces().map(drop),
+            Claim::CannotStand => {
+                self.one_sided(Relation::AtMost, None)?;
+                let work = self.work();
+                if work.is_positive() {
+                    Ok(())
+                } else {
+                    Err(Box::new(Refusal::Work { work }))
+                }
+            }
+            Claim::Least(extreme) => self.extreme(extreme, Relation::AtMost),
+            Claim::Greatest(extreme) => self.extreme(extreme, Relation::AtLeast),
+            Claim::Elastic { stiffness_ratio } => self.elastic(stiffness_ratio),
+        }
+    }
+
+    /// Whether all numbers fit into memory: one a sphere, over a common denominator of all that is given.
+    fn fits(&self) -> Result<(), Error> {
+        let one = BigRational::one();
+        let weights = self.pile.weights().chain(self.pile.loads());
+        let weights = weights.map(|(_, weight)| weight);
+        let balanced = core::iter::once(&one)
+            .chain(weights)
+            .chain(self.horizontal.values());
+        // Each half-turn brings a factor of 3, which is less than two bits, and sums of so many numbers less than a word.
+        let turns: u64 = self.pile.shape().stacking().runs().map(|_| 2).sum();
+        let (spheres, turns) = match self.claim {
+            // Nothing is computed but around the field, and across one change of sign.
+            Claim::CannotStand => (self.field.len().into(), 2),
+            _ => (self.pile.sphere_count(), turns),
+        };
+        let (mut common, mut longest) = (BigInt::one(), 0);
+        for number in balanced.chain(self.field.values().flatten()) {
+            longest = longest.max(number.numer().bits());
+            common = common_multiple(common, number.denom());
+            let needed = &spheres * ((common.bits() + longest + turns) / 64 + 1);
+            refuse_beyond_memory(
+                "a check of every sphere",
+                &needed,
+                (MOST_WORDS, size_of::<u64>()),
+                "certify a smaller pile, with shorter numbers",
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The forces of all sloping contacts from the balance of each sphere, from the top: none may pull.
+    fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
+        let (pile, mut forces) = (&self.pile, BTreeMap::<Site, Triple>::new());
+        for site in above_the_floor(pile) {
+            let passed_on = self.passed_on(&forces, site)?;
+            for direction in pile.dimension().directions() {
+                let force = &passed_on[direction.index()];
+                if force.is_negative() {
+                    let (direction, force) = (*direction, force.clone());
+                    return Err(Box::new(Refusal::Pulls {
+                        site,
+                        direction,
+                        force,
+                    }));
+                }
+            }
+            forces.insert(site, passed_on);
+        }
+        Ok(forces)
+    }
+
+    /// The forces of the sloping contacts below a sphere, from those above it.
+    fn passed_on(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
+        let pile = &self.pile;
+        let mut balance = turned(pile, site.k, &received(pile, forces, site));
+        let (own, horizontal, sign) = (weight(pile, site), self.pushed(site), sigma(pile, site.k)?);
+        for direction in pile.dimension().directions() {
+            let l = direction.index();
+            balance[l] = beside(balance[l].clone(), &own, &horizontal[l], sign);
+        }
+        Ok(balance)
+    }
+
+    /// H: what the horizontal contacts of a sphere add to its balance.
+    fn pushed(&self, site: Site) -> Triple {
+        let mut sum = zeros();
+        for (contact, leads_away) in around(site) {
+            if let Some(force) = self.horizontal.get(&contact) {
+                let entries = pushed(force, contact.axis.ends(), leads_away);
+                for (sum, entry) in sum.iter_mut().zip(entries) {
+                    *sum += entry;
+                }
+            }
+        }
+        sum
+    }
+
+    fn field(&self, site: Site) -> Triple {
+        // Not a default: φ is zero on spheres that are not listed.
+        self.field.get(&site).cloned().unwrap_or_else(zeros)
+    }
+
+    /// D of all contacts of a sphere: the transpose of its balance.
+    fn drops(&self, site: Site) -> Triple {
+        let (pile, mut drops) = (&self.pile, self.field(site));
+        for direction in pile.dimension().directions() {
+            if let Some(support) = pile.shape().below(site, *direction) {
+                let l = direction.index();
+                let below = turned(pile, support.k, &self.field(support));
+                drops[l] = formula::lowered(drops[l].clone(), &below[l]);
+            }
+        }
+        drops
+    }
+
+    /// c of a horizontal contact.
+    fn compression(
+        &self,
+        contact: HorizontalContact,
+        neighbour: Site,
+    ) -> Result<BigRational, Error> {
+        let [here, there] = [contact.site, neighbour].map(|site| self.field(site));
+        let sign = sigma(&self.pile, contact.site.k)?;
+        Ok(formula::compression(
+            &here,
+            &there,
+            contact.axis.ends(),
+            sign,
+        ))
+    }
+
+    /// Σ w φ.
+    fn work(&self) -> BigRational {
+        let directions = self.pile.dimension().directions();
+        let mut work = BigRational::zero();
+        for (site, field) in &self.field {
+            let weight = weight(&self.pile, *site);
+            work += directions
+                .iter()
+                .map(|l| &weight * &field[l.index()])
+                .sum::<BigRational>();
+        }
+        work
+    }
+
+    /// Every D, and every c times the stiffness ratio, lies so to what is needed of its contact, of these spheres.
+    fn conditions(
+        &self,
+        spheres: impl Iterator<Item = Site>,
+        stiffness_ratio: &BigRational,
+        of_drop: impl Fn(Site, Direction) -> (Relation, BigRational),
+        of_compression: impl Fn(HorizontalContact) -> (Relation, BigRational),
+    ) -> Result<(), Box<Refusal>> {
+        let pile = &self.pile;
+        for site in spheres {
+            for (direction, drop) in Direction::ALL.into_iter().zip(self.drops(site)) {
+                let (relation, needed) = of_drop(site, direction);
+                let is_there = pile.dimension().directions().contains(&direction);
+                if is_there && !relation.holds(&drop, &needed) {
+                    return Err(Box::new(Refusal::Drop {
+                        site,
+                        direction,
+                        drop,
+                        relation,
+                        needed,
+                    }));
+                }
+            }
+            for (contact, neighbour) in contacts(pile, site) {
+                let compression = stiffness_ratio * self.compression(contact, neighbour)?;
+                let (relation, needed) = of_compression(contact);
+                if !relation.holds(&compression, &needed) {
+                    return Err(Box::new(Refusal::Compression {
+                        contact,
+                        compression,
+                        relation,
+                        needed,
+                    }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The spheres with a contact of which D or c may be another number than 0, and those on a bottom sphere, in the order of
+    /// tables: those of the field, those that rest on them, and their neighbours.
+    fn around_the_field(&self, bottom: Option<Site>) -> BTreeSet<Site> {
+        let shape = self.pile.shape();
+        let above = |site: Site| Direction::ALL.map(|direction| shape.above(site, direction));
+        let of_field = self.field.keys().flat_map(|site| {
+            let neighbours = around(*site).map(|(contact, _)| contact.site);
+            let neighbours = neighbours.filter(|site| shape.contains(*site));
+            above(*site).into_iter().flatten().chain(neighbours)
+        });
+        of_field
+            .chain(bottom.into_iter().flat_map(above).flatten())
+            .collect()
+    }
+
+    /// Every D lies so to 1 at the contacts with a bottom sphere, if there is one, and to 0 at others; every c to 0.
+    fn one_sided(&self, relation: Relation, bottom: Option<Site>) -> Result<(), Box<Refusal>> {
+        let shape = self.pile.shape();
+        let of_drop = |site, direction| {
+            let bears = bottom.is_some() && shape.below(site, direction) == bottom;
+            (relation, BigRational::from_integer(i32::from(bears).into()))
+        };
+        let spheres = self.around_the_field(bottom).into_iter();
+        self.conditions(spheres, &BigRational::one(), of_drop, |_| {
+            (relation, BigRational::zero())
+        })
+    }
+
+    fn extreme(&self, extreme: &Extreme, relation: Relation) -> Result<(), Box<Refusal>> {
+        let (pile, site) = (&self.pile, extreme.site);
+        if site.k != pile.layers() - 1 || !pile.shape().contains(site) {
+            return Err(Box::new(Refusal::NotOnFloor { site }));
+        }
+        self.one_sided(relation, Some(site))?;
+        let directions = BigRational::from_integer(pile.dimension().number().into());
+        let normal = |sum: BigRational| weight(pile, site) + sum / &directions;
+        let (claimed, proved) = (extreme.normal.clone(), normal(self.work()));
+        if proved != claimed {
+            return Err(Box::new(Refusal::Bound { claimed, proved }));
+        }
+        if extreme.attained {
+            let received = received(pile, &self.forces()?, site);
+            let attained = normal(received.into_iter().sum());
+            if attained != claimed {
+                return Err(Box::new(Refusal::Attained { claimed, attained }));
+            }
+        }
+        Ok(())
+    }
+
+    fn elastic(&self, stiffness_ratio: &BigRational) -> Result<(), Box<Refusal>> {
+        if !stiffness_ratio.is_positive() {
+            let given = stiffness_ratio.clone();
+            return Err(Box::new(Refusal::Stiffness { given }));
+        }
+        let forces = self.forces()?;
+        // Equal where a contact bears, at most where it is open.
+        let of_spring = |force: Option<&BigRational>| match force {
+            Some(force) if force.is_positive() => (Relation::Equal, force.clone()),
+            _ => (Relation::AtMost, BigRational::zero()),
+        };
+        let of_drop = |site: Site, direction: Direction| {
+            let forces = forces.get(&site);
+            of_spring(forces.map(|forces| &forces[direction.index()]))
+        };
+        let spheres = above_the_floor(&self.pile);
+        self.conditions(spheres, stiffness_ratio, of_drop, |contact| {
+            of_spring(self.horizontal.get(&contact))
+        })
+    }
+}
+
+fn zeros() -> Triple {
+    core::array::from_fn(|_| BigRational::zero())
+}
+
+/// The spheres that do not rest on the floor, from the top.
+fn above_the_floor(pile: &Pile) -> impl Iterator<Item = Site> + '_ {
+    let floor = pile.layers() - 1;
+    pile.shape().sites().take_while(move |site| site.k < floor)
+}
+
+/// What a sphere receives from above, by direction.
+fn received(pile: &Pile, forces: &BTreeMap<Site, Triple>, site: Site) -> Triple {
+    Direction::ALL.map(|direction| {
+        let above = pile
+            .shape()
+            .above(site, direction)
+            .and_then(|above| forces.get(&above));
+        above.map_or_else(BigRational::zero, |forces| {
+            forces[direction.index()].clone()
+        })
+    })
+}
+
+/// T of layer k: the half-turn where the sign changes there.
+fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
+    let signs = [k - 1, k].map(|k| pile.shape().sign_below(k));
+    match signs {
+        [Some(above), Some(below)] if above != below => {
+            tripled_half_turn(numbers).map(|tripled| tripled / BigRational::from_integer(3.into()))
+        }
+        _ => numbers.clone(),
+    }
+}
+
+/// σ of the step below a layer.
+fn sigma(pile: &Pile, k: i128) -> Result<Sign, Error> {
+    let sign = pile.shape().sign_below(k);
+    sign.ok_or_else(|| bug("a step leads from every layer above the floor"))
+}
+
+/// Weight and load of a sphere, in mg: what it adds to each line, in f₀.
+fn weight(pile: &Pile, site: Site) -> BigRational {
+    pile.total_load(site)
+}
+
+/// The six places of horizontal contacts around a sphere, and whether each leads away from it.
+fn around(site: Site) -> impl Iterator<Item = (HorizontalContact, bool)> {
+    Axis::ALL.into_iter().flat_map(move |axis| {
+        let back = before(site, axis).map(|site| (HorizontalContact { site, axis }, false));
+        core::iter::once((HorizontalContact { site, axis }, true)).chain(back)
+    })
+}
+
+/// The place p − d_b + d_a, from which a horizontal contact leads to p; none beyond the greatest coordinates.
+fn before(Site { i, j, k }: Site, axis: Axis) -> Option<Site> {
+    let [[a_i, a_j], [b_i, b_j]] = axis.ends().map(|end| Sign::Plus.descent(end));
+    let (i, j) = (i.checked_add(a_i - b_i)?, j.checked_add(a_j - b_j)?);
+    Some(Site { i, j, k })
+}
+
+/// The horizontal contacts that lead away from a sphere off the floor.
+fn contacts(pile: &Pile, site: Site) -> Vec<(HorizontalContact, Site)> {
+    let shape = pile.shape();
+    let is_free = site.k < pile.layers() - 1 && shape.contains(site);
+    let contacts = Axis::ALL.into_iter().filter(|_| is_free);
+    let contacts = contacts.filter_map(|axis| {
+        let contact = HorizontalContact { site, axis };
+        Some((contact, contact.neighbour()?))
+    });
+    contacts
+        .filter(|(_, neighbour)| shape.contains(*neighbour))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cannonpile::lattice::Region;
+    use cannonpile::stacking::Stacking;
+
+    /// Numbers without order: −9/7 … 9/1, and none for long 0.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> BigRational {
+            // Knuth's multiplier; the upper bits are good.
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005) + 1;
+            let [numer, denom] = [self.0 >> 40, self.0 >> 50].map(i128::from);
+            let denom: i128 = [1, 2, 3, 7][usize::from(denom.to_le_bytes()[0] % 4)];
+            BigRational::new((numer % 19 - 9).into(), denom.into())
+        }
+    }
+
+    /// Both sides of Σ f D + Σ X c = Σ w φ, for X and φ of any sign on every contact and sphere above the floor.
+    fn both_sides(pile: Pile, numbers: &mut Numbers) -> [BigRational; 2] {
+        let mut certificate = Certificate {
+            claim: Claim::Stands,
+            horizontal: BTreeMap::new(),
+            field: BTreeMap::new(),
+            pile,
+        };
+        let floor = certificate.pile.layers() - 1;
+        let sites: Vec<Site> = certificate.pile.shape().sites().collect();
+        let above = || sites.iter().copied().filter(|site| site.k < floor);
+        for site in above() {
+            for (contact, _) in contacts(&certificate.pile, site) {
+                certificate.horizontal.insert(contact, numbers.next());
+            }
+            let field = [(); 3].map(|()| numbers.next());
+            certificate.field.insert(site, field);
+        }
+        let (mut forces, mut done) = (BTreeMap::new(), BigRational::zero());
+        for site in above() {
+            let passed_on = certificate.passed_on(&forces, site).unwrap();
+            let drops = certificate.drops(site);
+            for direction in certificate.pile.dimension().directions() {
+                done += &passed_on[direction.index()] * &drops[direction.index()];
+            }
+            forces.insert(site, passed_on);
+        }
+        for (contact, force) in &certificate.horizontal {
+            let neighbour = contact.neighbour().unwrap();
+            done += force * certificate.compression(*contact, neighbour).unwrap();
+        }
+        [done, certificate.work()]
+    }
+
+    #[test]
+    fn virtual_work() {
+        let mut numbers = Numbers(1998);
+        let heavy = BigRational::new(17.into(), 5.into());
+        for layers in 1..=6 {
+            let discs = Pile::discs(layers).unwrap();
+            let [done, work] = both_sides(discs, &mut numbers);
+            assert_eq!(done, work, "discs, {layers}");
+        }
+        for signs in 0..1_u32 << 5 {
+            let sign = |n: u32| match signs >> n & 1 {
+                0 => Sign::Plus,
+                _ => Sign::Minus,
+            };
+            let steps = 1 + signs % 5;
+            let stacking = Stacking::from_signs((0..steps).map(sign).collect::<Vec<_>>()).unwrap();
+            let top = Region::new(-1..=1, 0..=2, -1..=2).unwrap();
+            for pile in [
+                Pile::under(Region::SITE, stacking.clone()),
+                Pile::under(top, stacking.clone()),
+                Pile::on(Region::hexagon(6, 5).unwrap(), stacking),
+            ] {
+                let pile = pile.unwrap();
+                let site = pile.shape().sites().next().unwrap();
+                let pile = pile.with_load(site, heavy.clone()).unwrap();
+                let [done, work] = both_sides(pile.clone(), &mut numbers);
+                assert_eq!(done, work, "{:?}", pile.shape());
+                assert_ne!(work, BigRational::zero());
+                let [done, work] = both_sides(pile.weightless(), &mut numbers);
+                assert_eq!(done, work);
+            }
+        }
+    }
+}

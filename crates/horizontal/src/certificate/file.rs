@@ -1,0 +1,221 @@
+//! Certificates as JSON files.
+
+use core::fmt;
+use std::io::{self, BufReader, Read, Write};
+
+use cannonpile::data::listed::Key;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::certificate::Certificate;
+
+/// The most bytes of a certificate that is read: 512 MiB.
+pub const MOST_BYTES: u64 = 512 << 20;
+
+/// Reads the certificates of a file, one or an array of them, as [`read_certificate`] reads one.
+///
+/// # Errors
+/// As there.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile_horizontal::certificate::{read_certificates, write_certificates};
+/// use cannonpile_horizontal::equilibrium;
+///
+/// let certificates = [equilibrium(&Pile::triangular(3)?)?, equilibrium(&Pile::discs(3)?)?];
+/// let mut text = Vec::new();
+/// write_certificates(&certificates, &mut text)?;
+/// assert_eq!(read_certificates(&*text)?, certificates);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
+    let OneOrMore(certificates) = read(input)?;
+    Ok(certificates)
+}
+
+/// Reads a certificate from JSON, piece by piece; what it takes in memory is a few times the file, of which
+/// there are at most [`MOST_BYTES`].
+///
+/// # Errors
+/// Those of the input; of the kind [`InvalidData`](io::ErrorKind::InvalidData) or
+/// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line, what is no certificate; of the kind
+/// [`FileTooLarge`](io::ErrorKind::FileTooLarge), one that is too long.
+///
+/// # Examples
+/// ```
+/// use cannonpile_horizontal::certificate::read_certificate;
+///
+/// let text = r#"{
+///   "pile": {"dimension":3,"sin_phi":"1/2","stacking":"+++","anchor":{"top":"hexagon:1"},"weightless":false,"weights":[],"loads":[]},
+///   "claim": {"least":{"site":{"i":"1","j":"1","k":"3"},"normal":"1","attained":false}},
+///   "horizontal": [],
+///   "field": []
+/// }"#;
+/// let certificate = read_certificate(text.as_bytes())?;
+/// assert_eq!(certificate.check(), Ok(()));
+///
+/// let error = read_certificate(&text.as_bytes()[..100]).unwrap_err();
+/// assert!(error.to_string().contains("line 2"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
+pub fn read_certificate(input: impl Read) -> io::Result<Certificate> {
+    read(input)
+}
+
+fn read<T: for<'de> Deserialize<'de>>(input: impl Read) -> io::Result<T> {
+    let input = Limited {
+        input,
+        left: MOST_BYTES,
+    };
+    Ok(serde_json::from_reader(BufReader::new(input))?)
+}
+
+/// A certificate, or a list of them.
+struct OneOrMore(Vec<Certificate>);
+
+impl<'de> Deserialize<'de> for OneOrMore {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OneOrMore(Vec::new()))
+    }
+}
+
+impl<'de> Visitor<'de> for OneOrMore {
+    type Value = Self;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a certificate, or an array of certificates")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self, A::Error> {
+        let certificate = Certificate::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Self(vec![certificate]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(mut self, mut list: A) -> Result<Self, A::Error> {
+        while let Some(certificate) = list.next_element()? {
+            self.0.push(certificate);
+        }
+        if self.0.is_empty() {
+            return Err(A::Error::custom("an empty array certifies nothing"));
+        }
+        Ok(self)
+    }
+}
+
+/// Writes a certificate as JSON, with a line for each horizontal contact and for the field on each sphere.
+///
+/// # Errors
+/// Those of the output.
+///
+/// # Examples
+/// ```
+/// use cannonpile::Pile;
+/// use cannonpile::lattice::Site;
+/// use cannonpile_horizontal::certificate::{Certificate, Claim};
+/// use cannonpile_horizontal::certificate::{read_certificate, write_certificate};
+/// use num_rational::BigRational;
+///
+/// let certificate = Certificate {
+///     pile: Pile::triangular(3)?,
+///     claim: Claim::Stands,
+///     horizontal: [].into(),
+///     field: [(Site::APEX, [1, 0, 0].map(|n| BigRational::from_integer(n.into())))].into(),
+/// };
+/// let mut text = Vec::new();
+/// write_certificate(&certificate, &mut text)?;
+/// assert_eq!(read_certificate(&*text)?, certificate);
+///
+/// let text = String::from_utf8(text)?;
+/// let lines: Vec<&str> = text.lines().collect();
+/// assert_eq!(lines[2], r#"  "claim": "stands","#);
+/// assert_eq!(lines[5], r#"    {"site":{"i":"0","j":"0","k":"0"},"alpha":"1","beta":"0","gamma":"0"}"#);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_certificate(certificate: &Certificate, out: &mut impl Write) -> io::Result<()> {
+    let Certificate {
+        pile,
+        claim,
+        horizontal,
+        field,
+    } = certificate;
+    out.write_all(b"{\n  \"pile\": ")?;
+    serde_json::to_writer(&mut *out, pile)?;
+    out.write_all(b",\n  \"claim\": ")?;
+    serde_json::to_writer(&mut *out, claim)?;
+    out.write_all(b",\n  \"horizontal\": ")?;
+    lines(horizontal.iter().map(|(key, held)| key.entry(held)), out)?;
+    out.write_all(b",\n  \"field\": ")?;
+    lines(field.iter().map(|(key, held)| key.entry(held)), out)?;
+    out.write_all(b"\n}\n")
+}
+
+/// Writes certificates as a JSON array, each as [`write_certificate`] writes one.
+///
+/// # Errors
+/// Those of the output.
+///
+/// # Examples
+/// See [`read_certificates`].
+pub fn write_certificates(certificates: &[Certificate], out: &mut impl Write) -> io::Result<()> {
+    let mut gap = "[\n";
+    for certificate in certificates {
+        out.write_all(gap.as_bytes())?;
+        write_certificate(certificate, out)?;
+        gap = ",\n";
+    }
+    out.write_all(if certificates.is_empty() {
+        b"[]\n"
+    } else {
+        b"]\n"
+    })
+}
+
+/// A list with a line for each entry.
+fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) -> io::Result<()> {
+    let mut gap = "[\n    ";
+    for entry in entries {
+        out.write_all(gap.as_bytes())?;
+        serde_json::to_writer(&mut *out, &entry)?;
+        gap = ",\n    ";
+    }
+    let end = if gap.starts_with('[') { "[]" } else { "\n  ]" };
+    out.write_all(end.as_bytes())
+}
+
+/// An input that may have so many bytes more.
+struct Limited<R> {
+    input: R,
+    left: u64,
+}
+
+impl<R: Read> Read for Limited<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.input.read(bytes)?;
+        let left = self.left.checked_sub(read as u64);
+        self.left = left.ok_or_else(|| {
+            let said = format!(
+                "a certificate of more than {MOST_BYTES} bytes is not read: certify a smaller pile"
+            );
+            io::Error::new(io::ErrorKind::FileTooLarge, said)
+        })?;
+        Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_long_is_refused() {
+        for (length, fits) in [(99, true), (100, true), (101, false)] {
+            let (input, left) = (io::repeat(b' ').take(length), 100);
+            let read = io::copy(&mut Limited { input, left }, &mut io::sink());
+            let kind = read.map_err(|error| error.kind());
+            let expected = fits.then_some(length).ok_or(io::ErrorKind::FileTooLarge);
+            assert_eq!(kind, expected);
+        }
+    }
+}

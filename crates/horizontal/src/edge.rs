@@ -1,0 +1,159 @@
+//! The greatest force on an edge of a straight pile: forces that attain it, and the field that proves it.
+
+use std::collections::BTreeMap;
+
+use cannonpile::lattice::{HorizontalContact, Site};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::straight::Straight;
+
+/// A bottom sphere (a, b, 0), a ≥ b ≥ 1, of a straight pile of equal spheres under one sphere, in the order of its
+/// coordinates.
+///
+/// What is found for the spheres (x, y, 0) of the face of that edge is no theorem: each certificate is checked.
+pub(crate) struct Edge {
+    straight: Straight,
+    /// The directions of x, y and z.
+    directions: [usize; 3],
+    a: i128,
+    b: i128,
+    /// From here on the lines of b bear what they can: min(b + 1, a).
+    c: i128,
+}
+
+impl Edge {
+    /// That of a sphere on an edge; none of another, or of a corner.
+    pub(crate) fn of(straight: Straight) -> Option<Self> {
+        let (sorted, directions) = straight.sorted();
+        match sorted {
+            [a, b, 0] if b >= 1 => Some(Self {
+                straight,
+                directions,
+                a,
+                b,
+                c: a.min(b + 1),
+            }),
+            _ => None,
+        }
+    }
+
+    /// What it bears at most.
+    pub(crate) fn bound(&self) -> BigRational {
+        self.straight.outer_bound()
+    }
+
+    /// The face of the edge without its bottom spheres: x and y, x + y < a + b.
+    fn face(&self) -> impl Iterator<Item = [i128; 2]> {
+        let layers = self.a + self.b;
+        (0..layers).flat_map(move |x| (0..layers - x).map(move |y| [x, y]))
+    }
+
+    /// X that attains it. Along the face a sphere (x, y, 0) pushes at (x−1, y+1, 0): in rows y ≥ b all that comes down
+    /// along x is led to the row b, in columns x > a all that comes down along y to the column a. What would leave the
+    /// face is kept in it: the sphere pushes at its neighbour behind, along x or along y, with X = 1.
+    pub(crate) fn forces(&self) -> BTreeMap<HorizontalContact, BigRational> {
+        let mut forces = BTreeMap::new();
+        for [x, y] in self.face() {
+            let along = self.along([x, y]);
+            let all = [([x - 1, y + 1, 0], along), self.behind([x, y])];
+            for (other, force) in all {
+                let contact = self
+                    .straight
+                    .contact(self.number([x, y, 0]), self.number(other));
+                if let Some(contact) = contact.filter(|_| force > 0) {
+                    *forces.entry(contact).or_insert_with(BigRational::zero) +=
+                        BigRational::from_integer(force.into());
+                }
+            }
+        }
+        forces
+    }
+
+    /// X between (x, y, 0) and (x−1, y+1, 0).
+    fn along(&self, [x, y]: [i128; 2]) -> i128 {
+        let above = y - self.b;
+        if x >= 1 && above >= 0 {
+            (2 * x - 1).min(2 * (self.b - above) + 1)
+        } else if x > self.a {
+            2 * y + 1
+        } else {
+            0
+        }
+    }
+
+    /// The neighbour of (x, y, 0) behind the face that it pushes at, and X.
+    fn behind(&self, [x, y]: [i128; 2]) -> ([i128; 3], i128) {
+        let (along_x, along_y) = ([x - 1, y, 1], [x, y - 1, 1]);
+        let above = y - self.b;
+        let (other, is_pushed) = if above > 0 {
+            (along_x, x >= 1 && above <= self.b)
+        } else if x >= self.c || (above < 0 && y <= 2 * x - 2 - self.b) {
+            (along_y, y >= 1)
+        } else {
+            (along_x, x >= 1 && y >= 1)
+        };
+        (other, i128::from(is_pushed))
+    }
+
+    /// φ that proves it: 1 in the direction of x where what comes down along x is led to the sphere, of y likewise, and of z
+    /// where nothing leaves the face.
+    pub(crate) fn field(&self) -> BTreeMap<Site, [BigRational; 3]> {
+        let mut field = BTreeMap::new();
+        for [x, y] in self.face() {
+            let along_x = y == self.b || (y > self.b && x + y - self.b < self.c);
+            let along_y = x >= self.c && y <= self.b;
+            let out = (along_x && x >= 1) || (along_y && y >= 1);
+            let mut here = [(); 3].map(|()| BigRational::zero());
+            for (direction, is_one) in self.directions.into_iter().zip([along_x, along_y, out]) {
+                if let Some(phi) = here.get_mut(direction).filter(|_| is_one) {
+                    *phi = BigRational::one();
+                }
+            }
+            if along_x || along_y {
+                field.insert(self.straight.site(self.number([x, y, 0])), here);
+            }
+        }
+        field
+    }
+
+    /// The coordinates of a sphere, by direction.
+    fn number(&self, [x, y, z]: [i128; 3]) -> [i128; 3] {
+        let mut n = [0; 3];
+        for (direction, value) in self.directions.into_iter().zip([x, y, z]) {
+            if let Some(place) = n.get_mut(direction) {
+                *place = value;
+            }
+        }
+        n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::{Certificate, Claim, Extreme};
+    use cannonpile::Pile;
+
+    #[test]
+    fn every_edge_attains_its_bound() {
+        for layers in 3..=18_i128 {
+            let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
+            for b in 1..=k / 2 {
+                let site = Site { i: b, j: 0, k };
+                let edge = Edge::of(Straight::of(&pile, site).unwrap()).unwrap();
+                let certificate = Certificate {
+                    pile: pile.clone(),
+                    claim: Claim::Greatest(Extreme {
+                        site,
+                        normal: edge.bound(),
+                        attained: true,
+                    }),
+                    horizontal: edge.forces(),
+                    field: edge.field(),
+                };
+                assert_eq!(certificate.check(), Ok(()), "{layers} layers, {b}");
+            }
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! Exact solutions of sparse equations, near a guess.
+
+use core::mem;
+use core::num::NonZeroI64;
+use std::collections::{BTreeMap, BTreeSet};
+
+use cannonpile::engine::check_interrupt;
+use cannonpile::scalar::{Algebra, Field, FixedRational};
+use num_rational::BigRational;
+use num_traits::{ToPrimitive, Zero};
+
+use crate::ONE;
+
+/// The greatest denominators to which free numbers are rounded, one after the other.
+const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
+
+/// An equation: coefficients by unknown, and what they sum to.
+pub(crate) type Equation<T = BigRational> = (BTreeMap<usize, T>, T);
+
+/// Equations in triangular form: each gives one unknown by those that are given after it, or by none.
+struct Triangular<T>(Vec<(usize, Equation<T>)>);
+
+/// Why equations have no triangular form.
+enum Failure {
+    /// They contradict each other.
+    Contradiction,
+    /// A number of it is a fault.
+    Fault,
+    /// An end was asked for.
+    Interrupted,
+}
+
+/// Returns exact numbers that solve the equations and are accepted, close to the guess; `None` if there are none, or none
+/// was found.
+///
+/// What the equations leave free is rounded to fractions, at first of small denominators, so that the exact numbers are
+/// short. Unknowns that are in no equation are rounded too.
+///
+/// Most coefficients are ±1 and stay short: where they fit into machine words, no others are computed.
+pub(crate) fn near(
+    equations: Vec<Equation>,
+    guess: &[f64],
+    accepted: impl Fn(&[BigRational]) -> bool,
+) -> Option<Vec<BigRational>> {
+    let in_words = match Triangular::of(equations.iter().map(in_words).collect()) {
+        Ok(triangular) => Some(triangular),
+        Err(Failure::Fault) => None,
+        Err(Failure::Contradiction | Failure::Interrupted) => return None,
+    };
+    let mut equations = Some(equations);
+    let mut of_any_length = None;
+    for most in DENOMINATORS {
+        let rounded = guess.iter().map(|guess| simple_fraction(*guess, most));
+        let rounded: Vec<(i64, NonZeroI64)> = rounded.collect::<Option<_>>()?;
+        let short = in_words.as_ref().and_then(|t| t.solution(&rounded));
+        let short = short.and_then(|solution| {
+            let solution = solution.iter().map(FixedRational::to_rational);
+            solution.collect::<Option<Vec<_>>>()
+        });
+        let solution = if let Some(solution) = short {
+            solution
+        } else {
+            if let Some(equations) = equations.take() {
+                of_any_length = Triangular::of(equations).ok();
+            }
+            of_any_length.as_ref()?.solution(&rounded)?
+        };
+        if accepted(&solution) {
+            return Some(solution);
+        }
+    }
+    None
+}
+
+/// Returns changes of the unknowns, as many as equations, that change no sum: all others are made up of them. `None` if an end
+/// was asked for.
+pub(crate) fn changes_of_nothing(mut equations: Vec<Equation>) -> Option<Vec<Vec<BigRational>>> {
+    for (_, sum) in &mut equations {
+        sum.set_zero();
+    }
+    let unknowns = equations.len();
+    let triangular = Triangular::of(equations).ok()?;
+    let free = triangular.free(unknowns).into_iter().map(|unknown| {
+        let one = |other: usize| (i64::from(other == unknown), ONE);
+        triangular.solution(&(0..unknowns).map(one).collect::<Vec<_>>())
+    });
+    free.collect()
+}
+
+/// An equation in machine words.
+fn in_words((coefficients, sum): &Equation) -> Equation<FixedRational<i64>> {
+    let coefficients = coefficients
+        .iter()
+        .map(|(unknown, coefficient)| (*unknown, FixedRational::from_rational(coefficient)));
+    (coefficients.collect(), FixedRational::from_rational(sum))
+}
+
+impl<T: Field> Triangular<T> {
+    /// By elimination: always the shortest equation is solved for the unknown that stands in fewest others.
+    fn of(mut equations: Vec<Equation<T>>) -> Result<Self, Failure> {
+        let mut with: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for (number, (coefficients, sum)) in equations.iter().enumerate() {
+            if !coefficients.values().chain([sum]).all(T::is_defined) {
+                return Err(Failure::Fault);
+            }
+            for unknown in coefficients.keys() {
+                with.entry(*unknown).or_default().insert(number);
+            }
+        }
+        let lengths = equations.iter().map(|(coefficients, _)| coefficients.len());
+        let mut queue: BTreeSet<(usize, usize)> = lengths.zip(0..).collect();
+        let mut solved = Vec::new();
+        while let Some((_, number)) = queue.pop_first() {
+            check_interrupt().map_err(|_| Failure::Interrupted)?;
+            let (coefficients, sum) = mem::replace(&mut equations[number], none());
+            for unknown in coefficients.keys() {
+                with.entry(*unknown).or_default().remove(&number);
+            }
+            let Some(pivot) = coefficients
+                .keys()
+                .copied()
+                .min_by_key(|unknown| with[unknown].len())
+            else {
+                if sum.is_zero() {
+                    continue;
+                }
+                return Err(Failure::Contradiction);
+            };
+            for other in mem::take(with.entry(pivot).or_default()) {
+                let (coefficients_of_other, sum_of_other) = &mut equations[other];
+                queue.remove(&(coefficients_of_other.len(), other));
+                let of_pivot = coefficients_of_other.remove(&pivot);
+                let factor = of_pivot.and_then(|c| c.checked_div(&coefficients[&pivot]));
+                let factor = factor.ok_or(Failure::Fault)?;
+                let rest = coefficients
+                    .iter()
+                    .filter(|(unknown, _)| **unknown != pivot);
+                for (unknown, coefficient) in rest {
+                    let entry = coefficients_of_other
+                        .entry(*unknown)
+                        .or_insert_with(T::zero);
+                    subtract(entry, &(coefficient.clone() * &factor))?;
+                    let with = with.entry(*unknown).or_default();
+                    if entry.is_zero() {
+                        coefficients_of_other.remove(unknown);
+                        with.remove(&other);
+                    } else {
+                        with.insert(other);
+                    }
+                }
+                subtract(sum_of_other, &(sum.clone() * &factor))?;
+                queue.insert((coefficients_of_other.len(), other));
+            }
+            solved.push((pivot, (coefficients, sum)));
+        }
+        Ok(Self(solved))
+    }
+
+    /// Which of so many unknowns it gives by none.
+    fn free(&self, unknowns: usize) -> Vec<usize> {
+        let given: BTreeSet<usize> = self.0.iter().map(|(pivot, _)| *pivot).collect();
+        (0..unknowns)
+            .filter(|unknown| !given.contains(unknown))
+            .collect()
+    }
+
+    /// With what is free as it is given: numerators and denominators. `None` if a number of it is a fault.
+    fn solution(&self, free: &[(i64, NonZeroI64)]) -> Option<Vec<T>> {
+        let fraction = |(n, d): &(i64, NonZeroI64)| T::from_i128((*n).into()).div_int(*d);
+        let mut solution: Vec<T> = free.iter().map(fraction).collect();
+        for (pivot, (coefficients, sum)) in self.0.iter().rev() {
+            check_interrupt().ok()?;
+            let others = coefficients.iter().filter(|(unknown, _)| *unknown != pivot);
+            let rest = others.fold(sum.clone(), |rest, (unknown, coefficient)| {
+                rest - &(coefficient.clone() * &solution[*unknown])
+            });
+            solution[*pivot] = rest.checked_div(&coefficients[pivot])?;
+        }
+        Some(solution)
+    }
+}
+
+/// 0 = 0.
+fn none<T: Field>() -> Equation<T> {
+    (BTreeMap::new(), T::zero())
+}
+
+fn subtract<T: Field>(from: &mut T, number: &T) -> Result<(), Failure> {
+    let difference = mem::replace(from, T::zero()) - number;
+    *from = difference;
+    from.is_defined().then_some(()).ok_or(Failure::Fault)
+}
+
+/// Returns numerator and denominator of the first convergent of the continued fraction of a number that is as good as
+/// floats, or else of the last with a denominator up to `most`; with `most` = 1 of the nearest integer. `None` if it is not
+/// finite, or too great for this.
+fn simple_fraction(number: f64, most: i64) -> Option<(i64, NonZeroI64)> {
+    const GREATEST: f64 = 1e15;
+    const CLOSE: f64 = 1e-12;
+    if !number.is_finite() || number.abs() > GREATEST {
+        return None;
+    }
+    let (mut before, mut last) = ((0_i64, 1_i64), (1_i64, 0_i64));
+    let mut rest = if most == 1 { number.round() } else { number };
+    loop {
+        let floor = rest.floor().to_i64()?;
+        let next = |before: i64, last: i64| floor.checked_mul(last)?.checked_add(before);
+        let (Some(numerator), Some(denominator)) = (next(before.0, last.0), next(before.1, last.1))
+        else {
+            break;
+        };
+        if denominator > most {
+            break;
+        }
+        (before, last) = (last, (numerator, denominator));
+        rest = (rest - rest.floor()).recip();
+        if rest.recip() < CLOSE || !rest.is_finite() {
+            break;
+        }
+    }
+    let (numerator, denominator) = last;
+    Some((numerator, NonZeroI64::new(denominator)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratio(n: i64, d: i64) -> BigRational {
+        BigRational::new(n.into(), d.into())
+    }
+
+    fn equation(coefficients: &[(usize, i64)], sum: i64) -> Equation {
+        let coefficients = coefficients
+            .iter()
+            .map(|(unknown, c)| (*unknown, ratio(*c, 1)));
+        (coefficients.collect(), ratio(sum, 1))
+    }
+
+    #[test]
+    fn fractions_are_simple() {
+        let found = [
+            (0.333_333_333_4, 12),
+            (2.5, 1),
+            (-0.25, 12),
+            (7.0, 1),
+            (0.1428, 12),
+        ];
+        let found = found.map(|(number, most)| {
+            let (n, d) = simple_fraction(number, most).unwrap();
+            ratio(n, d.get())
+        });
+        assert_eq!(
+            found,
+            [
+                ratio(1, 3),
+                ratio(3, 1),
+                ratio(-1, 4),
+                ratio(7, 1),
+                ratio(1, 7)
+            ]
+        );
+        // Of which the next floor is beyond all integers.
+        for tiny in [1e-20, -1e-20, 1e-300] {
+            let (n, d) = simple_fraction(tiny, 12).unwrap();
+            assert_eq!(ratio(n, d.get()), ratio(0, 1), "{tiny}");
+        }
+        assert_eq!(simple_fraction(f64::NAN, 12), None);
+        assert_eq!(simple_fraction(1e300, 12), None);
+        let one = NonZeroI64::new(1).unwrap();
+        assert_eq!(
+            simple_fraction(1e15, 12),
+            Some((1_000_000_000_000_000, one))
+        );
+        assert_eq!(simple_fraction(-2e15, 12), None);
+        assert_eq!(simple_fraction(f64::INFINITY, 12), None);
+    }
+
+    /// Numbers that are in no machine word, or that leave them on the way, are solved all the same, and no others.
+    #[test]
+    fn what_no_word_holds() {
+        let great = 1_i64 << 40;
+        let chain = || {
+            let link = |n: usize| equation(&[(n, 1), (n + 1, -great)], 0);
+            let mut equations: Vec<Equation> = (0..3).map(link).collect();
+            equations.push(equation(&[(3, great)], 1));
+            equations
+        };
+        let solution = near(chain(), &[0.0; 4], |_| true).unwrap();
+        let power = |exponent: u32| {
+            BigRational::from_integer(num_bigint::BigInt::from(great).pow(exponent))
+        };
+        assert_eq!(solution, [power(2), power(1), power(0), power(1).recip()]);
+        let mut contradiction = chain();
+        contradiction.push((
+            [(0, power(0))].into(),
+            power(2) + BigRational::from_integer(1.into()),
+        ));
+        assert_eq!(near(contradiction, &[0.0; 4], |_| true), None);
+        let beyond = vec![(<_>::from([(0, power(3))]), power(4))];
+        assert_eq!(near(beyond, &[0.0], |_| true).unwrap(), [power(1)]);
+    }
+
+    #[test]
+    fn solutions_solve() {
+        let equations = || {
+            vec![
+                equation(&[(0, 2), (1, 1), (2, -1)], 3),
+                equation(&[(1, 3), (2, 1)], 1),
+                equation(&[(0, 4), (1, 5), (2, -1)], 7),
+            ]
+        };
+        let guess = [1.4, 0.07, 0.8];
+        let solution = near(equations(), &guess, |_| true).unwrap();
+        for (coefficients, sum) in equations() {
+            let total: BigRational = coefficients
+                .iter()
+                .map(|(unknown, c)| c * &solution[*unknown])
+                .sum();
+            assert_eq!(total, sum);
+        }
+        let mut contradiction = equations();
+        contradiction.push(equation(&[(0, 4), (1, 5), (2, -1)], 8));
+        assert_eq!(near(contradiction, &guess, |_| true), None);
+    }
+}

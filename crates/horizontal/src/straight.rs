@@ -1,0 +1,208 @@
+//! What formulas say of the bottom spheres of straight piles.
+
+use std::collections::BTreeMap;
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Axis, Dimension, Direction, HorizontalContact, Site, count};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::formula;
+
+/// Which of the two bounds of a sphere.
+#[derive(Clone, Copy)]
+pub(crate) enum End {
+    Least,
+    Greatest,
+}
+
+/// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), of − steps (k+i+j, −i, −j), and K =
+/// L−1.
+#[derive(Clone, Copy)]
+pub(crate) struct Straight {
+    /// σ of all steps.
+    sigma: i128,
+    /// Of the bottom sphere.
+    n: [i128; 3],
+    k: i128,
+}
+
+impl Straight {
+    pub(crate) fn of(pile: &Pile, Site { i, j, k }: Site) -> Option<Self> {
+        let is_it = pile.is_paper_pile() && pile.dimension() == Dimension::Three;
+        let sigma = factor_of(pile);
+        is_it.then_some(Self {
+            sigma,
+            n: count::above(&(sigma * i), &(sigma * j), &k),
+            k,
+        })
+    }
+
+    /// The direction whose line ends in this corner.
+    fn corner(self) -> Option<usize> {
+        self.n.iter().position(|n| *n == self.k)
+    }
+
+    /// n_A ≥ n_B ≥ n_C, and the directions A, B and C.
+    pub(crate) fn sorted(self) -> ([i128; 3], [usize; 3]) {
+        let mut directions = [0, 1, 2];
+        directions.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
+        (directions.map(|l| self.n[l]), directions)
+    }
+
+    /// The bound that is proved and attained for any K.
+    pub(crate) fn bound(self, end: End) -> Option<BigRational> {
+        let k = BigRational::from_integer(self.k.into());
+        let onto = match (self.corner(), end) {
+            (Some(_), End::Least) => formula::least_on_corner(&k),
+            (Some(_), End::Greatest) if self.k > 0 => formula::greatest_on_corner(&k),
+            (Some(_), End::Greatest) | (None, End::Least) => BigRational::zero(),
+            (None, End::Greatest) => return None,
+        };
+        Some(normal_below(onto))
+    }
+
+    /// What no forces pass on an edge or inside, for any K; it may not be attained.
+    pub(crate) fn outer_bound(self) -> BigRational {
+        let (sorted, _) = self.sorted();
+        let n = sorted.map(|n| BigRational::from_integer(n.into()));
+        let onto = match (sorted, &n) {
+            ([a, b, 0], [k, j, _]) => {
+                let c = BigRational::from_integer(a.min(b + 1).into());
+                formula::greatest_on_edge(k, j, &c)
+            }
+            _ => formula::greatest_inside(&n),
+        };
+        normal_below(onto)
+    }
+
+    /// X that attains the bound.
+    pub(crate) fn forces(self, end: End) -> BTreeMap<HorizontalContact, BigRational> {
+        match (self.corner(), end) {
+            (Some(l), End::Greatest) => self.press(l),
+            (Some(_), End::Least) => BTreeMap::new(),
+            (None, _) => self.arch(),
+        }
+    }
+
+    /// The spheres of the edge that leads to a corner are pressed by their neighbours, with X = 1.
+    fn press(self, l: usize) -> BTreeMap<HorizontalContact, BigRational> {
+        let pairs = (1..self.k).flat_map(|t| {
+            [(l + 1) % 3, (l + 2) % 3].map(|other| {
+                let on_edge = unit(l).map(|e| e * t);
+                let mut beside = on_edge;
+                beside[l] -= 1;
+                beside[other] += 1;
+                self.contact(on_edge, beside)
+            })
+        });
+        pairs
+            .flatten()
+            .map(|contact| (contact, BigRational::one()))
+            .collect()
+    }
+
+    /// The arch that takes everything off an inner sphere or one on an edge: of n_A ≥ n_B ≥ n_C, the spheres (t, n_B,
+    /// n_C) push at (t+1, n_B−1, n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on
+    /// n push at each other.
+    fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
+        let ([n_a, n_b, n_c], [a, b, c]) = self.sorted();
+        let r = n_a.min(n_b + n_c);
+        let flank = (0..n_a - r).filter_map(|t| {
+            let mut one = self.n;
+            one[a] = t;
+            let mut other = one;
+            other[a] += 1;
+            other[b] -= 1;
+            Some((self.contact(one, other)?, BigRational::one()))
+        });
+        let nu = [r, n_b, n_c].map(|n| BigRational::from_integer(n.into()));
+        let above = [[b, c], [c, a], [a, b]].into_iter().zip(formula::arch(&nu));
+        let above = above.filter(|(_, force)| !force.is_zero());
+        let above = above.filter_map(|(ends, force)| {
+            let [one, other] = ends.map(|l| {
+                let mut site = self.n;
+                site[l] -= 1;
+                site
+            });
+            Some((self.contact(one, other)?, force))
+        });
+        let mut forces = BTreeMap::new();
+        for (contact, force) in flank.chain(above) {
+            *forces.entry(contact).or_insert_with(BigRational::zero) += force;
+        }
+        forces
+    }
+
+    /// φ that proves it.
+    pub(crate) fn field(self, end: End) -> BTreeMap<Site, [BigRational; 3]> {
+        let Some(l) = self.corner() else {
+            return BTreeMap::new();
+        };
+        let edge = (0..self.k).map(|t| {
+            let all = matches!(end, End::Greatest) && t > 0;
+            let field = formula::corner_field(Direction::ALL[l], all);
+            (self.site(unit(l).map(|e| e * t)), field)
+        });
+        edge.collect()
+    }
+
+    pub(crate) fn site(self, [a, i, j]: [i128; 3]) -> Site {
+        let [i, j, k] = [self.sigma * i, self.sigma * j, a + i + j];
+        Site { i, j, k }
+    }
+
+    /// The horizontal contact of two neighbours.
+    pub(crate) fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
+        let [one, other] = [one, other].map(|n| self.site(n));
+        let both = [(one, other), (other, one)]
+            .into_iter()
+            .flat_map(|(from, to)| {
+                Axis::ALL.map(|axis| (HorizontalContact { site: from, axis }, to))
+            });
+        let mut found = both.filter(|(contact, to)| contact.neighbour() == Some(*to));
+        found.next().map(|(contact, _)| contact)
+    }
+}
+
+/// Returns σ of the steps of a straight pile, 1 if there are none: the sites of − steps, times σ, are those of + steps.
+pub(crate) fn factor_of(pile: &Pile) -> i128 {
+    let sign = pile.shape().sign_below(0);
+    // Not a default: of one sphere both turns are the same.
+    sign.map_or(1, |sign| sign.factor().into())
+}
+
+/// 1 + G/3 in mg, of what rests on a bottom sphere in f₀.
+fn normal_below(onto: BigRational) -> BigRational {
+    BigRational::one() + onto / BigRational::from_integer(3.into())
+}
+
+fn unit(l: usize) -> [i128; 3] {
+    core::array::from_fn(|direction| i128::from(direction == l))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In f₀, of which mg is three; a corner of one layer is the sphere itself, and nothing rests on it.
+    #[test]
+    fn bounds_of_corners_edges_and_inner_spheres() {
+        let bound = |n: [i128; 3], end| {
+            let k = n.iter().sum();
+            let of = Straight { sigma: 1, n, k };
+            of.bound(end)
+        };
+        let onto = |f: i64| Some(BigRational::new((f + 3).into(), 3.into()));
+        for (n, least, greatest) in [
+            ([0, 0, 0], onto(0), onto(0)),
+            ([0, 1, 0], onto(1), onto(1)),
+            ([9, 0, 0], onto(9), onto(25)),
+            ([4, 5, 0], onto(0), None),
+            ([3, 3, 3], onto(0), None),
+        ] {
+            assert_eq!(bound(n, End::Least), least, "{n:?}");
+            assert_eq!(bound(n, End::Greatest), greatest, "{n:?}");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The formulas that the theorems are about, each replaceable by a wrong one.
+
+use cannonpile::lattice::{Direction, Sign};
+use cannonpile::scalar::{Algebra, Polynomial};
+use cannonpile::theorem::Library;
+
+use crate::formula;
+
+/// By direction α, β, γ.
+type Three<P> = [P; 3];
+
+/// The formulas of horizontal contacts and those of the core, run on polynomials, which prove, or on any scalar `P` that is
+/// its own ring of numerators.
+///
+/// [`LIBRARY`](Self::LIBRARY) holds exactly the functions that the answers of this crate call.
+///
+/// # Examples
+/// ```
+/// use cannonpile_horizontal::theorem;
+/// use cannonpile_horizontal::theorem::Formulas;
+///
+/// // A wrong bound of the corner.
+/// let wrong: Formulas = Formulas {
+///     least_on_corner: |k| k.clone() + k,
+///     ..Formulas::LIBRARY
+/// };
+/// let corner = theorem::all().find(|theorem| theorem.name == "corner-least").unwrap();
+/// assert!(corner.prove().holds() && !corner.prove_for(&wrong).holds());
+/// ```
+#[derive(Debug)]
+pub struct Formulas<P = Polynomial> {
+    /// Those of the core.
+    pub core: cannonpile::theorem::Formulas<P>,
+    /// [`formula::lowered`].
+    pub lowered: fn(P, &P) -> P,
+    /// [`formula::compression`].
+    pub compression: fn(&Three<P>, &Three<P>, [Direction; 2], Sign) -> P,
+    /// [`formula::elastic_field`].
+    pub elastic_field: fn(&P, &P) -> P,
+    /// [`formula::corner_field`].
+    pub corner_field: fn(Direction, bool) -> Three<P>,
+    /// [`formula::least_on_corner`].
+    pub least_on_corner: fn(&P) -> P,
+    /// [`formula::greatest_on_corner`].
+    pub greatest_on_corner: fn(&P) -> P,
+    /// [`formula::greatest_inside`].
+    pub greatest_inside: fn(&Three<P>) -> P,
+    /// [`formula::greatest_on_edge`].
+    pub greatest_on_edge: fn(&P, &P, &P) -> P,
+    /// [`formula::arch`].
+    pub arch: fn(&Three<P>) -> Three<P>,
+}
+
+// Derived, they would require that P is `Copy`.
+impl<P> Clone for Formulas<P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P> Copy for Formulas<P> {}
+
+impl<P: Algebra<Numerator = P>> Formulas<P> {
+    /// The functions that the answers of this crate call.
+    pub const LIBRARY: Self = Self {
+        core: cannonpile::theorem::Formulas::LIBRARY,
+        lowered: formula::lowered,
+        compression: formula::compression,
+        elastic_field: formula::elastic_field,
+        corner_field: formula::corner_field,
+        least_on_corner: formula::least_on_corner,
+        greatest_on_corner: formula::greatest_on_corner,
+        greatest_inside: formula::greatest_inside,
+        greatest_on_edge: formula::greatest_on_edge,
+        arch: formula::arch,
+    };
+}
+
+impl<P: Algebra<Numerator = P>> Library for Formulas<P> {
+    const LIBRARY: Self = Self::LIBRARY;
+}

@@ -1,0 +1,152 @@
+//! What is claimed and accepted.
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Axis, Direction, Site};
+use cannonpile_horizontal::certificate::{Claim, Refusal};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use super::{
+    all, along, apart, at, bare, corner, extreme, held_together, own_weight, springs, straight,
+};
+use cannonpile_testkit::answers::ratio;
+
+#[test]
+fn what_holds_is_accepted() {
+    for certificate in all() {
+        assert_eq!(certificate.check(), Ok(()), "{certificate:?}");
+    }
+}
+
+#[test]
+fn a_pile_that_is_pushed_apart_cannot_stand() {
+    // Three times its weight on top is borne, with forces of 0; more is not.
+    assert_eq!(
+        *apart(2).check().unwrap_err(),
+        Refusal::Work { work: ratio(0, 1) }
+    );
+    let mut borne = apart(2);
+    borne.claim = Claim::Stands;
+    assert_eq!(borne.check(), Ok(()));
+    let mut not_borne = apart(3);
+    not_borne.claim = Claim::Stands;
+    assert!(matches!(
+        *not_borne.check().unwrap_err(),
+        Refusal::Pulls { .. }
+    ));
+}
+
+#[test]
+fn what_stands_by_horizontal_contacts_alone() {
+    let without = held_together(8, (0, 1)).check().unwrap_err();
+    let refusal = Refusal::Pulls {
+        site: at(0, 0, 1),
+        direction: Direction::Alpha,
+        force: ratio(-2, 3),
+    };
+    assert_eq!(*without, refusal);
+    for (push, stands) in [
+        ((1, 4), false),
+        ((1, 3), true),
+        ((2, 3), true),
+        ((3, 4), false),
+    ] {
+        let certificate = held_together(8, push);
+        assert_eq!(certificate.check().is_ok(), stands, "{push:?}");
+    }
+    let mut pulled = held_together(8, (1, 2));
+    let contact = along(Axis::AlphaBeta, at(-1, 0, 1));
+    pulled.horizontal.insert(contact, ratio(-1, 2));
+    let force = ratio(-1, 2);
+    assert_eq!(
+        *pulled.check().unwrap_err(),
+        Refusal::HorizontalPulls { contact, force }
+    );
+}
+
+/// What the library says without horizontal contacts is between the bounds.
+#[test]
+fn bounds_are_about_what_the_pile_bears() {
+    for layers in 2..=6 {
+        let certificate = corner(layers);
+        let Claim::Greatest(greatest) = &certificate.claim else {
+            panic!("the greatest");
+        };
+        let forces = certificate.pile.forces::<BigRational>();
+        let isostatic = forces.on_floor(greatest.site).unwrap().normal;
+        assert_eq!(isostatic, ratio((layers + 2).try_into().unwrap(), 3));
+        assert!(isostatic <= greatest.normal);
+        assert_eq!(isostatic == greatest.normal, layers == 2);
+    }
+}
+
+#[test]
+fn a_certificate_is_of_the_pile_it_names() {
+    let mut no_contact = straight(4);
+    for (axis, site) in [
+        // On the floor spheres are held.
+        (Axis::AlphaBeta, at(0, 0, 3)),
+        (Axis::AlphaBeta, at(2, 0, 2)),
+        (Axis::GammaBeta, at(0, 0, 2)),
+        (Axis::AlphaBeta, Site::APEX),
+        (Axis::AlphaGamma, at(0, 0, -1)),
+        (Axis::AlphaGamma, at(0, i128::MAX, 2)),
+    ] {
+        let contact = along(axis, site);
+        no_contact.horizontal = [(contact, ratio(1, 1))].into();
+        assert_eq!(
+            *no_contact.check().unwrap_err(),
+            Refusal::NoContact { contact }
+        );
+    }
+    let mut no_sphere = own_weight(at(1, 1, 3));
+    for site in [at(1, 1, 3), at(3, 0, 2), at(0, 0, 4), at(0, 0, -1)] {
+        no_sphere.field = [(site, [ratio(0, 1), ratio(0, 1), ratio(0, 1)])].into();
+        assert_eq!(*no_sphere.check().unwrap_err(), Refusal::NoSphere { site });
+    }
+    for site in [at(0, 0, 2), at(4, 0, 3), at(0, 0, 4)] {
+        let pile = Pile::triangular(4).unwrap();
+        let claim = Claim::Least(extreme(site, ratio(1, 1), false));
+        let refusal = *bare(pile, claim).check().unwrap_err();
+        assert_eq!(refusal, Refusal::NotOnFloor { site });
+    }
+    let sharp = Pile::isosceles(4, ratio(1, 3)).unwrap();
+    let sin_phi = ratio(1, 3);
+    assert_eq!(
+        *bare(sharp, Claim::Stands).check().unwrap_err(),
+        Refusal::NoSuchPile { sin_phi }
+    );
+    for given in [ratio(0, 1), ratio(-1, 2)] {
+        let certificate = springs(Pile::triangular(3).unwrap(), given.clone());
+        let refusal = *certificate.check().unwrap_err();
+        assert_eq!(refusal, Refusal::Stiffness { given });
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused_at_once() {
+    let is_refused = |pile: Pile| {
+        let refusal = bare(pile, Claim::Stands).check();
+        matches!(
+            refusal.map_err(|refusal| *refusal),
+            Err(Refusal::Pile(cannonpile::Error::TooLarge { .. }))
+        )
+    };
+    assert!(is_refused(Pile::triangular(10_i128.pow(30)).unwrap()));
+    // Sums of numbers over denominators that have no factor in common are as long as all of these.
+    let mut pile = Pile::triangular(60).unwrap();
+    for load in [1, 3] {
+        let denominator = BigInt::from(10).pow(4_998) + BigInt::from(load);
+        let load = BigRational::new(1.into(), denominator);
+        pile = pile.with_load(Site::APEX, load).unwrap();
+    }
+    assert!(is_refused(pile));
+}
+
+#[test]
+fn relations_are_written_in_words() {
+    use cannonpile_horizontal::certificate::Relation;
+
+    let written = [Relation::AtMost, Relation::Equal, Relation::AtLeast].map(|r| r.to_string());
+    assert_eq!(written, ["at most", "equal to", "at least"]);
+}

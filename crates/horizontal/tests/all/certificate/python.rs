@@ -1,0 +1,284 @@
+//! The checker in Python, which shares no line with the library, comes to the same verdicts.
+//!
+//! It needs `python3`. Without it these tests fail, unless `CANNONPILE_WITHOUT_PYTHON` is set.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Axis, HorizontalContact, Region, Sign, Site};
+use cannonpile::stacking::Stacking;
+use cannonpile_horizontal::certificate::{Certificate, Claim, Refusal, write_certificate};
+use num_rational::BigRational;
+use proptest::prelude::Rng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+
+use super::{all, bare, extreme};
+use cannonpile_testkit::answers::ratio;
+use cannonpile_testkit::python_checker;
+
+fn script() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("check_certificate.py")
+}
+
+/// Whether the tests of this file can be left out, as somebody said; if not, Python has to be there.
+fn left_out() -> bool {
+    let version = Command::new("python3").arg("--version").output();
+    if version.is_ok_and(|output| output.status.success()) && script().exists() {
+        return false;
+    }
+    assert!(
+        env::var_os("CANNONPILE_WITHOUT_PYTHON").is_some(),
+        "no python3, or no {}: the second checker is NOT compared; install Python 3.9 or later, or set \
+         CANNONPILE_WITHOUT_PYTHON=1 to go without",
+        script().display()
+    );
+    true
+}
+
+fn file(certificate: &Certificate) -> Vec<u8> {
+    let mut file = Vec::new();
+    write_certificate(certificate, &mut file).expect("a text");
+    file
+}
+
+/// What both checkers say of a certificate, which are to agree: whether it is accepted.
+fn agreed(certificate: &Certificate) -> bool {
+    let file = file(certificate);
+    let (status, said) = python_checker::verdict(&file).expect("python3");
+    let context = || format!("{said}\n{}", String::from_utf8_lossy(&file));
+    let refusal = match certificate.check() {
+        Ok(()) => {
+            assert_eq!((status, said.as_str()), (0, "accepted"), "{}", context());
+            return true;
+        }
+        Err(refusal) => refusal,
+    };
+    assert_eq!(status, 1, "{refusal}: {}", context());
+    // Both go from the top, row by row: where only forces are concerned, the number they stop at is the same.
+    let number = match &*refusal {
+        Refusal::HorizontalPulls { .. } if certificate.horizontal.len() > 1 => return false,
+        Refusal::Pulls { force, .. } | Refusal::HorizontalPulls { force, .. } => force,
+        Refusal::Work { work } => work,
+        Refusal::Bound { proved, .. } => proved,
+        Refusal::Attained { attained, .. } => attained,
+        _ => return false,
+    };
+    assert!(
+        said.contains(&format!("= {number} ")) || said.contains(&format!("= {number},")),
+        "{refusal}: {}",
+        context()
+    );
+    false
+}
+
+struct Chance(TestRng);
+
+impl Chance {
+    fn new() -> Self {
+        Self(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        usize::try_from(self.0.next_u32()).unwrap() % end
+    }
+
+    fn number(&mut self, least: i64) -> BigRational {
+        let denom = [1, 1, 2, 3, 7][self.below(5)];
+        ratio(i64::try_from(self.below(9)).unwrap() + least, denom)
+    }
+
+    fn one_of<T: Clone>(&mut self, all: &[T]) -> Option<T> {
+        (!all.is_empty()).then(|| all[self.below(all.len())].clone())
+    }
+
+    /// Any stacking on any small region, or discs, with loads, weights, or without weight.
+    fn pile(&mut self) -> Pile {
+        let layers = 1 + self.below(5);
+        let signs = (1..layers).map(|_| [Sign::Plus, Sign::Minus][self.below(2)]);
+        let stacking = Stacking::from_signs(signs.collect::<Vec<_>>()).unwrap();
+        let sides = [self.below(3), self.below(3)].map(|n| i128::try_from(n + 1).unwrap());
+        let mut pile = match self.below(6) {
+            0 => Pile::discs(layers.try_into().unwrap()).unwrap(),
+            1 => {
+                let base = Region::hexagon(sides[0] + 3, sides[1] + 2).unwrap();
+                let on = Pile::on(base, stacking.clone());
+                on.unwrap_or_else(|_| Pile::under(Region::SITE, stacking).unwrap())
+            }
+            2 => Pile::under(Region::new(-1..=1, 0..=3, 0..=2).unwrap(), stacking).unwrap(),
+            _ => Pile::under(Region::hexagon(sides[0], sides[1]).unwrap(), stacking).unwrap(),
+        };
+        let sites: Vec<Site> = pile.shape().sites().collect();
+        for _ in 0..self.below(3) {
+            let site = sites[self.below(sites.len())];
+            pile = pile.with_load(site, self.number(0)).unwrap();
+            let site = sites[self.below(sites.len())];
+            pile = pile.with_weight(site, self.number(0)).unwrap();
+        }
+        if self.below(8) == 0 {
+            pile = pile.weightless();
+        }
+        pile
+    }
+
+    /// Any claim of a random pile: with forces that may balance it, and a field that seldom proves anything.
+    fn certificate(&mut self) -> Certificate {
+        let pile = self.pile();
+        let sites: Vec<Site> = pile.shape().sites().collect();
+        let on_floor = *sites.last().unwrap();
+        let extreme = extreme(on_floor, self.number(0), self.below(2) == 0);
+        let stiffness_ratio = self.number(1);
+        let claim = match self.below(8) {
+            0 => Claim::CannotStand,
+            1 => Claim::Least(extreme),
+            2 => Claim::Greatest(extreme),
+            3 => Claim::Elastic { stiffness_ratio },
+            _ => Claim::Stands,
+        };
+        let mut certificate = bare(pile, claim);
+        let contacts = super::changed::contacts(&certificate);
+        for _ in 0..self.below(6) {
+            if let Some(contact) = self.one_of(&contacts) {
+                certificate.horizontal.insert(contact, self.number(0));
+            }
+        }
+        for _ in 0..self.below(3) {
+            let site = sites[self.below(sites.len())];
+            let field = [(); 3].map(|()| self.number(-4));
+            certificate.field.insert(site, field);
+        }
+        certificate
+    }
+
+    /// One thing in it is another one.
+    fn change(&mut self, certificate: &mut Certificate) {
+        let sites: Vec<Site> = certificate.pile.shape().sites().collect();
+        let site = sites[self.below(sites.len())];
+        match self.below(7) {
+            0 => {
+                let axis = Axis::ALL[self.below(3)];
+                let contact = HorizontalContact { site, axis };
+                *certificate.horizontal.entry(contact).or_default() += self.number(-4);
+            }
+            1 => {
+                let contacts: Vec<_> = certificate.horizontal.keys().copied().collect();
+                if let Some(contact) = self.one_of(&contacts) {
+                    *certificate.horizontal.entry(contact).or_default() += self.number(-4);
+                }
+            }
+            2 => {
+                certificate.field.entry(site).or_default()[self.below(3)] += self.number(-4);
+            }
+            3 => {
+                let sites: Vec<_> = certificate.field.keys().copied().collect();
+                if let Some(site) = self.one_of(&sites) {
+                    certificate.field.entry(site).or_default()[self.below(3)] += self.number(-4);
+                }
+            }
+            4 => match &mut certificate.claim {
+                Claim::Least(extreme) | Claim::Greatest(extreme) => match self.below(3) {
+                    0 => extreme.site = site,
+                    1 => extreme.normal += self.number(-4),
+                    _ => extreme.attained ^= true,
+                },
+                Claim::Elastic { stiffness_ratio } => *stiffness_ratio += self.number(-4),
+                claim => *claim = Claim::Stands,
+            },
+            5 => {
+                let pile = certificate.pile.clone();
+                certificate.pile = pile.with_load(site, self.number(0)).unwrap();
+            }
+            _ => {
+                certificate.claim = match certificate.claim.clone() {
+                    Claim::Least(extreme) => Claim::Greatest(extreme),
+                    Claim::Greatest(extreme) => Claim::Least(extreme),
+                    Claim::Stands => Claim::CannotStand,
+                    _ => Claim::Stands,
+                };
+            }
+        }
+    }
+}
+
+/// As a program, on a file: it says what it says elsewhere line by line, and exits accordingly.
+#[test]
+fn the_program_says_the_same_of_a_file() {
+    if left_out() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("certificate.json");
+    let accepted = all().remove(0);
+    let mut refused = accepted.clone();
+    refused.claim = match accepted.claim {
+        Claim::Stands => Claim::CannotStand,
+        _ => Claim::Stands,
+    };
+    for (text, status) in [
+        (file(&accepted), 0),
+        (file(&refused), 1),
+        (b"{}".to_vec(), 2),
+    ] {
+        fs::write(&path, &text).expect("a file");
+        let program = Command::new("python3").arg(script()).arg(&path).output();
+        let output = program.expect("python3 runs");
+        let said = String::from_utf8([output.stdout, output.stderr].concat()).expect("text");
+        let said = said.replace(path.to_str().expect("text"), "-");
+        let one_line = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let verdict = python_checker::verdict(&text).expect("python3");
+        assert_eq!((status, one_line), verdict);
+        assert_eq!(output.status.code(), Some(status.into()));
+    }
+}
+
+#[test]
+fn what_holds_is_accepted_by_both() {
+    if left_out() {
+        return;
+    }
+    for certificate in all() {
+        assert!(agreed(&certificate), "{certificate:?}");
+    }
+}
+
+#[test]
+fn what_is_changed_has_one_verdict() {
+    if left_out() {
+        return;
+    }
+    let (mut chance, all) = (Chance::new(), all());
+    let mut accepted = 0;
+    for turn in 0..80 {
+        let mut certificate = all[turn % all.len()].clone();
+        chance.change(&mut certificate);
+        accepted += i32::from(agreed(&certificate));
+    }
+    assert!((5..75).contains(&accepted), "{accepted}");
+}
+
+#[test]
+fn random_piles_have_one_verdict() {
+    if left_out() {
+        return;
+    }
+    let mut chance = Chance::new();
+    let mut accepted = 0;
+    for _ in 0..80 {
+        accepted += i32::from(agreed(&chance.certificate()));
+    }
+    assert!((5..75).contains(&accepted), "{accepted}");
+}
+
+#[test]
+fn the_census_is_accepted_by_both() {
+    if left_out() {
+        return;
+    }
+    let census = cannonpile_horizontal::census::under_one_sphere(7, true).unwrap();
+    for entry in census.map(Result::unwrap) {
+        assert!(agreed(&entry.certificate), "{entry:?}");
+    }
+    let long = Pile::under(Region::SITE, "(1,40,3)".parse().unwrap()).unwrap();
+    assert!(agreed(&cannonpile_horizontal::equilibrium(&long).unwrap()));
+}

@@ -1,0 +1,54 @@
+//! The errors of this crate say in one line what was given and what would do.
+
+use std::error::Error as _;
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Region, Site};
+use cannonpile_horizontal::{Error, bounds, elastic};
+use cannonpile_testkit::errors::says;
+use num_rational::BigRational;
+
+const BOTTOM: Site = Site { i: 0, j: 0, k: 5 };
+
+fn under_one_sphere(stacking: &str) -> Pile {
+    Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap()
+}
+
+#[test]
+fn weightless() {
+    let pile = Pile::triangular(6).unwrap().weightless();
+    let error = bounds(&pile, BOTTOM).unwrap_err();
+    assert_eq!(error, Error::Weightless);
+    says(
+        &error,
+        &["weighs something", "give the spheres their weight"],
+    );
+}
+
+#[test]
+fn cannot_stand() {
+    let error = elastic(
+        &under_one_sphere("++++-"),
+        &BigRational::from_integer(1.into()),
+    );
+    let error = error.unwrap_err();
+    assert_eq!(error, Error::CannotStand);
+    says(
+        &error,
+        &["cannot stand", "change the stacking, or the loads"],
+    );
+}
+
+/// A wrapped error says what it says by itself, and a chain of sources does not say it twice.
+#[test]
+fn errors_of_the_core() {
+    let error = bounds(&Pile::triangular(6).unwrap(), Site::APEX).unwrap_err();
+    let inner = cannonpile::Error::not_on_floor(Site::APEX, 5);
+    assert_eq!(error, Error::Core(inner.clone()));
+    assert_eq!(error.to_string(), inner.to_string());
+    let [source, of_inner] = [error.source(), inner.source()];
+    assert_eq!(
+        source.map(ToString::to_string),
+        of_inner.map(ToString::to_string)
+    );
+}

@@ -1,0 +1,17 @@
+//! The fixed and the exhaustive tests of piles with horizontal contacts, a file for each subject.
+//!
+//! Random tests are in `tests/properties.rs`. The oracles are those of `cannonpile_testkit`.
+
+mod bounds;
+mod census;
+mod certificate;
+mod error;
+mod json;
+mod states;
+mod theorem;
+
+/// All stackings of so many steps that begin with +.
+fn stackings(steps: usize) -> impl Iterator<Item = String> {
+    let all = cannonpile_testkit::cases::all_signs(steps);
+    all.filter(|signs| signs.starts_with('+'))
+}

@@ -1,0 +1,194 @@
+//! The files for Coq.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use crate::language::Carrier;
+use crate::recorded::{over_integers, over_rationals};
+use crate::{Error, Expression, Formulas};
+
+/// The files written by hand, in the order in which Coq checks them. The formulas come after the first.
+const BY_HAND: &[(&str, &str)] = &[
+    ("Directions.v", include_str!("../coq/Directions.v")),
+    ("Sums.v", include_str!("../coq/Sums.v")),
+    ("Balance.v", include_str!("../coq/Balance.v")),
+    ("Straight.v", include_str!("../coq/Straight.v")),
+    ("Floor.v", include_str!("../coq/Floor.v")),
+    ("Counts.v", include_str!("../coq/Counts.v")),
+    ("Stackings.v", include_str!("../coq/Stackings.v")),
+    ("Census.v", include_str!("../coq/Census.v")),
+    ("Regions.v", include_str!("../coq/Regions.v")),
+    ("Horizontal.v", include_str!("../coq/Horizontal.v")),
+    ("Virtual.v", include_str!("../coq/Virtual.v")),
+    ("Bounds.v", include_str!("../coq/Bounds.v")),
+    ("Response.v", include_str!("../coq/Response.v")),
+    ("Mean.v", include_str!("../coq/Mean.v")),
+    ("Spectrum.v", include_str!("../coq/Spectrum.v")),
+];
+
+/// A file for Coq.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProofFile {
+    name: &'static str,
+    text: Cow<'static, str>,
+}
+
+impl ProofFile {
+    fn new(name: &'static str, text: impl Into<Cow<'static, str>>) -> Self {
+        let text = text.into();
+        Self { name, text }
+    }
+
+    /// Returns its name.
+    ///
+    /// # Examples
+    /// ```
+    /// let files = cannonpile_proof::files()?;
+    /// assert_eq!(files.last().map(|file| file.name()), Some("_CoqProject"));
+    /// # Ok::<(), cannonpile_proof::Error>(())
+    /// ```
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Returns its content.
+    ///
+    /// # Examples
+    /// ```
+    /// for file in cannonpile_proof::files()? {
+    ///     assert!(!file.text().contains("Admitted"));
+    /// }
+    /// # Ok::<(), cannonpile_proof::Error>(())
+    /// ```
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+/// Returns the files for Coq, in the order in which Coq checks them.
+///
+/// # Errors
+/// [`Bug`](cannonpile::Error::Bug) only.
+///
+/// # Examples
+/// ```
+/// let files = cannonpile_proof::files()?;
+/// assert_eq!(files[0].name(), "Directions.v");
+/// # Ok::<(), cannonpile_proof::Error>(())
+/// ```
+pub fn files() -> Result<Vec<ProofFile>, Error> {
+    files_of(&Formulas::LIBRARY)
+}
+
+/// Returns the files for any formulas: with wrong ones the proofs fail.
+///
+/// The formulas of the core are those in [`Formulas::horizontal`].
+///
+/// # Errors
+/// [`Bug`](cannonpile::Error::Bug) only.
+///
+/// # Examples
+/// ```
+/// use cannonpile_proof::Formulas;
+///
+/// let mut wrong = Formulas::LIBRARY;
+/// wrong.horizontal.core.force = |n, increment| n + increment;
+/// let files = cannonpile_proof::files_of(&wrong)?;
+/// assert!(files[1].text().contains("Q :=\n  n + increment.\n"));
+/// # Ok::<(), cannonpile_proof::Error>(())
+/// ```
+pub fn files_of(formulas: &Formulas<Expression>) -> Result<Vec<ProofFile>, Error> {
+    let mut files: Vec<ProofFile> = BY_HAND
+        .iter()
+        .map(|(name, text)| ProofFile::new(name, *text))
+        .collect();
+    files.insert(1, ProofFile::new("Formulas.v", definitions(formulas)?));
+    files.push(ProofFile::new("Listed.v", by_name(&files)));
+    let mut project = String::from("-Q . Cannonpile\n");
+    for file in &files {
+        project += file.name();
+        project.push('\n');
+    }
+    files.push(ProofFile::new("_CoqProject", project));
+    Ok(files)
+}
+
+/// Returns the shell commands that check the files in a folder.
+///
+/// # Errors
+/// [`Bug`](cannonpile::Error::Bug) only.
+///
+/// # Examples
+/// ```
+/// use std::path::Path;
+///
+/// let commands = cannonpile_proof::commands(Path::new("p"))?;
+/// assert!(commands.contains("cd p\nfor file in Directions Formulas "));
+/// # Ok::<(), cannonpile_proof::Error>(())
+/// ```
+pub fn commands(folder: &Path) -> Result<String, Error> {
+    let (folder, files) = (folder.display(), files()?);
+    let modules = modules(&files).collect::<Vec<_>>().join(" ");
+    Ok(format!(
+        "to check, with Coq 8.16 or later; coqchk is to say \"* Axioms: <none>\":\ncd {folder}\n\
+         for file in {modules}; do coqc -Q . Cannonpile $file.v || break; done\n\
+         coqchk -o -silent -Q . Cannonpile Cannonpile.Listed"
+    ))
+}
+
+/// The names of the files that hold definitions and proofs, without their ending.
+fn modules(files: &[ProofFile]) -> impl Iterator<Item = &'static str> {
+    files.iter().filter_map(|file| file.name.strip_suffix(".v"))
+}
+
+fn definitions(formulas: &Formulas<Expression>) -> Result<String, Error> {
+    let mut text = String::from(
+        "(** The formulas of cannonpile as they run.
+
+    Each function of the library was run on symbols, and what it did to them is written down here, in its order and
+    unsimplified; x / n is x * (1 # n). Written by `cannonpile prove --to coq`: not to be changed by hand. *)
+
+From Coq Require Import ZArith QArith.
+From Cannonpile Require Import Directions.
+
+Open Scope Q_scope.
+",
+    );
+    for definition in over_rationals(formulas) {
+        text.push('\n');
+        text += &Carrier::Rationals.definition(&definition)?;
+    }
+    text +=
+        "\n(** The same over integers, as the engines run them where no fraction is needed. *)\n";
+    text += "Module Integers.\nOpen Scope Z_scope.\n";
+    for definition in over_integers(formulas) {
+        text.push('\n');
+        text += &Carrier::Integers.definition(&definition)?;
+    }
+    text += "\nEnd Integers.\n";
+    Ok(text)
+}
+
+/// The theorems by the names under which they are listed. Coq states each again as it is checked.
+fn by_name(files: &[ProofFile]) -> String {
+    let mut text = String::from(
+        "(** The theorems that `cannonpile prove` lists, with what proves them here. Written by it. *)\n\n",
+    );
+    text += "From Coq Require Import ZArith QArith.\nFrom Cannonpile Require";
+    for module in modules(files) {
+        text.extend([" ", module]);
+    }
+    text += ".\n\nOpen Scope Q_scope.\n";
+    for theorem in crate::all() {
+        text.extend(["\n(** ", theorem.name, " *)\n"]);
+        if theorem.coq.is_empty() {
+            text += "(* not in Coq yet *)\n";
+        }
+        for name in theorem.coq {
+            text.extend(["Check ", name, ".\n"]);
+        }
+    }
+    text
+}

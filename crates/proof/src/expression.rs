@@ -1,0 +1,353 @@
+//! Expressions as they were formed: the scalar that records.
+
+use core::fmt;
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use cannonpile::engine::bug;
+use cannonpile::scalar::{Algebra, Exactness, Polynomial, Ring, Symbol};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use crate::Error;
+
+/// What was done to numbers, in the order in which it was done: a formula that is run on symbols is written down as it runs.
+///
+/// Nothing is simplified. Two expressions are equal if they are the same [polynomial](Self::to_polynomial), however they were formed. An
+/// expression is as long as it was formed, without anything in common: it is for formulas, not for sweeps over layers.
+///
+/// # Examples
+/// ```
+/// use cannonpile::formula::force;
+/// use cannonpile::lattice::count;
+/// use cannonpile_proof::Expression;
+/// use cannonpile::scalar::Symbol;
+///
+/// let [n, w] = ["n", "w"].map(|name| Expression::from(Symbol(name)));
+/// assert_eq!(force(n.clone(), &w).to_string(), "n * w");
+/// let discs = count::spheres(&n, 2);
+/// assert_eq!(discs.to_string(), "1 * (n + 1 - 0) / 1 * (n + 1 - 1) / 2");
+/// assert_eq!(discs.evaluate(&[(Symbol("n"), 10.0)])?, Some(55.0));
+/// # Ok::<(), cannonpile_proof::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Expression(Vec<Step>);
+
+/// One step: it takes what the last steps have left, and leaves its result.
+#[derive(Clone)]
+enum Step {
+    Symbol(Symbol),
+    Number(BigRational),
+    Negative,
+    Sum,
+    Difference,
+    Product,
+    Quotient(NonZeroI64),
+}
+
+/// One operation of an [`Expression`], on operands of any kind: numbers to evaluate it, texts to write it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Operation<V> {
+    /// A symbol.
+    Symbol(Symbol),
+    /// A rational number.
+    Number(BigRational),
+    /// −a.
+    Negative(V),
+    /// a + b.
+    Sum(V, V),
+    /// a − b.
+    Difference(V, V),
+    /// a b.
+    Product(V, V),
+    /// a / n.
+    Quotient(V, NonZeroI64),
+}
+
+impl Expression {
+    /// Returns what `with` makes of the whole, given what it made of the parts.
+    ///
+    /// # Errors
+    /// [`Bug`](cannonpile::Error::Bug) for an expression that was not formed by operations, of which there is none.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_proof::{Expression, Operation};
+    /// use cannonpile::scalar::Symbol;
+    ///
+    /// let x = Expression::from(Symbol("x"));
+    /// let cube = x.clone() * &x * &x;
+    /// let products = cube.fold(|operation| match operation {
+    ///     Operation::Product(a, b) => a + b + 1,
+    ///     _ => 0,
+    /// })?;
+    /// assert_eq!(products, 2);
+    /// # Ok::<(), cannonpile_proof::Error>(())
+    /// ```
+    pub fn fold<V>(&self, mut with: impl FnMut(Operation<V>) -> V) -> Result<V, Error> {
+        let unformed = || bug("each operation of an expression finds its operands");
+        let mut left = Vec::new();
+        for step in &self.0 {
+            let operation = match step {
+                Step::Symbol(symbol) => Operation::Symbol(*symbol),
+                Step::Number(number) => Operation::Number(number.clone()),
+                step => {
+                    let last = left.pop().ok_or_else(unformed)?;
+                    match step {
+                        Step::Negative => Operation::Negative(last),
+                        Step::Quotient(n) => Operation::Quotient(last, *n),
+                        step => {
+                            let first = left.pop().ok_or_else(unformed)?;
+                            match step {
+                                Step::Sum => Operation::Sum(first, last),
+                                Step::Difference => Operation::Difference(first, last),
+                                _ => Operation::Product(first, last),
+                            }
+                        }
+                    }
+                }
+            };
+            left.push(with(operation));
+        }
+        Ok(left.pop().ok_or_else(unformed)?)
+    }
+
+    /// Returns the value for these values of the symbols, in any scalar; `None` if a symbol has none.
+    ///
+    /// # Errors
+    /// That of [`fold`](Self::fold).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_proof::Expression;
+    /// use cannonpile::scalar::Symbol;
+    ///
+    /// let x = Expression::from(Symbol("x"));
+    /// let cube = x.clone() * &x * &x;
+    /// assert_eq!(cube.evaluate(&[(Symbol("x"), 1.5)])?, Some(3.375));
+    /// assert_eq!(cube.evaluate::<f64>(&[])?, None);
+    /// # Ok::<(), cannonpile_proof::Error>(())
+    /// ```
+    pub fn evaluate<T: Algebra>(&self, values: &[(Symbol, T)]) -> Result<Option<T>, Error> {
+        let value = |symbol| values.iter().find(|(of, _)| *of == symbol);
+        self.fold(|operation: Operation<Option<T>>| {
+            Some(match operation {
+                Operation::Symbol(symbol) => value(symbol)?.1.clone(),
+                Operation::Number(number) => T::from_rational(&number),
+                Operation::Negative(a) => -a?,
+                Operation::Sum(a, b) => a? + &b?,
+                Operation::Difference(a, b) => a? - &b?,
+                Operation::Product(a, b) => a? * &b?,
+                Operation::Quotient(a, n) => a?.div_int(n),
+            })
+        })
+    }
+
+    /// Returns the polynomial that the expression is.
+    ///
+    /// # Errors
+    /// That of [`fold`](Self::fold).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_proof::Expression;
+    /// use cannonpile::scalar::Symbol;
+    ///
+    /// let x = Expression::from(Symbol("x"));
+    /// let difference = (x.clone() + &x) * &x - &x;
+    /// assert_eq!(difference.to_polynomial()?.to_string(), "2 x^2 - x");
+    /// # Ok::<(), cannonpile_proof::Error>(())
+    /// ```
+    pub fn to_polynomial(&self) -> Result<Polynomial, Error> {
+        self.fold(|operation: Operation<Polynomial>| match operation {
+            Operation::Symbol(symbol) => symbol.into(),
+            Operation::Number(number) => Polynomial::constant(&number),
+            Operation::Negative(a) => -a,
+            Operation::Sum(a, b) => a + &b,
+            Operation::Difference(a, b) => a - &b,
+            Operation::Product(a, b) => a * &b,
+            Operation::Quotient(a, n) => a.div_int(n),
+        })
+    }
+
+    fn then(mut self, rhs: &Self, step: Step) -> Self {
+        self.0.extend_from_slice(&rhs.0);
+        self.after(step)
+    }
+
+    fn after(mut self, step: Step) -> Self {
+        self.0.push(step);
+        self
+    }
+}
+
+impl From<Symbol> for Expression {
+    fn from(symbol: Symbol) -> Self {
+        Self([Step::Symbol(symbol)].into())
+    }
+}
+
+impl fmt::Display for Expression {
+    /// Writes it as it was formed, from left to right, brackets only where they are needed.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// How firmly a text holds together: as a sum, as a product, or by itself.
+        const SUM: u8 = 0;
+        const PRODUCT: u8 = 1;
+        const ATOM: u8 = 2;
+        let within = |(text, firm): (String, u8), least: u8| {
+            if firm < least {
+                format!("({text})")
+            } else {
+                text
+            }
+        };
+        let joined = |a, sign, b, firm| {
+            (
+                format!("{} {sign} {}", within(a, firm), within(b, firm + 1)),
+                firm,
+            )
+        };
+        let written = self.fold(|operation| match operation {
+            Operation::Symbol(symbol) => (symbol.0.to_string(), ATOM),
+            Operation::Number(number) => {
+                let firm = if number.is_integer() { ATOM } else { PRODUCT };
+                let firm = if number.is_negative() { SUM } else { firm };
+                (number.to_string(), firm)
+            }
+            Operation::Negative(a) => (format!("-{}", within(a, ATOM)), SUM),
+            Operation::Sum(a, b) => joined(a, '+', b, SUM),
+            Operation::Difference(a, b) => joined(a, '-', b, SUM),
+            Operation::Product(a, b) => joined(a, '*', b, PRODUCT),
+            Operation::Quotient(a, n) => {
+                let divisor = (n.to_string(), if n.is_negative() { SUM } else { ATOM });
+                joined(a, '/', divisor, PRODUCT)
+            }
+        });
+        f.write_str(&written.map_err(|_| fmt::Error)?.0)
+    }
+}
+
+impl fmt::Debug for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl PartialEq for Expression {
+    fn eq(&self, other: &Self) -> bool {
+        match (self.to_polynomial(), other.to_polynomial()) {
+            (Ok(a), Ok(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+impl Add<&Self> for Expression {
+    type Output = Self;
+
+    fn add(self, rhs: &Self) -> Self {
+        self.then(rhs, Step::Sum)
+    }
+}
+
+impl Sub<&Self> for Expression {
+    type Output = Self;
+
+    fn sub(self, rhs: &Self) -> Self {
+        self.then(rhs, Step::Difference)
+    }
+}
+
+impl Mul<&Self> for Expression {
+    type Output = Self;
+
+    fn mul(self, rhs: &Self) -> Self {
+        self.then(rhs, Step::Product)
+    }
+}
+
+impl Add for Expression {
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        self + &rhs
+    }
+}
+
+impl Mul for Expression {
+    type Output = Self;
+
+    fn mul(self, rhs: Self) -> Self {
+        self * &rhs
+    }
+}
+
+impl Neg for Expression {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.after(Step::Negative)
+    }
+}
+
+impl Zero for Expression {
+    fn zero() -> Self {
+        Self::from_rational(&BigRational::zero())
+    }
+
+    fn is_zero(&self) -> bool {
+        self.to_polynomial().is_ok_and(|p| p.is_zero())
+    }
+}
+
+impl One for Expression {
+    fn one() -> Self {
+        Self::from_rational(&BigRational::one())
+    }
+}
+
+impl Ring for Expression {
+    fn from_i128(n: i128) -> Self {
+        Self::from_rational(&BigRational::from_integer(BigInt::from(n)))
+    }
+}
+
+impl Algebra for Expression {
+    type Numerator = Self;
+
+    const EXACTNESS: Exactness = Exactness::ExactOrFault;
+    const NAME: &'static str = "Expression";
+
+    fn from_rational(r: &BigRational) -> Self {
+        Self([Step::Number(r.clone())].into())
+    }
+
+    fn div_int(self, n: NonZeroI64) -> Self {
+        self.after(Step::Quotient(n))
+    }
+
+    fn is_defined(&self) -> bool {
+        self.to_polynomial().is_ok_and(|p| p.is_defined())
+    }
+
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
+    }
+
+    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
+        Some(n.div_int(by))
+    }
+
+    /// Returns `n / d` for a number d; `None` for zero, and for what has symbols in it.
+    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+        let divisor = d.to_polynomial().ok()?.to_constant()?;
+        if divisor.is_zero() {
+            return None;
+        }
+        if divisor.is_one() {
+            return Some(n);
+        }
+        Some(n * &Self::from_rational(&divisor.recip()))
+    }
+}

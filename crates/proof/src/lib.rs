@@ -1,0 +1,55 @@
+//! The formulas and theorems of cannonpile, written for Coq to check.
+//!
+//! [`cannonpile::theorem`] proves theorems with polynomials. This crate writes the same formulas for Coq: it runs
+//! [`Formulas::LIBRARY`] on [`Expression`]s, which record each operation, and turns every record into a definition. The
+//! theorems in the folder `coq` are about these definitions, not about a copy of them: balance of a sphere, action and
+//! reaction, the pile by recursion on its layers, sums by induction. Coq's kernel accepts them without axioms.
+//!
+//! # Examples
+//! ```
+//! let files = cannonpile_proof::files()?;
+//! let formulas = files.iter().find(|file| file.name() == "Formulas.v").unwrap();
+//! assert!(formulas.text().contains(
+//!     "Definition force (n : Q) (increment : Q) : Q :=\n  n * increment.\n"
+//! ));
+//! # Ok::<(), cannonpile_proof::Error>(())
+//! ```
+//!
+//! # Map
+//! | item | what it is |
+//! |---|---|
+//! | [`Expression`], [`Operation`] | a scalar that records the operations on it |
+//! | [`Formulas`] | the formulas of all crates that theorems are about |
+//! | [`Theorem`], [`all`], [`find`] | the theorems of all crates, each with its names in Coq |
+//! | [`Listing`] | a theorem and its proof as text |
+//! | [`files`], [`files_of`], [`ProofFile`] | the files for Coq |
+//! | [`commands`] | the shell commands that check them |
+//! | [`Error`] | why a file or a value is not returned |
+//!
+//! # Limits
+//! * The recorded expression is what the library computes with every exact scalar, because each formula has one generic
+//!   body. Nobody has proved that rustc compiles this body as it is written.
+//! * The proofs do not cover how an engine finds the spheres on a line and where it stores a number. Tests compare the
+//!   engines.
+//! * Floats are rounded, and nothing is proved about them.
+
+mod coq;
+mod definition;
+mod error;
+mod expression;
+mod formulas;
+mod language;
+mod names;
+mod recorded;
+mod theorem;
+
+pub use coq::{ProofFile, commands, files, files_of};
+pub use error::Error;
+pub use expression::{Expression, Operation};
+pub use formulas::Formulas;
+pub use theorem::{Listing, Theorem, all, find};
+
+/// The examples of README.md, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

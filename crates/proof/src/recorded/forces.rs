@@ -1,0 +1,117 @@
+//! Forces: what a sphere receives, adds and passes on.
+
+use cannonpile::geometry::Vector;
+use cannonpile::theorem::Formulas;
+
+use super::{E, of_numbers, plain, symbol};
+use crate::definition::{Definition, Kind, Value};
+
+pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
+    let [s, n, increment, received, own, weight] =
+        ["s", "n", "increment", "received", "own", "weight"].map(symbol);
+    let (from_above, e) = (three!("from_above"), vectors!("e"));
+    let whole = [
+        ("from_above", Kind::Three),
+        ("e", Kind::Directions),
+        ("weight", Kind::Number),
+    ];
+    vec![
+        of_numbers(
+            "increments",
+            "What a sphere adds to its three lines of contacts, (6).",
+            &["s"],
+            Value::Three((f.increments)(&s)),
+        ),
+        of_numbers(
+            "force",
+            "What n spheres on a line add to it, (8).",
+            &["n", "increment"],
+            Value::Number((f.force)(n, &increment)),
+        ),
+        of_numbers(
+            "passed_on",
+            "What a line carries below a sphere that receives so much on it and adds its own, (10).",
+            &["received", "own"],
+            Value::Number((f.passed_on)(received, &own)),
+        ),
+        plain(
+            "resultant",
+            "The sum of the forces from above on a sphere.",
+            &whole[..2],
+            Value::Vector((f.resultant)(&from_above, &e)),
+        ),
+        plain(
+            "handed_on",
+            "What a sphere presses with on what it stands on, (11).",
+            &whole,
+            Value::Vector((f.handed_on)(&from_above, &e, &weight)),
+        ),
+        plain(
+            "unbalanced",
+            "The sum of all forces on a sphere, (3): zero in equilibrium.",
+            &[
+                ("to_below", Kind::Three),
+                ("below", Kind::Directions),
+                ("from_above", Kind::Three),
+                ("over", Kind::Directions),
+                ("weight", Kind::Number),
+            ],
+            Value::Vector((f.unbalanced)(
+                &three!("to_below"),
+                &vectors!("below"),
+                &from_above,
+                &vectors!("over"),
+                &weight,
+            )),
+        ),
+    ]
+}
+
+pub(super) fn weights(f: &Formulas<E>) -> Vec<Definition> {
+    const ABOUT: &str = "The sum of the increments: the weight of the sphere that adds them, (5).";
+    const NAMES: [&str; 6] = ["w_1", "w_2", "w_3", "w_4", "w_5", "w_6"];
+    let mut all = vec![plain(
+        "weight",
+        ABOUT,
+        &[("increments", Kind::Three)],
+        Value::Number((f.weight)(&three!("increments"))),
+    )];
+    for d in 2..=6 {
+        let names: Vec<_> = NAMES.into_iter().take(d).collect();
+        let lines: Vec<_> = names.iter().copied().map(symbol).collect();
+        let value = Value::Number((f.weight)(&lines));
+        all.push(of_numbers(&format!("weight_{d}"), ABOUT, &names, value));
+    }
+    all
+}
+
+pub(super) fn tripled_half_turn(f: &Formulas<E>) -> Definition {
+    plain(
+        "tripled_half_turn",
+        "Three times the half-turn, without a division.",
+        &[("g", Kind::Three)],
+        Value::Three((f.tripled_half_turn)(&three!("g"))),
+    )
+}
+
+pub(super) fn tripled_apart(f: &Formulas<E>) -> Definition {
+    plain(
+        "tripled_apart",
+        "Three times the half-turn, each force named once.",
+        &[("g", Kind::Three)],
+        Value::Three((f.tripled_apart)(&three!("g"))),
+    )
+}
+
+pub(super) fn turns(f: &Formulas<E>) -> Vec<Definition> {
+    vec![
+        plain(
+            "half_turn",
+            "What a sphere at a change of sign passes on of the forces that it receives: G g.",
+            &[("g", Kind::Three)],
+            Value::Three((f.half_turn)(&three!("g"))),
+        ),
+        tripled_half_turn(f),
+        tripled_apart(f),
+    ]
+}

@@ -1,0 +1,129 @@
+//! Horizontal contacts.
+
+use cannonpile::lattice::Direction;
+use cannonpile_horizontal::theorem::Formulas;
+
+use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
+use crate::definition::{Asked, Definition, Kind, Value};
+
+/// What horizontal contacts do to the balance of a sphere, and what fields make of them.
+pub(super) fn horizontal(f: &Formulas<E>) -> Vec<Definition> {
+    let [x, received, own, pushed, below, phi] =
+        ["x", "received", "own", "pushed", "below", "phi"].map(symbol);
+    let ends = [("a", Kind::Direction), ("b", Kind::Direction)];
+    let pushes = pairs().flat_map(|[a, b]| {
+        [true, false].map(|away| {
+            let asked = vec![Asked::Direction(a), Asked::Direction(b), Asked::Truth(away)];
+            (asked, Value::Three((f.core.pushed)(&x, [a, b], away)))
+        })
+    });
+    let compressions = pairs().flat_map(|[a, b]| {
+        SIGNS.map(|sign| {
+            let asked = vec![Asked::Direction(a), Asked::Direction(b), Asked::Sign(sign)];
+            let value = (f.compression)(&three!("phi"), &three!("there"), [a, b], sign);
+            (asked, Value::Number(value))
+        })
+    });
+    let beside = SIGNS.map(|sign| {
+        let value = (f.core.beside)(received.clone(), &own, &pushed, sign);
+        (vec![Asked::Sign(sign)], Value::Number(value))
+    });
+    vec![
+        by_cases(
+            "pushed",
+            "What a horizontal contact of force x between p and p + d_b - d_a adds to H of a sphere, p if it leads away.",
+            &[("x", Kind::Number), ends[0], ends[1], ("away", Kind::Truth)],
+            pushes.collect(),
+        ),
+        by_cases(
+            "beside",
+            "What a line carries below a sphere with horizontal contacts.",
+            &[
+                ("received", Kind::Number),
+                ("own", Kind::Number),
+                ("pushed", Kind::Number),
+                ("sign", Kind::Sign),
+            ],
+            beside.into(),
+        ),
+        of_numbers(
+            "lowered",
+            "D of the contact of a sphere with its support.",
+            &["phi", "below"],
+            Value::Number((f.lowered)(phi, &below)),
+        ),
+        by_cases(
+            "compression",
+            "c of the horizontal contact of p and p + d_b - d_a.",
+            &[
+                ("phi", Kind::Three),
+                ("there", Kind::Three),
+                ends[0],
+                ends[1],
+                ("sign", Kind::Sign),
+            ],
+            compressions.collect(),
+        ),
+    ]
+}
+
+/// Closed forms of straight piles with horizontal contacts.
+pub(super) fn with_horizontal_contacts(f: &Formulas<E>) -> Vec<Definition> {
+    let [n, d, k, j, c] = ["n", "d", "k", "j", "c"].map(symbol);
+    let corners = Direction::ALL.into_iter().flat_map(|edge| {
+        [true, false].map(|all| {
+            let asked = vec![Asked::Direction(edge), Asked::Truth(all)];
+            (asked, Value::Three((f.corner_field)(edge, all)))
+        })
+    });
+    vec![
+        of_numbers(
+            "elastic_field",
+            "The field of the elastic state of a straight pile, d layers above the floor.",
+            &["n", "d"],
+            Value::Number((f.elastic_field)(&n, &d)),
+        ),
+        by_cases(
+            "corner_field",
+            "The field on an edge that proves what can rest on the corner below it.",
+            &[("edge", Kind::Direction), ("all", Kind::Truth)],
+            corners.collect(),
+        ),
+        of_numbers(
+            "least_on_corner",
+            "The least that can rest on a corner below k layers.",
+            &["k"],
+            Value::Number((f.least_on_corner)(&k)),
+        ),
+        of_numbers(
+            "greatest_on_corner",
+            "The greatest that can rest on a corner below k layers.",
+            &["k"],
+            Value::Number((f.greatest_on_corner)(&k)),
+        ),
+        plain(
+            "greatest_inside",
+            "A bound of what can rest on a bottom sphere.",
+            &[("n", Kind::Three)],
+            Value::Number((f.greatest_inside)(&three!("n"))),
+        ),
+        of_numbers(
+            "greatest_on_edge",
+            "A bound of what can rest on a bottom sphere of an edge.",
+            &["k", "j", "c"],
+            Value::Number((f.greatest_on_edge)(&k, &j, &c)),
+        ),
+        plain(
+            "arch",
+            "How three spheres press each other so that nothing rests on the one below them.",
+            &[("nu", Kind::Three)],
+            Value::Three((f.arch)(&three!("nu"))),
+        ),
+    ]
+}
+
+/// All pairs of directions.
+fn pairs() -> impl Iterator<Item = [Direction; 2]> {
+    let all = Direction::ALL.into_iter();
+    all.flat_map(|a| Direction::ALL.map(|b| [a, b]))
+}

@@ -1,0 +1,131 @@
+//! How many, and where.
+
+use cannonpile::geometry::Vector;
+use cannonpile::lattice::Direction;
+use cannonpile::theorem::Formulas;
+
+use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
+use crate::definition::{Asked, Definition, Kind, Value};
+
+pub(super) fn above(f: &Formulas<E>) -> Definition {
+    let [i, j, k] = ["i", "j", "k"].map(symbol);
+    of_numbers(
+        "above",
+        "How many spheres lie above (i, j, k) on its lines of contacts.",
+        &["i", "j", "k"],
+        Value::Three((f.above)(&i, &j, &k)),
+    )
+}
+
+pub(super) fn bounds_above(f: &Formulas<E>) -> Definition {
+    let [i, j, steps] = ["i", "j", "steps"].map(symbol);
+    let (lower, upper) = (three!("lower"), three!("upper"));
+    let bounds = |sign| (f.bounds_above)(&i, &j, &lower, &upper, &steps, sign);
+    by_cases(
+        "bounds_above",
+        "What bounds the number of spheres above (i, j) on its lines: it is the least of each four.",
+        &[
+            ("i", Kind::Number),
+            ("j", Kind::Number),
+            ("lower", Kind::Three),
+            ("upper", Kind::Three),
+            ("steps", Kind::Number),
+            ("sign", Kind::Sign),
+        ],
+        SIGNS
+            .map(|sign| (vec![Asked::Sign(sign)], Value::Fours(bounds(sign).into())))
+            .into(),
+    )
+}
+
+pub(super) fn descent(f: &Formulas<E>) -> Definition {
+    let cases = SIGNS.into_iter().flat_map(|sign| {
+        Direction::ALL.map(|direction| {
+            let step = (f.descent)(sign, direction);
+            (
+                vec![Asked::Sign(sign), Asked::Direction(direction)],
+                Value::Site(step),
+            )
+        })
+    });
+    by_cases(
+        "descent",
+        "The step to the support in a direction.",
+        &[("sign", Kind::Sign), ("direction", Kind::Direction)],
+        cases.collect(),
+    )
+}
+
+pub(super) fn counts(f: &Formulas<E>) -> Vec<Definition> {
+    let [layers, k, n] = ["layers", "k", "n"].map(symbol);
+    let mut all = Vec::new();
+    for d in 2..=6 {
+        all.extend([
+            of_numbers(
+                &format!("spheres_{d}"),
+                "How many spheres a straight pile has, in so many dimensions.",
+                &["layers"],
+                Value::Number((f.spheres)(&layers, d)),
+            ),
+            of_numbers(
+                &format!("spheres_in_layer_{d}"),
+                "How many spheres layer k has, in so many dimensions.",
+                &["k"],
+                Value::Number((f.spheres_in_layer)(&k, d)),
+            ),
+            of_numbers(
+                &format!("contacts_{d}"),
+                "How many contacts a straight pile has, in so many dimensions.",
+                &["layers"],
+                Value::Number((f.contacts)(&layers, d)),
+            ),
+            of_numbers(
+                &format!("contacts_of_strength_{d}"),
+                "How many contacts of one direction carry n increments.",
+                &["layers", "n"],
+                Value::Number((f.contacts_of_strength)(&layers, &n, d)),
+            ),
+        ]);
+    }
+    all
+}
+
+pub(super) fn places(f: &Formulas<E>) -> Vec<Definition> {
+    let [s, sin2] = ["s", "sin2"].map(symbol);
+    vec![
+        of_numbers(
+            "directions",
+            "The unit vectors along the contacts, in the basis (sin θ, 2 cos φ sin θ, cos θ), for s = sin φ.",
+            &["s"],
+            Value::Directions((f.directions)(&s).into()),
+        ),
+        of_numbers(
+            "disc_directions",
+            "The same for discs.",
+            &[],
+            Value::Directions((f.disc_directions)().into()),
+        ),
+        plain(
+            "turned_about_z",
+            "A vector after a half-turn about the vertical.",
+            &[("v", Kind::Vector)],
+            Value::Vector((f.turned_about_z)(vector!("v"))),
+        ),
+        plain(
+            "position",
+            "The position of a sphere from the apex, in 2R.",
+            &[("n", Kind::Three), ("e", Kind::Directions)],
+            Value::Vector((f.position)(&three!("n"), &vectors!("e"))),
+        ),
+        plain(
+            "squared_distance",
+            "The squared distance over 4R² of centres that are n_a e_a + n_b e_b + n_c e_c apart.",
+            &[
+                ("n", Kind::Three),
+                ("s", Kind::Number),
+                ("sin2", Kind::Number),
+            ],
+            Value::Number((f.squared_distance)(&three!("n"), &s, &sin2)),
+        ),
+    ]
+}

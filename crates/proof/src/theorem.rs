@@ -1,0 +1,157 @@
+//! The theorems of all crates, in one list.
+
+use core::fmt;
+
+use cannonpile::theorem;
+use cannonpile::theorem::{Proof, ProofKind};
+
+use crate::{Formulas, names};
+
+/// A theorem of the core, of horizontal contacts or of random stackings.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Theorem {
+    /// A short name.
+    pub name: &'static str,
+    /// What is proved, in words and formulas.
+    pub statement: &'static str,
+    /// The values of the symbols for which it holds.
+    pub hypotheses: &'static str,
+    /// How it is proved.
+    pub method: ProofKind,
+    /// The symbols in it.
+    pub symbols: &'static str,
+    /// The names of its proofs in Coq, each with its file; empty if there is none.
+    pub coq: &'static [&'static str],
+    source: Source,
+}
+
+/// The theorem in the crate of its formulas.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Core(&'static theorem::Theorem),
+    Horizontal(&'static theorem::Theorem<cannonpile_horizontal::theorem::Formulas>),
+    Disorder(&'static theorem::Theorem<cannonpile_disorder::theorem::Formulas>),
+}
+
+impl Theorem {
+    fn new<F>(theorem: &theorem::Theorem<F>, source: Source) -> Self {
+        Self {
+            name: theorem.name,
+            statement: theorem.statement,
+            hypotheses: theorem.hypotheses,
+            method: theorem.method,
+            symbols: theorem.symbols,
+            coq: names::in_coq(theorem.name),
+            source,
+        }
+    }
+
+    /// Returns the proof for the library's own formulas.
+    ///
+    /// # Examples
+    /// ```
+    /// let theorem = cannonpile_proof::find("corner-least").unwrap();
+    /// assert!(theorem.prove().holds());
+    /// ```
+    #[must_use]
+    pub fn prove(&self) -> Proof {
+        self.prove_for(&Formulas::LIBRARY)
+    }
+
+    /// Returns the proof, or the refutation, for any formulas.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile_proof::Formulas;
+    ///
+    /// let mut wrong: Formulas = Formulas::LIBRARY;
+    /// wrong.horizontal.least_on_corner = |k| k.clone() + k;
+    /// assert!(!cannonpile_proof::find("corner-least").unwrap().prove_for(&wrong).holds());
+    /// ```
+    #[must_use]
+    pub fn prove_for(&self, formulas: &Formulas) -> Proof {
+        match self.source {
+            Source::Core(theorem) => theorem.prove_for(&formulas.horizontal.core),
+            Source::Horizontal(theorem) => theorem.prove_for(&formulas.horizontal),
+            Source::Disorder(theorem) => theorem.prove_for(&formulas.disorder),
+        }
+    }
+}
+
+/// Returns every theorem, in reading order: those of the core first, then those on horizontal contacts and on random
+/// stackings.
+///
+/// # Examples
+/// ```
+/// let in_coq = cannonpile_proof::all().filter(|theorem| !theorem.coq.is_empty());
+/// assert_eq!(in_coq.count(), cannonpile_proof::all().count());
+/// let weight = cannonpile_proof::find("weight").unwrap();
+/// assert!(weight.coq.contains(&"Floor.the_weight_arrives"));
+/// ```
+pub fn all() -> impl Iterator<Item = Theorem> {
+    let core = theorem::all().map(|found| Theorem::new(found, Source::Core(found)));
+    let horizontal = cannonpile_horizontal::theorem::all();
+    let horizontal = horizontal.map(|found| Theorem::new(found, Source::Horizontal(found)));
+    let disorder = cannonpile_disorder::theorem::all();
+    let disorder = disorder.map(|found| Theorem::new(found, Source::Disorder(found)));
+    core.chain(horizontal).chain(disorder)
+}
+
+/// Returns the theorem of this name.
+///
+/// # Examples
+/// ```
+/// assert!(cannonpile_proof::find("equilibrium").is_some());
+/// assert!(cannonpile_proof::find("fermat").is_none());
+/// ```
+#[must_use]
+pub fn find(name: &str) -> Option<Theorem> {
+    all().find(|theorem| theorem.name == name)
+}
+
+/// A theorem with its proof, as [`cannonpile::theorem::Listing`] writes it.
+///
+/// # Examples
+/// ```
+/// use cannonpile_proof::Listing;
+///
+/// let theorem = cannonpile_proof::find("settlement").unwrap();
+/// let text = Listing { theorem: &theorem, proof: &theorem.prove(), whole: false }.to_string();
+/// assert!(text.starts_with("settlement: holds (identity)\n"));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Listing<'a> {
+    /// The theorem.
+    pub theorem: &'a Theorem,
+    /// Its proof.
+    pub proof: &'a Proof,
+    /// Whether to write the whole derivation: hypotheses, symbols, each side on a line.
+    pub whole: bool,
+}
+
+impl fmt::Display for Listing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { proof, whole, .. } = *self;
+        match self.theorem.source {
+            Source::Core(theorem) => (theorem::Listing {
+                theorem,
+                proof,
+                whole,
+            })
+            .fmt(f),
+            Source::Horizontal(theorem) => (theorem::Listing {
+                theorem,
+                proof,
+                whole,
+            })
+            .fmt(f),
+            Source::Disorder(theorem) => (theorem::Listing {
+                theorem,
+                proof,
+                whole,
+            })
+            .fmt(f),
+        }
+    }
+}

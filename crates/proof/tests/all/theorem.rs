@@ -1,0 +1,78 @@
+//! The theorems of all crates, in one list.
+
+use std::collections::BTreeSet;
+
+use cannonpile::theorem;
+use cannonpile_proof::{Formulas, Listing};
+use cannonpile_testkit::proofs;
+
+#[test]
+fn names_are_unique_and_found() {
+    let names: BTreeSet<_> = cannonpile_proof::all().map(|found| found.name).collect();
+    assert_eq!(names.len(), cannonpile_proof::all().count());
+    for name in names {
+        let found = cannonpile_proof::find(name);
+        assert_eq!(found.map(|found| found.name), Some(name));
+        assert!(cannonpile_proof::find(&name.to_uppercase()).is_none());
+    }
+    assert!(cannonpile_proof::find("").is_none());
+}
+
+/// Those of the core, of horizontal contacts and of random stackings, in this order; each with its own proof.
+#[test]
+fn none_is_left_out() {
+    let core = theorem::all().map(|found| (found.name, found.prove()));
+    let horizontal = cannonpile_horizontal::theorem::all();
+    let horizontal = horizontal.map(|found| (found.name, found.prove()));
+    let disorder = cannonpile_disorder::theorem::all();
+    let disorder = disorder.map(|found| (found.name, found.prove()));
+    let expected: Vec<_> = core.chain(horizontal).chain(disorder).collect();
+    assert_eq!(expected.len(), 52);
+    let listed = cannonpile_proof::all().map(|found| (found.name, found.prove()));
+    assert!(listed.eq(expected));
+}
+
+/// A wrong formula of each crate, and a theorem that refuses this one of the three. The core's theorems are about
+/// `horizontal.core`.
+#[test]
+fn wrong_formulas_are_refused() {
+    let mut core: Formulas = Formulas::LIBRARY;
+    core.horizontal.core.passed_on = |received, own| received - own;
+    let mut horizontal: Formulas = Formulas::LIBRARY;
+    horizontal.horizontal.least_on_corner = |k| k.clone() + k;
+    let mut disorder: Formulas = Formulas::LIBRARY;
+    disorder.disorder.registry_excess = |x, _, _| x.clone();
+    let crates = [
+        (core, "action-reaction"),
+        (horizontal, "corner-least"),
+        (disorder, "registry"),
+    ];
+    for (_, name) in &crates {
+        let found = cannonpile_proof::find(name).expect("a theorem");
+        assert!(found.prove().holds(), "{name}");
+        for (wrong, of) in &crates {
+            let proof = found.prove_for(wrong);
+            let is_refused = of == name;
+            assert_eq!(proof.holds(), !is_refused, "{name}");
+            let listing = Listing {
+                theorem: &found,
+                proof: &proof,
+                whole: true,
+            };
+            assert_eq!(listing.to_string().contains("FAILS"), is_refused);
+        }
+    }
+}
+
+/// Each crate tries the wrong formulas of the core on its own theorems; here all that are said to refuse one are found, in
+/// the order of the list.
+#[test]
+fn theorems_that_refuse_a_fault_are_listed() {
+    let names: Vec<_> = cannonpile_proof::all().map(|found| found.name).collect();
+    for fault in proofs::of_the_core() {
+        let place = |name: &&str| names.iter().position(|listed| listed == name);
+        let places: Option<Vec<_>> = fault.refused_by.iter().map(place).collect();
+        let places = places.unwrap_or_else(|| panic!("{}: {:?}", fault.what, fault.refused_by));
+        assert!(places.is_sorted_by(|a, b| a < b), "{}", fault.what);
+    }
+}

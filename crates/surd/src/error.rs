@@ -1,0 +1,71 @@
+//! What can be wrong with a number.
+
+use alloc::string::{String, ToString};
+use core::fmt;
+
+use num_rational::BigRational;
+
+use crate::short::{numbers, quoted};
+
+/// What is wrong with a number that was given, with the number and the remedy.
+///
+/// # Examples
+/// ```
+/// use exact_surd::Surd;
+///
+/// let error = "sqrt(-2)".parse::<Surd>().unwrap_err();
+/// assert_eq!(error.to_string(), "the root of -2 is not real: the radicand must not be negative");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The root of a negative number.
+    #[non_exhaustive]
+    NegativeRadicand {
+        /// The radicand that was given.
+        given: BigRational,
+    },
+    /// A text that is not such a number.
+    #[non_exhaustive]
+    Syntax {
+        /// The text, shortened if it is long.
+        text: String,
+        /// What was expected in its place.
+        expected: &'static str,
+    },
+}
+
+impl Error {
+    /// Returns the error of a text that is not what was `expected`.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn syntax(text: &str, expected: &'static str) -> Self {
+        Self::Syntax {
+            text: quoted(text),
+            expected,
+        }
+    }
+}
+
+/// An error with its numbers at full length.
+struct Whole<'a>(&'a Error);
+
+impl fmt::Display for Whole<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Error::NegativeRadicand { given } => write!(
+                f,
+                "the root of {given} is not real: the radicand must not be negative"
+            ),
+            Error::Syntax { text, expected } => write!(f, "'{text}' is not {expected}"),
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&numbers(&Whole(self).to_string()))
+    }
+}
+
+impl core::error::Error for Error {}

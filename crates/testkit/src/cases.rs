@@ -1,0 +1,259 @@
+//! The piles of the tests, each made twice: for the library and for the oracle.
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Axis, HorizontalContact, Region, Sign};
+use cannonpile::stacking::Stacking;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::oracles::balance::{Balance, Place, Sites, ratio, site};
+
+/// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    /// Least and greatest i.
+    pub x: (i128, i128),
+    /// Least and greatest j.
+    pub y: (i128, i128),
+    /// Least and greatest i+j.
+    pub s: (i128, i128),
+}
+
+impl Bounds {
+    /// One site.
+    pub const SITE: Self = Self::hexagon(1, 1);
+
+    /// A hexagon with sides of p and q sites in turn.
+    pub const fn hexagon(p: i128, q: i128) -> Self {
+        let range = (1 - q, p - 1);
+        Self {
+            x: range,
+            y: range,
+            s: range,
+        }
+    }
+
+    /// A triangle with sides of n sites.
+    pub const fn triangle(n: i128) -> Self {
+        Self::hexagon(n, 1)
+    }
+
+    /// The same sites for the library.
+    pub fn region(&self) -> Region {
+        let Self { x, y, s } = *self;
+        Region::new(x.0..=x.1, y.0..=y.1, s.0..=s.1).expect("a region with a site")
+    }
+
+    /// The same sites for the oracle.
+    pub fn sites(&self) -> Sites {
+        let Self { x, y, s } = *self;
+        let rows = (y.0..=y.1).flat_map(|j| (x.0..=x.1).map(move |i| (j, i)));
+        rows.filter(|(j, i)| (s.0..=s.1).contains(&(i + j)))
+            .collect()
+    }
+}
+
+/// One pile, twice.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// For the library.
+    pub pile: Pile,
+    /// For the oracle.
+    pub balance: Balance,
+}
+
+impl Case {
+    /// Under a top layer, with these signs from the top.
+    pub fn under(top: &Bounds, signs: &str) -> Self {
+        Self {
+            pile: Pile::under(top.region(), stacking(signs)).expect("a small pile"),
+            balance: Balance::under(&top.sites(), signs),
+        }
+    }
+
+    /// `None` if the base does not carry that many layers, by the oracle.
+    pub fn on(base: &Bounds, signs: &str) -> Option<Self> {
+        let balance = Balance::on(&base.sites(), signs)?;
+        let pile = Pile::on(base.region(), stacking(signs)).expect("a pile that fits");
+        Some(Self { pile, balance })
+    }
+
+    /// The same with spheres that weigh nothing.
+    #[must_use]
+    pub fn weightless(self) -> Self {
+        let (pile, mut balance) = (self.pile.weightless(), self.balance);
+        assert!(balance.weights.is_empty(), "loads come after");
+        balance.ordinary = BigRational::zero();
+        Self { pile, balance }
+    }
+
+    /// With a load more on a sphere.
+    #[must_use]
+    pub fn with_load(self, place: Place, load: &BigRational) -> Self {
+        let (pile, mut balance) = (self.pile, self.balance);
+        let pile = pile.with_load(site(place), load.clone());
+        let before = balance.weight(place).clone();
+        balance.weights.insert(place, before + load);
+        Self {
+            pile: pile.expect("a sphere"),
+            balance,
+        }
+    }
+
+    /// With another weight for a sphere without a load.
+    #[must_use]
+    pub fn with_weight(self, place: Place, weight: &BigRational) -> Self {
+        let (pile, mut balance) = (self.pile, self.balance);
+        let pile = pile.with_weight(site(place), weight.clone());
+        balance.weights.insert(place, weight.clone());
+        Self {
+            pile: pile.expect("a sphere"),
+            balance,
+        }
+    }
+
+    /// With random forces in `n` random horizontal contacts off the floor, where there are any.
+    #[must_use]
+    pub fn pushed(mut self, n: usize, random: &mut Random) -> Self {
+        let steps = [
+            (Axis::AlphaBeta, [1, 0]),
+            (Axis::AlphaGamma, [0, 1]),
+            (Axis::GammaBeta, [1, -1]),
+        ];
+        let floor = self.pile.layers() - 1;
+        let both = |(k, j, i): Place, [di, dj]: [i128; 2]| {
+            k < floor && self.balance.has((k, j + dj, i + di))
+        };
+        let contacts = self.balance.places();
+        let contacts = contacts.flat_map(|place| steps.map(|(axis, step)| (place, axis, step)));
+        let contacts: Vec<_> = contacts
+            .filter(|(place, _, step)| both(*place, *step))
+            .collect();
+        for _ in 0..n.min(contacts.len()) {
+            let (place, axis, step) = contacts[random.below(contacts.len())];
+            let (site, force) = (site(place), random.rational());
+            let contact = HorizontalContact { site, axis };
+            let pile = self.pile.with_horizontal_force(contact, force.clone());
+            self.pile = pile.expect("two spheres off the floor");
+            self.balance.push(place, step, &force);
+        }
+        self
+    }
+
+    /// With random weights and loads on `n` random spheres.
+    #[must_use]
+    pub fn loaded(mut self, n: usize, random: &mut Random) -> Self {
+        let places: Vec<Place> = self.balance.places().collect();
+        for _ in 0..n {
+            let place = places[random.below(places.len())];
+            let given = random.rational();
+            let weighs = !self.balance.weights.contains_key(&place) && random.below(2) == 0;
+            self = if weighs && self.balance.ordinary == BigRational::one() {
+                self.with_weight(place, &given)
+            } else {
+                self.with_load(place, &given)
+            };
+        }
+        self
+    }
+}
+
+/// A stacking from its signs, + and −.
+pub fn stacking(signs: &str) -> Stacking {
+    let signs = signs.chars().map(|sign| match sign {
+        '+' => Sign::Plus,
+        _ => Sign::Minus,
+    });
+    Stacking::from_signs(signs).expect("a few layers")
+}
+
+/// All sign strings of a length, in order of binary numbers.
+pub fn all_signs(steps: usize) -> impl Iterator<Item = String> {
+    (0..1_u32 << steps).map(move |bits| {
+        let sign = |step| if bits >> step & 1 == 0 { '+' } else { '-' };
+        (0..steps).map(sign).collect()
+    })
+}
+
+/// `period` repeated, cut to a number of steps.
+pub fn repeated(period: &str, steps: usize) -> String {
+    period.chars().cycle().take(steps).collect()
+}
+
+/// All stackings that a base carries, of every height, read from the top.
+pub fn all_on(base: &Bounds) -> Vec<String> {
+    let sites = base.sites();
+    let mut found = vec![String::new()];
+    let mut next = 0;
+    while let Some(signs) = found.get(next).cloned() {
+        for sign in ["+", "-"] {
+            let higher = format!("{sign}{signs}");
+            if Balance::on(&sites, &higher).is_some() {
+                found.push(higher);
+            }
+        }
+        next += 1;
+    }
+    found
+}
+
+/// Numbers that are the same in every run: Knuth's linear congruence.
+pub struct Random(pub u64);
+
+impl Random {
+    /// The next 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 >> 33
+    }
+
+    /// 0 … n−1.
+    pub fn below(&mut self, n: usize) -> usize {
+        usize::try_from(self.bits()).expect("31 bits") % n
+    }
+
+    /// A number from 0 to n.
+    pub fn up_to(&mut self, n: i128) -> i128 {
+        i128::from(self.bits()) % (n + 1)
+    }
+
+    /// So many random signs.
+    pub fn signs(&mut self, steps: usize) -> String {
+        // Long runs and changes at every step alike.
+        let change = 1 + self.below(4);
+        let mut plus = self.below(2) == 0;
+        let sign = |_| {
+            plus ^= self.below(4) < change;
+            if plus { '+' } else { '-' }
+        };
+        (0..steps).map(sign).collect()
+    }
+
+    /// Not negative; zero, small, and with denominators that have thirds or not.
+    pub fn rational(&mut self) -> BigRational {
+        let numer = [0, 1, 2, 7, 100, 12_345_678_901][self.below(6)];
+        let denom = [1, 2, 3, 9, 10, 35, 1_000_003][self.below(7)];
+        ratio(numer, denom)
+    }
+
+    /// A region of any of its forms that has a site, with bounds that need not be tight.
+    pub fn bounds(&mut self, size: i128) -> Bounds {
+        loop {
+            let [x0, y0] = [0; 2].map(|_: i32| self.up_to(4) - 2);
+            let [x1, y1] = [x0, y0].map(|start| start + self.up_to(size));
+            let s0 = x0 + y0 - 1 + self.up_to(size / 2 + 1);
+            let s1 = s0 + self.up_to(2 * size);
+            let bounds = Bounds {
+                x: (x0, x1),
+                y: (y0, y1),
+                s: (s0, s1),
+            };
+            if !bounds.sites().is_empty() {
+                return bounds;
+            }
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! The mean over random stackings is that of all stackings, looked at one by one; and what is too large is refused.
+
+use arbitrary::Unstructured;
+use cannonpile::lattice::{Region, Site};
+use cannonpile_disorder::{Error, FirstSign, Mean, RandomPiles, RandomStackings, Shard};
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero, pow};
+
+use super::parsers::comes_back;
+use super::{Checked, Failure, demand, one_line, same};
+use crate::disorder::{Piles, agrees_at};
+use crate::generators::{disorder, number, rarely, region, text};
+use crate::oracles::one_by_one::faults;
+
+/// Small piles: all that is said of them.
+pub fn small(u: &mut Unstructured<'_>) -> Checked {
+    let described = disorder::piles(u)?;
+    let q = number::fraction(u)?;
+    let sums = described.sums();
+    agrees_at(&described, &sums, core::slice::from_ref(&q)).map_err(Failure::Refuted)?;
+    let is_response = described.weightless && !described.loads.is_empty();
+    if is_response {
+        let squares = described.piles()?.mean_square(&q)?;
+        same("the mean square", &squares, &mean_square(&described, &q))?;
+    }
+    Ok(())
+}
+
+/// The mean of the sum of squares: each stacking with its probability.
+fn mean_square(described: &Piles, q: &BigRational) -> BigRational {
+    let choices = described.steps.saturating_sub(1);
+    let two = described.first == FirstSign::Random && described.steps > 0;
+    let mut mean = BigRational::zero();
+    for signs in described.stackings() {
+        let d = faults(&signs);
+        let share = pow(q.clone(), d) * pow(BigRational::one() - q, choices - d);
+        let squares = described
+            .bottom(&signs)
+            .into_values()
+            .map(|[normal, _, _]| &normal * &normal);
+        mean += squares.sum::<BigRational>() * share;
+    }
+    mean / number::ratio(if two { 2 } else { 1 }, 1)
+}
+
+/// Piles of any size: the floor bears all loads and spheres, with probabilities that are some, or a line says why there is no
+/// answer.
+pub fn any_size(u: &mut Unstructured<'_>) -> Checked {
+    let stackings = disorder::stackings(u)?;
+    let region = region::region(u)?;
+    let (mut piles, is_grown_down) = match u.int_in_range(0..=2)? {
+        0 => (RandomPiles::under(region, stackings), true),
+        1 => (RandomPiles::on(region, stackings), false),
+        _ => (RandomPiles::plane(stackings), false),
+    };
+    if !rarely(u, 3)? {
+        piles = piles.weightless();
+    }
+    let mut loads = BigRational::zero();
+    for _ in 0..u.int_in_range(0..=3)? {
+        let [i, j] = region::site_about(u, &region)?;
+        let load = disorder::load(u)?;
+        match piles.clone().with_load(Site { i, j, k: 0 }, load.clone()) {
+            Ok(loaded) => (piles, loads) = (loaded, loads + load),
+            Err(refusal) => one_line(&refusal)?,
+        }
+    }
+    let q = number::fraction(u)?;
+    // A region of a million sites is answered, but not in a fuzz run.
+    let most = if stackings.layers() <= 8 { 40 } else { 6 };
+    let is_small = [region.x(), region.y()]
+        .iter()
+        .all(|side| side.end() - side.start() <= most);
+    if stackings.layers() < 2000 && !is_small {
+        return Ok(());
+    }
+    match piles.exact(&q) {
+        Ok(mean) => {
+            let spheres = match (piles.is_weightless(), is_grown_down) {
+                (true, _) => Some(BigRational::zero()),
+                (false, true) if stackings.layers() <= 8 => {
+                    Some(spheres_of(region, stackings, &q)?)
+                }
+                (false, _) => None,
+            };
+            bears_what_acts(&piles, &mean, spheres.map(|spheres| spheres + loads))
+        }
+        Err(refusal) => {
+            one_line(&refusal)?;
+            demand(
+                !matches!(
+                    refusal,
+                    Error::Core(cannonpile::Error::Bug { .. } | cannonpile::Error::Overflow { .. })
+                ),
+                || format!("{piles:?}: {refusal}"),
+            )
+        }
+    }
+}
+
+/// How many spheres there are under a top in the mean: those of the bottom layers of all piles that are not higher.
+fn spheres_of(
+    top: Region,
+    stackings: RandomStackings,
+    q: &BigRational,
+) -> Result<BigRational, Failure> {
+    let mut spheres = BigRational::zero();
+    for layers in 1..=stackings.layers() {
+        let stackings = RandomStackings::new(layers, stackings.first())?;
+        let mean = RandomPiles::under(top, stackings).exact(q)?;
+        spheres += mean
+            .rows()
+            .iter()
+            .map(|row| &row.probability)
+            .sum::<BigRational>();
+    }
+    Ok(spheres)
+}
+
+/// The normals add up to what acts, where that is known; no pile weighs less than its bottom layer.
+fn bears_what_acts(
+    piles: &RandomPiles,
+    mean: &Mean<BigRational>,
+    acting: Option<BigRational>,
+) -> Checked {
+    let rows = mean.rows();
+    let borne: BigRational = rows.iter().map(|row| &row.normal).sum();
+    let bottom: BigRational = rows.iter().map(|row| &row.probability).sum();
+    demand(
+        acting.map_or(borne >= bottom, |acting| borne == acting),
+        || format!("{borne} of {piles:?}"),
+    )?;
+    let is_share = |p: &BigRational| !p.is_negative() && *p <= BigRational::one();
+    demand(rows.iter().all(|row| is_share(&row.probability)), || {
+        format!("a probability of {piles:?}")
+    })
+}
+
+/// What the words of an option are read as is printed as something that is read as the same.
+pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
+    let text = text::word(u)?;
+    comes_back::<FirstSign>(&text)?;
+    comes_back::<Shard>(&text)
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+    use crate::disorder::Anchor;
+
+    #[test]
+    fn another_pile_is_caught() {
+        let described = Piles::heavy(
+            Anchor::Top(cannonpile::lattice::Region::SITE),
+            3,
+            FirstSign::Plus,
+        );
+        let q = [number::ratio(1, 3)];
+        assert!(agrees_at(&described, &described.sums(), &q).is_ok());
+        for other in [
+            Piles {
+                steps: 2,
+                ..described.clone()
+            },
+            Piles {
+                first: FirstSign::Minus,
+                ..described.clone()
+            },
+            Piles {
+                loads: vec![([0, 0], number::power(2, -60))],
+                ..described.clone()
+            },
+        ] {
+            assert!(
+                agrees_at(&described, &other.sums(), &q).is_err(),
+                "{other:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn another_square_is_caught() {
+        let described = Piles::response(4, FirstSign::Random);
+        let squares = described
+            .piles()
+            .unwrap()
+            .mean_square(&number::ratio(1, 3))
+            .unwrap();
+        assert_eq!(mean_square(&described, &number::ratio(1, 3)), squares);
+        assert_ne!(mean_square(&described, &number::ratio(1, 2)), squares);
+    }
+
+    #[test]
+    fn a_load_that_is_lost_is_caught() {
+        let described = Piles::response(3, FirstSign::Plus);
+        let holds = |of: &Piles, acting: i64| {
+            let piles = of.piles().unwrap();
+            let mean = piles.exact(&number::ratio(1, 3)).unwrap();
+            let acting = number::ratio(acting, 1);
+            let judge = |mean: &_| bears_what_acts(&piles, mean, Some(acting.clone())).is_ok();
+            assert!(!judge(&mean.given_sphere()));
+            judge(&mean)
+        };
+        assert!(holds(&described, 1));
+        let mut other = described;
+        other.loads.push(([1, 0], number::ratio(1, 1)));
+        assert!(holds(&other, 2));
+        assert!(!holds(&other, 1));
+    }
+
+    #[test]
+    fn a_sphere_that_is_lost_is_caught() {
+        let described = Piles::heavy(Anchor::Top(Region::SITE), 3, FirstSign::Plus);
+        let (piles, q) = (described.piles().unwrap(), number::ratio(1, 3));
+        let mean = piles.exact(&q).unwrap();
+        let spheres = spheres_of(Region::SITE, piles.stackings(), &q).unwrap();
+        let judge = |acting: BigRational| bears_what_acts(&piles, &mean, Some(acting));
+        assert!(judge(spheres.clone()).is_ok());
+        assert!(judge(spheres - number::power(2, -60)).is_err());
+    }
+}

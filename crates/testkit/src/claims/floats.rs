@@ -1,0 +1,237 @@
+//! `f32` and `f64` are a few roundings off the exact answer, for every real sin φ.
+//!
+//! # The bound
+//! u = 2^−p is the unit roundoff, p = 24 or 53. Every answer is a sum Σ ±t of products, and what is rounded
+//! on the way to it can be counted, each rounding an error of at most u relative to what it rounds:
+//!
+//! | rounded | roundings |
+//! |---|---|
+//! | a count N; s; ½ and 1 are exact | 1 |
+//! | the increment 2s: doubling is exact | 1 |
+//! | a force Nw | 1 + 1 + 1 = 3 |
+//! | a component of it, times s | 3 + 1 + 1 = 5 |
+//! | a sum of three of them, the first added to zero | 5 + 2 = 7 |
+//! | W = 1 + 1 + 2s | 2 |
+//! | a force on the floor: such a sum plus W | 8 |
+//! | the same in mg, divided by W | 8 + 2 + 1 = 11 |
+//! | all forces on a sphere: such a sum of (N + 1)w, 8, and the last but one, 8 | 9 |
+//!
+//! So the error is below 12 u Σ|t|, with one u to spare for the products of errors: 6 to 12 units in the last
+//! place of the sum of the magnitudes. Where all terms are positive, in contact and normal forces, that sum
+//! is the answer; a shear may cancel to less than its terms.
+//!
+//! Where s is too small for the float, it errs by half of the least subnormal η instead, and so does each
+//! product: at most L times each, 4Lη in all.
+
+use core::fmt::Debug;
+
+use arbitrary::Unstructured;
+use cannonpile::geometry::Vector;
+use cannonpile::lattice::{Direction, Site};
+use cannonpile::scalar::{Algebra, NearestFloat, RealEmbeddable, Ring};
+use cannonpile::{Error, Forces, Pile};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Signed;
+
+use super::{Checked, demand};
+use crate::generators::{number, pile};
+
+/// Errors are below this many u Σ|t|.
+const ROUNDINGS: i64 = 12;
+
+/// A rounded scalar.
+pub trait Float: Algebra + RealEmbeddable + NearestFloat {}
+
+impl<F: Algebra + RealEmbeddable + NearestFloat> Float for F {}
+
+/// Both formats, for a pile whose sin φ is a float.
+pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
+    let pile = pile::real_pile(u)?;
+    let site = pile::site(u, &pile)?;
+    every_answer::<f64>(&pile, site)?;
+    every_answer::<f32>(&pile, site)
+}
+
+/// Both formats, for a pile whose sin φ is a rational.
+pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
+    let pile = pile::pile(u)?;
+    let site = pile::site(u, &pile)?;
+    every_answer::<f64>(&pile, site)?;
+    every_answer::<f32>(&pile, site)
+}
+
+/// All that can be asked about one sphere.
+fn every_answer<F: Float>(pile: &Pile, site: Site) -> Checked {
+    let (rounded, exact) = (pile.forces::<F>(), pile.forces::<BigRational>());
+    let bound = Bound::of::<F>(pile);
+    let above = exact.from_above(site)?;
+    for (got, want) in rounded.from_above(site)?.iter().zip(&above) {
+        bound.holds("a force from above", got, want, want)?;
+    }
+    bound.holds_along(
+        "the position",
+        rounded.position(site)?,
+        exact.position(site)?,
+        magnitudes(&exact, &counts(site))?,
+    )?;
+    bound.holds_along(
+        "the resultant",
+        rounded.resultant_above(site)?,
+        exact.resultant_above(site)?,
+        magnitudes(&exact, &above)?,
+    )?;
+    if site.k == pile.layers() - 1 {
+        return on_floor(&bound, &rounded, &exact, site);
+    }
+    let mut below = [const { BigRational::ZERO }; 3];
+    for &direction in pile.dimension().directions() {
+        let (got, want) = (
+            rounded.contact(site, direction)?,
+            exact.contact(site, direction)?,
+        );
+        bound.holds("a contact force", &got, &want, &want)?;
+        let vector = exact.contact_vector(site, direction)?;
+        bound.holds_along(
+            "a contact vector",
+            rounded.contact_vector(site, direction)?,
+            vector.clone(),
+            vector.map(|c| c.abs()),
+        )?;
+        below[direction.index()] = want;
+    }
+    let mut terms = magnitudes(&exact, &above)? + &magnitudes(&exact, &below)?;
+    terms.z += exact.increment_sum()?;
+    bound.holds_along(
+        "what is left over",
+        rounded.unbalanced(site)?,
+        Vector::zero(),
+        terms,
+    )
+}
+
+fn on_floor<F: Float>(
+    bound: &Bound,
+    rounded: &Forces<'_, F>,
+    exact: &Forces<'_, BigRational>,
+    site: Site,
+) -> Checked {
+    let (got, want) = (rounded.on_floor(site)?, exact.on_floor(site)?);
+    let in_mg = exact.increment_sum()?.recip();
+    let terms = magnitudes(exact, &exact.from_above(site)?)?.scaled(&in_mg);
+    bound.holds("the normal force", &got.normal, &want.normal, &want.normal)?;
+    bound.holds("the shear along x", &got.shear_x, &want.shear_x, &terms.x)?;
+    bound.holds("the shear along y", &got.shear_y, &want.shear_y, &terms.y)
+}
+
+/// (N_α, N_β, N_γ).
+fn counts(site: Site) -> [BigRational; 3] {
+    [site.k - site.i - site.j, site.i, site.j].map(BigRational::from_i128)
+}
+
+/// Σ |c_m ê_m| for c_m ≥ 0, by component.
+fn magnitudes(
+    forces: &Forces<'_, BigRational>,
+    coefficients: &[BigRational; 3],
+) -> Result<Vector<BigRational>, Error> {
+    let mut sum = Vector::zero();
+    for (direction, coefficient) in Direction::ALL.into_iter().zip(coefficients) {
+        let e = forces.direction(direction)?.map(|c| c.abs());
+        sum = sum + &e.scaled(coefficient);
+    }
+    Ok(sum)
+}
+
+/// The bound on the error of one format, for one pile.
+struct Bound {
+    /// 12 u.
+    relative: BigRational,
+    /// 4Lη.
+    absolute: BigRational,
+}
+
+impl Bound {
+    fn of<F: NearestFloat>(pile: &Pile) -> Self {
+        let precision = i32::try_from(F::PRECISION).expect("a few dozen");
+        let least = i32::try_from(F::LEAST_EXPONENT).expect("about a thousand");
+        Self {
+            relative: number::power(2, -precision) * BigInt::from(ROUNDINGS),
+            absolute: number::power(2, least) * BigInt::from(4 * pile.layers()),
+        }
+    }
+
+    /// Whether `got` is within the bound of `want`, whose terms have this sum of magnitudes.
+    fn holds<F: RealEmbeddable + Debug>(
+        &self,
+        what: &str,
+        got: &F,
+        want: &BigRational,
+        magnitude: &BigRational,
+    ) -> Checked {
+        let stored = got.enclosure().map(|point| point.lower);
+        let allowed = &self.relative * magnitude + &self.absolute;
+        let holds = stored.is_some_and(|stored| (stored - want).abs() <= allowed);
+        demand(holds, || {
+            format!("{what} is {got:?}, too far from {want}, of size {magnitude}")
+        })
+    }
+
+    fn holds_along<F: RealEmbeddable + Debug>(
+        &self,
+        what: &str,
+        got: Vector<F>,
+        want: Vector<BigRational>,
+        magnitude: Vector<BigRational>,
+    ) -> Checked {
+        let (want, magnitude) = (want.into_array(), magnitude.into_array());
+        for ((got, want), magnitude) in got.into_array().iter().zip(&want).zip(&magnitude) {
+            self.holds(what, got, want, magnitude)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    #[test]
+    fn thirteen_ulps_are_caught() {
+        let pile = Pile::isosceles(10_i128.pow(30), number::ratio(2, 5)).unwrap();
+        let site = Site {
+            i: 0,
+            j: 0,
+            k: 10_i128.pow(29),
+        };
+        let bound = Bound::of::<f64>(&pile);
+        let got: f64 = pile.forces().contact(site, Direction::Alpha).unwrap();
+        let want = pile.forces().contact(site, Direction::Alpha).unwrap();
+        assert!(bound.holds("force", &got, &want, &want).is_ok());
+        let nearest = f64::nearest_to_rational(&want).unwrap();
+        for towards in [f64::next_up, f64::next_down] {
+            let wrong = (0..13).fold(nearest, |x, _| towards(x));
+            assert!(bound.holds("force", &wrong, &want, &want).is_err());
+        }
+        assert!(bound.holds("force", &f64::NAN, &want, &want).is_err());
+    }
+
+    /// An answer of f32 passed off as one of f64.
+    #[test]
+    fn single_precision_in_disguise_is_caught() {
+        let pile = Pile::isosceles(1 << 40, number::ratio(1, 3)).unwrap();
+        let site = Site {
+            i: 12_345,
+            j: 0,
+            k: (1 << 40) - 1,
+        };
+        let single = pile.forces::<f32>().on_floor(site).unwrap().normal;
+        let want = pile.forces::<BigRational>().on_floor(site).unwrap().normal;
+        let holds = |bound: Bound| {
+            bound
+                .holds("normal", &f64::from(single), &want, &want)
+                .is_ok()
+        };
+        assert!(holds(Bound::of::<f32>(&pile)));
+        assert!(!holds(Bound::of::<f64>(&pile)));
+    }
+}

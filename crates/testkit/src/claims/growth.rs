@@ -1,0 +1,135 @@
+//! Regions of any size grow and shrink as their sites do, site by site.
+
+use arbitrary::Unstructured;
+use cannonpile::Error;
+use cannonpile::lattice::{Direction, MAX_LAYERS, Region, Sign};
+
+use super::numbered::first_of;
+use super::{Checked, demand, one_line, same};
+use crate::generators::region;
+
+/// One step down and up again, and many steps down, by single sites.
+pub fn grown(u: &mut Unstructured<'_>) -> Checked {
+    let region = region::region(u)?;
+    let sign = *u.choose(&[Sign::Plus, Sign::Minus])?;
+    let site = region::site_about(u, &region)?;
+    let steps = u.int_in_range(0..=2 * MAX_LAYERS)? >> u.int_in_range(0..=127)?;
+    let below = region.dilated(sign);
+    if let Ok(below) = &below {
+        let again = below.eroded(sign);
+        same("erosion of the dilation", &again, &Some(region))?;
+        stands_where_it_should(&region, below, sign, site)?;
+    }
+    if let Some(above) = region.eroded(sign) {
+        stands_where_it_should(&above, &above.dilated(sign)?, sign, site)?;
+        erosion_keeps_what_stands(&region, Some(&above), sign, site)?;
+    } else {
+        erosion_keeps_what_stands(&region, None, sign, site)?;
+    }
+    match region.dilated_by(sign, steps) {
+        Ok(last) => lines_end_at_the_surface(&region, &last, sign, steps, site),
+        Err(refusal) => {
+            one_line(&refusal)?;
+            // Some bound is further than so many steps from the limit: it should not have been refused.
+            let furthest = [region.x(), region.y(), region.s()].map(|side| match sign {
+                Sign::Plus => *side.end(),
+                Sign::Minus => -*side.start(),
+            });
+            let most = furthest.into_iter().max().unwrap_or_default();
+            demand(most + steps > MAX_LAYERS, || {
+                format!("{region} is refused {steps} steps of {sign:?}: {refusal}")
+            })
+        }
+    }
+}
+
+/// A site is in the layer below just if it is a support of one in `above`.
+fn stands_where_it_should(
+    above: &Region,
+    below: &Region,
+    sign: Sign,
+    [i, j]: [i128; 2],
+) -> Checked {
+    let carries = Direction::ALL.iter().any(|direction| {
+        let [di, dj] = sign.descent(*direction);
+        above.contains(i - di, j - dj)
+    });
+    demand(below.contains(i, j) == carries, || {
+        format!("({i}, {j}) below {above}, {sign:?}: {below}")
+    })
+}
+
+/// A site is in the layer above just if its three supports are in `below`.
+fn erosion_keeps_what_stands(
+    below: &Region,
+    above: Option<&Region>,
+    sign: Sign,
+    [i, j]: [i128; 2],
+) -> Checked {
+    let stands = Direction::ALL.iter().all(|direction| {
+        let [di, dj] = sign.descent(*direction);
+        below.contains(i + di, j + dj)
+    });
+    let kept = above.is_some_and(|above| above.contains(i, j));
+    demand(kept == stands, || {
+        format!("({i}, {j}) above {below}, {sign:?}: {above:?}")
+    })
+}
+
+/// So many spheres up a line there still is one, and not one more; the site is moved into the last layer first.
+fn lines_end_at_the_surface(
+    top: &Region,
+    last: &Region,
+    sign: Sign,
+    steps: i128,
+    [i, j]: [i128; 2],
+) -> Checked {
+    let inside = |j: i128| j.clamp(*last.y().start(), *last.y().end());
+    let row = first_of(last, 0, inside(j))?;
+    let (i, j) = (i.clamp(row.i.start, row.i.end - 1), row.j);
+    let above = last.spheres_above(i, j, sign, steps);
+    for direction in Direction::ALL {
+        let [di, dj] = sign.descent(direction);
+        let n = above[direction.index()];
+        demand((0..=steps).contains(&n), || {
+            format!("{n} spheres above in {steps} steps")
+        })?;
+        let there = |up: i128| -> Result<bool, Error> {
+            let layer = top.dilated_by(sign, steps - up)?;
+            Ok(layer.contains(i - di * up, j - dj * up))
+        };
+        let ends = n == steps || !there(n + 1)?;
+        demand(there(n)? && ends, || {
+            format!("{n} spheres above ({i}, {j}) along {direction}, {steps} steps under {top}")
+        })?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    #[test]
+    fn a_layer_grown_the_wrong_way_is_caught() {
+        let region = Region::triangle(4).unwrap();
+        let [plus, minus] = [Sign::Plus, Sign::Minus].map(|sign| region.dilated(sign).unwrap());
+        let corner = [4, 0];
+        assert!(stands_where_it_should(&region, &plus, Sign::Plus, corner).is_ok());
+        assert!(stands_where_it_should(&region, &minus, Sign::Plus, corner).is_err());
+        let [plus, minus] = [Sign::Plus, Sign::Minus].map(|sign| region.eroded(sign));
+        let corner = [2, 0];
+        assert!(erosion_keeps_what_stands(&region, plus.as_ref(), Sign::Plus, corner).is_ok());
+        assert!(erosion_keeps_what_stands(&region, minus.as_ref(), Sign::Plus, corner).is_err());
+        assert!(erosion_keeps_what_stands(&region, None, Sign::Plus, corner).is_err());
+    }
+
+    #[test]
+    fn a_line_of_another_layer_is_caught() {
+        let top = Region::triangle(2).unwrap();
+        let last = top.dilated_by(Sign::Plus, 5).unwrap();
+        assert!(lines_end_at_the_surface(&top, &last, Sign::Plus, 5, [1, 1]).is_ok());
+        let lower = top.dilated_by(Sign::Plus, 6).unwrap();
+        assert!(lines_end_at_the_surface(&top, &lower, Sign::Plus, 5, [1, 1]).is_err());
+    }
+}

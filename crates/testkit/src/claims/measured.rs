@@ -1,0 +1,549 @@
+//! Measured forces are read as they were written, exact ones are accepted, and a planted fault is found.
+//!
+//! The oracle is the list that was written, the fault that was planted, and rationals, in which the error is computed
+//! anew.
+
+use std::fmt::Write;
+
+use arbitrary::Unstructured;
+use cannonpile::geometry::Spacing;
+use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use cannonpile::{Packing, Pile};
+use cannonpile_dem::verify;
+use cannonpile_dem::verify::{
+    Axes, Comparison, Coordinate, Frame, Measured, Preset, Reader, Refusal,
+};
+use num_traits::{Signed, ToPrimitive};
+
+use super::{Checked, Failure, demand, same};
+use crate::codes;
+use crate::generators::number::{self, ratio};
+use crate::generators::{pile, rarely, region, text};
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refuted(format!("refused: {refusal}"))
+    }
+}
+
+/// Any bytes are read or refused in one line; what is read can be written and read again.
+pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
+    let file = match u.int_in_range(0..=3)? {
+        0 => u.arbitrary::<Vec<u8>>()?,
+        1 => text::any(u)?.into_bytes(),
+        _ => {
+            let entries = entries(u)?;
+            let whole = written(u, &entries)?;
+            let mut file = text::damaged(u, &whole)?.into_bytes();
+            if u.arbitrary()? {
+                let cut = u.int_in_range(0..=file.len())?;
+                file.truncate(cut);
+            }
+            file
+        }
+    };
+    match verify::read(&*file) {
+        Ok(reading) => {
+            let entries = reading.entries();
+            let lines = file.split(|byte| *byte == b'\n').count();
+            let last = entries.len().checked_sub(1).map(|last| reading.line(last));
+            // The rows of a picture are no lines.
+            let is_picture = file.first() == Some(&b'<');
+            let within = is_picture
+                || last.is_none_or(|line| {
+                    line > 0 && line <= u64::try_from(lines).unwrap_or(u64::MAX)
+                });
+            demand(within, || format!("line {last:?} of {lines}"))?;
+            for one in entries {
+                let [x, y, z] = one.vector.unwrap_or_default();
+                let numbers = one.ids.iter().all(|id| *id > 0)
+                    && [one.force, x, y, z].iter().all(|x| x.is_finite());
+                demand(numbers, || format!("{one:?} was read"))?;
+            }
+            same(
+                "what was read",
+                &verify::read(csv(entries).as_bytes())?.entries(),
+                &entries,
+            )
+        }
+        Err(refusal) => {
+            let message = refusal.to_string();
+            let printable = !message.is_empty() && !message.contains(char::is_control);
+            demand(printable, || format!("not one line: {message:?}"))
+        }
+    }
+}
+
+/// Any bytes are compared, as any code's table, or refused in one line; what a code writes of the exact forces is accepted.
+pub fn any_table(u: &mut Unstructured<'_>) -> Checked {
+    let pile = Pile::triangular(3)?;
+    let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
+    let mut table = table(u, &packing)?;
+    for _ in 0..u.int_in_range(0..=4)? {
+        table.is_exact = false;
+        hurt(u, &mut table.file)?;
+    }
+    let Table {
+        reader,
+        file,
+        is_exact,
+    } = table;
+    match reader.with_balance().compare(&packing, &*file) {
+        Ok(read) => {
+            let counted = read.comparison.matched() + read.comparison.missing();
+            let contacts = read.comparison.contacts();
+            demand(counted <= contacts, || {
+                format!("{counted} of {contacts} contacts")
+            })?;
+            let all = read.comparison.accepted(1e-10) && read.comparison.matched() == 12;
+            demand(all || !is_exact, || format!("{}", read.comparison))
+        }
+        Err(refusal) => {
+            let message = refusal.to_string();
+            let printable = !message.is_empty() && !message.contains(char::is_control);
+            demand(printable && message.len() < 1000 && !is_exact, || {
+                format!("not one line, or of an exact table: {message:?}")
+            })
+        }
+    }
+}
+
+/// A table, and what reads it.
+struct Table {
+    reader: Reader,
+    file: Vec<u8>,
+    /// Whether the forces are the exact ones.
+    is_exact: bool,
+}
+
+/// What a code writes; now and then what it does not write, or anything at all.
+fn table(u: &mut Unstructured<'_>, packing: &Packing<'_>) -> Result<Table, Failure> {
+    let preset = *u.choose(&Preset::ALL)?;
+    let (mut reader, file, mut is_exact) = match (preset, u.int_in_range(0..=7)?) {
+        (_, 7) => (Reader::of(preset), u.arbitrary::<Vec<u8>>()?, false),
+        (_, 6) => {
+            let by_place = Reader::new().by_place(Reader::WITHIN)?;
+            (by_place, placed(packing, &own())?.into_bytes(), true)
+        }
+        (Preset::ExaDemVtp | Preset::Lethe, _) => {
+            let picture = *u.choose(&PICTURES)?;
+            // A grid has the forces that Lethe writes, and no others.
+            let is_read = preset == Preset::Lethe || LINES.contains(&picture);
+            (Reader::of(preset), picture.to_vec(), is_read)
+        }
+        (_, dialect) => {
+            let text = written_by(preset, packing, dialect == 1)?;
+            let reader = match preset {
+                // The stiffness is for the user to name.
+                Preset::Mddem => {
+                    let spring = "force=1024*overlap".parse()?;
+                    Reader::new()
+                        .with_columns(preset.columns().overridden(&spring))
+                        .by_place(Reader::WITHIN)?
+                }
+                _ => Reader::of(preset),
+            };
+            (reader, text.into_bytes(), true)
+        }
+    };
+    if rarely(u, 6)? {
+        reader = Reader::of(*u.choose(&Preset::ALL)?);
+        is_exact = false;
+    }
+    Ok(Table {
+        reader,
+        file,
+        is_exact,
+    })
+}
+
+/// The exact forces as a code writes them, or for LAMMPS as a dump.
+fn written_by(preset: Preset, packing: &Packing<'_>, as_dump: bool) -> Result<String, Failure> {
+    let centres = codes::centres(packing)?;
+    let measured = perfect(packing).unwrap_or_default();
+    let head = codes::head(preset).unwrap_or_default();
+    let rows = measured.iter().map(|one| codes::row(preset, one, &centres));
+    let table = head.to_owned() + &rows.collect::<String>();
+    Ok(if as_dump && preset == Preset::Lammps {
+        dump(1, measured.len(), &table)
+    } else {
+        table
+    })
+}
+
+/// One byte is another, or is not there; or it is the end.
+fn hurt(u: &mut Unstructured<'_>, file: &mut Vec<u8>) -> arbitrary::Result<()> {
+    let Some(last) = file.len().checked_sub(1) else {
+        return Ok(());
+    };
+    let place = u.int_in_range(0..=last)?;
+    match u.int_in_range(0..=3)? {
+        0 => file.truncate(place),
+        1 => drop(file.remove(place)),
+        2 => {
+            if let Some(byte) = file.get_mut(place) {
+                *byte = *u.choose(b"0123456789.-+eE,; \n#\"<>")?;
+            }
+        }
+        _ => {
+            if let Some(byte) = file.get_mut(place) {
+                *byte = u.arbitrary()?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The exact forces of a small pile are accepted by place, in any order and in any frame, whatever the sizes.
+pub fn by_place(u: &mut Unstructured<'_>) -> Checked {
+    let pile = seen(u)?;
+    let spacing = pile::roomy_spacing(u, &pile)?;
+    let mut size = || Ok::<_, Failure>(number::power(10, u.int_in_range(-12..=12)?));
+    let packing = Packing::new(&pile, &spacing)?
+        .with_radius(size()?)?
+        .with_mass(size()?)?
+        .with_gravity(size()?)?;
+    let radius = packing.radius().to_f64().unwrap_or(1.0);
+    let whole = |u: &mut Unstructured<'_>| u.int_in_range(-5000_i32..=5000).map(f64::from);
+    let frame = Frame {
+        angle: whole(u)? / 1700.0,
+        shift: [whole(u)?, whole(u)?, whole(u)?].map(|x| x / 100.0 * radius),
+        ..own()
+    };
+    let table = placed(&packing, &frame)?;
+    let mut rows: Vec<&str> = table.lines().skip(1).collect();
+    if rows.is_empty() {
+        return Ok(());
+    }
+    for place in (1..rows.len()).rev() {
+        rows.swap(place, u.int_in_range(0..=place)?);
+    }
+    let head = table.lines().next().unwrap_or_default();
+    let text = [&[head], &rows[..]].concat().join("\n");
+    let within = f64::from(u.int_in_range(1_u8..=45)?) / 100.0;
+    let reader = Reader::new().by_place(within)?;
+    let read = match reader.compare(&packing, text.as_bytes()) {
+        Err(Refusal::OutOfRange) => return Ok(()),
+        read => read?,
+    };
+    // Forces alone: a turn may be told by a symmetry of the pile.
+    demand(read.comparison.accepted(1e-9), || {
+        format!("{frame:?} as {:?}: {}", read.frame, read.comparison)
+    })
+}
+
+/// Any stacking with weights and loads that are alike, as some that differ by many powers of ten leave nothing to tell a turn by;
+/// discs, and spheres on isosceles bases.
+fn seen(u: &mut Unstructured<'_>) -> Result<Pile, Failure> {
+    let layers = u.int_in_range(1..=6)?;
+    Ok(match u.int_in_range(0..=3)? {
+        0 => Pile::discs(layers)?,
+        // There is room for any number of layers.
+        1 => Pile::isosceles(layers, ratio(u.int_in_range(1..=10)?, 12))?,
+        _ => region::lightly(u)?.pile()?,
+    })
+}
+
+/// The frame of the scene.
+fn own() -> Frame {
+    Frame {
+        axes: Axes::new([Coordinate::X, Coordinate::Y, Coordinate::Z].map(Into::into)).unwrap(),
+        angle: 0.0,
+        shift: [0.0; 3],
+    }
+}
+
+/// A table of both centres and the force of each contact, seen from a frame.
+fn placed(packing: &Packing<'_>, frame: &Frame) -> Result<String, Failure> {
+    let mut table = String::from("x1,y1,z1,x2,y2,z2,force\n");
+    let shape = packing.pile().shape();
+    for contact in packing.contacts(Selection::All)? {
+        let contact = contact?;
+        let direction = contact.direction.direction();
+        let below = direction.and_then(|direction| shape.below(contact.site, direction));
+        let Some(below) = below else { continue };
+        for site in [contact.site, below] {
+            let centre = packing
+                .position(site)?
+                .map(|x: Surd| x.nearest().unwrap_or(0.0));
+            let [x, y, z] = frame.place(centre);
+            write!(table, "{x:?},{y:?},{z:?},").ok();
+        }
+        let force: f64 = contact.force.nearest().unwrap_or(0.0);
+        writeln!(table, "{force:?}").ok();
+    }
+    Ok(table)
+}
+
+/// Lines with data in every coding of VTK, of three layers.
+const LINES: [&[u8]; 6] = [
+    include_bytes!("../../../dem/tests/all/verify/vtk/ascii.vtp"),
+    include_bytes!("../../../dem/tests/all/verify/vtk/based.vtp"),
+    include_bytes!("../../../dem/tests/all/verify/vtk/packed.vtp"),
+    include_bytes!("../../../dem/tests/all/verify/vtk/raw.vtp"),
+    include_bytes!("../../../dem/tests/all/verify/vtk/raw_packed.vtp"),
+    include_bytes!("../../../dem/tests/all/verify/vtk/appended.vtp"),
+];
+
+/// The same, and two grids.
+const PICTURES: [&[u8]; 8] = [
+    LINES[0],
+    LINES[1],
+    LINES[2],
+    LINES[3],
+    LINES[4],
+    LINES[5],
+    include_bytes!("../../../dem/tests/all/verify/vtk/lines.vtu"),
+    include_bytes!("../../../dem/tests/all/verify/vtk/lines_ascii.vtu"),
+];
+
+/// What was written is read.
+pub fn a_file(u: &mut Unstructured<'_>) -> Checked {
+    let entries = entries(u)?;
+    let file = written(u, &entries)?;
+    same(
+        "what was read",
+        &verify::read(file.as_bytes())?.entries(),
+        &&*entries,
+    )
+}
+
+/// The exact forces of a small pile, in any order, are accepted; one fault among them is found.
+pub fn planted(u: &mut Unstructured<'_>) -> Checked {
+    let pile = region::described(u)?.pile()?;
+    let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
+    let Some(exact) = perfect(&packing) else {
+        return Ok(());
+    };
+    let mut measured = exact.clone();
+    for place in (1..measured.len()).rev() {
+        measured.swap(place, u.int_in_range(0..=place)?);
+        if let (Some(one), true) = (measured.get_mut(place), u.arbitrary()?) {
+            *one = one.reversed();
+        }
+    }
+    let comparison = match Comparison::new(&packing, measured.iter().copied()) {
+        Err(Refusal::OutOfRange) => return Ok(()),
+        comparison => comparison?,
+    };
+    accepted(&comparison, exact.len())?;
+    let Some(place) = measured
+        .len()
+        .checked_sub(1)
+        .map(|last| u.int_in_range(0..=last))
+    else {
+        return Ok(());
+    };
+    let (place, fault) = (place?, u.int_in_range(0..=3)?);
+    let Some(one) = measured.get(place).copied() else {
+        return Ok(());
+    };
+    let mut wrong = one;
+    match fault {
+        0 => wrong.force = one.force.next_up(),
+        1 => wrong.force = -one.force + number::float(u)? * 1e-3,
+        2 => wrong.vector = one.vector.map(|[x, y, z]| [y, x, z.next_down()]),
+        _ => wrong.ids = [1, 1],
+    }
+    if !wrong.force.is_finite() {
+        return Ok(());
+    }
+    if fault == 3 {
+        measured.remove(place);
+        let comparison = Comparison::new(&packing, measured.iter().copied())?;
+        return missed(&comparison, &one);
+    }
+    if let Some(place) = measured.get_mut(place) {
+        *place = wrong;
+    }
+    let comparison = Comparison::new(&packing, measured)?;
+    found(&comparison, &one, &wrong)
+}
+
+/// All are there, and all bits agree.
+fn accepted(comparison: &Comparison, contacts: usize) -> Checked {
+    let all = u64::try_from(contacts).unwrap_or(u64::MAX);
+    let holds = comparison.accepted(0.0) && comparison.matched() == all;
+    demand(holds, || format!("not accepted: {comparison}"))
+}
+
+/// A contact that was left out is missing, just if it carries something.
+fn missed(comparison: &Comparison, gone: &Measured) -> Checked {
+    let ids = comparison
+        .missing_contacts()
+        .first()
+        .map(|first| sorted(first.ids));
+    let want = (gone.force != 0.0).then(|| sorted(gone.ids));
+    same("the missing contact", &ids, &want)?;
+    same("the verdict", &comparison.accepted(0.5), &want.is_none())
+}
+
+/// The one contact that was measured wrong is the worst, with the error that rationals give.
+fn found(comparison: &Comparison, exact: &Measured, wrong: &Measured) -> Checked {
+    let differs = exact != wrong;
+    if wrong.force == 0.0
+        && wrong
+            .vector
+            .is_none_or(|vector| vector.iter().all(|x| *x == 0.0))
+    {
+        return missed(comparison, exact);
+    }
+    same("accepted", &comparison.accepted(0.0), &!differs)?;
+    if !differs {
+        return Ok(());
+    }
+    let worst = comparison.worst().map(|worst| sorted(worst.ids));
+    same("the worst contact", &worst, &Some(sorted(exact.ids)))?;
+    if wrong.vector != exact.vector {
+        return Ok(());
+    }
+    let unit = if exact.force == 0.0 {
+        comparison.largest_force()
+    } else {
+        exact.force
+    };
+    if unit == 0.0 {
+        return demand(comparison.largest_error().is_infinite(), || {
+            format!("{comparison}")
+        });
+    }
+    let apart = (number::exactly(wrong.force) - number::exactly(exact.force)).abs();
+    let error = apart / number::exactly(unit).abs();
+    let got = comparison.largest_error();
+    let near = match error.to_f64() {
+        Some(error) if error.is_normal() && got.is_finite() => (got - error).abs() <= 1e-15 * error,
+        // Beyond the floats, or among the least of them.
+        _ => got > 0.0,
+    };
+    demand(near, || format!("an error of {got:e}, not {error}"))
+}
+
+fn sorted([a, b]: [u64; 2]) -> [u64; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Each contact told of the upper sphere, as the nearest floats; none if one is beyond them.
+fn perfect(packing: &Packing<'_>) -> Option<Vec<Measured>> {
+    let pile: &Pile = packing.pile();
+    let id = |site| {
+        u64::try_from(pile.shape().before(site).ok()?)
+            .ok()
+            .map(|n| n + 1)
+    };
+    let contacts = packing.contacts(Selection::All).ok()?;
+    let measured = contacts.map(|contact| {
+        let contact = contact.ok()?;
+        let below = pile
+            .shape()
+            .below(contact.site, contact.direction.direction()?)?;
+        let [x, y, z] = contact.vector.each_ref().map(Surd::nearest::<f64>);
+        let force = contact.force.nearest::<f64>()?;
+        let ids = [id(contact.site)?, id(below)?];
+        Some(Measured::new(ids, force).with_vector([x?, y?, z?]))
+    });
+    measured.collect()
+}
+
+/// Up to six entries with any finite forces, all with vectors or none.
+fn entries(u: &mut Unstructured<'_>) -> arbitrary::Result<Vec<Measured>> {
+    let with_vectors = u.arbitrary()?;
+    let count = u.int_in_range(0..=6)?;
+    let mut entries = Vec::new();
+    for _ in 0..count {
+        let greatest = [9, u64::MAX][u.choose_index(2)?];
+        let ids = [u.int_in_range(1..=greatest)?, u.int_in_range(1..=greatest)?];
+        let one = Measured::new(ids, number::float(u)?);
+        entries.push(if with_vectors {
+            one.with_vector([number::float(u)?, number::float(u)?, number::float(u)?])
+        } else {
+            one
+        });
+    }
+    Ok(entries)
+}
+
+/// A file of either kind, with the liberties that each allows.
+fn written(u: &mut Unstructured<'_>, entries: &[Measured]) -> arbitrary::Result<String> {
+    let end = ["\n", "\r\n"][u.choose_index(2)?];
+    if u.arbitrary()? {
+        let text = csv(entries);
+        let text = if u.arbitrary()? {
+            text.replace(',', "\" , \"").replace('\n', "\"\n\"")
+        } else {
+            return Ok(text.replace('\n', end));
+        };
+        // The last quote opens nothing.
+        let text = format!("\"{}", text.trim_end_matches('"'));
+        return Ok(text.replace('\n', end));
+    }
+    let mut whole = String::new();
+    let snapshots = u.int_in_range(1..=2)?;
+    for snapshot in 1..=snapshots {
+        let entries = if snapshot == snapshots {
+            entries
+        } else {
+            entries.get(1..).unwrap_or_default()
+        };
+        whole += &dump(snapshot, entries.len(), &csv(entries));
+    }
+    Ok(whole.replace('\n', end))
+}
+
+/// A snapshot of a dump of LAMMPS.
+fn dump(snapshot: u8, entries: usize, table: &str) -> String {
+    let table = table.replace(',', " ").replace('\n', " \n");
+    format!(
+        "ITEM: TIMESTEP\n{snapshot}\nITEM: NUMBER OF ENTRIES\n{entries}\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\nITEM: \
+         ENTRIES {table}"
+    )
+}
+
+/// As this program writes tables.
+fn csv(entries: &[Measured]) -> String {
+    let with_vectors = entries.iter().any(|one| one.vector.is_some());
+    let mut csv = "id1,id2,force".to_owned();
+    csv += if with_vectors { ",fx,fy,fz\n" } else { "\n" };
+    for one in entries {
+        let [first, second] = one.ids;
+        let _ = write!(csv, "{first},{second},{:?}", one.force);
+        for x in one.vector.into_iter().flatten() {
+            let _ = write!(csv, ",{x:?}");
+        }
+        csv.push('\n');
+    }
+    csv
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    fn compare(measured: &[Measured]) -> Comparison {
+        let pile = Pile::triangular(2).unwrap();
+        let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5)).unwrap()).unwrap();
+        Comparison::new(&packing, measured.iter().copied()).unwrap()
+    }
+
+    #[test]
+    fn a_comparison_that_overlooks_something_is_caught() {
+        let force = 0.462_250_163_521_024_27;
+        let right = [2, 3, 4].map(|id| Measured::new([1, id], force));
+        let mut wrong = right;
+        wrong[1].force = force.next_up();
+        let (blind, seeing) = (compare(&right), compare(&wrong));
+        assert!(accepted(&blind, 3).is_ok());
+        assert!(accepted(&seeing, 3).is_err());
+        assert!(accepted(&compare(&right[1..]), 3).is_err());
+        assert!(found(&seeing, &right[1], &wrong[1]).is_ok());
+        // Blind, of the wrong contact, or with an error that is off in its last digits.
+        assert!(found(&blind, &right[1], &wrong[1]).is_err());
+        assert!(found(&seeing, &right[2], &wrong[1]).is_err());
+        let mut other = wrong[1];
+        other.force = other.force.next_up();
+        assert!(found(&seeing, &right[1], &other).is_err());
+        assert!(missed(&compare(&right[1..]), &right[0]).is_ok());
+        assert!(missed(&compare(&right[1..]), &right[1]).is_err());
+        assert!(missed(&blind, &right[1]).is_err());
+    }
+}

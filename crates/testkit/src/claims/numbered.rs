@@ -1,0 +1,133 @@
+//! The spheres of a pile of any size are numbered without a gap, across rows, layers and changes of sign.
+
+use arbitrary::Unstructured;
+use cannonpile::Error;
+use cannonpile::lattice::{MAX_LAYERS, Region, Row, Site};
+use cannonpile::shape::Shape;
+use cannonpile::stacking::Stacking;
+use num_bigint::{BigInt, BigUint};
+
+use super::{Checked, same};
+use crate::generators::{region, stacking};
+
+/// A row of any pile: its spheres, the next one, and the first of its layer.
+pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
+    let Some(shape) = tall_shape(u)? else {
+        return Ok(());
+    };
+    let floor = shape.layers() - 1;
+    let k = match u.int_in_range(0..=2)? {
+        0 => u.int_in_range(0..=floor)?,
+        1 => u.int_in_range(0..=floor.min(6))?,
+        _ => floor - u.int_in_range(0..=floor.min(6))?,
+    };
+    let layer = shape.layer(k)?;
+    let [low, high] = [*layer.y().start(), *layer.y().end()];
+    let j = u.int_in_range(low..=high)?;
+    let first = first_of(&layer, k, j)?;
+    without_a_gap(&first, &shape, |site| shape.before(site))
+}
+
+/// The next sphere after the last one of a row has the next number.
+fn without_a_gap(
+    row: &Row,
+    shape: &Shape,
+    before: impl Fn(Site) -> Result<BigUint, Error>,
+) -> Checked {
+    let Row { k, j, ref i } = *row;
+    let [first, last] = [i.start, i.end - 1].map(|i| Site { i, j, k });
+    let length = BigInt::from(i.end - i.start);
+    let [at_first, at_last] = [before(first)?, before(last)?].map(BigInt::from);
+    let after = at_first.clone() + length;
+    same("the number after the row", &(at_last + 1), &after)?;
+    let layer = shape.layer(k)?;
+    let next = if j < *layer.y().end() {
+        Some((k, first_of(&layer, k, j + 1)?))
+    } else if k + 1 < shape.layers() {
+        let below = shape.layer(k + 1)?;
+        Some((k + 1, first_of(&below, k + 1, *below.y().start())?))
+    } else {
+        None
+    };
+    let next = next.map(|(k, row)| Site {
+        i: row.i.start,
+        j: row.j,
+        k,
+    });
+    let number = match next {
+        Some(next) => before(next)?,
+        None => shape.sphere_count(),
+    };
+    same("the next number", &number.into(), &after)?;
+    let above = (k > 0).then(|| shape.layer(k - 1)).transpose()?;
+    let start = Site {
+        i: first_of(&layer, k, *layer.y().start())?.i.start,
+        j: *layer.y().start(),
+        k,
+    };
+    let before_above = above.map_or(Ok(BigUint::default()), |above| {
+        let row = first_of(&above, k - 1, *above.y().start())?;
+        Ok::<_, Error>(
+            before(Site {
+                i: row.i.start,
+                j: row.j,
+                k: k - 1,
+            })? + above.site_count(),
+        )
+    })?;
+    same(
+        "the number that a layer begins with",
+        &before(start)?,
+        &before_above,
+    )
+}
+
+/// Grown down from any region, or up again from a base that is wider, by a few sites or many on each side, so that
+/// sides vanish on the way; none if the runs are no stacking or lead beyond the limit.
+fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
+    let top = region::region(u)?;
+    let made =
+        Stacking::from_runs(stacking::runs(u)?).and_then(|stacking| Shape::under(top, stacking));
+    let Ok(shape) = made else {
+        return Ok(None);
+    };
+    if u.arbitrary()? {
+        return Ok(Some(shape));
+    }
+    let base = shape.base();
+    // Comparable with the height, or far from it.
+    let most = [9, shape.layers(), MAX_LAYERS / 2][u.choose_index(3)?];
+    let mut sides = [base.x(), base.y(), base.s()];
+    for side in &mut sides {
+        let [low, high] = [u.int_in_range(0..=most)?, u.int_in_range(0..=most)?];
+        *side = side.start() - low..=side.end() + high;
+    }
+    let [x, y, s] = sides;
+    let base = Region::new(x, y, s).unwrap_or(base);
+    Ok(Shape::on(base, shape.stacking().clone()).ok())
+}
+
+/// The row j of a layer, found by its ends.
+pub fn first_of(layer: &Region, k: i128, j: i128) -> Result<Row, Error> {
+    let only = Region::new(layer.x(), j..=j, layer.s())?;
+    let (start, end) = only.x().into_inner();
+    Ok(Row {
+        k,
+        j,
+        i: start..end + 1,
+    })
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    #[test]
+    fn numbers_with_a_gap_are_caught() {
+        let shape = Shape::under(Region::SITE, "+-".parse().unwrap()).unwrap();
+        let row = first_of(&shape.layer(1).unwrap(), 1, 1).unwrap();
+        assert!(without_a_gap(&row, &shape, |site| shape.before(site)).is_ok());
+        let off = |site: Site| Ok(shape.before(site)? + u32::from(site.k == 2));
+        assert!(without_a_gap(&row, &shape, off).is_err());
+    }
+}

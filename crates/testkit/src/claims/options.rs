@@ -1,0 +1,90 @@
+//! What scenes and tables read from the words of an option: a parser never panics, and reads what is printed.
+
+use arbitrary::Unstructured;
+use cannonpile::Pile;
+use cannonpile::lattice::Dimension;
+use cannonpile_dem::scene::State;
+use cannonpile_dem::scene::parse;
+use cannonpile_dem::scene::parse::At;
+use cannonpile_dem::verify::{Columns, Preset};
+
+use super::parsers::{comes_back, reads_back};
+use super::{Checked, one_line};
+use crate::generators::{pile, text};
+
+/// Every parser on any text.
+pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
+    let text = text::any(u)?;
+    match parse::layers(&text) {
+        Ok(value) => {
+            reads_back(parse::layers, &value, &value)?;
+            Pile::triangular(value)?;
+        }
+        Err(refusal) => one_line(&refusal)?,
+    }
+    site(&text, Dimension::Two)?;
+    site(&text, Dimension::Three)
+}
+
+fn site(text: &str, dimension: Dimension) -> Checked {
+    let parse = |text: &str| parse::at(text, dimension);
+    match parse(text) {
+        Ok(value) => {
+            // Any site may be asked for, of any pile: that it has it is checked later.
+            let _ = value.site(i128::MIN);
+            let shown = written(&value, dimension);
+            reads_back(parse, &shown.replace(',', " , "), &value)?;
+            reads_back(parse, &shown, &value)
+        }
+        Err(refusal) => one_line(&refusal),
+    }
+}
+
+/// Layers that are printed are read as the same number.
+pub fn layers(u: &mut Unstructured<'_>) -> Checked {
+    let layers = pile::layers(u)?;
+    reads_back(parse::layers, &layers, &layers)
+}
+
+/// Every parser of an option on any word: what it reads is printed as something that is read as the same.
+pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
+    let text = text::word(u)?;
+    comes_back::<State>(&text)?;
+    comes_back::<Columns>(&text)?;
+    comes_back::<Preset>(&text)?;
+    load(&text, Dimension::Two)?;
+    load(&text, Dimension::Three)
+}
+
+fn load(text: &str, dimension: Dimension) -> Checked {
+    let parse = |text: &str| parse::load(text, dimension);
+    match parse(text) {
+        Ok(value) => {
+            let shown = format!("{}={}", written(&value.0, dimension), value.1);
+            reads_back(parse, &shown, &value)
+        }
+        Err(refusal) => one_line(&refusal),
+    }
+}
+
+/// `K,I,J` or `I,J`, and without J in two dimensions.
+fn written(at: &At, dimension: Dimension) -> String {
+    let last = (dimension == Dimension::Three).then_some(at.j);
+    let parts = [at.layer, Some(at.i), last];
+    let parts: Vec<_> = parts.into_iter().flatten().map(|n| n.to_string()).collect();
+    parts.join(",")
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+
+    #[test]
+    fn a_site_without_its_layer_is_caught() {
+        let at = parse::at("3,1,2", Dimension::Three).unwrap();
+        let parse = |text: &str| parse::at(text, Dimension::Three);
+        assert!(reads_back(parse, &written(&at, Dimension::Three), &at).is_ok());
+        let cut = At { layer: None, ..at };
+        assert!(reads_back(parse, &written(&cut, Dimension::Three), &at).is_err());
+    }
+}

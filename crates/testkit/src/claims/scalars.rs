@@ -1,0 +1,95 @@
+//! In every scalar the forces of a mixed pile are as near to those of the equations as the scalar says, or it says that they are
+//! beyond it.
+
+use arbitrary::Unstructured;
+use cannonpile::scalar::{Algebra, FixedRational, Interval, RealEmbeddable};
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Forces};
+use num_rational::BigRational;
+
+use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of};
+use super::{Checked, demand, same};
+use crate::generators::region;
+
+/// Intervals and narrow rationals; floats are asked for their bounds in `slices`.
+pub fn mixed(u: &mut Unstructured<'_>) -> Checked {
+    let described = region::described(u)?;
+    let solved = Solved::of(&described);
+    let pile = described.pile()?;
+    let (contacts, floor) = (contacts_of(&solved), floor_of(&solved));
+    encloses(&pile.forces::<Interval>(), &contacts, &floor)?;
+    encloses(&pile.forces::<FixedRational<i16>>(), &contacts, &floor)?;
+    encloses(&pile.forces::<FixedRational<i64>>(), &contacts, &floor)?;
+    encloses(&pile.forces::<FixedRational<i128>>(), &contacts, &floor)
+}
+
+/// Every answer holds the exact one.
+fn encloses<T: Algebra + RealEmbeddable>(
+    forces: &Forces<'_, T>,
+    contacts: &Contacts,
+    floor: &Floor,
+) -> Checked {
+    let swept = forces.contacts(Selection::All).and_then(Iterator::collect);
+    let wanted = contacts.iter().map(|contact| &contact.force);
+    if let Some(swept) = or_overflow::<Vec<_>>(swept)? {
+        let got: Vec<T> = swept
+            .into_iter()
+            .map(|contact: cannonpile::ContactForce<T>| contact.force)
+            .collect();
+        hold(&got, wanted)?;
+    }
+    let swept = forces.base(Selection::Base).and_then(Iterator::collect);
+    let wanted = floor
+        .iter()
+        .flat_map(|force| [&force.normal, &force.shear_x, &force.shear_y]);
+    if let Some(swept) = or_overflow::<Vec<_>>(swept)? {
+        let parts = |force: cannonpile::FloorForce<T>| [force.normal, force.shear_x, force.shear_y];
+        hold(
+            &swept.into_iter().flat_map(parts).collect::<Vec<T>>(),
+            wanted,
+        )?;
+    }
+    Ok(())
+}
+
+/// Nothing of a scalar that is too narrow.
+fn or_overflow<A>(answer: Result<A, Error>) -> Result<Option<A>, Error> {
+    match answer {
+        Err(Error::Overflow { .. }) => Ok(None),
+        answer => answer.map(Some),
+    }
+}
+
+fn hold<'w, T: RealEmbeddable + core::fmt::Debug>(
+    got: &[T],
+    wanted: impl Iterator<Item = &'w BigRational>,
+) -> Checked {
+    let mut compared = 0;
+    for (got, want) in got.iter().zip(wanted) {
+        // What has no bounds holds everything.
+        let holds = got
+            .enclosure()
+            .is_none_or(|bounds| (bounds.lower..=bounds.upper).contains(want));
+        demand(holds, || format!("{got:?} does not hold {want}"))?;
+        compared += 1;
+    }
+    same("all answers", &compared, &got.len())
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+    use crate::generators::number::ratio;
+
+    #[test]
+    fn bounds_beside_the_number_are_caught() {
+        let third = [Interval::from_rational(&ratio(1, 3))];
+        let holds = |want: BigRational| hold(&third, [want].iter()).is_ok();
+        assert!(holds(ratio(1, 3)));
+        assert!(!holds(
+            ratio(1, 3) + crate::generators::number::power(2, -50)
+        ));
+        let narrow = [FixedRational::<i16>::new(44, 1)];
+        assert!(hold(&narrow, [ratio(300, 1)].iter()).is_err());
+    }
+}

@@ -1,0 +1,156 @@
+//! What is said of a whole pile, its least force, where it fails, the extremes and sums of its base, is what all forces of the
+//! oracle come to.
+
+use arbitrary::Unstructured;
+use cannonpile::shape::Selection;
+use cannonpile::{BaseExtremes, Error, Forces, Standing};
+use num_rational::BigRational;
+use num_traits::{Signed, Zero};
+
+use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of, site_of};
+use super::{Checked, same};
+use crate::generators::number::ratio;
+use crate::generators::region;
+
+/// A small pile of any stacking, with weights and loads.
+pub fn of_all_forces(u: &mut Unstructured<'_>) -> Checked {
+    let described = region::described(u)?;
+    let solved = Solved::of(&described);
+    let pile = described.pile()?;
+    let (contacts, floor) = (contacts_of(&solved), floor_of(&solved));
+    stands(&pile.standing()?, &contacts)?;
+    same(
+        "the first failure",
+        &pile.first_failure()?,
+        &first_failure(&contacts),
+    )?;
+    are_extremes(&pile.base_extremes()?, &floor)?;
+    let forces = pile.forces();
+    let k = u.int_in_range(0..=pile.layers() - 1)?;
+    for part in [Selection::All, Selection::Base, Selection::Layer(k)] {
+        let here = contacts.iter().filter(|contact| match part {
+            Selection::Layer(k) => contact.site.k == k,
+            Selection::Base => false,
+            _ => true,
+        });
+        let sum: BigRational = here.map(|contact| &contact.force).sum();
+        same("a sum of contacts", &forces.sum_of_contacts(part)?, &sum)?;
+    }
+    let sums = [
+        floor.iter().map(|force| &force.normal).sum(),
+        floor.iter().map(|force| &force.shear_x).sum(),
+        floor.iter().map(|force| &force.shear_y).sum(),
+    ];
+    same(
+        "the sums on the floor",
+        &forces.sum_on_floor(Selection::Base)?,
+        &sums,
+    )?;
+    let spheres: Vec<_> = solved.received.keys().copied().collect();
+    to_below(&forces, &solved, *u.choose(&spheres)?)
+}
+
+/// What one sphere passes on; a bottom sphere has no forces to below, but one on the floor.
+fn to_below(
+    forces: &Forces<'_, BigRational>,
+    solved: &Solved,
+    sphere: super::handed_on::Sphere,
+) -> Checked {
+    let site = site_of(sphere);
+    let one = Selection::One(site);
+    let Some(passed_on) = solved.passed_on.get(&sphere) else {
+        let is_refused = matches!(forces.to_below(site), Err(Error::OnFloor { .. }));
+        same("that the floor is no sphere", &is_refused, &true)?;
+        let floor = floor_of(solved)
+            .into_iter()
+            .find(|force| force.site == site);
+        let parts = floor.map(|force| [force.normal, force.shear_x, force.shear_y]);
+        return same("a sum of one", &Some(forces.sum_on_floor(one)?), &parts);
+    };
+    same("the forces to below", &forces.to_below(site)?, passed_on)?;
+    same(
+        "a sum of one",
+        &forces.sum_of_contacts(one)?,
+        &passed_on.iter().sum(),
+    )
+}
+
+/// The first of the least forces, and the first layer where one pulls.
+fn stands(standing: &Standing, contacts: &Contacts) -> Checked {
+    let least = contacts.iter().reduce(|least, contact| {
+        if contact.force < least.force {
+            contact
+        } else {
+            least
+        }
+    });
+    same("the least force", &standing.least.as_ref(), &least)?;
+    same(
+        "where it fails",
+        &standing.first_failure,
+        &first_failure(contacts),
+    )
+}
+
+fn first_failure(contacts: &Contacts) -> Option<i128> {
+    let pulls = contacts.iter().find(|contact| contact.force.is_negative());
+    pulls.map(|contact| contact.site.k)
+}
+
+/// Shears along y are in units of 2cosφ = √3 of those along x.
+fn are_extremes(extremes: &BaseExtremes, floor: &Floor) -> Checked {
+    let normals = || floor.iter().map(|force| force.normal.clone());
+    same(
+        "the least normal",
+        &Some(&extremes.normal_min),
+        &normals().min().as_ref(),
+    )?;
+    same(
+        "the greatest normal",
+        &Some(&extremes.normal_max),
+        &normals().max().as_ref(),
+    )?;
+    let ratios = floor.iter().filter(|force| !force.normal.is_zero());
+    let ratios = ratios.map(|force| {
+        let [x, y] = [&force.shear_x, &force.shear_y].map(|shear| shear / &force.normal);
+        &x * &x + &y * &y * ratio(3, 1)
+    });
+    let greatest = ratios.max().unwrap_or_else(BigRational::zero);
+    same(
+        "the greatest shear²",
+        &extremes.max_shear_ratio.square(),
+        &greatest,
+    )
+}
+
+#[cfg(test)]
+mod planted {
+    use super::*;
+    use crate::generators::number::power;
+    use crate::generators::region::Described;
+    use cannonpile::lattice::Region;
+    use cannonpile::lattice::Sign::{Minus, Plus};
+
+    #[test]
+    fn extremes_of_other_forces_are_caught() {
+        let described = Described {
+            region: Region::SITE,
+            from_base: false,
+            signs: vec![Plus, Minus, Plus, Minus, Plus],
+            weightless: false,
+            weights: vec![],
+            loads: vec![],
+        };
+        let solved = Solved::of(&described);
+        let pile = described.pile().unwrap();
+        let (standing, base) = (pile.standing().unwrap(), pile.base_extremes().unwrap());
+        let (mut contacts, mut floor) = (contacts_of(&solved), floor_of(&solved));
+        assert!(stands(&standing, &contacts).is_ok());
+        assert!(are_extremes(&base, &floor).is_ok());
+        contacts[0].force = ratio(-1, 1);
+        assert!(stands(&standing, &contacts).is_err());
+        floor[0].normal += power(10, -60);
+        floor[1].shear_y += ratio(9, 1);
+        assert!(are_extremes(&base, &floor).is_err());
+    }
+}

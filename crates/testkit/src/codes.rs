@@ -1,0 +1,51 @@
+//! Tables of contacts as codes write them.
+
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Packing};
+use cannonpile_dem::verify::{Measured, Preset};
+
+/// Where the spheres are, as the nearest floats.
+pub fn centres(packing: &Packing<'_>) -> Result<Vec<[f64; 3]>, Error> {
+    let places = packing.positions(Selection::All)?;
+    places
+        .map(|place| Ok(place?.map(|x| x.nearest().unwrap_or_default())))
+        .collect()
+}
+
+fn joined(numbers: &[f64]) -> String {
+    let texts: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+    texts.join(",")
+}
+
+/// A contact as a code writes it.
+pub fn row(preset: Preset, measured: &Measured, centres: &[[f64; 3]]) -> String {
+    let ([one, other], force) = (measured.ids, measured.force);
+    let vector = measured.vector.unwrap();
+    let [a, b] = [one, other].map(|id| centres[usize::try_from(id - 1).unwrap()]);
+    let point = joined(&[0, 1, 2].map(|x: usize| a[x].midpoint(b[x])));
+    // Numbers of its own.
+    let [n, m] = [50 - one, 50 - other];
+    match preset {
+        Preset::Lammps => format!("{one},{other},{force:?},{}\n", joined(&vector)),
+        Preset::Yade => format!("{},{},{force:?}\n", one - 1, other - 1),
+        Preset::DemEngine => format!("SS,{n},{m},{},{point}\n", joined(&vector)),
+        Preset::Mddem => format!("{one},{other},{:?},{point},0,0,1\n", force / 1024.0),
+        _ => {
+            let minus = joined(&vector.map(|x| -x));
+            let (a, b) = (joined(&a), joined(&b));
+            format!("{n},{m},0,0,0,-1e-6,{point},{minus},0,0,0,{a},{b}\n")
+        }
+    }
+}
+
+/// What stands before the contacts, a contact with a wall among it; none for a code that writes no tables.
+pub fn head(preset: Preset) -> Option<&'static str> {
+    Some(match preset {
+        Preset::Lammps => "patom1,patom2,force,fx,fy,fz\n",
+        Preset::Yade => "id1,id2,force\n",
+        Preset::DemEngine => "contact_type,A,B,f_x,f_y,f_z,X,Y,Z\nSM,1,2,0,0,1,0,0,9\n",
+        Preset::Mddem => "i_tag,j_tag,overlap,cx,cy,cz,nx,ny,nz\n",
+        Preset::ExaDem => "0,0,0,0,5,-1,0,0,9,1,0,0,0,0,0,0,0,8,0,0,0\n",
+        _ => return None,
+    })
+}

@@ -1,0 +1,311 @@
+//! Piles of random stackings made twice: for the library, and for an oracle that looks at all stackings one by one.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
+
+use cannonpile::lattice::{Region, Site};
+use cannonpile::scalar::{Polynomial, Symbol};
+use cannonpile_disorder::{Error, FirstSign, Mean, MeanForce, Place, RandomPiles, RandomStackings};
+use num_bigint::BigUint;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero, pow};
+
+use super::oracles::one_by_one::{self, Floor, Grown, faults, of_site, sequences};
+
+/// What the piles grow from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Anchor {
+    /// The plane: all piles on it are one.
+    Plane,
+    /// A top layer.
+    Top(Region),
+    /// A base.
+    Base(Region),
+}
+
+/// Piles of random stackings as they were described.
+#[derive(Clone, Debug)]
+pub struct Piles {
+    /// What they grow from.
+    pub anchor: Anchor,
+    /// The steps between layers.
+    pub steps: usize,
+    /// The first sign.
+    pub first: FirstSign,
+    /// Whether the spheres weigh nothing.
+    pub weightless: bool,
+    /// On sites of the top layer.
+    pub loads: Vec<([i64; 2], BigRational)>,
+}
+
+/// By place and number of faults: how many stackings have a sphere there, and the sum of what the floor feels.
+pub type Sums = BTreeMap<(one_by_one::Place, usize), (BigUint, Floor)>;
+
+/// Probability, normal, shear_x, shear_y by place.
+pub type Means = BTreeMap<one_by_one::Place, [BigRational; 4]>;
+
+fn zeros<const N: usize>() -> [BigRational; N] {
+    [(); N].map(|()| BigRational::zero())
+}
+
+fn small(n: i128) -> i64 {
+    i64::try_from(n).expect("piles of tests are small")
+}
+
+/// The oracle's name of a place.
+pub fn named(place: Place) -> one_by_one::Place {
+    [small(place.a), small(place.b)]
+}
+
+fn spheres(region: Region) -> BTreeSet<one_by_one::Place> {
+    let sites = region
+        .rows(0)
+        .flat_map(|row| row.i.map(move |i| [i, row.j]));
+    sites.map(|site| of_site(site.map(small))).collect()
+}
+
+impl Piles {
+    /// The response to a load on one sphere of the plane.
+    pub fn response(steps: usize, first: FirstSign) -> Self {
+        Self {
+            anchor: Anchor::Plane,
+            steps,
+            first,
+            weightless: true,
+            loads: vec![([0, 0], BigRational::one())],
+        }
+    }
+
+    /// Piles under their own weight.
+    pub fn heavy(anchor: Anchor, steps: usize, first: FirstSign) -> Self {
+        Self {
+            anchor,
+            steps,
+            first,
+            weightless: false,
+            loads: Vec::new(),
+        }
+    }
+
+    /// As the library makes them.
+    pub fn piles(&self) -> Result<RandomPiles, Error> {
+        let stackings = RandomStackings::new(self.steps as i128 + 1, self.first)?;
+        let mut piles = match self.anchor {
+            Anchor::Plane => RandomPiles::plane(stackings),
+            Anchor::Top(top) => RandomPiles::under(top, stackings),
+            Anchor::Base(base) => RandomPiles::on(base, stackings),
+        };
+        for ([i, j], load) in &self.loads {
+            let (i, j) = (i128::from(*i), i128::from(*j));
+            piles = piles.with_load(Site { i, j, k: 0 }, load.clone())?;
+        }
+        Ok(if self.weightless {
+            piles.weightless()
+        } else {
+            piles
+        })
+    }
+
+    /// All stackings, by their signs.
+    pub fn stackings(&self) -> Vec<Vec<i64>> {
+        let first = match self.first {
+            FirstSign::Plus => Some(1),
+            FirstSign::Minus => Some(-1),
+            FirstSign::Random => None,
+        };
+        sequences(self.steps, first)
+    }
+
+    /// What the floor feels under each sphere of one stacking, one by one; none of a pile that is none.
+    pub fn bottom(&self, signs: &[i64]) -> BTreeMap<one_by_one::Place, Floor> {
+        let grown = match self.anchor {
+            Anchor::Plane => Grown::Plane,
+            Anchor::Top(top) => Grown::Top(spheres(top)),
+            Anchor::Base(base) => Grown::Base(spheres(base)),
+        };
+        let weight = if self.weightless {
+            BigRational::zero()
+        } else {
+            BigRational::one()
+        };
+        let mut loads = BTreeMap::new();
+        for (site, load) in &self.loads {
+            *loads
+                .entry(of_site(*site))
+                .or_insert_with(BigRational::zero) += load;
+        }
+        let mut bottom = one_by_one::bottom(&grown, &weight, &loads, signs).unwrap_or_default();
+        if self.anchor == Anchor::Plane {
+            // Every other sphere that the load could have come to bears nothing.
+            let n = i64::try_from(self.steps).expect("few steps");
+            let net: i64 = signs.iter().sum();
+            for [x, y] in loads.keys() {
+                for (a, b) in (-n..=n).flat_map(|a| (-n..=n).map(move |b| (a, b))) {
+                    let reached = a.max(b).max(0) - a.min(b).min(0) <= n;
+                    if reached && (x + a + y + b - net).rem_euclid(3) == 0 {
+                        bottom.entry([x + a, y + b]).or_insert_with(zeros);
+                    }
+                }
+            }
+        }
+        bottom
+    }
+
+    /// The sums over all stackings, by their faults.
+    pub fn sums(&self) -> Sums {
+        let mut sums = Sums::new();
+        for signs in self.stackings() {
+            for (place, floor) in self.bottom(&signs) {
+                let sum = sums.entry((place, faults(&signs)));
+                let (stackings, sum) = sum.or_insert_with(|| (BigUint::zero(), zeros()));
+                *stackings += 1_u32;
+                sum.iter_mut()
+                    .zip(floor)
+                    .for_each(|(sum, force)| *sum += force);
+            }
+        }
+        sums
+    }
+
+    /// The means at a fault probability: each stacking with its own.
+    pub fn means(&self, sums: &Sums, q: &BigRational) -> Means {
+        let choices = self.steps.saturating_sub(1);
+        let firsts = if self.first == FirstSign::Random && self.steps > 0 {
+            2
+        } else {
+            1
+        };
+        let mut means = Means::new();
+        for ((place, faults), (stackings, floor)) in sums {
+            let straight = BigRational::one() - q;
+            let share = pow(q.clone(), *faults) * pow(straight, choices - faults)
+                / BigRational::from_integer(firsts.into());
+            let mean = means.entry(*place).or_insert_with(zeros);
+            let [normal, shear_x, shear_y] = floor.clone();
+            let stackings = BigRational::from_integer(stackings.clone().into());
+            for (mean, sum) in mean.iter_mut().zip([stackings, normal, shear_x, shear_y]) {
+                *mean += sum * &share;
+            }
+        }
+        means
+    }
+}
+
+/// What the library says by faults.
+pub fn by_faults(piles: &RandomPiles) -> Result<Sums, Error> {
+    let by_faults = piles.by_faults()?;
+    let rows = by_faults.rows().map(|row| {
+        let row = row?;
+        let sums = (row.stackings, [row.normal, row.shear_x, row.shear_y]);
+        Ok(((named(row.place), row.faults as usize), sums))
+    });
+    rows.collect()
+}
+
+/// The numbers of a row.
+pub fn numbers<T>(row: MeanForce<T>) -> [T; 4] {
+    [row.probability, row.normal, row.shear_x, row.shear_y]
+}
+
+/// What a mean says, by place.
+pub fn by_place(mean: Mean<BigRational>) -> Means {
+    let rows = mean.into_rows().into_iter();
+    rows.map(|row| (named(row.place), numbers(row))).collect()
+}
+
+/// The fault probabilities at which means are compared: FCC, HCP, all stackings alike, and others.
+pub fn probabilities() -> [BigRational; 5] {
+    [(0, 1), (1, 3), (1, 2), (5, 7), (1, 1)].map(|(n, d)| BigRational::new(n.into(), d.into()))
+}
+
+/// Says where two answers differ.
+pub fn alike<K: Ord + Debug, V: PartialEq + Debug>(
+    what: &str,
+    expected: &BTreeMap<K, V>,
+    answer: &BTreeMap<K, V>,
+) -> Result<(), String> {
+    for key in expected.keys().chain(answer.keys()) {
+        let (expected, answer) = (expected.get(key), answer.get(key));
+        if expected != answer {
+            return Err(format!("{what} at {key:?}: {answer:?}, not {expected:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// All that the library says of these piles is what all stackings say one by one: by faults, at [`probabilities`], as
+/// polynomials and in floats.
+pub fn agrees(described: &Piles) -> Result<(), String> {
+    agrees_at(described, &described.sums(), &probabilities())
+}
+
+/// The same at other fault probabilities, for sums that were made before.
+pub fn agrees_at(
+    described: &Piles,
+    expected: &Sums,
+    probabilities: &[BigRational],
+) -> Result<(), String> {
+    let said = |error: Error| format!("{described:?}: {error}");
+    let piles = described.piles().map_err(said)?;
+    let by_faults = match piles.by_faults() {
+        // No stacking is as high.
+        Err(Error::NoStacking { .. }) if expected.is_empty() => return Ok(()),
+        by_faults => by_faults.map_err(said)?,
+    };
+    alike(
+        "by faults",
+        expected,
+        &self::by_faults(&piles).map_err(said)?,
+    )?;
+    let polynomials = by_faults.polynomial().map_err(said)?;
+    for q in probabilities {
+        let expected = described.means(expected, q);
+        let exact = piles.exact(q).map_err(said)?;
+        alike("exact", &expected, &by_place(exact.clone()))?;
+        alike("at", &expected, &by_place(by_faults.at(q).map_err(said)?))?;
+        let put_in = polynomials.rows().iter().map(|row| {
+            let values =
+                numbers(row.clone()).map(|p: Polynomial| p.evaluate(&[(Symbol("q"), q.clone())]));
+            (
+                named(row.place),
+                values.map(|value| value.expect("a polynomial in q")),
+            )
+        });
+        alike("polynomials", &expected, &put_in.collect())?;
+        let float = piles.mean(&q.to_f64().expect("a float")).map_err(said)?;
+        let weight = described
+            .loads
+            .iter()
+            .map(|(_, load)| load.to_f64().expect("a float"));
+        near(
+            &exact,
+            &float,
+            1e-13 * weight.fold(1.0, |sum: f64, load| sum + load),
+        )?;
+    }
+    Ok(())
+}
+
+/// Floats are this near to the exact numbers.
+pub fn near(exact: &Mean<BigRational>, float: &Mean<f64>, within: f64) -> Result<(), String> {
+    if exact.rows().len() != float.rows().len() {
+        return Err("floats of other places".to_owned());
+    }
+    for (exact, float) in exact.rows().iter().zip(float.rows()) {
+        let place = (exact.place, float.place);
+        if place.0 != place.1 {
+            return Err(format!("{place:?}"));
+        }
+        let pairs = numbers(exact.clone())
+            .into_iter()
+            .zip(numbers(float.clone()));
+        for (exact, float) in pairs {
+            let error = (exact.to_f64().expect("a float") - float).abs();
+            // A number that is no number is not near.
+            if error.is_nan() || error > within {
+                return Err(format!("{float} for {exact} at {place:?}"));
+            }
+        }
+    }
+    Ok(())
+}

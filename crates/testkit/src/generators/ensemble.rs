@@ -1,0 +1,59 @@
+//! Ensembles of stackings under one top layer, small enough to look at every contact of each; and which are looked at.
+
+use arbitrary::{Result, Unstructured};
+use cannonpile::lattice::Region;
+use cannonpile_disorder::{Choice, FirstSign, Samples};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::{number, rarely, region};
+use crate::tally::Scene;
+
+/// A top layer with loads, of weight or without, and how many steps there are below it.
+pub fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
+    let (top, most) = if u.arbitrary()? {
+        (Region::SITE, 5)
+    } else {
+        (region::small_region(u)?, 3)
+    };
+    let mut loads = Vec::new();
+    for _ in 0..u.int_in_range(0..=3)? {
+        let row = u.choose_index(top.rows(0).count())?;
+        let row = top.rows(0).nth(row).expect("a row");
+        let i = u.int_in_range(row.i.start..=row.i.end - 1)?;
+        let load = match u.int_in_range(0..=2)? {
+            0 => number::ratio(u.int_in_range(0..=9)?, 1),
+            1 => number::ratio(u.int_in_range(0..=99)?, u.int_in_range(1..=99)?),
+            _ => number::power(2, u.int_in_range(-70..=130)?),
+        };
+        loads.push(([i, row.j], load));
+    }
+    // So wide that bins are some dozens, at most thousands.
+    let greatest = loads.iter().map(|(_, load)| load.clone());
+    let greatest = greatest.fold(BigRational::one(), BigRational::max);
+    let part = number::ratio(u.int_in_range(1..=40)?, u.int_in_range(1..=40)?);
+    let firsts = [FirstSign::Plus, FirstSign::Minus, FirstSign::Random];
+    let scene = Scene {
+        top,
+        loads,
+        weightless: rarely(u, 3)?,
+        first: *u.choose(&firsts)?,
+        width: greatest * part,
+    };
+    Ok((scene, u.int_in_range(0..=most)?))
+}
+
+/// All of them, or some samples.
+pub fn choice(u: &mut Unstructured<'_>) -> Result<Choice> {
+    if u.arbitrary()? {
+        return Ok(Choice::All);
+    }
+    let of = u.int_in_range(1..=u32::MAX)?;
+    let q = match u.int_in_range(0..=3)? {
+        0 => BigRational::zero(),
+        1 => BigRational::one(),
+        _ => number::ratio(u.int_in_range(0..=of)?.into(), of.into()),
+    };
+    let samples = Samples::new(u.int_in_range(1..=12)?, u.arbitrary()?, q);
+    Ok(Choice::Drawn(samples.expect("some samples")))
+}

@@ -1,0 +1,207 @@
+//! Piles and places in them: one layer, the layers where widths end, corners, bounds of the spacing.
+
+use arbitrary::{Result, Unstructured};
+use cannonpile::geometry::{Clearance, Spacing};
+use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Site};
+use cannonpile::{Error, Packing, Pile};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::number;
+
+/// A number of layers, up to the greatest: few, about the powers of two at which floats begin to round and
+/// machine integers end, powers of ten, or any.
+pub fn layers(u: &mut Unstructured<'_>) -> Result<i128> {
+    let layers = match u.int_in_range(0..=4)? {
+        0 => u.int_in_range(1..=12)?,
+        1 => (1 << u.int_in_range(0..=119)?) + u.int_in_range(-1..=1)?,
+        2 => (1 << 53) + u.int_in_range(-1..=1)?,
+        3 => 10_i128.pow([18, 30, 36][u.choose_index(3)?]),
+        _ => u.int_in_range(1..=MAX_LAYERS)?,
+    };
+    Ok(layers.clamp(1, MAX_LAYERS))
+}
+
+/// Any pile: equilateral, isosceles or of discs.
+pub fn pile(u: &mut Unstructured<'_>) -> Result<Pile> {
+    let layers = layers(u)?;
+    pile_of(u, layers)
+}
+
+/// A pile small enough to look at every sphere.
+pub fn small_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
+    let layers = u.int_in_range(1..=5)?;
+    pile_of(u, layers)
+}
+
+/// A pile whose sin φ is a float.
+pub fn real_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
+    let (layers, s) = (layers(u)?, number::real_sin_phi(u)?);
+    Ok(Pile::isosceles(layers, number::exactly(s)).expect("0 < s < 1"))
+}
+
+fn pile_of(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
+    let pile = match u.int_in_range(0..=3)? {
+        0 => Pile::triangular(layers),
+        1 => Pile::discs(layers),
+        _ => Pile::isosceles(layers, number::sin_phi(u)?),
+    };
+    Ok(pile.expect("layers and sin phi within their limits"))
+}
+
+/// A site of the pile: apex, second, last but one or bottom layer or any; in it a corner, an edge, the
+/// middle or anywhere.
+pub fn site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
+    let floor = pile.layers() - 1;
+    let k = match u.int_in_range(0..=2)? {
+        0 => floor,
+        1 => [0, 1, floor - 1][u.choose_index(3)?].clamp(0, floor),
+        _ => u.int_in_range(0..=floor)?,
+    };
+    let j = match pile.dimension() {
+        Dimension::Two => 0,
+        Dimension::Three => place(u, k)?,
+    };
+    let i = place(u, k - j)?;
+    Ok(Site { i, j, k })
+}
+
+/// A site of the bottom layer.
+pub fn bottom_site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
+    let site = site(u, pile)?;
+    // A site of a higher layer has its i and j in every layer below.
+    Ok(Site {
+        k: pile.layers() - 1,
+        ..site
+    })
+}
+
+/// A place 0 … last.
+fn place(u: &mut Unstructured<'_>, last: i128) -> Result<i128> {
+    Ok(match u.int_in_range(0..=3)? {
+        0 => 0,
+        1 => last,
+        2 => last / 3,
+        _ => u.int_in_range(0..=last)?,
+    })
+}
+
+/// A direction of the pile's contacts.
+pub fn direction(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Direction> {
+    u.choose(pile.dimension().directions()).copied()
+}
+
+/// The difference n of two sites that the pile has, each of a few steps or as long as the pile.
+///
+/// Zero if the bytes say so: the same sphere twice.
+pub fn difference(u: &mut Unstructured<'_>, pile: &Pile) -> Result<[i128; 3]> {
+    let counts = |site: Site| [site.k - site.i - site.j, site.i, site.j];
+    if u.arbitrary()? {
+        let (from, to) = (counts(site(u, pile)?), counts(site(u, pile)?));
+        return Ok(core::array::from_fn(|m| to[m] - from[m]));
+    }
+    let lines = pile.dimension().directions().len();
+    let mut n = [0_i128; 3];
+    for component in n.iter_mut().take(lines) {
+        *component = u.int_in_range(-4..=4)?;
+    }
+    // Shrunk towards the contacts until the pile has it.
+    while !occurs(n, pile.layers()) {
+        n = n.map(|component| component / 2);
+    }
+    Ok(n)
+}
+
+/// Whether a pile of so many layers has two spheres that are n apart.
+///
+/// The lower one is as many steps down from a common ancestor as n has positive steps, the upper one as
+/// many as it has negative ones.
+pub fn occurs(n: [i128; 3], layers: i128) -> bool {
+    let steps = |sign: i128| n.iter().map(|c| (c * sign).max(0)).sum::<i128>();
+    steps(1) < layers && steps(-1) < layers
+}
+
+/// A spacing: at a bound or just beside it, far off, or within.
+pub fn spacing(u: &mut Unstructured<'_>, clearance: &Clearance) -> Result<Spacing> {
+    let bounds = [clearance.least(), clearance.most()];
+    let square = match (u.int_in_range(0..=2)?, &bounds[u.choose_index(2)?]) {
+        (0, Some(bound)) => {
+            let off = number::power(2, u.int_in_range(-150..=-1)?);
+            bound.square() * (off * number::ratio(u.int_in_range(-1..=1)?, 1) + number::ratio(1, 1))
+        }
+        (1, _) => number::quantity(u)?,
+        _ => number::fraction(u)? * number::ratio(4, 1),
+    };
+    let square = if square.is_zero() {
+        number::ratio(1, 1)
+    } else {
+        square
+    };
+    Ok(Spacing::from_square(square).expect("positive"))
+}
+
+/// A pile whose spheres have room at some spacing: s ≤ 5/6 from three layers on (`paper`, "Overlap"); in two layers
+/// s² < 3/4, which leaves θ below 90°.
+pub fn roomy_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
+    let pile = pile(u)?;
+    let s = pile.sin_phi();
+    let has_room = match pile.layers() {
+        1 => true,
+        2 => s * s < number::ratio(3, 4),
+        _ => s <= &number::ratio(5, 6),
+    };
+    let equilateral = Pile::triangular(pile.layers()).expect("as many layers");
+    Ok(if has_room { pile } else { equilateral })
+}
+
+/// A spacing for a [`roomy_pile`]: at a bound, next to it, or between.
+pub fn roomy_spacing(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Spacing> {
+    let clearance = pile.clearance();
+    let flat = match pile.dimension() {
+        Dimension::Two => number::ratio(4, 1),
+        Dimension::Three => number::ratio(3, 1),
+    };
+    let (least, most) = (clearance.least(), clearance.most());
+    let low = least
+        .as_ref()
+        .map_or_else(Zero::zero, |b| b.square().clone());
+    let high = most.as_ref().map_or(flat, |b| b.square().clone());
+    let q = &low + (&high - &low) * number::fraction(u)?;
+    // An end that no spheres set, 0 or θ = 90°, is no spacing itself.
+    let excluded = (least.is_none() && q == low) || (most.is_none() && q == high);
+    let middle = (low + high) / number::ratio(2, 1);
+    Ok(Spacing::from_square(if excluded { middle } else { q }).expect("positive"))
+}
+
+/// The sizes and weights of a packing: R, m, g.
+pub struct Sizes {
+    /// R.
+    pub radius: BigRational,
+    /// m.
+    pub mass: BigRational,
+    /// g.
+    pub gravity: BigRational,
+}
+
+/// Sizes from the smallest to the largest floats and beyond.
+pub fn sizes(u: &mut Unstructured<'_>) -> Result<Sizes> {
+    Ok(Sizes {
+        radius: number::quantity(u)?,
+        mass: number::quantity(u)?,
+        gravity: number::quantity(u)?,
+    })
+}
+
+impl Sizes {
+    /// The pile packed with these.
+    pub fn packing<'p>(
+        self,
+        pile: &'p Pile,
+        spacing: &Spacing,
+    ) -> core::result::Result<Packing<'p>, Error> {
+        Packing::new(pile, spacing)?
+            .with_radius(self.radius)?
+            .with_mass(self.mass)?
+            .with_gravity(self.gravity)
+    }
+}

@@ -1,0 +1,151 @@
+//! Scenes that can be written down, whether they are piles or not; files of them, valid and damaged.
+
+use arbitrary::{Result, Unstructured};
+use cannonpile::lattice::{Dimension, MAX_LAYERS};
+use cannonpile::stacking::{Pattern, Stacking};
+use cannonpile_dem::scene::parse::At;
+use cannonpile_dem::scene::{Anchor, Scene, State};
+use num_rational::BigRational;
+
+use super::{number, region, stacking};
+use super::{rarely, text};
+
+/// A scene of any numbers that parsers read: the options may exclude each other, and sizes be negative.
+pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
+    let dimension = *u.choose(&[Dimension::Three, Dimension::Two])?;
+    let layers = match u.int_in_range(0..=3)? {
+        0 => None,
+        1 => Some(u.int_in_range(1..=12)?),
+        2 => Some(MAX_LAYERS - u.int_in_range(0..=3)?),
+        _ => Some(u.int_in_range(1..=MAX_LAYERS)? >> u.int_in_range(0..=100)?)
+            .map(|n: i128| n.max(1)),
+    };
+    let anchor = match u.int_in_range(0..=2)? {
+        0 => None,
+        1 => Some(Anchor::Top(region::region(u)?)),
+        _ => Some(Anchor::Base(region::region(u)?)),
+    };
+    let loads = (0..u.int_in_range(0..=3)?).map(|_| Ok((at(u, dimension)?, number::rational(u)?)));
+    let loads = loads.collect::<Result<_>>()?;
+    Ok(Scene {
+        layers,
+        dimension,
+        sin_phi: maybe(u)?,
+        stacking: pattern(u)?,
+        anchor,
+        loads,
+        weightless: u.arbitrary()?,
+        spacing: maybe(u)?,
+        radius: number::rational(u)?,
+        mass: number::quantity(u)?,
+        gravity: number::quantity(u)?,
+        state: *u.choose(&[State::Isostatic, State::Elastic])?,
+        stiffness_ratio: number::quantity(u)?,
+    })
+}
+
+fn maybe(u: &mut Unstructured<'_>) -> Result<Option<BigRational>> {
+    let given: bool = u.arbitrary()?;
+    given.then(|| number::rational(u)).transpose()
+}
+
+fn pattern(u: &mut Unstructured<'_>) -> Result<Option<Pattern>> {
+    Ok(match u.int_in_range(0..=5)? {
+        0 => None,
+        1 => Some(Pattern::Fcc),
+        2 => Some(Pattern::Hcp),
+        3 => Some(Pattern::Dhcp),
+        4 => {
+            let runs = stacking::runs(u)?;
+            Some(Stacking::from_runs(runs).map_or(Pattern::Fcc, Pattern::Spelled))
+        }
+        _ => {
+            let signs = stacking::signs(u, 80)?;
+            Some(Pattern::Spelled(
+                Stacking::from_signs(signs).expect("few steps"),
+            ))
+        }
+    })
+}
+
+fn at(u: &mut Unstructured<'_>, dimension: Dimension) -> Result<At> {
+    let layer = if u.arbitrary()? {
+        Some(number::machine_integer(u)?)
+    } else {
+        None
+    };
+    Ok(At {
+        layer,
+        i: number::machine_integer(u)?,
+        j: match dimension {
+            Dimension::Two => 0,
+            Dimension::Three => number::machine_integer(u)?,
+        },
+    })
+}
+
+/// Some lines that may be a scene file: keys and values of the right kinds, of wrong ones, and damaged.
+pub fn file(u: &mut Unstructured<'_>) -> Result<String> {
+    if rarely(u, 4)? {
+        return Ok(u.arbitrary::<&str>()?.to_owned());
+    }
+    let mut lines = if rarely(u, 4)? {
+        scene(u)?.to_toml()
+    } else {
+        String::new()
+    };
+    for _ in 0..u.int_in_range(0..=4)? {
+        let line = format!("{} = {}\n", key(u)?, value(u)?);
+        lines.push_str(&line);
+    }
+    Ok(lines)
+}
+
+fn key(u: &mut Unstructured<'_>) -> Result<&'static str> {
+    u.choose(&[
+        "layers",
+        "stacking",
+        "top",
+        "base",
+        "dimension",
+        "sin-phi",
+        "load",
+        "weightless",
+        "spacing",
+        "radius",
+        "mass",
+        "gravity",
+        "sin_phi",
+        "spacing.x",
+        "\"\"",
+        "\"a\\nb\"",
+        "[load]\nat",
+        "[[load]]\nat",
+        "weight",
+        "at",
+    ])
+    .copied()
+}
+
+fn value(u: &mut Unstructured<'_>) -> Result<String> {
+    Ok(match u.int_in_range(0..=6)? {
+        0 => text::number(u)?.text,
+        1 => format!("'{}'", text::any(u)?.replace(['\'', '\n'], "")),
+        2 => text::any(u)?,
+        3 => format!("{:#x}", u.arbitrary::<u128>()?),
+        4 => format!("[{}]", value(u)?),
+        5 => format!("{{at = {}, weight = {}}}", value(u)?, value(u)?),
+        _ => [
+            "true",
+            "inf",
+            "nan",
+            "1979-05-27",
+            "'hcp'",
+            "'hexagon:3'",
+            "'0,0,0=1'",
+            "1_000",
+            "0b11",
+        ][u.choose_index(9)?]
+        .to_owned(),
+    })
+}

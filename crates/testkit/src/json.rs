@@ -1,0 +1,23 @@
+//! Values written and read: as JSON, and in a format that does not describe itself.
+
+use core::fmt::Debug;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Written and read, in text and in bytes; the text.
+pub fn back<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> String {
+    let text = serde_json::to_string(value).expect("json");
+    assert_eq!(&serde_json::from_str::<T>(&text).expect(&text), value);
+    let tree = serde_json::to_value(value).expect("json");
+    assert_eq!(&serde_json::from_value::<T>(tree).expect(&text), value);
+    let bytes = postcard::to_allocvec(value).expect("bytes");
+    assert_eq!(&postcard::from_bytes::<T>(&bytes).expect(&text), value);
+    text
+}
+
+/// Why a text is refused.
+pub fn refusal<T: DeserializeOwned + Debug>(text: &str) -> String {
+    let error = serde_json::from_str::<T>(text).expect_err(text);
+    error.to_string()
+}

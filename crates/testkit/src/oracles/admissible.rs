@@ -1,0 +1,285 @@
+//! All forces of a pile whose horizontal contacts push, and linear programs over them: exact, dense, slow.
+//!
+//! The forces are affine in those of the horizontal contacts: [`Balance`] is solved without any, and with a push of 1 in
+//! each. What only pushes is a polytope, and the simplex method finds its corners. No duality comes
+//! in, no certificate, no float.
+
+use core::iter::once;
+use std::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+use super::balance::{Balance, Forces, Place, ratio};
+
+/// b + Σ a x, as b and then every a.
+pub type Affine = Vec<BigRational>;
+
+/// A horizontal contact: a sphere, and where its neighbour is, (Δi, Δj).
+pub type Pair = (Place, [i128; 2]);
+
+/// The forces of a pile, in f₀, as affine functions of the horizontal ones.
+#[derive(Clone, Debug)]
+pub struct States {
+    /// The horizontal contacts off the floor.
+    pub contacts: Vec<Pair>,
+    /// Of the sloping contacts.
+    pub sloping: Vec<Affine>,
+    /// Of the bottom spheres, in mg.
+    pub normals: BTreeMap<Place, Affine>,
+}
+
+impl States {
+    /// `forces` solves a pile: [`Balance::forces`], or [`of_discs`].
+    pub fn of(pile: &Balance, forces: fn(&Balance) -> Forces) -> Self {
+        let free = pile.places().filter(|place| pile.sign(place.0).is_some());
+        let pairs = free.flat_map(|place| [[1, 0], [0, 1], [1, -1]].map(|step| (place, step)));
+        let contacts: Vec<Pair> = pairs
+            .filter(|((k, j, i), [di, dj])| pile.has((*k, j + dj, i + di)))
+            .collect();
+        let mut bare = pile.clone();
+        bare.ordinary.set_zero();
+        bare.weights.clear();
+        let pushed = contacts.iter().map(|(place, step)| {
+            let mut pushed = bare.clone();
+            pushed.push(*place, *step, &ratio(1, 1));
+            forces(&pushed)
+        });
+        let all: Vec<Forces> = once(forces(pile)).chain(pushed).collect();
+        let sloping = all[0].below.keys().flat_map(|place| {
+            let all = &all;
+            (0..3).map(move |m| all.iter().map(|one| one.below[place][m].clone()).collect())
+        });
+        let normals = all[0].floor.keys().map(|place| {
+            let normals = all.iter().map(|one| one.floor[place][0].clone());
+            (*place, normals.collect())
+        });
+        Self {
+            sloping: sloping.collect(),
+            normals: normals.collect(),
+            contacts,
+        }
+    }
+
+    /// Where no contact pulls; `None` if there is no such state.
+    pub fn pushing(&self) -> Option<Corner> {
+        Corner::first(self.contacts.len(), &self.sloping)
+    }
+
+    /// Whether no contact pulls.
+    pub fn push(&self, x: &[BigRational]) -> bool {
+        let pulls = self.sloping.iter().any(|force| at(force, x).is_negative());
+        !pulls && !x.iter().any(Signed::is_negative)
+    }
+
+    /// Σ f² + Σ X²/ratio: twice the energy of springs.
+    pub fn energy(&self, x: &[BigRational], stiffness_ratio: &BigRational) -> BigRational {
+        let sloping = self.sloping.iter().map(|force| at(force, x));
+        let sloping: BigRational = sloping.map(|force| &force * &force).sum();
+        let horizontal: BigRational = x.iter().map(|force| force * force).sum();
+        sloping + horizontal / stiffness_ratio
+    }
+
+    /// How [`energy`](Self::energy) rises with y at x, but for a constant and a factor 2: Σ f(x) a y + Σ X y/ratio.
+    pub fn slope(&self, x: &[BigRational], stiffness_ratio: &BigRational) -> Affine {
+        let mut slope: Affine = once(BigRational::zero())
+            .chain(x.iter().map(|force| force / stiffness_ratio))
+            .collect();
+        for affine in &self.sloping {
+            let force = at(affine, x);
+            for (slope, a) in slope[1..].iter_mut().zip(&affine[1..]) {
+                *slope += &force * a;
+            }
+        }
+        slope
+    }
+}
+
+/// The value at x.
+pub fn at(affine: &Affine, x: &[BigRational]) -> BigRational {
+    let terms = affine[1..].iter().zip(x).filter(|(a, _)| !a.is_zero());
+    &affine[0] + terms.map(|(a, x)| a * x).sum::<BigRational>()
+}
+
+/// The forces of a straight pile of discs, (0, i) with supports i and i+1: Σ f = 2V and ½(f_β − f_α) = H, in units whose
+/// vertical part is mg/2.
+pub fn of_discs(pile: &Balance) -> Forces {
+    let (mut forces, two) = (Forces::default(), ratio(2, 1));
+    for place in pile.places() {
+        let above = [0, 1].map(|m| match pile.above(place, m) {
+            Some(above) => forces.below[&above][m].clone(),
+            None => BigRational::zero(),
+        });
+        let [alpha, beta] = &above;
+        let down = (alpha + beta) / &two + pile.weight(place);
+        let pushed = pile.pushes.get(&place).map(|[along_i, _]| along_i);
+        let across = (beta - alpha) / &two + pushed.unwrap_or(&BigRational::zero());
+        if pile.sign(place.0).is_some() {
+            let below = [&down - &across, &down + &across, BigRational::zero()];
+            forces.below.insert(place, below);
+        } else {
+            let still = BigRational::zero();
+            forces.floor.insert(place, [down, across, still]);
+        }
+    }
+    forces
+}
+
+/// A corner of the x ≥ 0 where every row b + Σ a x is ≥ 0: `basic` unknowns as affine functions of the others, which are
+/// zero there. Unknown 0 is an auxiliary one, 1 … n are x, the rest are the rows times a positive number.
+///
+/// Integers over one denominator: no fraction is ever reduced (Edmonds 1967, Bareiss 1968).
+#[derive(Clone, Debug)]
+pub struct Corner {
+    unknowns: usize,
+    basic: Vec<usize>,
+    free: Vec<usize>,
+    rows: Vec<Vec<BigInt>>,
+    /// Positive.
+    denominator: BigInt,
+}
+
+impl Corner {
+    /// Any corner: all rows are lifted by unknown 0, and that is made zero. `None` if it cannot be.
+    pub fn first(unknowns: usize, rows: &[Affine]) -> Option<Self> {
+        let mut corner = Self {
+            unknowns,
+            basic: (unknowns + 1..).take(rows.len()).collect(),
+            free: (1..=unknowns).collect(),
+            rows: rows.iter().map(integers).collect(),
+            denominator: BigInt::one(),
+        };
+        let negative = |row: &usize| corner.rows[*row][0].is_negative();
+        let below = (0..corner.rows.len()).filter(negative);
+        let Some(lowest) = below.min_by_key(|row| &corner.rows[*row][0]) else {
+            return Some(corner);
+        };
+        corner.free.push(0);
+        for row in &mut corner.rows {
+            row.push(BigInt::one());
+        }
+        corner.pivot(lowest, unknowns);
+        corner.descend(|unknown| BigInt::from(u8::from(unknown == 0)));
+        if let Some(row) = corner.basic.iter().position(|unknown| *unknown == 0) {
+            if !corner.rows[row][0].is_zero() {
+                return None;
+            }
+            let column = corner.rows[row][1..].iter().position(|a| !a.is_zero())?;
+            corner.pivot(row, column);
+        }
+        let column = corner.free.iter().position(|unknown| *unknown == 0)?;
+        corner.free.remove(column);
+        for row in &mut corner.rows {
+            row.remove(1 + column);
+        }
+        Some(corner)
+    }
+
+    /// x.
+    pub fn x(&self) -> Vec<BigRational> {
+        let mut x = vec![BigRational::zero(); self.unknowns];
+        for (unknown, row) in self.basic.iter().zip(&self.rows) {
+            if let Some(x) = unknown
+                .checked_sub(1)
+                .and_then(|unknown| x.get_mut(unknown))
+            {
+                *x = BigRational::new(row[0].clone(), self.denominator.clone());
+            }
+        }
+        x
+    }
+
+    /// The corner where b + Σ a x is least.
+    #[must_use]
+    pub fn lowest(mut self, affine: &Affine) -> Self {
+        let costs = integers(affine);
+        self.descend(|unknown| costs.get(unknown).cloned().unwrap_or_default());
+        self
+    }
+
+    /// To where Σ cost x is least: along the steepest edge, and while that leads nowhere by Bland's rule, of all unknowns that
+    /// may come in or go out the first, which does not go round in circles.
+    fn descend(&mut self, cost: impl Fn(usize) -> BigInt) {
+        let free = self
+            .free
+            .iter()
+            .map(|unknown| cost(*unknown) * &self.denominator);
+        let mut objective: Vec<BigInt> = once(BigInt::zero()).chain(free).collect();
+        for (unknown, row) in self.basic.iter().zip(&self.rows) {
+            let cost = cost(*unknown);
+            for (entry, what) in objective.iter_mut().zip(row).filter(|_| !cost.is_zero()) {
+                *entry += &cost * what;
+            }
+        }
+        let last = self.rows.len();
+        self.rows.push(objective);
+        let mut moved = true;
+        loop {
+            let slope = |column: &usize| &self.rows[last][1 + column];
+            let entering = (0..self.free.len()).filter(|column| slope(column).is_negative());
+            let entering = if moved {
+                entering.min_by(|one, other| slope(one).cmp(slope(other)))
+            } else {
+                entering.min_by_key(|column| self.free[*column])
+            };
+            let Some(column) = entering else {
+                break;
+            };
+            let falling = (0..last).filter(|row| self.rows[*row][1 + column].is_negative());
+            let leaving = falling.min_by(|one, other| {
+                let [first, second] = [one, other].map(|row| &self.rows[*row]);
+                // Both slopes are negative.
+                let reach =
+                    (&second[0] * &first[1 + column]).cmp(&(&first[0] * &second[1 + column]));
+                reach.then(self.basic[*one].cmp(&self.basic[*other]))
+            });
+            let leaving = leaving.expect("forces are bounded by the weight");
+            moved = !self.rows[leaving][0].is_zero();
+            self.pivot(leaving, column);
+        }
+        self.rows.pop();
+    }
+
+    /// Lets a basic unknown and a free one change places.
+    fn pivot(&mut self, row: usize, column: usize) {
+        core::mem::swap(&mut self.basic[row], &mut self.free[column]);
+        let mut solved = core::mem::take(&mut self.rows[row]);
+        let pivot = core::mem::replace(&mut solved[1 + column], -&self.denominator);
+        // The new denominator is positive.
+        let flip = |entry: &mut BigInt, is_flipped| {
+            if is_flipped {
+                *entry = -core::mem::take(entry);
+            }
+        };
+        for other in self.rows.iter_mut().filter(|other| !other.is_empty()) {
+            let factor = core::mem::take(&mut other[1 + column]);
+            for (entry, what) in other.iter_mut().zip(&solved) {
+                *entry *= &pivot;
+                if !factor.is_zero() {
+                    *entry -= &factor * what;
+                }
+                // Without a remainder: entries are minors of the first rows.
+                *entry /= &self.denominator;
+                flip(entry, pivot.is_negative());
+            }
+        }
+        for entry in &mut solved {
+            flip(entry, pivot.is_positive());
+        }
+        self.rows[row] = solved;
+        self.denominator = pivot.abs();
+    }
+}
+
+/// The numbers times their least common denominator.
+fn integers(affine: &Affine) -> Vec<BigInt> {
+    let denominator = affine
+        .iter()
+        .fold(BigInt::one(), |least, entry| least.lcm(entry.denom()));
+    let scaled = affine
+        .iter()
+        .map(|entry| entry.numer() * (&denominator / entry.denom()));
+    scaled.collect()
+}

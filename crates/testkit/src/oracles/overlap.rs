@@ -1,0 +1,117 @@
+//! Overlap by brute force: the distance of every two spheres of a pile.
+//!
+//! Centres from the apex are r = −2R[(k−i−j) ê_a + i ê_b + j ê_c] (`paper`, "Notation"). All is kept over a
+//! common denominator, in machine integers that debug builds check.
+
+use std::collections::BTreeSet;
+
+use cannonpile::Error;
+use cannonpile::geometry::Apart;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use crate::answers::Shape;
+
+/// How far apart two spheres are, in steps of 2R along ê_a, ê_b, ê_c.
+pub type Difference = [i128; 3];
+
+/// The differences of the spheres of a pile, each pair taken from the higher sphere to the lower.
+pub fn differences(shape: &Shape, layers: i128) -> BTreeSet<Difference> {
+    let steps = |shape: &Shape| {
+        shape
+            .sites(layers)
+            .into_iter()
+            .map(|s| [s.k - s.i - s.j, s.i, s.j])
+    };
+    let mut differences = BTreeSet::new();
+    for (place, [a, b, c]) in steps(shape).enumerate() {
+        for [x, y, z] in steps(shape).skip(place + 1) {
+            differences.insert([x - a, y - b, z - c]);
+        }
+    }
+    differences
+}
+
+/// The squared horizontal distance over 4R²sin²θ, as numerator and denominator.
+///
+/// By components: x = (n_a + n_b) s − n_c and y = (n_a − n_b) cosφ, or x = n_a − n_b for discs.
+fn horizontal(shape: &Shape, [a, b, c]: Difference) -> (i128, i128) {
+    match shape {
+        Shape::Discs => ((a - b).pow(2), 1),
+        Shape::Spheres(sin_phi) => {
+            let (s, r) = machine(sin_phi);
+            let x = (a + b) * s - c * r;
+            (x.pow(2) + (a - b).pow(2) * (r * r - s * s), r * r)
+        }
+    }
+}
+
+/// q at sin²θ = 1, where a contact would be horizontal.
+pub fn flat(shape: &Shape) -> i128 {
+    match shape {
+        Shape::Discs => 4,
+        Shape::Spheres(_) => 3,
+    }
+}
+
+/// The squared distance over 4R² at spacing √q, as numerator and denominator:
+/// sin²θ (x² + y²) + cos²θ z², with z = n_a + n_b + n_c and sin²θ = q/3, q/4 for discs.
+pub fn squared_distance(shape: &Shape, n: Difference, q: &BigRational) -> (i128, i128) {
+    let (u, v) = machine(q);
+    let (h, r) = horizontal(shape, n);
+    let z: i128 = n.iter().sum();
+    let one = flat(shape) * v;
+    (u * h + (one - u) * z * z * r, one * r)
+}
+
+/// The q at which spheres that differ by n touch, if there is a positive one.
+pub fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
+    // q/flat·(h − z²) = 1 − z²
+    let (h, r) = horizontal(shape, n);
+    let z: i128 = n.iter().sum();
+    let (slope, rise) = (h - z * z * r, flat(shape) * (1 - z * z) * r);
+    (slope != 0 && slope.signum() == rise.signum())
+        .then(|| BigRational::new(rise.into(), slope.into()))
+}
+
+/// Whether the spheres have room at spacing √q, and how many layers apart those are that touch
+/// without being contacts; `None` if some overlap or a sphere would fall through.
+pub fn room(
+    shape: &Shape,
+    differences: &BTreeSet<Difference>,
+    q: &BigRational,
+) -> Option<BTreeSet<i128>> {
+    let (u, v) = machine(q);
+    if u >= flat(shape) * v {
+        return None;
+    }
+    let mut touching = BTreeSet::new();
+    for n in differences {
+        let (distance, one) = squared_distance(shape, *n, q);
+        if distance < one {
+            return None;
+        }
+        let contact = matches!(n, [1, 0, 0] | [0, 1, 0] | [0, 0, 1]);
+        if distance == one && !contact {
+            touching.insert(n.iter().sum());
+        }
+    }
+    Some(touching)
+}
+
+/// The library's answer says the same.
+pub fn agree(room: Option<&BTreeSet<i128>>, answer: &Result<Vec<Apart>, Error>) -> bool {
+    match (room, answer) {
+        (None, Err(_)) => true,
+        (Some(touching), Ok(apart)) => {
+            let told = apart.iter().map(|apart| i128::from(apart.layers));
+            told.eq(touching.iter().copied())
+        }
+        _ => false,
+    }
+}
+
+fn machine(r: &BigRational) -> (i128, i128) {
+    let part = |n: &num_bigint::BigInt| n.to_i128().expect("a small number");
+    (part(r.numer()), part(r.denom()))
+}

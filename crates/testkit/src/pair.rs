@@ -1,0 +1,298 @@
+//! Two scalars in step: which operation is the first at which they part?
+
+use core::fmt;
+use core::num::NonZeroI64;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use cannonpile::scalar::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+/// The first operation after which two scalars stood for different numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parting {
+    /// The operation, such as `a * b`.
+    pub operation: &'static str,
+    /// What each scalar made of it.
+    pub values: String,
+}
+
+impl fmt::Display for Parting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} gave {}", self.operation, self.values)
+    }
+}
+
+/// A checker: runs every operation in two scalars and remembers the first at which they parted.
+///
+/// Two values *part* when their enclosures are disjoint; that of a rounded scalar of p bits is widened by
+/// 2^(−p/2) of its value first, so it parts when half its digits are wrong. One of them undefined is a parting
+/// too. The record is carried along by every operation, so a whole computation is checked by looking at its
+/// result.
+#[derive(Clone, Debug)]
+pub struct Pair<A, B> {
+    first: A,
+    second: B,
+    parting: Option<Box<Parting>>,
+}
+
+impl<A, B> Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    /// Two values that are meant to be the same number.
+    pub fn new(first: A, second: B) -> Self {
+        Self {
+            first,
+            second,
+            parting: None,
+        }
+        .watched("a value")
+    }
+
+    /// The value in the first scalar.
+    pub fn first(&self) -> &A {
+        &self.first
+    }
+
+    /// The value in the second scalar.
+    pub fn second(&self) -> &B {
+        &self.second
+    }
+
+    /// The first operation on the way here at which the two parted.
+    pub fn parting(&self) -> Option<&Parting> {
+        self.parting.as_deref()
+    }
+
+    /// Records a parting, unless there has been one.
+    fn watched(mut self, operation: &'static str) -> Self {
+        if self.parting.is_none() && !meet(&self.first, &self.second) {
+            let values = format!("{:?} and {:?}", self.first, self.second);
+            self.parting = Some(Box::new(Parting { operation, values }));
+        }
+        self
+    }
+
+    fn combined(
+        self,
+        rhs: &Self,
+        operation: &'static str,
+        first: impl FnOnce(A, &A) -> A,
+        second: impl FnOnce(B, &B) -> B,
+    ) -> Self {
+        let result = Self {
+            first: first(self.first, &rhs.first),
+            second: second(self.second, &rhs.second),
+            parting: self.parting.or_else(|| rhs.parting.clone()),
+        };
+        result.watched(operation)
+    }
+}
+
+/// Whether two values may be the same number, as far as their scalars can tell.
+fn meet<A, B>(a: &A, b: &B) -> bool
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    match (widened(a), widened(b)) {
+        (Some(a), Some(b)) => a.lower <= b.upper && b.lower <= a.upper,
+        // An enclosure without finite bounds holds everything.
+        _ => a.is_defined() && b.is_defined(),
+    }
+}
+
+fn widened<T: Algebra + RealEmbeddable>(value: &T) -> Option<Enclosure> {
+    let Enclosure { lower, upper } = value.enclosure()?;
+    let Exactness::Rounded { bits } = T::EXACTNESS else {
+        return Some(Enclosure { lower, upper });
+    };
+    let slack = |end: &BigRational| end.abs() / (BigInt::one() << (bits / 2));
+    Some(Enclosure {
+        lower: &lower - slack(&lower),
+        upper: &upper + slack(&upper),
+    })
+}
+
+impl<A: PartialEq, B: PartialEq> PartialEq for Pair<A, B> {
+    fn eq(&self, other: &Self) -> bool {
+        self.first == other.first && self.second == other.second
+    }
+}
+
+macro_rules! in_step {
+    ($($operation:ident $method:ident $text:literal),*) => {$(
+        impl<A, B> $operation<&Self> for Pair<A, B>
+        where
+            A: Field + RealEmbeddable,
+            B: Field + RealEmbeddable,
+        {
+            type Output = Self;
+
+            fn $method(self, rhs: &Self) -> Self {
+                self.combined(rhs, $text, |a, b| a.$method(b), |a, b| a.$method(b))
+            }
+        }
+    )*};
+}
+
+in_step!(Add add "a + b", Sub sub "a - b", Mul mul "a * b");
+
+impl<A, B> Add for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        Add::<&Self>::add(self, &rhs)
+    }
+}
+
+impl<A, B> Mul for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    type Output = Self;
+
+    fn mul(self, rhs: Self) -> Self {
+        Mul::<&Self>::mul(self, &rhs)
+    }
+}
+
+impl<A, B> Neg for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        let negated = Self {
+            first: -self.first,
+            second: -self.second,
+            parting: self.parting,
+        };
+        negated.watched("-a")
+    }
+}
+
+impl<A, B> Zero for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    fn zero() -> Self {
+        Self::new(A::zero(), B::zero())
+    }
+
+    fn is_zero(&self) -> bool {
+        self.first.is_zero() && self.second.is_zero()
+    }
+}
+
+impl<A, B> One for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    fn one() -> Self {
+        Self::new(A::one(), B::one())
+    }
+}
+
+impl<A, B> Ring for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    fn from_i128(n: i128) -> Self {
+        Self::new(A::from_i128(n), B::from_i128(n))
+    }
+}
+
+impl<A, B> Algebra for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    type Numerator = Self;
+
+    /// The weaker of the two.
+    const EXACTNESS: Exactness = A::EXACTNESS.weaker(B::EXACTNESS);
+    const NAME: &'static str = "Pair";
+
+    fn from_rational(r: &BigRational) -> Self {
+        Self::new(A::from_rational(r), B::from_rational(r))
+    }
+
+    fn div_int(self, n: NonZeroI64) -> Self {
+        let quotient = Self {
+            first: self.first.div_int(n),
+            second: self.second.div_int(n),
+            parting: self.parting,
+        };
+        quotient.watched("a / n")
+    }
+
+    fn is_defined(&self) -> bool {
+        self.first.is_defined() && self.second.is_defined()
+    }
+
+    fn may_equal(&self, other: &Self) -> bool {
+        self.first.may_equal(&other.first) && self.second.may_equal(&other.second)
+    }
+
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
+        (values.each_ref().map(Self::from_rational), Self::one())
+    }
+
+    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
+        Some(n.div_int(by))
+    }
+
+    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+        n.checked_div(d)
+    }
+}
+
+impl<A, B> Field for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    /// `None` if either has no quotient.
+    fn checked_div(&self, divisor: &Self) -> Option<Self> {
+        let quotient = Self {
+            first: self.first.checked_div(&divisor.first)?,
+            second: self.second.checked_div(&divisor.second)?,
+            parting: self.parting.clone().or_else(|| divisor.parting.clone()),
+        };
+        Some(quotient.watched("a / b"))
+    }
+}
+
+impl<A, B> RealEmbeddable for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    /// The sign on which the two agree.
+    fn sign(&self) -> RealSign {
+        if self.first.sign() == self.second.sign() {
+            self.first.sign()
+        } else {
+            RealSign::Unknown
+        }
+    }
+
+    /// The bounds of the first, as it is the second that is checked; none if either is undefined.
+    fn enclosure(&self) -> Option<Enclosure> {
+        self.is_defined().then(|| self.first.enclosure())?
+    }
+}

@@ -1,0 +1,67 @@
+//! What must hold of the theorems of a crate: they are proved, they refuse wrong formulas, and no step of them is idle.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `faults` | wrong formulas of the core, each with the theorems of all crates that refuse it |
+//! | `attempts` | the theorems of a crate, tried with wrong formulas |
+//! | `numbers` | the two sides of a step, at numbers |
+
+mod attempts;
+mod faults;
+mod numbers;
+
+pub use attempts::Attempts;
+pub use faults::{Fault, of_the_core, over, sum, swapped, twice};
+pub use numbers::{evaluated, sides_agree_at_every_point, value};
+
+use std::collections::BTreeSet;
+
+use cannonpile::theorem::{Library, ProofKind, Theorem};
+
+/// Panics unless each of these theorems holds.
+pub fn hold<F: Library>(theorems: &[&Theorem<F>]) {
+    for theorem in theorems {
+        let proof = theorem.prove();
+        for step in &proof.steps {
+            assert!(step.holds(), "{}: {step:?}", theorem.name);
+        }
+        assert!(proof.holds(), "{} has no steps", theorem.name);
+    }
+}
+
+/// Panics unless each of these theorems has a name of its own.
+pub fn have_names<F>(theorems: &[&Theorem<F>]) {
+    let names: BTreeSet<_> = theorems.iter().map(|theorem| theorem.name).collect();
+    assert_eq!(names.len(), theorems.len());
+}
+
+/// Panics unless each statement names its subject, which stands in `subjects` beside the theorem's name, and its method.
+pub fn name_subject_and_method<F>(theorems: &[&Theorem<F>], subjects: &[(&str, &str)]) {
+    assert_eq!(theorems.len(), subjects.len());
+    for theorem in theorems {
+        let named = subjects.iter().find(|(name, _)| *name == theorem.name);
+        let (_, subject) = named.unwrap_or_else(|| panic!("no subject for {}", theorem.name));
+        assert!(theorem.statement.contains(subject), "{}", theorem.name);
+        let words: &[_] = match theorem.method {
+            ProofKind::Identity => &["an identity"],
+            ProofKind::Sum => &["by summing"],
+            ProofKind::Induction => &["by induction"],
+            other => panic!("no words for {other:?}"),
+        };
+        assert!(
+            words.iter().any(|word| theorem.statement.contains(word)),
+            "{}",
+            theorem.name
+        );
+        assert!(!theorem.hypotheses.is_empty() && !theorem.symbols.is_empty());
+    }
+}
+
+/// Panics unless the theorems have as many steps as stand beside their names: no case is passed over.
+pub fn have_steps<F: Library>(theorems: &[&Theorem<F>], expected: &[(&str, usize)]) {
+    let steps: Vec<_> = theorems
+        .iter()
+        .map(|theorem| (theorem.name, theorem.prove().steps.len()))
+        .collect();
+    assert_eq!(steps, expected);
+}

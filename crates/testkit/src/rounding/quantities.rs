@@ -1,0 +1,276 @@
+//! The physical quantities of a pile.
+
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Direction, Site};
+use cannonpile::scalar::Surd;
+use cannonpile::shape::Selection;
+use cannonpile::{Error, Packing};
+use num_bigint::Sign;
+use num_rational::BigRational;
+use num_traits::One;
+
+use super::piles::{self, Measure};
+use super::random::Random;
+use super::tally::Tally;
+use crate::judge::Float;
+
+/// What is asked of a packing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Quantity {
+    /// The magnitude of a contact force.
+    Contact,
+    /// Its components.
+    ContactVector,
+    /// Where two spheres touch.
+    ContactPoint,
+    /// The centre of a sphere.
+    Position,
+    /// Normal and shears.
+    OnFloor,
+    /// f₀, the central constant, and those of the angle.
+    UnitForce,
+    /// Masses, weights and sizes, which are rationals.
+    Weight,
+    /// Contact forces of straight piles filled into slices.
+    Filled,
+    /// Those of any stacking, with weights and loads.
+    FilledStacking,
+    /// What neighbours and spheres below each other bear in elastic states, and where.
+    #[cfg(feature = "horizontal")]
+    Elastic,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: &'static [Self] = &[
+        Self::Contact,
+        Self::ContactVector,
+        Self::ContactPoint,
+        Self::Position,
+        Self::OnFloor,
+        Self::UnitForce,
+        Self::Weight,
+        Self::Filled,
+        Self::FilledStacking,
+        #[cfg(feature = "horizontal")]
+        Self::Elastic,
+    ];
+
+    /// What a table calls it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Contact => "contact force",
+            Self::ContactVector => "contact force, components",
+            Self::ContactPoint => "contact point",
+            Self::Position => "position",
+            Self::OnFloor => "force on the floor",
+            Self::UnitForce => "unit force, angles",
+            Self::Weight => "mass, weight, sizes",
+            Self::Filled => "contact forces filled in",
+            Self::FilledStacking => "stackings filled in",
+            #[cfg(feature = "horizontal")]
+            Self::Elastic => "elastic states",
+        }
+    }
+
+    const fn measure(self) -> Measure {
+        match self {
+            Self::ContactPoint | Self::Position => Measure::Length,
+            _ => Measure::Force,
+        }
+    }
+
+    /// Rounds this quantity at sites of random piles, each in many sizes.
+    pub fn tally(self, random: &mut Random, cases: u64) -> Tally {
+        let mut tally = Tally::default();
+        while tally.cases < cases {
+            if let Err(error) = self.one_pile(random, &mut tally) {
+                tally.cases += 1;
+                tally.wrong += 1;
+                tally.witness.get_or_insert(error.to_string());
+            }
+        }
+        tally
+    }
+
+    fn one_pile(self, random: &mut Random, tally: &mut Tally) -> Result<(), Error> {
+        let pile = match self {
+            Self::Filled => piles::small(random),
+            Self::FilledStacking => piles::loaded(random),
+            #[cfg(feature = "horizontal")]
+            Self::Elastic => piles::elastic(random),
+            _ => piles::any(random),
+        };
+        let spacing = match pile.horizontal_forces().len() {
+            0 => piles::spacing(&pile, random),
+            _ => Spacing::new(BigRational::one())?,
+        };
+        let mut packing = Packing::new(&pile, &spacing)?;
+        let floor = pile.layers() - 1;
+        let pushing: Vec<_> = pile.horizontal_forces().collect();
+        let places = [(); 8].map(|()| {
+            let k = match self {
+                Self::OnFloor => floor,
+                // On the floor z is 0, and there are no contacts.
+                _ => random.below(floor),
+            };
+            let site = if pushing.is_empty() || random.once_in(2) {
+                piles::site_of(&pile, k, random)
+            } else {
+                random.of(&pushing).0.site
+            };
+            (site, piles::direction(&pile, random))
+        });
+        let mut targets = Vec::new();
+        for place in places {
+            targets.extend(self.surds(&packing, place)?);
+        }
+        let lasting = packing.inclination();
+        if self == Self::UnitForce {
+            for root in [lasting.sin(), lasting.cos(), lasting.tan(), spacing.ratio()] {
+                tally.meet(&root);
+            }
+        }
+        let nonzero: Vec<&Surd> = targets
+            .iter()
+            .filter(|x| x.sign() != Sign::NoSign)
+            .collect();
+        for _ in 0..64 {
+            let target = (!nonzero.is_empty()).then(|| random.of(&nonzero));
+            packing = piles::resized(packing, self.measure(), target, random)?;
+            match self {
+                Self::Weight => weights(&packing, places[0].0, tally)?,
+                Self::Filled | Self::FilledStacking => filled(&packing, places[0].0.k, tally)?,
+                _ => {
+                    for place in places {
+                        for exact in self.surds(&packing, place)? {
+                            tally.meet(&exact);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The values at a site, below it, or of the whole packing.
+    fn surds(
+        self,
+        packing: &Packing<'_>,
+        (site, direction): (Site, Direction),
+    ) -> Result<Vec<Surd>, Error> {
+        Ok(match self {
+            Self::Contact | Self::Filled | Self::FilledStacking => {
+                vec![packing.contact(site, direction)?]
+            }
+            #[cfg(feature = "horizontal")]
+            Self::Elastic => elastic(packing, (site, direction))?,
+            Self::ContactVector => packing.contact_vector(site, direction)?.into(),
+            Self::ContactPoint => packing.contact_point(site, direction)?.into(),
+            Self::Position => packing.position(site)?.into(),
+            Self::OnFloor => {
+                let force = packing.on_floor(site)?;
+                vec![force.normal, force.shear_x, force.shear_y]
+            }
+            Self::UnitForce => vec![packing.unit_force(), packing.central_constant()],
+            Self::Weight => vec![packing.sphere_weight().into()],
+        })
+    }
+}
+
+fn weights(packing: &Packing<'_>, site: Site, tally: &mut Tally) -> Result<(), Error> {
+    for exact in [
+        packing.sphere_weight(),
+        packing.mass_of(site)?,
+        packing.mass().clone(),
+        packing.radius().clone(),
+        packing.gravity().clone(),
+    ] {
+        tally.meet_rational(&exact);
+    }
+    Ok(())
+}
+
+/// A contact between layers, if there is one, and those between neighbours that push.
+#[cfg(feature = "horizontal")]
+fn elastic(
+    packing: &Packing<'_>,
+    (site, direction): (Site, Direction),
+) -> Result<Vec<Surd>, Error> {
+    let mut surds = Vec::new();
+    if site.k + 1 < packing.pile().layers() {
+        surds.push(packing.contact(site, direction)?);
+        surds.extend(packing.contact_vector(site, direction)?);
+    }
+    let horizontal = packing.pile().horizontal_forces();
+    for (contact, force) in horizontal.filter(|(contact, _)| contact.site == site) {
+        let packed = packing.packed_horizontal(contact, force)?;
+        surds.push(packed.force);
+        surds.extend(packed.vector);
+        surds.extend(packed.point);
+    }
+    Ok(surds)
+}
+
+/// Which contacts of a layer are judged: along α of its first row, along γ of the first and β of the last sphere of each.
+fn judged(packing: &Packing<'_>, k: i128) -> Result<Vec<(usize, Site, Direction)>, Error> {
+    let mut judged = Vec::new();
+    let mut place = 0;
+    for row in packing.pile().rows(Selection::Layer(k))? {
+        let sites: Vec<Site> = row.into_iter().collect();
+        if place == 0 {
+            let first = sites.iter().enumerate();
+            judged.extend(first.map(|(place, site)| (place, *site, Direction::Alpha)));
+        }
+        let last = place + sites.len() - 1;
+        judged.push((place, sites[0], Direction::Gamma));
+        judged.push((last, sites[sites.len() - 1], Direction::Beta));
+        place = last + 1;
+    }
+    Ok(judged)
+}
+
+/// Contacts below a layer.
+fn filled(packing: &Packing<'_>, k: i128, tally: &mut Tally) -> Result<(), Error> {
+    let judged = judged(packing, k)?;
+    let exact = judged
+        .into_iter()
+        .map(|(place, site, direction)| Ok((place, direction, packing.contact(site, direction)?)))
+        .collect::<Result<Vec<_>, Error>>()?;
+    filled_as::<f64>(packing, k, &exact, tally)?;
+    filled_as::<f32>(packing, k, &exact, tally)
+}
+
+fn filled_as<F: Float>(
+    packing: &Packing<'_>,
+    k: i128,
+    exact: &[(usize, Direction, Surd)],
+    tally: &mut Tally,
+) -> Result<(), Error> {
+    match forces_of_layer::<F>(packing, k) {
+        // One force is beyond the floats then, and so is the greatest.
+        Err(Error::Overflow { .. }) => {
+            let all = packing.magnitudes(Selection::Layer(k))?;
+            let all = all.map(|contact| Ok(contact?.force));
+            let all = all.collect::<Result<Vec<_>, Error>>()?;
+            let greatest = all.iter().max_by_key(|force| force.square());
+            tally.meet_float(None::<F>, greatest.expect("a contact"));
+        }
+        forces => {
+            let forces = forces?;
+            for (place, direction, exact) in exact {
+                tally.meet_float(Some(forces[direction.index()][*place]), exact);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All forces of a layer on the next, filled in by direction.
+fn forces_of_layer<F: Float>(packing: &Packing<'_>, k: i128) -> Result<[Vec<F>; 3], Error> {
+    let mut layers = packing.layers::<F>(Selection::Layer(k))?;
+    let layer = layers.next_layer()?.expect("the layer asked for");
+    let mut forces = [(); 3].map(|()| vec![F::zero(); layer.spheres()]);
+    layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
+    Ok(forces)
+}

@@ -1,0 +1,138 @@
+//! Scenes of every kind, and the files of their piles, read back.
+
+use std::collections::BTreeMap;
+
+use cannonpile::{Packing, Pile};
+use cannonpile_dem::scene::{Anchor, Scene, State, parse};
+use cannonpile_dem::{PileExport, PileFile};
+
+/// Returns scenes of every kind: straight, isosceles, discs; stackings under and on regions; loads, no weight; SI scales.
+pub fn scenes() -> Vec<Scene> {
+    let rational = |text| parse::rational(text).expect("a number");
+    let region = |text: &str| text.parse().expect("a region");
+    let stacking = |text: &str| Some(text.parse().expect("a stacking"));
+    let load = |text, dimension| parse::load(text, dimension).expect("a load");
+    let plain = || Scene {
+        layers: Some(6),
+        ..Scene::default()
+    };
+    let three = cannonpile::lattice::Dimension::Three;
+    let two = cannonpile::lattice::Dimension::Two;
+    vec![
+        plain(),
+        Scene {
+            layers: Some(1),
+            ..plain()
+        },
+        Scene {
+            radius: rational("1e-3"),
+            mass: rational("1e-5"),
+            gravity: rational("9.81"),
+            spacing: Some(rational("1.05")),
+            ..plain()
+        },
+        Scene {
+            sin_phi: Some(rational("2/5")),
+            ..plain()
+        },
+        Scene {
+            dimension: two,
+            ..plain()
+        },
+        Scene {
+            loads: vec![load("2,0,1=5/2", three), load("5,0,0=1", three)],
+            ..plain()
+        },
+        Scene {
+            loads: vec![load("0,0,0=3", three)],
+            weightless: true,
+            ..plain()
+        },
+        Scene {
+            dimension: two,
+            loads: vec![load("1,1=7", two)],
+            ..plain()
+        },
+        Scene {
+            anchor: Some(Anchor::Top(region("hexagon:3,2"))),
+            stacking: stacking("hcp"),
+            layers: Some(4),
+            ..plain()
+        },
+        Scene {
+            anchor: Some(Anchor::Base(region("hexagon:4"))),
+            stacking: stacking("+-++"),
+            layers: None,
+            ..plain()
+        },
+        Scene {
+            anchor: Some(Anchor::Top(region("region:-3..2,5..5,2..7"))),
+            stacking: stacking("--+"),
+            layers: None,
+            ..plain()
+        },
+        Scene {
+            stacking: stacking("+-+-++"),
+            layers: None,
+            state: State::Elastic,
+            gravity: rational("9.81"),
+            ..plain()
+        },
+        Scene {
+            stacking: stacking("hcp"),
+            loads: vec![load("0,0,0=1/7", three)],
+            state: State::Elastic,
+            stiffness_ratio: rational("2/3"),
+            ..plain()
+        },
+    ]
+}
+
+/// Calls `judge` with each of the [`scenes`] and its files.
+pub fn for_each_pile(mut judge: impl FnMut(&Scene, &PileExport<'_>)) {
+    for scene in scenes() {
+        let pile = scene.pile().and_then(|pile| scene.in_state(pile));
+        let pile = pile.expect("a pile");
+        let packing = scene.packing(&pile).expect("room");
+        judge(&scene, &PileExport::new(&packing).expect("files"));
+    }
+}
+
+/// Returns the pile with the radius, the mass, the gravity and the spacing of a scene that names none.
+pub fn packing(pile: &Pile) -> Packing<'_> {
+    Scene::default().packing(pile).expect("room")
+}
+
+/// Writes a file into memory, and checks that all its rows are reported.
+pub fn bytes(export: &PileExport<'_>, file: PileFile) -> Vec<u8> {
+    let (mut out, mut rows) = (Vec::new(), 0);
+    export
+        .write_file(file, &mut out, &mut |more| rows += more)
+        .expect("a file");
+    assert_eq!(rows, export.rows(file).unwrap_or(0), "{file:?}");
+    out
+}
+
+/// Writes a file into a text.
+pub fn text(export: &PileExport<'_>, file: PileFile) -> String {
+    String::from_utf8(bytes(export, file)).expect("text")
+}
+
+/// Returns the columns of a csv that hold numbers, as floats.
+pub fn columns(csv: &str) -> BTreeMap<String, Vec<f64>> {
+    let mut lines = csv.lines();
+    let heads: Vec<&str> = lines.next().expect("a head").split(',').collect();
+    let mut columns: BTreeMap<String, Vec<f64>> = heads
+        .iter()
+        .map(|head| ((*head).to_owned(), Vec::new()))
+        .collect();
+    for line in lines {
+        for (head, cell) in heads.iter().zip(line.split(',')) {
+            let column = columns.get_mut(*head).expect("a column");
+            if *head != "direction" {
+                column.push(cell.parse().expect("a number"));
+            }
+        }
+    }
+    columns
+}

@@ -1,0 +1,124 @@
+//! A change of sign at every one of 1,000 layers, under a hexagon of 40 spheres a side: 300 million spheres. And of 250, 9 million,
+//! for scalars that take their time.
+
+use core::fmt;
+
+use cannonpile::Pile;
+use cannonpile::scalar::{Algebra, DoubleDouble, Exactness, Interval, RealEmbeddable};
+use cannonpile::shape::Selection;
+use num_rational::BigRational;
+use num_traits::Signed;
+
+use super::cases::{self, Case};
+use super::errors::{Worst, distance, unit};
+
+/// The worst errors of sweeps down to the lowest contacts, in units of the greatest force there.
+pub struct Deep {
+    case: Case,
+    sample: Sample,
+    greatest: BigRational,
+    lines: Vec<String>,
+}
+
+/// Places in a layer, and the exact forces to the spheres below.
+type Sample = Vec<(usize, [BigRational; 3])>;
+
+impl Deep {
+    /// How many layers are measured in floats by the tests, and how many in every scalar.
+    pub const LAYERS: [i128; 2] = [1000, 250];
+
+    /// The exact forces; nothing measured yet.
+    pub fn new(layers: i128) -> Self {
+        let case = cases::alternating(40, layers);
+        let k = case.pile.layers() - 2;
+        let mut layers = case
+            .pile
+            .forces::<BigRational>()
+            .layers(Selection::Layer(k))
+            .expect("room");
+        let layer = layers.next_layer().expect("room").expect("a layer");
+        let sites = case.pile.rows(Selection::Layer(k)).expect("a layer");
+        let sample: Sample = sites
+            .flatten()
+            .enumerate()
+            .step_by(997)
+            .map(|(place, site)| (place, layer.to_below(site).expect("forces")))
+            .collect();
+        let forces = sample.iter().flat_map(|(_, forces)| forces);
+        let greatest = forces.map(Signed::abs).max().expect("a force");
+        Self {
+            case,
+            sample,
+            greatest,
+            lines: Vec::new(),
+        }
+    }
+
+    /// In every scalar.
+    pub fn measured(layers: i128) -> Self {
+        let mut deep = Self::new(layers);
+        deep.measure_floats();
+        let ulp = unit::<f64>(&deep.greatest);
+        let twice = deep.swept::<DoubleDouble>(&ulp).as_power();
+        let widths = deep.swept::<Interval>(&ulp).as_power();
+        deep.lines.push(format!("| double-double | {twice} |"));
+        deep.lines.push(format!("| interval | {widths} |"));
+        deep
+    }
+
+    /// In floats, which is quick.
+    pub fn measure_floats(&mut self) {
+        let double = self.swept::<f64>(&unit::<f64>(&self.greatest));
+        let single = self.swept::<f32>(&unit::<f32>(&self.greatest));
+        self.lines.push(format!("| `f64` | {double} |"));
+        self.lines.push(format!("| `f32` | {single} |"));
+    }
+
+    /// The worst error of a sweep; of intervals, which must hold the exact forces, how far their ends are off.
+    fn swept<T: Algebra + RealEmbeddable>(&self, ulp: &BigRational) -> Worst {
+        let forces = lowest_contacts::<T>(&self.case.pile);
+        let mut worst = Worst::none();
+        for (place, exact) in &self.sample {
+            for (forces, exact) in forces.iter().zip(exact) {
+                let force = &forces[*place];
+                if T::EXACTNESS == Exactness::Enclosure {
+                    let bounds = force.enclosure();
+                    let holds = bounds.is_none_or(|bounds| bounds.contains(exact));
+                    assert!(holds, "{exact}");
+                }
+                worst.meet(distance(force, exact).map(|error| error / ulp));
+            }
+        }
+        worst
+    }
+}
+
+/// The forces of the layer above the floor, by direction.
+fn lowest_contacts<T: Algebra>(pile: &Pile) -> [Vec<T>; 3] {
+    let k = pile.layers() - 2;
+    let layers = pile
+        .forces::<T>()
+        .layers(Selection::Layer(k))
+        .expect("room");
+    let nothing = T::from_rational(&BigRational::default());
+    let mut forces = [(); 3].map(|()| vec![nothing.clone(); layers.spheres().expect("few")]);
+    layers
+        .fill(forces.each_mut().map(Vec::as_mut_slice))
+        .expect("forces");
+    forces
+}
+
+impl fmt::Display for Deep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let contacts = 3 * self.sample.len();
+        writeln!(
+            f,
+            "{}: the worst errors of {contacts} contacts above the floor,\n\
+             in units in the last place of the greatest; of double-double and of the ends of intervals, in those of `f64`.\n\
+             Each interval holds the exact force.\n\n\
+             | scalar | error |\n|---|--:|",
+            self.case.name
+        )?;
+        self.lines.iter().try_for_each(|line| writeln!(f, "{line}"))
+    }
+}

@@ -1,0 +1,102 @@
+//! Errors in units in the last place, as rationals: a table of them is the same on every machine.
+
+use core::fmt;
+
+use cannonpile::scalar::{RealEmbeddable, Surd};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use crate::judge::{Float, exact, significand};
+use crate::rounding::random::power;
+
+/// The distance of the floats of a format about a number: those of its binade, and at most a subnormal's.
+pub fn unit<F: Float>(about: &BigRational) -> BigRational {
+    let (n, d) = (about.numer().magnitude(), about.denom().magnitude());
+    let precision = i64::from(F::PRECISION);
+    let (_, least) = significand(F::min_positive_value());
+    if about.is_zero() {
+        return power(least);
+    }
+    // 2^e ≤ |about| < 2^(e+1), or one more.
+    let e = n.bits().cast_signed() - d.bits().cast_signed();
+    let e = if about.abs() < power(e) { e - 1 } else { e };
+    power((e + 1 - precision).max(least))
+}
+
+/// The greatest distance from `exact` of anything that the answer may stand for; `None` if that is unbounded.
+pub fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRational> {
+    let bounds = got.enclosure()?;
+    Some(
+        (bounds.upper - exact)
+            .abs()
+            .max((bounds.lower - exact).abs()),
+    )
+}
+
+/// By how much a float is off the number it was rounded from, in units in its last place. Only for printing: what is
+/// nearest the judge decides.
+pub fn rounding<F: Float>(got: F, surd: &Surd) -> BigRational {
+    let value = surd.to_rational().unwrap_or_else(|| approximately(surd));
+    let off = (exact(got) - &value).abs();
+    off / unit::<F>(&value)
+}
+
+/// The surd to 200 bits.
+fn approximately(surd: &Surd) -> BigRational {
+    let root = surd.radicand() << 400_u32;
+    surd.coefficient() * BigRational::new(BigInt::from(root.sqrt()), BigInt::one() << 200)
+}
+
+/// The worst of some errors.
+#[derive(Clone, Debug)]
+pub struct Worst(Option<BigRational>);
+
+impl Worst {
+    /// Takes one more into account; `None` stands for one without bounds.
+    pub fn meet(&mut self, error: Option<BigRational>) {
+        // Once without bounds, always.
+        let worst = self.0.take().zip(error);
+        self.0 = worst.map(|(worst, error)| worst.max(error));
+    }
+
+    /// None met yet.
+    pub fn none() -> Self {
+        Self(Some(BigRational::zero()))
+    }
+
+    /// Whether no error is beyond a limit.
+    pub fn is_at_most(&self, limit: &BigRational) -> bool {
+        self.0.as_ref().is_some_and(|worst| worst <= limit)
+    }
+
+    /// The exponent of the least power of two that is not below it; `None` for 0.
+    fn exponent(worst: &BigRational) -> Option<i64> {
+        let e = worst.numer().bits().cast_signed() - worst.denom().bits().cast_signed();
+        let exponents = (e - 1..=e + 1).find(|e| *worst <= power(*e));
+        exponents.filter(|_| !worst.is_zero())
+    }
+
+    /// As a power of two.
+    pub fn as_power(&self) -> String {
+        match &self.0 {
+            None => "unbounded".into(),
+            Some(worst) => Self::exponent(worst).map_or_else(|| "0".into(), |e| format!("2^{e}")),
+        }
+    }
+}
+
+impl fmt::Display for Worst {
+    /// With two decimals; a great one as a power of two, which it is at most.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Some(worst) if *worst < BigRational::from_integer(10_000.into()) => {
+                let hundredths = (worst * BigInt::from(100)).round().to_integer();
+                let (whole, rest) = hundredths.div_rem(&100.into());
+                write!(f, "{whole}.{:02}", rest.to_u8().unwrap_or(0))
+            }
+            _ => f.write_str(&self.as_power()),
+        }
+    }
+}

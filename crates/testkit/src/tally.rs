@@ -1,0 +1,213 @@
+//! Tallies of ensembles, counted plainly: every stacking made as a pile, its forces asked for one by one.
+
+use std::collections::BTreeMap;
+
+use cannonpile::Pile;
+use cannonpile::lattice::{Region, Sign, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile_disorder::{
+    Distribution, Ensemble, Error, Extreme, FirstSign, Histogram, RandomStackings, Tally,
+};
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive};
+
+/// A force, and the signs of the stacking that has it.
+type Found = Option<(BigRational, String)>;
+
+/// What a distribution says, counted plainly.
+#[derive(Debug, Default, PartialEq)]
+pub struct Counted {
+    stackings: u64,
+    contacts: u64,
+    sum: BigRational,
+    sum_of_squares: BigRational,
+    forces: BTreeMap<i64, u64>,
+    least: Found,
+    greatest: Found,
+    normals: BTreeMap<i64, u64>,
+    least_normal: Found,
+    greatest_normal: Found,
+}
+
+impl Counted {
+    /// Counts a pile, whose stacking comes after all those before.
+    pub fn meet(&mut self, pile: &Pile, signs: &str, width: &BigRational) -> Result<(), Error> {
+        let forces = pile.forces::<BigRational>();
+        let bin = |x: &BigRational| (x / width).floor().to_integer().to_i64().unwrap();
+        self.stackings += 1;
+        for contact in forces.contacts(Selection::All)? {
+            let force = contact?.force;
+            *self.forces.entry(bin(&force)).or_default() += 1;
+            self.contacts += 1;
+            self.sum += &force;
+            self.sum_of_squares += &force * &force;
+            better(&mut self.least, &force, signs, |new, old| new < old);
+            better(&mut self.greatest, &force, signs, |new, old| new > old);
+        }
+        for force in forces.base(Selection::Base)? {
+            let normal = force?.normal;
+            *self.normals.entry(bin(&normal)).or_default() += 1;
+            better(&mut self.least_normal, &normal, signs, |new, old| new < old);
+            better(&mut self.greatest_normal, &normal, signs, |new, old| {
+                new > old
+            });
+        }
+        Ok(())
+    }
+
+    /// What a distribution says.
+    fn of(distribution: &Distribution) -> Self {
+        let bins = |histogram: &Histogram| {
+            let counts = histogram.counts.iter().map(|n| n.to_u64().unwrap());
+            let bins = (histogram.first..).zip(counts);
+            bins.filter(|(_, count)| *count > 0).collect()
+        };
+        let found = |extreme: &Option<Extreme>| {
+            let found = extreme.as_ref();
+            found.map(|found| (found.force.clone(), text(found.stacking.signs())))
+        };
+        Self {
+            stackings: distribution.stackings.to_u64().unwrap(),
+            contacts: distribution.contacts.to_u64().unwrap(),
+            sum: distribution.sum.clone(),
+            sum_of_squares: distribution.sum_of_squares.clone(),
+            forces: bins(&distribution.forces),
+            least: found(&distribution.least),
+            greatest: found(&distribution.greatest),
+            normals: bins(&distribution.normals),
+            least_normal: found(&distribution.least_normal),
+            greatest_normal: found(&distribution.greatest_normal),
+        }
+    }
+}
+
+fn better(
+    best: &mut Found,
+    force: &BigRational,
+    signs: &str,
+    is_better: impl Fn(&BigRational, &BigRational) -> bool,
+) {
+    if best.as_ref().is_none_or(|(old, _)| is_better(force, old)) {
+        *best = Some((force.clone(), signs.to_owned()));
+    }
+}
+
+/// Signs as text.
+pub fn text(signs: impl Iterator<Item = Sign>) -> String {
+    signs.map(Sign::symbol).collect()
+}
+
+/// All signs of so many steps, in order.
+pub fn all_signs(steps: u32, first: FirstSign) -> Vec<Vec<Sign>> {
+    let all = (0..1_u32 << steps).map(|bits| {
+        let signs = (0..steps).rev().map(|bit| match bits >> bit & 1 {
+            0 => Sign::Plus,
+            _ => Sign::Minus,
+        });
+        signs.collect::<Vec<_>>()
+    });
+    let begins = |signs: &Vec<Sign>| {
+        signs
+            .first()
+            .is_none_or(|sign| first.signs().contains(sign))
+    };
+    all.filter(begins).collect()
+}
+
+/// A scene: the top, its loads, and whether spheres weigh nothing.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The top layer.
+    pub top: Region,
+    /// Loads on sites of the top layer.
+    pub loads: Vec<([i128; 2], BigRational)>,
+    /// Whether the spheres weigh nothing.
+    pub weightless: bool,
+    /// The first sign.
+    pub first: FirstSign,
+    /// The width of the bins.
+    pub width: BigRational,
+}
+
+impl Scene {
+    /// Under its weight, with bins of a third.
+    pub fn of(top: &str, first: FirstSign) -> Self {
+        Self {
+            top: top.parse().unwrap(),
+            loads: Vec::new(),
+            weightless: false,
+            first,
+            width: BigRational::new(1.into(), 3.into()),
+        }
+    }
+
+    /// The ensemble as the library makes it.
+    pub fn ensemble(&self, steps: u32) -> Result<Ensemble, Error> {
+        let stackings = RandomStackings::new(i128::from(steps) + 1, self.first)?;
+        let mut ensemble = Ensemble::under(self.top, stackings)?.with_bins(self.width.clone())?;
+        for (at, load) in &self.loads {
+            ensemble = ensemble.with_load(*at, load.clone())?;
+        }
+        Ok(if self.weightless {
+            ensemble.weightless()
+        } else {
+            ensemble
+        })
+    }
+
+    /// The pile of one stacking.
+    pub fn pile(&self, signs: &[Sign]) -> Result<Pile, Error> {
+        let stacking = Stacking::from_signs(signs.iter().copied())?;
+        let mut pile = Pile::under(self.top, stacking)?;
+        for ([i, j], load) in &self.loads {
+            let site = Site { i: *i, j: *j, k: 0 };
+            pile = pile.with_load(site, load.clone())?;
+        }
+        Ok(if self.weightless {
+            pile.weightless()
+        } else {
+            pile
+        })
+    }
+
+    /// What is counted of all stackings and of those that stand, by faults.
+    pub fn counted(&self, steps: u32) -> Result<Vec<[Counted; 2]>, Error> {
+        self.counted_of(steps, &all_signs(steps, self.first))
+    }
+
+    /// What is counted of these stackings, and of those of them that stand, by faults.
+    pub fn counted_of(
+        &self,
+        steps: u32,
+        stackings: &[Vec<Sign>],
+    ) -> Result<Vec<[Counted; 2]>, Error> {
+        // Of equal forces the first in order is named.
+        let mut stackings = stackings.to_vec();
+        stackings.sort_unstable();
+        let mut counted = Vec::new();
+        counted.resize_with(steps.max(1) as usize, <[Counted; 2]>::default);
+        for signs in stackings {
+            let faults = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            let pile = self.pile(&signs)?;
+            let signs = text(signs.into_iter());
+            let [all, standing] = &mut counted[faults];
+            all.meet(&pile, &signs, &self.width)?;
+            let mut contacts = pile.forces::<BigRational>().contacts(Selection::All)?;
+            if contacts.all(|contact| !contact.unwrap().force.is_negative()) {
+                standing.meet(&pile, &signs, &self.width)?;
+            }
+        }
+        Ok(counted)
+    }
+}
+
+/// What a tally says of all stackings and of those that stand, by faults.
+pub fn counted(tally: &Tally) -> Vec<[Counted; 2]> {
+    let faults = tally.faults.iter().enumerate();
+    let both = faults.map(|(d, with)| {
+        assert_eq!(with.faults as usize, d);
+        [&with.all, &with.standing].map(Counted::of)
+    });
+    both.collect()
+}

@@ -1,0 +1,174 @@
+//! The error of any crate, and the argument to change.
+
+use core::fmt;
+
+use cannonpile_dem::Key;
+
+/// Why a crate refused a question.
+///
+/// An error that another crate wraps is taken out of it, so that there is one way to match each.
+#[derive(Clone, Debug)]
+pub(crate) enum Error {
+    Core(cannonpile::Error),
+    Horizontal(cannonpile_horizontal::Error),
+    Disorder(cannonpile_disorder::Error),
+    Dem(cannonpile_dem::Error),
+    Figure(cannonpile_figure::Error),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Core(error) => error.fmt(f),
+            Self::Horizontal(error) => error.fmt(f),
+            Self::Disorder(error) => error.fmt(f),
+            Self::Dem(error) => error.fmt(f),
+            Self::Figure(error) => error.fmt(f),
+        }
+    }
+}
+
+impl From<cannonpile::Error> for Error {
+    fn from(error: cannonpile::Error) -> Self {
+        Self::Core(error)
+    }
+}
+
+impl From<cannonpile_horizontal::Error> for Error {
+    fn from(error: cannonpile_horizontal::Error) -> Self {
+        match error {
+            cannonpile_horizontal::Error::Core(error) => error.into(),
+            error => Self::Horizontal(error),
+        }
+    }
+}
+
+impl From<cannonpile_disorder::Error> for Error {
+    fn from(error: cannonpile_disorder::Error) -> Self {
+        match error {
+            cannonpile_disorder::Error::Core(error) => error.into(),
+            error => Self::Disorder(error),
+        }
+    }
+}
+
+impl From<cannonpile_dem::Error> for Error {
+    fn from(error: cannonpile_dem::Error) -> Self {
+        match error {
+            cannonpile_dem::Error::Core(error) => error.into(),
+            cannonpile_dem::Error::Horizontal(error) => error.into(),
+            error => Self::Dem(error),
+        }
+    }
+}
+
+impl From<cannonpile_figure::Error> for Error {
+    fn from(error: cannonpile_figure::Error) -> Self {
+        match error {
+            cannonpile_figure::Error::Core(error) => error.into(),
+            cannonpile_figure::Error::Horizontal(error) => error.into(),
+            cannonpile_figure::Error::Disorder(error) => error.into(),
+            cannonpile_figure::Error::Dem(error) => error.into(),
+            error => Self::Figure(error),
+        }
+    }
+}
+
+impl Error {
+    /// Returns the argument to change, if it is known. The text of an error already names a sphere; a number, a method and a
+    /// file are no arguments.
+    pub(crate) fn argument(&self) -> Option<&'static str> {
+        match self {
+            Self::Core(error) => of_core(error),
+            Self::Horizontal(error) => of_horizontal(error),
+            Self::Disorder(error) => of_disorder(error),
+            Self::Dem(error) => of_dem(error),
+            Self::Figure(cannonpile_figure::Error::TooManyMarks { .. }) => Some("layers"),
+            Self::Figure(_) => None,
+        }
+    }
+}
+
+fn of_core(error: &cannonpile::Error) -> Option<&'static str> {
+    use cannonpile::Error;
+
+    Some(match error {
+        Error::Layers { .. }
+        | Error::LayersOfStacking { .. }
+        | Error::TooHigh { .. }
+        | Error::RegionTooLarge { .. }
+        | Error::TooLarge { .. }
+        | Error::TooManyRows { .. } => "layers",
+        Error::RunLength { .. } | Error::TooManyRuns { .. } | Error::Misspelled { .. } => {
+            "stacking"
+        }
+        Error::SinPhi { .. } | Error::NoSpacing { .. } | Error::NoHorizontalContacts { .. } => {
+            "sin_phi"
+        }
+        Error::NegativeLoad { .. } => "loads",
+        Error::Overlap { .. } | Error::TooFlat { .. } | Error::NotTouching { .. } => "spacing",
+        Error::NotPositive { quantity, .. } => {
+            let key = Key::ALL.into_iter().find(|key| key.name() == *quantity);
+            return key.and_then(of_key);
+        }
+        Error::LayerOutside { .. } | Error::OtherLayer { .. } => "layer",
+        _ => return None,
+    })
+}
+
+fn of_horizontal(error: &cannonpile_horizontal::Error) -> Option<&'static str> {
+    use cannonpile_horizontal::Error;
+
+    match error {
+        Error::NotSolved { .. } => Some("layers"),
+        Error::Weightless => Some("weightless"),
+        _ => None,
+    }
+}
+
+fn of_disorder(error: &cannonpile_disorder::Error) -> Option<&'static str> {
+    use cannonpile_disorder::Error;
+
+    match error {
+        Error::TooManyStackings { .. } | Error::NoStacking { .. } => Some("layers"),
+        Error::FaultProbability { .. } => Some("fault_probability"),
+        Error::PlaceOfLoad { .. }
+        | Error::OnlyOfLoads {
+            weightless: true, ..
+        } => Some("loads"),
+        Error::Weightless | Error::OnlyOfLoads { .. } => Some("weightless"),
+        _ => None,
+    }
+}
+
+fn of_dem(error: &cannonpile_dem::Error) -> Option<&'static str> {
+    use cannonpile_dem::Error;
+
+    match error {
+        Error::SinPhiOfDiscs => Some("sin_phi"),
+        Error::Excluded { given, .. } => of_key(*given),
+        // The text of an error in a file names its line and key.
+        _ => None,
+    }
+}
+
+/// Returns the argument for a key of a scene.
+fn of_key(key: Key) -> Option<&'static str> {
+    Some(match key {
+        Key::Layers => "layers",
+        Key::Stacking => "stacking",
+        Key::Top => "top",
+        Key::Base => "base",
+        Key::Dimension => "dimension",
+        Key::SinPhi => "sin_phi",
+        Key::Load => "loads",
+        Key::Weightless => "weightless",
+        Key::Spacing => "spacing",
+        Key::Radius => "radius",
+        Key::Mass => "mass",
+        Key::Gravity => "gravity",
+        Key::State => "state",
+        Key::StiffnessRatio => "stiffness_ratio",
+        _ => return None,
+    })
+}

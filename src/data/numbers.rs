@@ -1,0 +1,301 @@
+//! Numbers through [serde](https://serde.rs): exact ones as strings, as they print.
+
+use alloc::format;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use ::serde::de::Error as _;
+use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+
+use exact_surd::text::{Float, read_text};
+
+use crate::Error;
+use crate::scalar::parse::{big_integer, integer, rational};
+use crate::scalar::{DoubleDouble, FixedInteger, FixedRational, Interval, Surd};
+
+/// A number, as the answers of piles hold them: exact ones are strings, floats are numbers.
+///
+/// Options, vectors and arrays of three of them count as numbers too. A scalar of your own needs this for
+/// [`ContactForce`](crate::ContactForce) and its like to be written.
+///
+/// # Examples
+/// ```
+/// use num_rational::BigRational;
+/// use serde::Serialize;
+///
+/// #[derive(Serialize)]
+/// struct Probe {
+///     #[serde(with = "cannonpile::data::number")]
+///     force: BigRational,
+///     #[serde(with = "cannonpile::data::number")]
+///     offset: Option<i128>,
+/// }
+///
+/// let probe = Probe { force: BigRational::new(7.into(), 3.into()), offset: None };
+/// assert_eq!(serde_json::to_string(&probe)?, r#"{"force":"7/3","offset":null}"#);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+pub trait Number: Sized {
+    /// Writes the number.
+    ///
+    /// # Errors
+    /// Those of the serializer, and of a number that has no value.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error>;
+
+    /// Reads the number.
+    ///
+    /// # Errors
+    /// Those of the deserializer, and of a text that is not such a number.
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error>;
+}
+
+/// For `#[serde(with = "cannonpile::data::number")]` on fields that are a [`Number`].
+pub mod number {
+    use super::{Deserializer, Number, Serializer};
+
+    /// Writes the number.
+    ///
+    /// # Errors
+    /// As for [`Number::serialize`].
+    ///
+    /// # Examples
+    /// ```
+    /// use num_bigint::BigInt;
+    ///
+    /// let written = cannonpile::data::number::serialize(&BigInt::from(12), serde_json::value::Serializer)?;
+    /// assert_eq!(written, "12");
+    /// # Ok::<(), serde_json::Error>(())
+    /// ```
+    pub fn serialize<T: Number, S: Serializer>(
+        value: &T,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.serialize(serializer)
+    }
+
+    /// Reads the number.
+    ///
+    /// # Errors
+    /// As for [`Number::deserialize`].
+    ///
+    /// # Examples
+    /// ```
+    /// use num_rational::BigRational;
+    ///
+    /// let mut text = serde_json::Deserializer::from_str(r#""1.2""#);
+    /// let number: BigRational = cannonpile::data::number::deserialize(&mut text)?;
+    /// assert_eq!(number.to_string(), "6/5");
+    /// let mut text = serde_json::Deserializer::from_str(r#""1/0""#);
+    /// assert!(cannonpile::data::number::deserialize::<BigRational, _>(&mut text).is_err());
+    /// # Ok::<(), serde_json::Error>(())
+    /// ```
+    pub fn deserialize<'de, T: Number, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<T, D::Error> {
+        T::deserialize(deserializer)
+    }
+}
+
+/// Implements serde for types that are one string: what `Display` prints and `FromStr` reads. The
+/// format may be another than `{}`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! as_text {
+    ($($type:ty $(: $format:literal)?),*) => {$(
+        impl ::serde::Serialize for $type {
+            fn serialize<S: ::serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.collect_str(&format_args!(concat!("{" $(, $format)?, "}"), self))
+            }
+        }
+
+        impl<'de> ::serde::Deserialize<'de> for $type {
+            fn deserialize<D: ::serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $crate::data::read_text(deserializer, str::parse)
+            }
+        }
+    )*};
+}
+
+pub use as_text;
+
+/// Numbers of other crates, as they print.
+macro_rules! printed {
+    ($($type:ty: $parser:expr;)*) => {$(
+        impl Number for $type {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.collect_str(self)
+            }
+
+            fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                read_text(deserializer, $parser)
+            }
+        }
+    )*};
+}
+
+printed! {
+    BigRational: rational;
+    i128: integer;
+    BigInt: big_integer;
+    BigUint: natural;
+}
+
+fn natural(text: &str) -> Result<BigUint, Error> {
+    let natural = BigUint::try_from(big_integer(text)?);
+    natural.map_err(|_| Error::syntax(text, "a number that is not negative"))
+}
+
+/// Numbers that serde knows, or that have their implementation here.
+macro_rules! as_it_is {
+    ($($type:ty)*) => {$(
+        impl Number for $type {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                Serialize::serialize(self, serializer)
+            }
+
+            fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                Deserialize::deserialize(deserializer)
+            }
+        }
+    )*};
+}
+
+as_it_is!(f32 f64 Surd Interval DoubleDouble);
+
+impl<I: FixedInteger> Number for FixedRational<I> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Serialize::serialize(self, serializer)
+    }
+
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Deserialize::deserialize(deserializer)
+    }
+}
+
+/// A number for serde's own containers.
+struct Written<'a, T>(&'a T);
+
+impl<T: Number> Serialize for Written<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+/// A number from serde's own containers.
+struct Read<T>(T);
+
+impl<'de, T: Number> Deserialize<'de> for Read<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        T::deserialize(deserializer).map(Self)
+    }
+}
+
+impl<T: Number> Number for Option<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Serialize::serialize(&self.as_ref().map(Written), serializer)
+    }
+
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let read: Option<Read<T>> = Deserialize::deserialize(deserializer)?;
+        Ok(read.map(|read| read.0))
+    }
+}
+
+impl<T: Number> Number for Vec<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter().map(Written))
+    }
+
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let read: Vec<Read<T>> = Deserialize::deserialize(deserializer)?;
+        Ok(read.into_iter().map(|read| read.0).collect())
+    }
+}
+
+impl<T: Number> Number for [T; 3] {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Serialize::serialize(&self.each_ref().map(Written), serializer)
+    }
+
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let read: [Read<T>; 3] = Deserialize::deserialize(deserializer)?;
+        Ok(read.map(|read| read.0))
+    }
+}
+
+impl Number for Range<i128> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Ends::serialize(self, serializer)
+    }
+
+    fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ends::deserialize(deserializer)
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Range<i128>", rename = "Range", deny_unknown_fields)]
+struct Ends {
+    #[serde(with = "number")]
+    start: i128,
+    #[serde(with = "number")]
+    end: i128,
+}
+
+impl<I: FixedInteger> Serialize for FixedRational<I> {
+    /// Refuses a fault, which is no number.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.to_rational() {
+            Some(value) => Number::serialize(&value, serializer),
+            None => Err(::serde::ser::Error::custom(Error::Overflow {
+                quantity: "a number",
+                scalar: I::RATIONAL_NAME,
+            })),
+        }
+    }
+}
+
+impl<'de, I: FixedInteger> Deserialize<'de> for FixedRational<I> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_text(deserializer, |text| {
+            let (numer, denom) = rational(text)?.into_raw();
+            let part = |n: BigInt| I::try_from(n).ok();
+            let parts = part(numer).zip(part(denom));
+            let value = parts.map(|(numer, denom)| Self::new(numer, denom));
+            value
+                .filter(|value| value.parts().is_some())
+                .ok_or(Error::Overflow {
+                    quantity: "a number",
+                    scalar: I::RATIONAL_NAME,
+                })
+        })
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Interval", deny_unknown_fields)]
+struct Bounds {
+    lower: Float,
+    upper: Float,
+}
+
+impl Serialize for Interval {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (lower, upper) = (Float(self.lower()), Float(self.upper()));
+        Bounds { lower, upper }.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Interval {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Bounds { lower, upper } = Bounds::deserialize(deserializer)?;
+        let (lower, upper) = (lower.0, upper.0);
+        Self::new(lower, upper).ok_or_else(|| {
+            D::Error::custom(format!(
+                "no real number lies between {lower:?} and {upper:?}: lower must be at most upper"
+            ))
+        })
+    }
+}

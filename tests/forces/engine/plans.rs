@@ -1,0 +1,186 @@
+//! Plans and counters to the unit: each number worked out by hand from what it is said to be.
+
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::{Counters, Error, Method, Pile, Plan, Quantity, Question};
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use cannonpile_testkit::cases::stacking;
+use cannonpile_testkit::oracles::balance::ratio;
+
+/// The most numbers that a sweep keeps.
+const MOST_NUMBERS: u64 = 134_217_728;
+
+fn under_one_sphere(signs: &str) -> Pile {
+    Pile::under(Region::SITE, stacking(signs)).unwrap()
+}
+
+/// Under one row of `n` spheres.
+fn under_a_row(n: i128, signs: &str) -> Pile {
+    let row = Region::new(0..=n - 1, 0..=0, 0..=n - 1).unwrap();
+    Pile::under(row, stacking(signs)).unwrap()
+}
+
+fn by(method: Method, part: Selection) -> Question {
+    Question {
+        method: Some(method),
+        ..part.into()
+    }
+}
+
+/// Layers of 1, 3, 7, 12, 19 and 27 spheres.
+#[test]
+fn a_sweep_to_the_floor_of_six_layers() {
+    let pile = under_one_sphere("+-+-+");
+    let plan = pile.plan(Selection::Base).unwrap();
+    assert_eq!(plan.method, Method::Sweep);
+    // Five runs, and one stop; 3·27 numbers.
+    assert_eq!(plan.runs, 5);
+    assert_eq!(plan.passes, 6_u32.into());
+    assert_eq!(plan.numbers, 81_u32.into());
+    assert_eq!(plan.visited, 27_u32.into());
+    assert_eq!(plan.rows, 27_u32.into());
+    assert_eq!(plan.turned, (3_u32 + 7 + 12 + 19).into());
+    assert_eq!(plan.bytes, (81_u32 * 8).into());
+    // ⌊√(36·6·69)⌋ + 1 = 123, and three times as much for each change of sign but the first: 123·27 = 3321 < 2¹².
+    assert_eq!((plan.bits, plan.planes, plan.reserved), (12, 1, 62));
+
+    let counters = Counters::default();
+    let forces = pile.forces::<BigRational>().metered(&counters);
+    assert_eq!(forces.base(Selection::Base).unwrap().plan(), &plan);
+    assert_eq!(forces.base(Selection::Base).unwrap().count(), 27);
+    assert_eq!((counters.passes(), counters.turned()), (5, 41));
+    assert_eq!((counters.visited(), counters.rows()), (27, 27));
+    let told = "27 visited, 41 turned, 5 passes, 27 rows";
+    assert_eq!(counters.to_string(), told);
+}
+
+/// A layer at a change of sign: what it passes on is turned, and as wide as that.
+#[test]
+fn the_width_of_numbers_is_that_after_the_change_of_sign_they_stop_at() {
+    let (layer, pile) = (Selection::Layer(2), under_one_sphere("+-+"));
+    let bits = |pile: &Pile| pile.plan(by(Method::Sweep, layer)).unwrap().bits;
+    // ⌊√(36·3·11)⌋ + 1 = 35, tripled once: 105 < 2⁷.
+    assert_eq!(bits(&pile), 7);
+    // Of loads alone: six times 7/2, over 2, tripled: 126 < 2⁷.
+    let response = pile.weightless().with_load(Site::APEX, ratio(7, 2));
+    assert_eq!(bits(&response.unwrap()), 7);
+    let straight = under_one_sphere("++");
+    assert_eq!(straight.plan(Selection::Layer(0)).unwrap().runs, 0);
+    assert_eq!(straight.plan(Selection::Layer(1)).unwrap().runs, 1);
+}
+
+/// Of 11 spheres above the floor, in 3 layers of at most 3 rows: 9 pieces, each below at most the 3 spheres at the change
+/// of sign in layer 1.
+#[test]
+fn trees_are_planned_piece_by_piece() {
+    let pile = under_one_sphere("+-+");
+    let plan = pile.plan(by(Method::Tree, Selection::All)).unwrap();
+    assert_eq!(plan.turned, (9_u32 * 3 + 11).into());
+    assert_eq!(plan.visited, (9_u32 * 3 + 11).into());
+    // Of one layer alone 3 pieces.
+    let layer = pile.plan(by(Method::Tree, Selection::Layer(2))).unwrap();
+    assert_eq!(layer.turned, (3_u32 * 3 + 7).into());
+    // Of one sphere three at the last change of sign, and nine of ten at the first.
+    let pile = under_one_sphere("+++---+++");
+    let one = Selection::One(Site { i: 0, j: 0, k: 8 });
+    let plan = pile.plan(one).unwrap();
+    assert_eq!((plan.method, plan.runs), (Method::Tree, 3));
+    assert_eq!(plan.turned, (9_u32 + 3 + 1).into());
+    assert_eq!(plan.visited, (9_u32 + 3 + 1).into());
+}
+
+#[test]
+fn a_plan_is_told_in_a_line() {
+    let told = |signs, question: Question| {
+        let plan = under_one_sphere(signs).plan(question).unwrap();
+        plan.to_string()
+    };
+    let one = Selection::One(Site::APEX);
+    assert_eq!(told("+++", Selection::All.into()), "closed");
+    let swept = "sweep: 5 runs, 81 numbers of 1 x 64 bits";
+    assert_eq!(told("+-+-+", Selection::Base.into()), swept);
+    assert_eq!(
+        told("+-+", by(Method::Tree, Selection::All)),
+        "tree: 2 runs"
+    );
+    assert_eq!(told("+-+", one.into()), "tree: 0 runs");
+}
+
+#[test]
+fn a_sphere_inside_a_run_is_one_of_three_at_the_change_above() {
+    let pile = under_one_sphere("+--");
+    let nodes = |i, j, k| Direction::ALL.map(|line| pile.nodes(Site { i, j, k }, line).unwrap());
+    assert_eq!(nodes(0, 0, 0), [0; 3]);
+    // At the change of sign: itself.
+    assert_eq!(nodes(0, 0, 1), [1; 3]);
+    // Each line comes from one of the three there.
+    assert_eq!(nodes(0, 0, 2), [1; 3]);
+    let counters = Counters::default();
+    let forces = pile.forces::<BigRational>().metered(&counters);
+    forces.from_above(Site { i: 0, j: 0, k: 2 }).unwrap();
+    // The three, and itself.
+    assert_eq!((counters.turned(), counters.visited()), (3, 4));
+}
+
+#[test]
+fn a_selection_alone_asks_for_multiples() {
+    let quantity = |part| Question::from(part).quantity;
+    assert_eq!(quantity(Selection::Base), Quantity::FloorMultiples);
+    for part in [
+        Selection::All,
+        Selection::Layer(1),
+        Selection::One(Site::APEX),
+    ] {
+        assert_eq!(quantity(part), Quantity::ContactMultiples);
+    }
+}
+
+/// Three layers under a row of n spheres: of n, 2n + 1 and 3n + 4.
+#[test]
+fn a_sweep_keeps_2_to_the_27_numbers_and_no_more() {
+    let plan = |n| under_a_row(n, "+-").plan(by(Method::Sweep, Selection::Base));
+    let most: Plan = plan(14_913_079).unwrap();
+    assert_eq!(most.numbers, BigUint::from(MOST_NUMBERS - 5));
+    let refused = Error::too_large(
+        "a sweep down to this layer",
+        BigUint::from(MOST_NUMBERS + 4),
+        MOST_NUMBERS,
+        "ask for one sphere, or for fewer layers",
+    );
+    assert_eq!(plan(14_913_080), Err(refused));
+}
+
+/// A float is one word; an exact integer is what it is kept in, and its digits elsewhere.
+#[test]
+fn a_sweep_for_one_sphere_is_refused_with_the_words_that_it_needs() {
+    let n = 50_000_000;
+    let (pile, site) = (under_a_row(n, "+-"), Site { i: 7, j: 0, k: 1 });
+    let refused = |result: Result<(), Error>| match result {
+        Err(Error::TooLarge { needed, .. }) => needed,
+        other => panic!("{other:?}"),
+    };
+    let floats = pile.forces::<f64>().by(Method::Sweep).unwrap();
+    let numbers = BigUint::from(3 * (2 * n + 1).unsigned_abs());
+    assert_eq!(refused(floats.from_above(site).map(|_| ())), numbers);
+    let exact = pile.forces::<BigRational>().by(Method::Sweep).unwrap();
+    let words = size_of::<BigInt>().div_ceil(8) + 1;
+    assert_eq!(refused(exact.from_above(site).map(|_| ())), numbers * words);
+}
+
+#[test]
+fn floats_below_changes_of_sign_are_near_the_exact_forces() {
+    let pile = under_one_sphere("+-++-");
+    let (floats, exact) = (pile.forces::<f64>(), pile.forces::<BigRational>());
+    let by_sweep = floats.clone().by(Method::Sweep).unwrap();
+    for contact in exact.contacts(Selection::All).unwrap() {
+        let contact = contact.unwrap();
+        let near = contact.force.to_f64().unwrap();
+        for floats in [&floats, &by_sweep] {
+            let float = floats.contact(contact.site, contact.direction).unwrap();
+            assert!((float - near).abs() < 1e-12, "{contact:?} {float}");
+        }
+    }
+}

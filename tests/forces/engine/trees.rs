@@ -1,0 +1,127 @@
+//! How many spheres the tree of a contact visits.
+
+use std::collections::BTreeSet;
+
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::{Error, Method, Pile};
+
+use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
+use cannonpile_testkit::oracles::balance::{Balance, Place, direction, site};
+
+/// Whether the sign changes at the layer of a sphere.
+fn at_a_change(balance: &Balance, k: i128) -> bool {
+    balance
+        .sign(k - 1)
+        .is_some_and(|above| balance.sign(k) != Some(above))
+}
+
+/// The spheres at changes of sign that a contact depends on, found by following each line up to where it begins.
+fn visited(balance: &Balance, contact: (Place, usize)) -> BTreeSet<Place> {
+    let mut found = BTreeSet::new();
+    let mut waiting = vec![contact];
+    while let Some((at, m)) = waiting.pop() {
+        let mixed = at_a_change(balance, at.0);
+        if mixed && !found.insert(at) {
+            continue;
+        }
+        for direction in 0..3 {
+            if mixed || direction == m {
+                waiting.extend(balance.above(at, direction).map(|above| (above, direction)));
+            }
+        }
+    }
+    found
+}
+
+/// All spheres that bear down on one, itself included.
+fn cone(balance: &Balance, at: Place) -> BTreeSet<Place> {
+    let mut cone = BTreeSet::new();
+    let mut waiting = vec![at];
+    while let Some(at) = waiting.pop() {
+        if cone.insert(at) {
+            waiting.extend((0..3).filter_map(|m| balance.above(at, m)));
+        }
+    }
+    cone
+}
+
+fn visits_what_it_must(case: &Case) {
+    let balance = &case.balance;
+    for at in balance.places().filter(|at| balance.sign(at.0).is_some()) {
+        let changes = (0..=at.0).filter(|k| at_a_change(balance, *k)).count();
+        let cone = cone(balance, at);
+        let at_changes = cone.iter().filter(|at| at_a_change(balance, at.0)).count();
+        let most = (3_usize.pow(u32::try_from(changes).unwrap()) - 1) / 2;
+        for m in 0..3 {
+            let nodes = case.pile.nodes(site(at), direction(m)).unwrap();
+            assert_eq!(nodes, visited(balance, (at, m)).len(), "{at:?} {m}");
+            assert!(nodes <= most.min(at_changes), "{at:?} {m}");
+        }
+    }
+}
+
+#[test]
+fn a_tree_visits_the_spheres_that_its_lines_pass_at_changes_and_each_once() {
+    for signs in (1..8).flat_map(all_signs) {
+        visits_what_it_must(&Case::under(&Bounds::SITE, &signs));
+    }
+    visits_what_it_must(&Case::under(&Bounds::SITE, &repeated("+-", 11)));
+    let mut random = Random(81);
+    for _ in 0..40 {
+        let signs = random.signs(8);
+        visits_what_it_must(&Case::under(&random.bounds(4), &signs));
+        if let Some(case) = Case::on(&random.bounds(12), &signs) {
+            visits_what_it_must(&case);
+        }
+    }
+}
+
+#[test]
+fn no_tree_is_asked_of_a_bottom_sphere_for_a_contact() {
+    let case = Case::under(&Bounds::SITE, "+-");
+    let bottom = Site { i: 0, j: 0, k: 2 };
+    assert!(case.pile.nodes(bottom, Direction::Alpha).is_err());
+}
+
+#[test]
+fn where_a_tree_would_be_too_large_a_sweep_answers() {
+    let pile = Pile::under(Region::SITE, Stacking::hcp(400).unwrap()).unwrap();
+    let middle = Site { i: 0, j: 0, k: 398 };
+    assert!(matches!(
+        pile.nodes(middle, Direction::Alpha),
+        Err(Error::TooLarge { .. })
+    ));
+    let forces = pile.forces::<f64>();
+    // But not where a tree is asked for.
+    let by_tree = forces.clone().by(Method::Tree).unwrap();
+    let refused = by_tree.contact(middle, Direction::Alpha);
+    assert!(matches!(refused, Err(Error::TooLarge { .. })));
+    let one = forces.contact(middle, Direction::Alpha).unwrap();
+    let mut contacts = forces
+        .contacts(Selection::Layer(398))
+        .unwrap()
+        .map(Result::unwrap);
+    let in_rows = contacts.find(|c| (c.site, c.direction) == (middle, Direction::Alpha));
+    assert_eq!(in_rows.map(|contact| contact.force), Some(one));
+}
+
+/// Nobody asked for a sweep, so that its refusal would be a riddle.
+#[test]
+fn where_both_would_be_too_large_the_tree_is_what_is_refused() {
+    let pile = Pile::under(Region::SITE, Stacking::hcp(10_000).unwrap()).unwrap();
+    let middle = Site {
+        i: 0,
+        j: 0,
+        k: 9_998,
+    };
+    let refused = pile.forces::<f64>().contact(middle, Direction::Alpha);
+    let Err(Error::TooLarge { quantity, .. }) = refused else {
+        panic!("{refused:?}");
+    };
+    assert_eq!(
+        quantity,
+        "the forces on spheres this far below so many changes of sign"
+    );
+}

@@ -1,0 +1,282 @@
+//! The exact engine on both sides of every switch of its width: its numbers are those of the trees, of the oracle and of
+//! brute force, and as wide as was proved, or a few bits less.
+
+use std::collections::BTreeSet;
+
+use cannonpile::Plan;
+use cannonpile::lattice::Site;
+use cannonpile::shape::Selection;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::pow;
+
+use cannonpile_testkit::cases::{Bounds, Case, Random, all_signs, repeated};
+use cannonpile_testkit::compare::agrees;
+use cannonpile_testkit::oracles::balance::{direction, ratio};
+use cannonpile_testkit::oracles::brute::{self, Passed};
+
+/// The bits of a limb below the top one.
+const LIMB: u32 = 55;
+
+fn plan(case: &Case) -> Plan {
+    case.pile.plan(Selection::Base).unwrap()
+}
+
+fn power(base: u32, exponent: u32) -> BigInt {
+    BigInt::from(base).pow(exponent)
+}
+
+/// So many limbs, each as great as one may be after a carry.
+fn full(limbs: u32) -> BigInt {
+    let limb = power(2, LIMB - 1) - 1;
+    (0..limbs).map(|p| &limb * power(2, p * LIMB)).sum()
+}
+
+/// The bits of the greatest number that a sweep meets, sums on the way through a half-turn included.
+fn needed(case: &Case) -> u64 {
+    let passed = brute::all(&case.balance);
+    let greatest = passed.iter().map(|passed| passed.greatest.bits());
+    greatest.max().unwrap_or(0)
+}
+
+/// Bits needed ≤ bits proved ≤ bits reserved, and no more than `loose` bits too many.
+fn is_wide_enough(case: &Case, loose: u64) {
+    let (plan, needed) = (plan(case), needed(case));
+    let Plan {
+        bits,
+        reserved,
+        planes,
+        ..
+    } = plan;
+    let said = format!("{needed} {bits} {reserved} {planes} {}", case.balance.signs);
+    assert!(needed <= bits && bits <= needed + loose, "{said}");
+    assert!(bits <= reserved, "{said}");
+    assert!(planes == 1 || bits + u64::from(LIMB) > reserved, "{said}");
+}
+
+#[test]
+fn the_bound_is_never_exceeded_and_at_most_7_bits_loose() {
+    for signs in (2..=9).flat_map(all_signs) {
+        let case = Case::under(&Bounds::SITE, &signs);
+        if !case.pile.shape().stacking().is_straight() {
+            is_wide_enough(&case, 7);
+        }
+    }
+    for period in ["+-", "++--", "+--", "+++---"] {
+        for steps in [20, 40, 60] {
+            is_wide_enough(&Case::under(&Bounds::SITE, &repeated(period, steps)), 7);
+        }
+    }
+    let mut random = Random(71);
+    for _ in 0..20 {
+        let signs = format!("+-{}", random.signs(10));
+        is_wide_enough(&Case::under(&random.bounds(5), &signs), 7);
+    }
+}
+
+#[test]
+fn the_bound_holds_for_one_load_and_is_at_most_5_bits_loose() {
+    for signs in ["+-", "+-+-", "++-", "+-+-+-+-+-"] {
+        for exponent in 0..130 {
+            let load = BigRational::from(power(2, exponent));
+            let case = Case::under(&Bounds::SITE, signs);
+            is_wide_enough(&case.clone().with_load((0, 0, 0), &load), 5);
+            is_wide_enough(&case.clone().with_load((1, 0, 1), &load.recip()), 7);
+            is_wide_enough(&case.weightless().with_load((1, 1, 0), &load), 5);
+        }
+    }
+}
+
+#[test]
+fn the_bound_holds_for_many_loads() {
+    let mut random = Random(72);
+    for _ in 0..100 {
+        let signs = format!("+-{}", random.signs(5));
+        let mut case = Case::under(&random.bounds(3), &signs);
+        // A load on the floor is counted, and never on a line.
+        let places: Vec<_> = case.balance.places().filter(|at| at.0 < 7).collect();
+        for _ in 0..10 {
+            case = case.with_load(places[random.below(places.len())], &random.rational());
+        }
+        // Ten loads on different spheres are summed as if they met: √10 too much, at worst.
+        is_wide_enough(&case, 10);
+    }
+}
+
+#[test]
+fn what_weighs_less_does_not_make_up_for_a_load() {
+    for signs in ["+-+-+-+-+-", "+-+++++++++++", "+-+-+++++++++++"] {
+        let mut case = Case::under(&Bounds::SITE, signs);
+        let below: Vec<_> = case.balance.places().skip(1).collect();
+        let load = ratio(i64::try_from(below.len()).unwrap(), 1);
+        for place in below {
+            case = case.with_weight(place, &ratio(0, 1));
+        }
+        is_wide_enough(&case.with_load((0, 0, 0), &load), 8);
+    }
+}
+
+/// Whether it is n/d, without lowest terms, which take longer than all else.
+fn is_quotient(x: &BigRational, n: &BigInt, d: &BigInt) -> bool {
+    x.numer() * d == n * x.denom()
+}
+
+/// The sweep of the whole pile beside brute force; the tree for one contact of many.
+fn is_brute_force(case: &Case, selection: Selection) {
+    let (passed, d) = (brute::all(&case.balance), brute::denominator(&case.balance));
+    let forces = case.pile.forces::<BigRational>();
+    let contacts = forces.contacts(selection).unwrap();
+    for (n, contact) in contacts.enumerate() {
+        let contact = contact.unwrap();
+        let Site { i, j, k } = contact.site;
+        let Passed {
+            forces: numerators,
+            below,
+            ..
+        } = &passed[usize::try_from(k).unwrap()];
+        let numerator = &numerators[&(j, i)][contact.direction.index()];
+        let over = &d * pow(BigInt::from(3), below.changes);
+        let force = &contact.force;
+        assert!(
+            is_quotient(force, numerator, &over),
+            "{} {force}",
+            contact.site
+        );
+        if n % 499 == 0 {
+            let one = forces.contact(contact.site, contact.direction);
+            assert_eq!(one, Ok(contact.force));
+        }
+    }
+    let front = &passed.last().expect("a step").below;
+    let weight = brute::numerator(&case.balance, &d);
+    let unit = pow(BigInt::from(3), front.changes);
+    let base = forces.base(Selection::Base).unwrap();
+    for force in base {
+        let force = force.unwrap();
+        let Site { i, j, k } = force.site;
+        let above: BigInt = front.received[&(j, i)].iter().sum();
+        let normal = above + weight((k, j, i)) * &unit * 3;
+        let is_brute = is_quotient(&force.normal, &normal, &(&d * &unit * 3));
+        assert!(is_brute, "{} {}", force.site, force.normal);
+    }
+}
+
+/// The least numbers of steps at which a periodic stacking needs one plane more.
+fn switches(period: &str, most: usize) -> Vec<usize> {
+    let planes = |steps: usize| plan(&bare(period, steps)).planes;
+    (6..most)
+        .filter(|steps| planes(steps - 1) < planes(*steps))
+        .collect()
+}
+
+/// For the plan alone: without the sites of the oracle.
+fn bare(period: &str, steps: usize) -> Case {
+    let mut case = Case::under(&Bounds::SITE, "");
+    let stacking = cannonpile_testkit::cases::stacking(&repeated(period, steps));
+    case.pile = cannonpile::Pile::under(Bounds::SITE.region(), stacking).unwrap();
+    case
+}
+
+#[test]
+fn high_stackings_on_both_sides_of_the_first_switches() {
+    let mut planes = BTreeSet::new();
+    for (period, most) in [("+-", 106), ("+--", 60)] {
+        for steps in switches(period, most) {
+            for steps in [steps - 1, steps, steps + 1] {
+                let case = Case::under(&Bounds::SITE, &repeated(period, steps));
+                planes.insert(plan(&case).planes);
+                let lowest = case.pile.layers() - 2;
+                let whole = steps < 40;
+                let selection = if whole {
+                    Selection::All
+                } else {
+                    Selection::Layer(lowest)
+                };
+                is_brute_force(&case, selection);
+            }
+        }
+    }
+    assert_eq!(planes.into_iter().collect::<Vec<_>>(), [1, 2, 3, 4]);
+}
+
+#[test]
+fn a_load_of_any_power_of_two() {
+    let mut planes = BTreeSet::new();
+    // From a limb's border on, and about 62 bits, where the first one ends.
+    let near = |e: &u32| {
+        [0..4, 7..20, LIMB - 1..LIMB]
+            .iter()
+            .any(|near| near.contains(&(e % LIMB)))
+    };
+    for exponent in (0..380).filter(near) {
+        let load = BigRational::from(power(2, exponent));
+        let case = Case::under(&Bounds::SITE, "+-+-");
+        for load in [&load - ratio(1, 1), load.clone(), load.recip()] {
+            let case = case.clone().with_load((1, 0, 0), &load);
+            planes.insert(plan(&case).planes);
+            agrees(&case).unwrap();
+        }
+    }
+    assert_eq!(
+        planes.into_iter().collect::<Vec<_>>(),
+        [1, 2, 3, 4, 5, 6, 7]
+    );
+}
+
+#[test]
+fn limbs_that_are_all_full_or_all_empty() {
+    // Over one denominator, limbs as great as they are after a carry, and of 0 and 1.
+    for (limbs, signs) in [
+        (1, "+-+-+-+-+-"),
+        (2, "-+-+-++-+-"),
+        (3, "+-+--+-+"),
+        (5, "+-+-+-+"),
+    ] {
+        let least = BigRational::from(power(2, limbs * LIMB)).recip();
+        let full = &least * BigRational::from(full(limbs));
+        let mut case = Case::under(&Bounds::triangle(2), signs);
+        for (n, place) in case.balance.clone().places().enumerate() {
+            let weight = match n % 3 {
+                0 => continue,
+                1 => full.clone(),
+                _ => least.clone(),
+            };
+            case = case.with_weight(place, &weight);
+        }
+        assert!(plan(&case).planes > 1);
+        agrees(&case).unwrap();
+    }
+}
+
+#[test]
+fn many_turns_between_carries() {
+    // A denominator of full limbs fills the lower limbs of every increment.
+    for limbs in [1, 2] {
+        let load = BigRational::new(1.into(), full(limbs));
+        let case = Case::under(&Bounds::SITE, &repeated("+-", 23));
+        let case = case.with_load((0, 0, 0), &load);
+        assert!(plan(&case).planes > 1);
+        is_brute_force(&case, Selection::All);
+    }
+}
+
+#[test]
+fn layer_by_layer_from_any_layer_on() {
+    let load = BigRational::from(power(2, 100));
+    let case = Case::under(&Bounds::SITE, "+-+-++--+-").with_load((3, 0, 0), &load);
+    let forces = case.balance.forces();
+    for (at, forces) in &forces.below {
+        for (m, force) in forces.iter().enumerate() {
+            let one = case.pile.forces::<BigRational>();
+            let one = one.contact(
+                cannonpile_testkit::oracles::balance::site(*at),
+                direction(m),
+            );
+            assert_eq!(one.as_ref(), Ok(force));
+        }
+    }
+    for k in 0..10 {
+        cannonpile_testkit::compare::contacts_in_rows(&case.pile, Selection::Layer(k), &forces)
+            .unwrap();
+    }
+}

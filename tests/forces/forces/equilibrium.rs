@@ -1,0 +1,77 @@
+//! Every sphere of every pile up to a size is in exact equilibrium, and the base carries the pile.
+
+use cannonpile::geometry::Vector;
+use cannonpile_testkit::answers::{Answers, Shape};
+use cannonpile_testkit::theorems::{Verdict, balance, base};
+use num_rational::BigRational;
+
+/// What holds of a pile of any shape.
+fn stands(shape: &Shape, layers: i128) -> Verdict {
+    let pile = Answers::of(shape, layers);
+    balance::every_sphere_is_balanced(&pile)?;
+    balance::neighbours_agree(&pile)?;
+    balance::forces_lie_along_contacts(&pile)?;
+    base::base_carries_the_weight(&pile)?;
+    base::base_has_the_moment_of_the_weights(&pile)?;
+    base::base_is_as_published(&pile)?;
+    let extremes = shape.pile(layers).base_extremes();
+    let greatest = extremes.map_err(|error| error.to_string())?.max_shear_ratio;
+    base::base_shear_is_at_most(&pile, &greatest.to_rational().unwrap_or_default())?;
+    if shape.pile(layers).is_regular() {
+        balance::resultants_are_central(&pile)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn equilateral_piles_up_to_40_layers() {
+    for layers in 1..=40 {
+        stands(&Shape::equilateral(), layers).unwrap();
+    }
+}
+
+#[test]
+fn isosceles_piles_up_to_12_layers() {
+    for shape in Shape::isosceles() {
+        for layers in 1..=12 {
+            stands(&shape, layers).unwrap();
+        }
+    }
+}
+
+#[test]
+fn discs_up_to_40_layers() {
+    for layers in 1..=40 {
+        stands(&Shape::Discs, layers).unwrap();
+    }
+}
+
+#[test]
+fn the_library_finds_nothing_unbalanced() {
+    let tall = [Shape::equilateral(), Shape::Discs].map(|shape| (shape, 40));
+    for (shape, layers) in tall
+        .into_iter()
+        .chain(Shape::isosceles().map(|shape| (shape, 12)))
+    {
+        let pile = shape.pile(layers);
+        let forces = pile.forces::<BigRational>();
+        for site in shape.sites(layers - 1) {
+            assert_eq!(
+                forces.unbalanced(site),
+                Ok(Vector::zero()),
+                "{shape:?} {site}"
+            );
+        }
+    }
+}
+
+#[test]
+fn only_equilateral_bases_press_evenly() {
+    for shape in Shape::isosceles() {
+        let pile = Answers::of(&shape, 12);
+        let mut normals = pile.floor.values().map(|force| &force.z);
+        let first = normals.next().unwrap();
+        let even = normals.all(|normal| normal == first);
+        assert_eq!(even, shape == Shape::equilateral(), "{shape:?}");
+    }
+}

@@ -1,0 +1,335 @@
+//! Forces filled into slices are those that are asked for one by one.
+
+use cannonpile::geometry::Spacing;
+use cannonpile::lattice::{Direction, Region, Site};
+use cannonpile::scalar::{FixedRational, NearestFloat};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::{Error, Packing, Pile};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+
+use cannonpile_testkit::answers::ratio;
+
+pub(super) fn packing_of(pile: &Pile) -> Packing<'_> {
+    let spacing = Spacing::new(ratio(6, 5)).expect("a spacing");
+    let packing = Packing::new(pile, &spacing).expect("room");
+    packing.with_mass(ratio(1, 7)).expect("a mass")
+}
+
+fn slices<V: Clone>(zero: &V, n: usize) -> [Vec<V>; 3] {
+    [(); 3].map(|()| vec![zero.clone(); n])
+}
+
+pub(super) fn piles() -> Vec<Pile> {
+    let region = |text: &str| text.parse::<Region>().expect("a region");
+    let signs = |text: &str| text.parse().expect("signs");
+    let load = |pile: Pile, site| pile.with_load(site, ratio(7, 3)).expect("a load");
+    let mut piles: Vec<Pile> = [
+        Pile::triangular(9),
+        Pile::isosceles(7, ratio(2, 5)),
+        Pile::triangular(1),
+        Pile::discs(5),
+        Ok(Pile::triangular(4).expect("a pile").weightless()),
+    ]
+    .map(|pile| pile.expect("a pile"))
+    .into();
+    piles.push(load(
+        Pile::triangular(6).expect("a pile"),
+        Site { i: 1, j: 1, k: 3 },
+    ));
+    // Under any top, up from any base, whichever way the layers lean.
+    for (top, signs_of) in [
+        ("hexagon:1", "----"),
+        ("hexagon:3,2", "+++"),
+        ("hexagon:4", "------"),
+        ("triangle:3", "+++++"),
+        ("triangle:3", "-----"),
+        ("region:-3..2,0..1,-2..3", "++++"),
+        ("region:0..9,0..0,0..9", "---"),
+        ("hexagon:2", "+-+--+"),
+    ] {
+        piles.push(Pile::under(region(top), signs(signs_of)).expect("a pile"));
+    }
+    let swept = Pile::under(Region::SITE, signs("++-+-")).expect("a pile");
+    piles.push(load(swept, Site { i: 0, j: 0, k: 2 }));
+    for (base, signs_of) in [
+        ("hexagon:5,4", "+++"),
+        ("triangle:6", "+++++"),
+        ("hexagon:5", "+-+"),
+    ] {
+        piles.push(Pile::on(region(base), signs(signs_of)).expect("a pile"));
+    }
+    piles
+}
+
+/// The contact forces of every sphere, by direction; 0 along γ for discs.
+fn one_by_one<V>(
+    pile: &Pile,
+    force: impl Fn(Site, Direction) -> V,
+    none: impl Fn() -> V,
+) -> Vec<[V; 3]> {
+    let directions = pile.dimension().directions();
+    let sites = pile.rows(Selection::All).expect("rows").off_the_floor();
+    let forces = sites.flatten().map(|site| {
+        Direction::ALL.map(|direction| {
+            if directions.contains(&direction) {
+                force(site, direction)
+            } else {
+                none()
+            }
+        })
+    });
+    forces.collect()
+}
+
+fn transposed<V: Clone>([a, b, c]: &[Vec<V>; 3]) -> Vec<[V; 3]> {
+    let forces = a.iter().zip(b).zip(c);
+    forces
+        .map(|((a, b), c)| [a.clone(), b.clone(), c.clone()])
+        .collect()
+}
+
+fn nearest_are_those_of_the_packing<F: NearestFloat + PartialEq + core::fmt::Debug>(zero: F) {
+    for pile in piles() {
+        let packing = packing_of(&pile);
+        let asked = one_by_one(
+            &pile,
+            |site, direction| {
+                let exact = packing.contact(site, direction).expect("a contact");
+                exact.nearest::<F>().expect("a float")
+            },
+            || zero,
+        );
+        let layers = packing.layers::<F>(Selection::All).expect("layers");
+        let mut whole = slices(&zero, layers.spheres().expect("few"));
+        layers
+            .fill(whole.each_mut().map(Vec::as_mut_slice))
+            .expect("lengths");
+        assert_eq!(transposed(&whole), asked, "{pile:?}");
+
+        let mut layers = packing.layers::<F>(Selection::All).expect("layers");
+        let mut by_layer = Vec::new();
+        while let Some(layer) = layers.next_layer().expect("room") {
+            let mut forces = slices(&zero, layer.spheres());
+            let filled = forces.each_mut().map(Vec::as_mut_slice);
+            if !layer.is_floor() {
+                layer.fill(filled).expect("lengths");
+                by_layer.extend(transposed(&forces));
+                continue;
+            }
+            layer.fill_base(filled).expect("lengths");
+            let base = packing.base(Selection::Base).expect("a base");
+            for (force, [normal, x, y]) in base.zip(transposed(&forces)) {
+                let force = force.expect("a force");
+                let exact = [force.normal, force.shear_x, force.shear_y];
+                let nearest = exact.map(|exact| exact.nearest::<F>().expect("a float"));
+                assert_eq!(nearest, [normal, x, y], "{pile:?}");
+            }
+        }
+        assert_eq!(by_layer, asked, "{pile:?}");
+    }
+}
+
+#[test]
+fn nearest_doubles_are_those_of_the_packing() {
+    nearest_are_those_of_the_packing(0.0_f64);
+}
+
+#[test]
+fn nearest_singles_are_those_of_the_packing() {
+    nearest_are_those_of_the_packing(0.0_f32);
+}
+
+#[test]
+fn numerators_are_exact() {
+    let mut met = 0;
+    for pile in piles() {
+        let forces = pile.forces::<BigRational>();
+        let contact = |site, direction| forces.contact(site, direction).expect("a contact");
+        let asked = one_by_one(&pile, contact, || ratio(0, 1));
+        let over = |numerators: &[Vec<i64>; 3], denominator: &BigInt| -> Vec<[BigRational; 3]> {
+            let of = |n: i64| BigRational::new(n.into(), denominator.clone());
+            let forces = transposed(numerators).into_iter();
+            forces.map(|forces| forces.map(of)).collect()
+        };
+        let layers = || {
+            forces
+                .layers(Selection::All)
+                .expect("layers")
+                .numerators::<i64>()
+        };
+        let whole = layers().expect("integers");
+        let mut integers = slices(&0, whole.spheres().expect("few"));
+        let filled = whole.fill(integers.each_mut().map(Vec::as_mut_slice));
+        assert_eq!(over(&integers, &filled.expect("lengths")), asked);
+
+        let mut layers = layers().expect("integers");
+        let mut by_layer = Vec::new();
+        while let Some(layer) = layers.next_layer().expect("room") {
+            if layer.is_floor() {
+                break;
+            }
+            let mut integers = slices(&0, layer.spheres());
+            layer
+                .fill(integers.each_mut().map(Vec::as_mut_slice))
+                .expect("lengths");
+            by_layer.extend(over(&integers, &layer.denominator()));
+        }
+        assert_eq!(by_layer, asked);
+        met += asked.len();
+    }
+    assert!(met > 600, "{met}");
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let layers = |pile: &Pile| {
+        let layers = pile.forces::<BigRational>().layers(Selection::All);
+        layers.expect("layers").numerators::<i8>().err()
+    };
+    let pile = |layers| Pile::triangular(layers).expect("a pile");
+    assert_eq!(layers(&pile(128)), None);
+    assert!(matches!(layers(&pile(129)), Some(Error::Overflow { .. })));
+
+    let pile = Pile::triangular(5).expect("a pile");
+    let forces = pile.forces::<f64>();
+    let mut layers = forces.layers(Selection::Layer(1)).expect("a layer");
+    let layer = layers.next_layer().expect("room").expect("a layer");
+    let [mut a, mut b, mut c] = [[0.0; 3]; 3];
+    assert_eq!(layer.fill([&mut a, &mut b, &mut c]), Ok(()));
+    let wrong = layer.fill([&mut a, &mut b, &mut [0.0; 2]]);
+    assert_eq!(wrong, Err(Error::length(3, 2)));
+    let whole = forces.layers(Selection::All).expect("layers");
+    let needed = whole.spheres().expect("few");
+    let wrong = whole.fill([&mut a, &mut b, &mut c]);
+    assert_eq!(wrong, Err(Error::length(needed, 3)));
+    let floor = forces.layers(Selection::Base).expect("a base").spheres();
+    assert_eq!(floor, Ok(0));
+}
+
+/// Small forces, whose denominators are not: where fractions of 32 bits hold no power of 3 beyond the twentieth, layers are
+/// refused, and filled down to there.
+#[test]
+fn small_forces_that_are_no_fractions_of_words_are_refused() {
+    type Fraction = FixedRational<i32>;
+    let pile = Pile::under(Region::SITE, Stacking::hcp(24).expect("layers")).expect("a pile");
+    let (fractions, exact) = (pile.forces::<Fraction>(), pile.forces::<BigRational>());
+    let mut layers = fractions.layers(Selection::All).expect("layers");
+    let (mut filled, mut refused) = (0, 0);
+    while let Some(layer) = layers.next_layer().expect("room") {
+        if layer.is_floor() {
+            break;
+        }
+        let mut forces = slices(&Fraction::FAULT, layer.spheres());
+        match layer.fill(forces.each_mut().map(Vec::as_mut_slice)) {
+            Ok(()) => {
+                let contacts = exact
+                    .contacts(Selection::Layer(layer.k()))
+                    .expect("a layer");
+                let contacts = contacts.map(|contact| contact.expect("a contact").force);
+                let forces = transposed(&forces).into_iter().flatten();
+                let forces = forces.map(|force| force.to_rational().expect("no fault"));
+                assert!(contacts.eq(forces), "{}", layer.k());
+                filled += 1;
+            }
+            Err(error) => {
+                assert!(matches!(error, Error::Overflow { .. }), "{error:?}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(filled > 9 && refused > 2, "{filled} {refused}");
+}
+
+#[test]
+fn a_layer_fills_what_its_spheres_hand_on_to_the_floor() {
+    for pile in piles() {
+        let forces = pile.forces::<BigRational>();
+        let mut layers = forces.layers(Selection::Base).expect("a base");
+        let layer = layers.next_layer().expect("room").expect("a floor");
+        let zero = ratio(0, 1);
+        let mut filled = slices(&zero, layer.spheres());
+        let done = layer.fill_base(filled.each_mut().map(Vec::as_mut_slice));
+        assert_eq!(done, Ok(()));
+        let base = forces.base(Selection::Base).expect("a base");
+        let asked: Vec<_> = base
+            .map(|force| force.expect("a force"))
+            .map(|force| [force.normal, force.shear_x, force.shear_y])
+            .collect();
+        assert_eq!(transposed(&filled), asked, "{pile:?}");
+    }
+}
+
+#[test]
+fn layers_refuse_what_is_asked_of_others() {
+    let pile = Pile::triangular(5).expect("a pile");
+    let (site, floor) = (Site { i: 1, j: 0, k: 2 }, 4);
+    let forces = pile.forces::<BigRational>();
+    let refused = Err(Error::not_on_floor(site, floor));
+    let mut layers = forces.layers(Selection::Layer(2)).expect("a layer");
+    let layer = layers.next_layer().expect("room").expect("a layer");
+    assert_eq!(layer.on_floor(site).map(drop), refused);
+    let bottom = Site { i: 1, j: 0, k: 4 };
+    assert!(matches!(
+        layer.to_below(bottom),
+        Err(Error::OtherLayer {
+            layer: 4,
+            at: 2,
+            ..
+        })
+    ));
+
+    let first = Site { i: 0, j: 0, k: 2 };
+    let refused = Err(Error::not_on_floor(first, floor));
+    let layers = forces.layers(Selection::Layer(2)).expect("a layer");
+    let mut layers = layers.nearest::<f64>().expect("floats");
+    let layer = layers.next_layer().expect("room").expect("a layer");
+    let [mut a, mut b, mut c] = [[0.0; 6]; 3];
+    assert_eq!(layer.fill_base([&mut a, &mut b, &mut c]), refused);
+}
+
+/// Also where the next layer would be beyond all numbers.
+#[test]
+fn layers_that_no_pile_has_are_refused() {
+    let pile = Pile::triangular(3).expect("a pile");
+    let packing = packing_of(&pile);
+    let (floats, exact) = (pile.forces::<f64>(), pile.forces::<BigRational>());
+    for k in [-1, 3, i128::MIN, i128::MAX] {
+        let part = Selection::Layer(k);
+        for refused in [
+            floats.layers(part).err(),
+            packing.layers::<f64>(part).err(),
+            exact.sum_of_contacts(part).err(),
+        ] {
+            assert!(
+                matches!(refused, Some(Error::LayerOutside { .. })),
+                "{k}: {refused:?}"
+            );
+        }
+        let one = Selection::One(Site { i: 0, j: 0, k });
+        let refused = floats.layers(one).err();
+        assert!(matches!(refused, Some(Error::SiteOutside { .. })), "{k}");
+    }
+}
+
+/// What stands beside a table or a sweep says where it is.
+#[test]
+fn layers_are_shown_by_where_they_are() {
+    let pile = Pile::triangular(5).expect("a pile");
+    let forces = pile.forces::<BigRational>();
+    let layers = || forces.layers(Selection::All).expect("layers");
+    let mut of_all = layers();
+    assert_eq!(format!("{of_all:?}"), "Layers { ahead: 0..5, .. }");
+    let layer = of_all.next_layer().expect("room");
+    assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
+    assert_eq!(format!("{of_all:?}"), "Layers { ahead: 1..5, .. }");
+    let mut nearest = layers().nearest::<f32>().expect("floats");
+    assert_eq!(format!("{nearest:?}"), "Layers { ahead: 0..5, .. }");
+    let layer = nearest.next_layer().expect("room");
+    assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
+    let mut integers = layers().numerators::<i64>().expect("integers");
+    assert_eq!(format!("{integers:?}"), "Layers { ahead: 0..5, .. }");
+    let layer = integers.next_layer().expect("room");
+    assert_eq!(format!("{layer:?}"), "Some(Layer { k: 0, .. })");
+}

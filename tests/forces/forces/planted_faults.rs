@@ -1,0 +1,251 @@
+//! Every theorem about forces, and their oracle, refuses something: one planted fault each, at least.
+
+use cannonpile::lattice::{Direction, Site};
+use cannonpile_testkit::answers::{Answers, Contact, Shape, ratio};
+use cannonpile_testkit::theorems::symmetry::{MIRRORED, Symmetry, TURNS, invariant};
+use cannonpile_testkit::theorems::{Verdict, balance, base};
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+const LAYERS: i128 = 5;
+
+/// A sphere in the middle of the pile, and a corner of its base.
+const INNER: Site = Site { i: 1, j: 1, k: 3 };
+const CORNER: Site = Site { i: 4, j: 0, k: 4 };
+
+/// The theorem holds of the paper's pile, and no longer of one with the fault.
+fn catches(theorem: impl Fn(&Answers) -> Verdict, fault: impl FnOnce(&mut Answers)) {
+    let mut pile = Answers::of(&Shape::equilateral(), LAYERS);
+    assert_eq!(theorem(&pile), Ok(()));
+    fault(&mut pile);
+    assert!(theorem(&pile).is_err(), "the fault passes");
+}
+
+fn contact(pile: &mut Answers, site: Site, direction: Direction) -> &mut Contact {
+    pile.contacts.get_mut(&(site, direction)).unwrap()
+}
+
+/// One contact carries an increment too much, as a number and as a vector.
+fn one_increment_more(pile: &mut Answers) {
+    let contact = contact(pile, INNER, Direction::Beta);
+    let more = (&contact.force + BigRational::one()) / &contact.force;
+    contact.force = &contact.force * &more;
+    contact.vector = contact.vector.clone().scaled(&more);
+}
+
+/// Two supports of a sphere are taken one for the other.
+fn neighbours_transposed(pile: &mut Answers) {
+    let site = Site { i: 2, j: 0, k: 2 };
+    let beta = contact(pile, site, Direction::Beta).clone();
+    let gamma = core::mem::replace(contact(pile, site, Direction::Gamma), beta);
+    *contact(pile, site, Direction::Beta) = gamma;
+}
+
+/// The names α and β are exchanged everywhere, but not what they name.
+fn alpha_for_beta(pile: &mut Answers) {
+    for site in pile.shape.sites(LAYERS - 1) {
+        let alpha = contact(pile, site, Direction::Alpha).force.clone();
+        let beta = contact(pile, site, Direction::Beta);
+        let beta = core::mem::replace(&mut beta.force, alpha);
+        contact(pile, site, Direction::Alpha).force = beta;
+    }
+}
+
+fn weightless(pile: &mut Answers) {
+    pile.weight = BigRational::zero();
+}
+
+fn base_without_its_own_weight(pile: &mut Answers) {
+    for force in pile.floor.values_mut() {
+        force.z -= BigRational::one();
+    }
+}
+
+/// The floor on the pile instead of the pile on the floor.
+fn shear_reversed(pile: &mut Answers) {
+    for force in pile.floor.values_mut() {
+        force.x = -&force.x;
+        force.y = -&force.y;
+    }
+}
+
+fn one_shear_reversed(pile: &mut Answers) {
+    let force = pile.floor.get_mut(&CORNER).unwrap();
+    force.x = -&force.x;
+}
+
+/// A swirl: it adds up to nothing, but turns.
+fn shear_turned(pile: &mut Answers) {
+    for force in pile.floor.values_mut() {
+        let [x, y] = TURNS[1].map(|[x, y]| &force.x * ratio(x, 2) + &force.y * ratio(y, 2));
+        (force.x, force.y) = (x, y);
+    }
+}
+
+/// The weight in all is right, but some of it went from one corner to another.
+fn load_shifted(pile: &mut Answers) {
+    pile.floor.get_mut(&CORNER).unwrap().z += BigRational::one();
+    let other = Site { i: 0, j: 4, k: 4 };
+    pile.floor.get_mut(&other).unwrap().z -= BigRational::one();
+}
+
+fn corner_moved(pile: &mut Answers) {
+    pile.spheres.get_mut(&CORNER).unwrap().position.x += ratio(1, 1000);
+}
+
+fn received_from_nowhere(pile: &mut Answers) {
+    pile.spheres.get_mut(&Site::APEX).unwrap().from_above[2] = BigRational::one();
+}
+
+fn resultant_off(pile: &mut Answers) {
+    pile.spheres.get_mut(&INNER).unwrap().resultant_above.z += ratio(1, 1000);
+}
+
+#[test]
+fn balance_of_every_sphere() {
+    for fault in [
+        one_increment_more,
+        weightless,
+        neighbours_transposed,
+        base_without_its_own_weight,
+        shear_reversed,
+        one_shear_reversed,
+        shear_turned,
+        load_shifted,
+    ] {
+        catches(balance::every_sphere_is_balanced, fault);
+    }
+}
+
+#[test]
+fn action_and_reaction() {
+    for fault in [
+        one_increment_more,
+        neighbours_transposed,
+        alpha_for_beta,
+        received_from_nowhere,
+        resultant_off,
+    ] {
+        catches(balance::neighbours_agree, fault);
+    }
+}
+
+#[test]
+fn direction_of_forces() {
+    for fault in [neighbours_transposed, alpha_for_beta, corner_moved] {
+        catches(balance::forces_lie_along_contacts, fault);
+    }
+    catches(balance::forces_lie_along_contacts, |pile| {
+        // A pull, along the right line.
+        let contact = contact(pile, INNER, Direction::Alpha);
+        contact.force = -&contact.force;
+        contact.vector = -contact.vector.clone();
+    });
+}
+
+#[test]
+fn central_resultants() {
+    for fault in [corner_moved, resultant_off] {
+        catches(balance::resultants_are_central, fault);
+    }
+    let isosceles = Answers::of(&Shape::Spheres(ratio(2, 5)), LAYERS);
+    assert!(balance::resultants_are_central(&isosceles).is_err());
+}
+
+#[test]
+fn weight_on_the_base() {
+    for fault in [base_without_its_own_weight, one_shear_reversed] {
+        catches(base::base_carries_the_weight, fault);
+    }
+}
+
+#[test]
+fn moment_of_the_base() {
+    for fault in [load_shifted, shear_turned, corner_moved] {
+        catches(base::base_has_the_moment_of_the_weights, fault);
+    }
+}
+
+#[test]
+fn published_base() {
+    for fault in [
+        base_without_its_own_weight,
+        load_shifted,
+        shear_reversed,
+        shear_turned,
+    ] {
+        catches(base::base_is_as_published, fault);
+    }
+}
+
+#[test]
+fn greatest_shear() {
+    let at_most = |pile: &Answers| base::base_shear_is_at_most(pile, &ratio(4, 7));
+    catches(at_most, |pile| {
+        // A signed comparison would let this pass.
+        let force = pile.floor.get_mut(&CORNER).unwrap();
+        force.x = &force.x * ratio(-2, 1);
+    });
+    let pile = Answers::of(&Shape::equilateral(), LAYERS);
+    assert!(base::base_shear_is_at_most(&pile, &ratio(5, 7)).is_err());
+}
+
+#[test]
+fn symmetries() {
+    for (symmetry, turn) in Symmetry::ALL.into_iter().zip(&TURNS).skip(1) {
+        let theorem = |pile: &Answers| invariant(pile, symmetry, turn);
+        for fault in [
+            neighbours_transposed,
+            one_shear_reversed,
+            corner_moved,
+            load_shifted,
+        ] {
+            catches(theorem, fault);
+        }
+        catches(theorem, |pile| {
+            pile.contacts
+                .remove(&(Site { i: 0, j: 1, k: 3 }, Direction::Alpha));
+        });
+    }
+    // A right pile, with the wrong way round.
+    let pile = Answers::of(&Shape::equilateral(), LAYERS);
+    assert!(invariant(&pile, Symmetry::ROTATION, &TURNS[2]).is_err());
+    assert!(invariant(&pile, Symmetry::ROTATION, &MIRRORED).is_err());
+}
+
+#[test]
+fn the_oracle_of_forces() {
+    let solved = cannonpile_testkit::oracles::elimination::solve(&Shape::equilateral(), LAYERS);
+    let agrees = |pile: &Answers| cannonpile_testkit::theorems::agree(pile, &solved);
+    for fault in [
+        one_increment_more,
+        neighbours_transposed,
+        alpha_for_beta,
+        weightless,
+        base_without_its_own_weight,
+        shear_reversed,
+        one_shear_reversed,
+        shear_turned,
+        load_shifted,
+        corner_moved,
+        received_from_nowhere,
+        resultant_off,
+    ] {
+        catches(agrees, fault);
+    }
+    catches(agrees, |pile| {
+        pile.contacts.remove(&(INNER, Direction::Gamma));
+    });
+    catches(agrees, |pile| {
+        let there = pile.floor[&CORNER].clone();
+        pile.floor.insert(INNER, there);
+    });
+    // It is no constant either.
+    for other in [Shape::Spheres(ratio(501, 1000)), Shape::Discs] {
+        assert!(
+            cannonpile_testkit::theorems::agree(&Answers::of(&other, LAYERS), &solved).is_err()
+        );
+    }
+    let taller = Answers::of(&Shape::equilateral(), LAYERS + 1);
+    assert!(cannonpile_testkit::theorems::agree(&taller, &solved).is_err());
+}

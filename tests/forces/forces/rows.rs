@@ -1,0 +1,410 @@
+//! Rows of nearest floats, in any pieces and by any method, and sums, are those of what is asked for one by one.
+
+use std::ops::Range;
+
+use cannonpile::lattice::{Direction, Region, Row, Site};
+use cannonpile::scalar::{NearestFloat, Surd};
+use cannonpile::shape::Selection;
+use cannonpile::{Error, FloorForce, Method, Packing, Pile};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::layers::{packing_of, piles};
+use cannonpile_testkit::answers::ratio;
+
+/// Rows in pieces: some spheres are left out.
+fn pieces(pile: &Pile, size: i128) -> impl Iterator<Item = Row> {
+    let rows = pile.rows(Selection::All).expect("rows");
+    let pieces: Vec<Row> = rows.flat_map(|row| row.pieces(size)).collect();
+    pieces
+        .into_iter()
+        .enumerate()
+        .filter(|(n, _)| n % 5 != 3)
+        .map(|(_, row)| row)
+}
+
+fn columns<F: NearestFloat + Default>(row: &Row) -> [Vec<F>; 3] {
+    let spheres = row.i.clone().count();
+    [(); 3].map(|()| vec![F::default(); spheres])
+}
+
+fn nearest<F: NearestFloat>(exact: &Surd) -> F {
+    exact.nearest().expect("a float")
+}
+
+fn rows_are_the_nearest<F>(packing: &Packing<'_>, size: i128)
+where
+    F: NearestFloat + Default + PartialEq + core::fmt::Debug,
+{
+    let pile = packing.pile();
+    let floor = pile.layers() - 1;
+    let mut layers = packing.layers::<F>(Selection::All).expect("layers");
+    let places = packing.places::<F>();
+    for row in pieces(pile, size) {
+        let mut centres = columns::<F>(&row);
+        places
+            .fill_row(&row, centres.each_mut().map(Vec::as_mut_slice))
+            .expect("places");
+        for (n, site) in row.clone().into_iter().enumerate() {
+            let exact = packing.position(site).expect("a position");
+            assert_eq!(
+                centres.each_ref().map(|x| x[n]),
+                exact.each_ref().map(nearest),
+                "{site}"
+            );
+        }
+        let mut forces = columns::<F>(&row);
+        if row.k == floor {
+            let slices = forces.each_mut().map(Vec::as_mut_slice);
+            layers.fill_row_of_base(&row, slices).expect("a base");
+            for (n, site) in row.clone().into_iter().enumerate() {
+                let FloorForce {
+                    normal,
+                    shear_x,
+                    shear_y,
+                    ..
+                } = packing.on_floor(site).expect("a force");
+                let exact = [normal, shear_x, shear_y];
+                assert_eq!(
+                    forces.each_ref().map(|x| x[n]),
+                    exact.each_ref().map(nearest)
+                );
+            }
+            continue;
+        }
+        // Whatever is asked for first.
+        let mut vectors = [(); 3].map(|()| columns::<F>(&row));
+        let slices = vectors
+            .each_mut()
+            .map(|of| of.each_mut().map(Vec::as_mut_slice));
+        layers.fill_row_of_vectors(&row, slices).expect("vectors");
+        layers
+            .fill_row(&row, forces.each_mut().map(Vec::as_mut_slice))
+            .expect("forces");
+        for direction in pile.dimension().directions() {
+            let mut points = columns::<F>(&row);
+            let slices = points.each_mut().map(Vec::as_mut_slice);
+            places
+                .fill_row_of_contacts(&row, *direction, slices)
+                .expect("points");
+            for (n, site) in row.clone().into_iter().enumerate() {
+                let line = direction.index();
+                let exact = packing.contact(site, *direction).expect("a contact");
+                assert_eq!(forces[line][n], nearest(&exact), "{site} {direction}");
+                let exact = packing.contact_vector(site, *direction).expect("a contact");
+                let vector = vectors.each_ref().map(|component| component[line][n]);
+                assert_eq!(vector, exact.each_ref().map(nearest), "{site} {direction}");
+                let exact = packing.contact_point(site, *direction).expect("a contact");
+                let point = points.each_ref().map(|x| x[n]);
+                assert_eq!(point, exact.each_ref().map(nearest), "{site} {direction}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rows_are_the_nearest_floats() {
+    for (n, pile) in (1..).zip(piles()) {
+        let packing = packing_of(&pile);
+        rows_are_the_nearest::<f64>(&packing, n % 4 + 1);
+        rows_are_the_nearest::<f32>(&packing, 1024);
+    }
+}
+
+#[test]
+fn rows_are_the_nearest_floats_by_any_method() {
+    let mut met = 0;
+    for pile in piles() {
+        for method in [Method::Closed, Method::Tree, Method::Sweep] {
+            if let Ok(packing) = packing_of(&pile).by(method) {
+                rows_are_the_nearest::<f64>(&packing, 3);
+                met += 1;
+            }
+        }
+    }
+    assert!(met > 40, "{met}");
+}
+
+#[test]
+fn what_no_row_can_be_is_refused() {
+    let pile = Pile::triangular(5).expect("a pile");
+    let packing = packing_of(&pile);
+    let mut layers = packing.layers::<f64>(Selection::All).expect("layers");
+    let mut asked = |k, j, i, n: usize| {
+        let mut columns = [(); 3].map(|()| vec![0.0; n]);
+        layers.fill_row(&Row { k, j, i }, columns.each_mut().map(Vec::as_mut_slice))
+    };
+    assert_eq!(asked(2, 0, 0..3, 3), Ok(()));
+    assert_eq!(asked(2, 1, 0..2, 2), Ok(()));
+    assert!(matches!(
+        asked(1, 0, 0..2, 2),
+        Err(Error::OtherLayer {
+            layer: 1,
+            at: 2,
+            ..
+        })
+    ));
+    assert!(matches!(
+        asked(2, 0, 0..3, 2),
+        Err(Error::Length {
+            needed: 3,
+            given: 2,
+            ..
+        })
+    ));
+    assert!(matches!(
+        asked(2, 0, 0..4, 4),
+        Err(Error::SiteOutside { .. })
+    ));
+    assert!(matches!(
+        asked(3, -1, 0..1, 1),
+        Err(Error::SiteOutside { .. })
+    ));
+    assert!(matches!(asked(4, 0, 0..1, 1), Err(Error::OnFloor { .. })));
+    assert_eq!(asked(2, 0, 3..3, 0), Ok(()));
+    let reversed = Range { start: 3, end: 1 };
+    assert_eq!(asked(2, 0, reversed, 0), Ok(()));
+    let endless = Row {
+        k: 2,
+        j: 0,
+        i: i128::MIN..i128::MAX,
+    };
+    assert!(matches!(
+        asked(2, 0, endless.i.clone(), 1),
+        Err(Error::TooLarge { .. })
+    ));
+    let mut place = [[0.0]; 3];
+    let slices = place.each_mut().map(<[f64; 1]>::as_mut_slice);
+    let refused = packing.places().fill_row(&endless, slices);
+    assert_eq!(
+        refused.map_err(|error| error.to_string()),
+        Err(format!(
+            "a row would take {} numbers, more than {}: ask for pieces of it",
+            u128::MAX,
+            usize::MAX
+        ))
+    );
+    let mut base = [[0.0]; 3];
+    let slices = base.each_mut().map(<[f64; 1]>::as_mut_slice);
+    let above = layers.fill_row_of_base(
+        &Row {
+            k: 3,
+            j: 0,
+            i: 0..1,
+        },
+        slices,
+    );
+    assert!(matches!(above, Err(Error::NotOnFloor { .. })));
+}
+
+/// With weight of their own these spheres would carry 5/3 of a unit of which a float holds 8/5.
+#[test]
+fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
+    let stacking = || "+-".parse().expect("signs");
+    let light = |sites: Vec<Site>| {
+        let pile = Pile::under(Region::SITE, stacking()).expect("a pile");
+        sites.into_iter().fold(pile, |pile, site| {
+            pile.with_weight(site, BigRational::zero())
+                .expect("a weight")
+        })
+    };
+    let ordinary = light(Vec::new());
+    let heaviest: Vec<Site> = ordinary
+        .forces::<BigRational>()
+        .base(Selection::Base)
+        .expect("a base")
+        .map(|force| force.expect("a force"))
+        .filter(|force| force.normal == ratio(5, 3))
+        .map(|force| force.site)
+        .collect();
+    assert!((1..7).contains(&heaviest.len()), "{heaviest:?}");
+    let second: Vec<Site> = ordinary
+        .rows(Selection::Layer(1))
+        .expect("rows")
+        .flatten()
+        .collect();
+    let greatest = BigRational::from_float(f64::MAX).expect("a number") * ratio(5, 8);
+    for (part, sites) in [(Selection::Base, heaviest), (Selection::Layer(1), second)] {
+        let on_floor = part == Selection::Base;
+        for (pile, fits) in [(&light(sites), true), (&ordinary, false)] {
+            let packing = packing_of(pile);
+            let unit = if on_floor {
+                Surd::from(packing.sphere_weight())
+            } else {
+                packing.unit_force()
+            };
+            let unit = BigRational::from_float(nearest::<f64>(&unit)).expect("a number");
+            let mass = packing.mass() * &greatest / unit;
+            let packing = packing.with_mass(mass).expect("a mass");
+            let packing = packing.by(Method::Sweep).expect("a sweep");
+            let mut layers = packing.layers::<f64>(part).expect("layers");
+            let mut met = 0;
+            let mut refused = false;
+            for row in pile.rows(part).expect("rows") {
+                let mut floats = columns::<f64>(&row);
+                let slices = floats.each_mut().map(Vec::as_mut_slice);
+                let filled = if on_floor {
+                    layers.fill_row_of_base(&row, slices)
+                } else {
+                    layers.fill_row(&row, slices)
+                };
+                if let Err(Error::Overflow { .. }) = filled {
+                    refused = true;
+                    continue;
+                }
+                assert_eq!(filled, Ok(()));
+                for (n, site) in row.into_iter().enumerate() {
+                    let exact = if on_floor {
+                        let force = packing.on_floor(site).expect("a force");
+                        [force.normal, force.shear_x, force.shear_y]
+                    } else {
+                        Direction::ALL.map(|m| packing.contact(site, m).expect("a contact"))
+                    };
+                    let floats = floats.each_ref().map(|x| x[n].to_bits());
+                    let exact = exact.each_ref().map(nearest::<f64>);
+                    assert_eq!(floats, exact.map(f64::to_bits), "{site}");
+                    met += 1;
+                }
+            }
+            assert_eq!(refused, !fits, "{part:?} {met}");
+        }
+    }
+}
+
+/// No layer is said to be filled where no force of it has a float.
+#[test]
+fn layers_without_a_float_are_refused() {
+    let pile = Pile::under(Region::SITE, "+-+-".parse().expect("signs")).expect("a pile");
+    let packing = packing_of(&pile);
+    let heavy = BigRational::from_float(1e60).expect("a number");
+    let packing = packing.with_mass(heavy).expect("a mass");
+    let packing = packing.by(Method::Sweep).expect("a sweep");
+    let mut layers = packing.layers::<f32>(Selection::All).expect("layers");
+    let mut refused = 0;
+    while let Some(layer) = layers.next_layer().expect("room") {
+        let mut floats = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+        let slices = floats.each_mut().map(Vec::as_mut_slice);
+        let filled = if layer.is_floor() {
+            layer.fill_base(slices)
+        } else {
+            layer.fill(slices)
+        };
+        assert!(matches!(filled, Err(Error::Overflow { .. })), "{filled:?}");
+        refused += 1;
+    }
+    assert_eq!(refused, 5);
+}
+
+#[test]
+fn sums_are_those_of_all_rows() {
+    let on_floor = Site { i: 0, j: 0, k: 5 };
+    let special = Pile::triangular(6).expect("a pile");
+    let special = special.with_load(on_floor, ratio(7, 3)).expect("a load");
+    let special = special
+        .with_weight(on_floor, ratio(5, 2))
+        .expect("a weight");
+    for pile in piles().into_iter().chain([special]) {
+        let forces = pile.forces::<BigRational>();
+        let one = pile.shape().sites().last().expect("a sphere");
+        let layers = (0..pile.layers()).map(Selection::Layer);
+        let parts = [
+            Selection::All,
+            Selection::Base,
+            Selection::One(Site::APEX),
+            Selection::One(one),
+        ];
+        for part in parts.into_iter().chain(layers) {
+            let Ok(contacts) = forces.contacts(part) else {
+                // The apex of a pile grown from its base may be elsewhere.
+                assert!(forces.sum_of_contacts(part).is_err());
+                continue;
+            };
+            let sum = contacts
+                .map(|contact| contact.expect("a force").force)
+                .sum();
+            assert_eq!(forces.sum_of_contacts(part), Ok(sum), "{pile:?} {part:?}");
+            let Ok(base) = forces.base(part) else {
+                assert!(forces.sum_on_floor(part).is_err());
+                continue;
+            };
+            let mut sums = [(); 3].map(|()| BigRational::zero());
+            for force in base {
+                let force = force.expect("a force");
+                for (sum, x) in sums
+                    .iter_mut()
+                    .zip([force.normal, force.shear_x, force.shear_y])
+                {
+                    *sum += x;
+                }
+            }
+            assert_eq!(forces.sum_on_floor(part), Ok(sums), "{pile:?} {part:?}");
+        }
+    }
+}
+
+#[test]
+fn sums_of_huge_piles() {
+    let pile = Pile::triangular(10_i128.pow(36)).expect("a pile");
+    let forces = pile.forces::<BigRational>();
+    let refused = forces.sum_of_contacts(Selection::All);
+    assert!(
+        matches!(refused, Err(Error::TooLarge { .. })),
+        "{refused:?}"
+    );
+    // All that is above.
+    let layer = forces
+        .sum_of_contacts(Selection::Layer(10_i128.pow(30)))
+        .expect("a sum");
+    let spheres = pile.shape().before(Site {
+        i: 0,
+        j: 0,
+        k: 10_i128.pow(30) + 1,
+    });
+    assert_eq!(
+        layer,
+        BigRational::from_integer((spheres.expect("a sphere") * 3_u32).into())
+    );
+    let [normal, x, y] = forces.sum_on_floor(Selection::Base).expect("sums");
+    assert_eq!(
+        (normal, x, y),
+        (pile.weight(), BigRational::zero(), BigRational::zero())
+    );
+}
+
+/// Forces below the normal floats, and zeros.
+#[test]
+fn what_loses_digits_is_known() {
+    let pile = Pile::triangular(4).expect("a pile");
+    let layers = |exponent: i32| {
+        let mass = num_traits::pow(ratio(1, 10), exponent.unsigned_abs() as usize);
+        let packing = packing_of(&pile).with_mass(mass).expect("a mass");
+        let double = packing
+            .layers::<f64>(Selection::All)
+            .expect("layers")
+            .keeps_digits();
+        (
+            double,
+            packing
+                .layers::<f32>(Selection::All)
+                .expect("layers")
+                .keeps_digits(),
+        )
+    };
+    assert_eq!(layers(0), (true, true));
+    assert_eq!(layers(-36), (true, true));
+    assert_eq!(layers(-39), (true, false));
+    assert_eq!(layers(-306), (true, false));
+    assert_eq!(layers(-309), (false, false));
+}
+
+/// The unit is 3^−78 and 3^−80: a normal float, and less than any.
+#[test]
+fn digits_are_kept_where_the_unit_is_a_normal_float() {
+    let pile = Pile::under(Region::SITE, "+-".repeat(41).parse().unwrap()).unwrap();
+    let keeps_digits = |k| {
+        let layers = pile.forces::<BigRational>().layers(Selection::Layer(k));
+        let layers = layers.unwrap().nearest::<f32>().unwrap();
+        layers.keeps_digits()
+    };
+    assert_eq!([78, 80].map(keeps_digits), [true, false]);
+}

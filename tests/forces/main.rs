@@ -1,0 +1,63 @@
+//! Fixed and exhaustive tests of forces: the formulas, the engines, the answers in pile units and in SI.
+//!
+//! Without the feature `std` only roots are computed in another way, so only the tests of rounding are built then.
+
+#[cfg(feature = "std")]
+mod formula {
+    mod one_body;
+    mod turn;
+}
+
+#[cfg(feature = "std")]
+mod engine {
+    mod high;
+    mod methods;
+    mod plans;
+    mod trees;
+    mod widths;
+}
+
+mod forces {
+    #[cfg(feature = "std")]
+    mod against_oracle;
+    #[cfg(feature = "std")]
+    mod agreement;
+    #[cfg(feature = "std")]
+    mod contracts;
+    #[cfg(feature = "std")]
+    mod equilibrium;
+    #[cfg(feature = "std")]
+    mod error_bounds;
+    #[cfg(feature = "std")]
+    mod extremes;
+    #[cfg(feature = "std")]
+    pub(crate) mod invariants;
+    mod layers;
+    #[cfg(feature = "std")]
+    mod loads;
+    #[cfg(feature = "std")]
+    mod mirrors;
+    #[cfg(feature = "std")]
+    mod parts;
+    #[cfg(feature = "std")]
+    mod planted;
+    #[cfg(feature = "std")]
+    mod planted_faults;
+    #[cfg(feature = "std")]
+    mod pushes;
+    #[cfg(feature = "std")]
+    mod response;
+    mod rows;
+    #[cfg(feature = "std")]
+    mod scalars;
+    #[cfg(feature = "std")]
+    mod stress_table;
+    #[cfg(feature = "std")]
+    mod symmetry;
+}
+
+mod packing {
+    mod places;
+    mod rounded;
+    mod vectors;
+}

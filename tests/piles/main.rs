@@ -1,0 +1,25 @@
+//! Fixed and exhaustive tests of the places of spheres: regions, stackings, shapes, positions.
+
+#![cfg(feature = "std")]
+
+mod lattice;
+
+mod stacking {
+    mod definitions;
+    mod long;
+    mod notations;
+}
+
+mod shape {
+    mod counts;
+    mod edges;
+    mod greatest_height;
+    mod grown;
+    mod mixed;
+    mod numbering;
+}
+
+mod geometry {
+    mod clearance;
+    mod positions;
+}

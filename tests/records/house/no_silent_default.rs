@@ -1,0 +1,182 @@
+//! Where an invariant makes a case impossible, the crates return an error that names it; they never go on with zero, an
+//! empty value or a bound.
+//!
+//! What looks like such a default and is none has `// Not a default: ` and the reason in the line above it.
+
+use super::{Source, code, is_of_word, sources};
+
+/// What is called with the value that is taken instead.
+const CALLS: [&str; 5] = [
+    "unwrap_or_default",
+    "unwrap_or",
+    "unwrap_or_else",
+    "map_or",
+    "clamp",
+];
+
+/// Words that make a value one that was only to hand.
+const TO_HAND: [&str; 15] = [
+    "MAX", "MIN", "NAN", "ZERO", "ONE", "WHOLE", "EMPTY", "None", "zero", "one", "default", "new",
+    "empty", "vec", "INFINITY",
+];
+
+const REASON: &str = "// Not a default: ";
+
+/// The lines, from 1, in which a default stands in for what cannot be, without a reason.
+fn silent_defaults(text: &str) -> Vec<usize> {
+    let code = code(text);
+    let lines: Vec<_> = text.lines().map(str::trim).collect();
+    let mut found = Vec::new();
+    for (at, _) in code.match_indices('.') {
+        let called = code[at + 1..].trim_start();
+        let name: String = called.chars().take_while(|&c| is_of_word(c)).collect();
+        let Some(arguments) = called[name.len()..].strip_prefix('(') else {
+            continue;
+        };
+        if CALLS.contains(&name.as_str()) && is_silent(&name, in_brackets(arguments)) {
+            let line = code[..at].matches('\n').count();
+            let above = lines[..line]
+                .iter()
+                .rev()
+                .take_while(|line| line.starts_with("//"));
+            let mut above = above.filter_map(|line| line.strip_prefix(REASON));
+            if !above.any(|reason| !reason.trim().is_empty()) {
+                found.push(line + 1);
+            }
+        }
+    }
+    found
+}
+
+/// Whether the call, with these arguments, takes a value that was only to hand.
+fn is_silent(name: &str, arguments: &str) -> bool {
+    match name {
+        "unwrap_or_default" | "clamp" => true,
+        // What was wrong is not even looked at.
+        "unwrap_or_else" if arguments.trim_start().starts_with("|_|") => true,
+        "map_or" => is_to_hand(first_of(arguments)),
+        _ => is_to_hand(arguments),
+    }
+}
+
+/// Whether a value is a literal, the end of a range, or what every type has.
+fn is_to_hand(value: &str) -> bool {
+    let words = value
+        .split(|c| !is_of_word(c))
+        .filter(|word| !word.is_empty());
+    let of_it: Vec<_> = words.collect();
+    // Texts are blank in code.
+    let is_literal = |word: &&&str| word.starts_with(|c: char| c.is_ascii_digit());
+    let is_text = of_it.is_empty();
+    let starts_literal = of_it.first().iter().any(is_literal);
+    is_text || starts_literal || of_it.iter().any(|word| TO_HAND.contains(word))
+}
+
+/// Up to the bracket that closes.
+fn in_brackets(arguments: &str) -> &str {
+    let mut depth = 1;
+    let close = arguments.find(|c| {
+        depth += i32::from("([{".contains(c)) - i32::from(")]}".contains(c));
+        depth == 0
+    });
+    &arguments[..close.unwrap_or(arguments.len())]
+}
+
+/// Up to the comma after the first argument.
+fn first_of(arguments: &str) -> &str {
+    let mut depth = 0;
+    let comma = arguments.find(|c| {
+        depth += i32::from("([{".contains(c)) - i32::from(")]}".contains(c));
+        depth == 0 && c == ','
+    });
+    &arguments[..comma.unwrap_or(arguments.len())]
+}
+
+/// Files, options and pictures have defaults; a crate that computes has none.
+fn is_judged(source: &Source) -> bool {
+    !["cli", "dem", "figure", "testkit"].contains(&source.package.as_str())
+}
+
+#[test]
+fn no_crate_has_a_silent_default() {
+    let mut found = Vec::new();
+    for source in sources().iter().filter(|source| is_judged(source)) {
+        let lines = silent_defaults(&source.text);
+        if !lines.is_empty() {
+            found.push(format!("{}: {}: {lines:?}", source.package, source.path));
+        }
+    }
+    assert!(found.is_empty(), "file, lines: {found:#?}");
+}
+
+#[test]
+fn planted_defaults_are_found() {
+    for silent in [
+        "a.unwrap_or_default()",
+        "a.unwrap_or(0)",
+        "a.unwrap_or(0.0)",
+        "a.unwrap_or((0, 1))",
+        "a.unwrap_or(-1_i64)",
+        "a.unwrap_or(1 << 7)",
+        "a.unwrap_or(usize::MAX)",
+        "a.unwrap_or(i128::MAX)",
+        "a.unwrap_or(i64::MAX / 4)",
+        "a.unwrap_or(usize::MAX - 1)",
+        "a.unwrap_or(T::zero())",
+        "a.unwrap_or(&\"N\")",
+        "a.unwrap_or(\"\")",
+        "a.unwrap_or(Self::WHOLE)",
+        "a.unwrap_or(Self::new(f64::NAN))",
+        "a.unwrap_or_else(|_| Surd::zero())",
+        "a.unwrap_or_else(|_| other())",
+        "a.unwrap_or_else(T::zero)",
+        "a.unwrap_or_else(Vec::new)",
+        "a.unwrap_or_else(|| vec![])",
+        "a\n    .ok()\n    .unwrap_or(0)",
+        "a.unwrap_or(\n    0,\n)",
+        "a.map_or(0, |run| run.index)",
+        "a.map_or(T::zero(), |(b, c)| f(b, c))",
+        "a.clamp(-FAR, FAR)",
+    ] {
+        assert_eq!(silent_defaults(silent).len(), 1, "{silent}");
+        let below =
+            |comment: &str| silent_defaults(&format!("fn f() {{\n    {comment}\n    {silent}\n}}"));
+        if !silent.contains("\n    .") {
+            assert!(
+                below("// Not a default: nothing is there.").is_empty(),
+                "{silent}"
+            );
+            assert!(
+                below("// Not a default: nothing\n    // is there.").is_empty(),
+                "{silent}"
+            );
+            assert_eq!(below("// It cannot be."), [3], "{silent}");
+            assert_eq!(below("// Not a default: "), [3], "{silent}");
+            assert_eq!(
+                below("let b = 3; // Not a default: no line of its own."),
+                [3],
+                "{silent}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_no_default_is_let_pass() {
+    for clear in [
+        "a.unwrap_or(top)",
+        "a.unwrap_or_else(|| self.ordinary())",
+        "a.unwrap_or_else(|error| error.into_inner())",
+        "a.map_or(top, |run| run.index + 1)",
+        "a.map_or(row.i.end - 1, |until| until)",
+        "a.map_or_else(|| f(), g)",
+        "a.ok_or_else(|| bug(\"0\"))?",
+        "fn unwrap_or_default() {}",
+        "// a.unwrap_or(0)",
+        "\"a.unwrap_or(0)\"",
+        "#[cfg(test)]\nmod tests { fn f() { a.unwrap_or(0) } }",
+        "a\n    // Not a default: nothing is there.\n    .unwrap_or(0)",
+    ] {
+        assert_eq!(silent_defaults(clear), [0; 0], "{clear}");
+    }
+}

@@ -1,0 +1,178 @@
+//! What is proved is what answers: every formula that theorems are about is called by an engine or an answer, and every
+//! formula of the crate is one that theorems are about.
+
+use std::collections::BTreeSet;
+
+use super::{Source, code, is_of_word, sources};
+
+/// The formulas that the theorems of a crate are about.
+const FORMULAS: &str = "theorem/formulas.rs";
+
+/// The places where `name` stands as a whole word: what is before it, and after.
+fn places<'t>(text: &'t str, name: &str) -> impl Iterator<Item = (&'t str, &'t str)> {
+    let ends = text
+        .match_indices(name)
+        .map(|(at, word)| (at, at + word.len()));
+    let places: Vec<_> = ends.map(|(at, end)| (&text[..at], &text[end..])).collect();
+    places
+        .into_iter()
+        .filter(|(before, after)| !before.ends_with(is_of_word) && !after.starts_with(is_of_word))
+}
+
+/// `count::above` and so on, without the formulas of another crate, of the rows `field: module::function,` of `Formulas::LIBRARY`.
+fn proved(formulas: &str) -> BTreeSet<(String, String)> {
+    let code = code(formulas);
+    let library = code
+        .split("LIBRARY: Self = Self {")
+        .nth(1)
+        .expect("the library's formulas");
+    let library = library.split('}').next().unwrap_or(library);
+    let rows = library.lines().filter_map(|row| row.split_once(": "));
+    let rows = rows.filter(|(field, _)| field.trim() != "core");
+    let paths = rows.map(|(_, path)| path.trim_end_matches(',').split("::<").next());
+    let paths = paths.filter_map(|path| path?.rsplit_once("::"));
+    paths
+        .map(|(module, name)| (module.to_owned(), name.to_owned()))
+        .collect()
+}
+
+/// Whether a file calls a function: by `module::name`, as a method, after an import, or in the module itself.
+fn calls(file: &str, code: &str, (module, is_home): (&str, bool), name: &str) -> bool {
+    let home = format!("/{module}.rs");
+    let own = format!("/{file}").ends_with(&home) || file.starts_with(&format!("{module}/"));
+    let own = own && is_home;
+    let import = format!("{module}::{{");
+    let imported = code.split(&import).skip(1).any(|list| {
+        let list = list.split('}').next().unwrap_or(list);
+        places(list, name).next().is_some()
+    });
+    let is_call = |(before, after): (&str, &str)| {
+        let before = before.trim_end();
+        let called = after.starts_with('(') || after.starts_with("::<");
+        let is_type = module.starts_with(char::is_uppercase);
+        before.ends_with(&format!("{module}::")) && !after.starts_with("::{")
+            || is_type && before.ends_with('.') && called
+            || own && called && !before.ends_with("fn") && !before.ends_with('.')
+    };
+    imported || places(code, name).any(is_call)
+}
+
+/// What is proved in a crate and called by no engine or answer of any, and what is a formula of the crate and not proved.
+fn missing(sources: &[Source], package: &str) -> Vec<String> {
+    let is_here = |source: &Source| source.package == package;
+    let formulas = sources
+        .iter()
+        .find(|source| is_here(source) && source.path == FORMULAS);
+    let proved = proved(&formulas.expect("the formulas").text);
+    assert!(!proved.is_empty(), "no formulas");
+    let outside = sources.iter().filter(|source| source.room() != "theorem");
+    // These look at formulas, and answer nothing with them.
+    let outside = outside.filter(|source| !["proof", "testkit"].contains(&source.package.as_str()));
+    let outside: Vec<_> = outside
+        .map(|source| {
+            let file = source.path.as_str();
+            (file, is_here(source), code(&source.text))
+        })
+        .collect();
+    let idle = proved.iter().filter(|(module, name)| {
+        let called = |(file, is_here, code): &(&str, bool, String)| {
+            calls(file, code, (module, *is_here), name)
+        };
+        !outside.iter().any(called)
+    });
+    let mut missing: Vec<_> = idle
+        .map(|(module, name)| format!("{module}::{name} is proved and never called"))
+        .collect();
+    for (file, _, code) in outside.iter().filter(|(_, is_here, _)| *is_here) {
+        let module = match *file {
+            "lattice/count.rs" => "count",
+            _ if file.starts_with("formula") => "formula",
+            _ => continue,
+        };
+        for function in code.split("pub fn ").skip(1) {
+            let name: String = function.chars().take_while(|c| is_of_word(*c)).collect();
+            if !proved.contains(&(module.to_owned(), name.clone())) {
+                missing.push(format!("{module}::{name} is a formula and not proved"));
+            }
+        }
+    }
+    missing
+}
+
+#[test]
+fn what_is_proved_is_what_answers() {
+    let sources = sources();
+    let mut crates = sources.iter().filter(|source| source.path == FORMULAS);
+    for package in ["core", "disorder", "horizontal"] {
+        let formulas = crates.next().map(|source| source.package.as_str());
+        assert_eq!(formulas, Some(package));
+        assert_eq!(missing(&sources, package), Vec::<String>::new());
+    }
+    assert!(crates.next().is_none());
+}
+
+/// A small library: what it proves, its formulas, and an engine.
+fn small(library: &str, formula: &str, engine: &str) -> Vec<Source> {
+    let formulas = format!("const LIBRARY: Self = Self {{\n{library}\n}};");
+    [
+        ("theorem/formulas.rs", formulas.as_str()),
+        (
+            "theorem/sums.rs",
+            "use crate::formula::{force, turn};\nformula::force(n); formula::turn(g);",
+        ),
+        ("formula.rs", formula),
+        ("engine.rs", engine),
+    ]
+    .map(|(path, text)| Source::new(path, text))
+    .into()
+}
+
+#[test]
+fn what_is_amiss_is_found() {
+    let both = "force: formula::force,\nturn: formula::turn::<P>,";
+    let formula = "pub fn force(n: T) {}\npub fn turn<T>(g: T) {}";
+    let idle = vec!["formula::turn is proved and never called"];
+    for (engine, expected) in [
+        ("formula::force(n); formula::turn::<T>(g)", vec![]),
+        ("use crate::formula::{force,\n turn};", vec![]),
+        ("formula::force(n)", idle.clone()),
+        ("formula::force(n) // formula::turn(g)", idle.clone()),
+        ("/// [`formula::turn`]\nformula::force(n)", idle.clone()),
+        (
+            "formula::force(n)\n#[cfg(test)]\nmod tests { formula::turn(g) }",
+            idle.clone(),
+        ),
+        (
+            "formula::force(n); formula::turned(g); return_turn(g); turn(g)",
+            idle.clone(),
+        ),
+    ] {
+        assert_eq!(
+            missing(&small(both, formula, engine), "core"),
+            expected,
+            "{engine}"
+        );
+    }
+    // A formula that another one calls is called; one that is defined only is not.
+    let chained = "pub fn force(n: T) { turn(n) }\npub fn turn<T>(g: T) {}";
+    assert!(missing(&small(both, chained, "formula::force(n)"), "core").is_empty());
+    let unproved = missing(
+        &small("force: formula::force,", formula, "formula::force(n)"),
+        "core",
+    );
+    assert_eq!(unproved, ["formula::turn is a formula and not proved"]);
+    // Without one of the functions that the library itself calls.
+    let mut sources = sources();
+    for source in &mut sources {
+        let called = match source.path.as_str() {
+            "formula/turn.rs" => "= tripled_apart(g)",
+            "engine/limbs.rs" => "tripled_apart",
+            _ => continue,
+        };
+        source.text = source.text.replace(called, "another");
+    }
+    assert_eq!(
+        missing(&sources, "core"),
+        ["formula::tripled_apart is proved and never called"]
+    );
+}

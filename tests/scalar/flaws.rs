@@ -1,0 +1,237 @@
+//! For every law of scalars a scalar that breaks it, and is caught.
+
+mod flawed;
+
+use std::collections::BTreeSet;
+
+use self::flawed::{
+    Claim, Double, Enclosed, Exact, ExactOrFault, Flawed, Operations, flawed, from_now_on,
+};
+use cannonpile::scalar::{Enclosure, NearestFloat, RealSign, laws};
+use cannonpile_testkit::answers::ratio;
+use num_bigint::BigInt;
+use num_rational::BigRational as Q;
+use num_traits::{One, Signed, Zero};
+
+/// The laws that the suite says are broken of a scalar that computes so, and claims to be this exact.
+fn broken<C: Claim>(operations: Operations) -> BTreeSet<&'static str> {
+    from_now_on(operations);
+    let numbers = [
+        (0, 1),
+        (1, 1),
+        (-1, 1),
+        (2, 1),
+        (-2, 3),
+        (7, 5),
+        (1, 10),
+        (i64::MAX, 1),
+    ];
+    let numbers = numbers.map(|(n, d)| ratio(n, d));
+    let mut verdicts = vec![laws::integers::<Flawed<C>>(1 << 70)];
+    for x in &numbers {
+        for y in &numbers {
+            verdicts.push(laws::embedding::<Flawed<C>>(x, y));
+            verdicts.push(laws::numerators::<Flawed<C>>(x, y));
+            for z in &numbers {
+                let [a, b, c] = [x, y, z].map(|number| flawed::<C>(number.clone()));
+                verdicts.push(laws::algebra(&a, &b, &c));
+            }
+        }
+    }
+    verdicts
+        .into_iter()
+        .filter_map(|verdict| Some(verdict.err()?.law))
+        .collect()
+}
+
+/// Tests that each fault breaks the law named.
+macro_rules! caught {
+    (of $claim:ident: $($name:ident breaks $law:literal: { $($fault:tt)* })*) => {$(
+        #[test]
+        fn $name() {
+            let broken = broken::<$claim>(Operations { $($fault)* ..Operations::RIGHT });
+            assert!(broken.contains($law), "only {broken:?} found");
+        }
+    )*};
+}
+
+#[test]
+fn right_arithmetic_is_left_alone() {
+    assert!(broken::<Exact>(Operations::RIGHT).is_empty());
+}
+
+caught! {
+    of Exact:
+    order_of_sum breaks "a + b = b + a": {
+        add: |a, b| if a > b { a + b + Q::one() } else { a + b },
+    }
+    order_of_product breaks "a b = b a": {
+        mul: |a, b| if a > b { a * b + Q::one() } else { a * b },
+    }
+    zero_off breaks "a + 0 = a": {
+        zero: || ratio(1, 1_000_000),
+    }
+    one_off breaks "1 a = a": {
+        one: || ratio(1_000_001, 1_000_000),
+    }
+    zero_not_absorbing breaks "0 a = 0": {
+        mul: |a, b| if (a + b).is_one() || !(a * b).is_zero() { a * b } else { a + b },
+    }
+    nothing_left breaks "a - a = 0": {
+        sub: |a, b| if a == b { ratio(1, 1_000_000) } else { a - b },
+    }
+    difference_off breaks "a + (-b) = a - b": {
+        sub: |a, b| if a == b { Q::zero() } else { b - a },
+    }
+    negation_loses breaks "-(-a) = a": {
+        neg: |a| -a.abs(),
+    }
+    saturation breaks "(a + b) + c = a + (b + c)": {
+        add: |a, b| (a + b).min(ratio(i64::MAX, 1)),
+    }
+    fixed_point breaks "(a b) c = a (b c)": {
+        mul: |a, b| (a * b * ratio(1000, 1)).trunc() * ratio(1, 1000),
+    }
+    product_of_magnitudes breaks "a (b + c) = a b + a c": {
+        mul: |a, b| (a * b).abs(),
+    }
+    integer_division breaks "(a / n) n = a": {
+        div_int: |a, n| (a / BigInt::from(n)).trunc(),
+    }
+    truncated_image breaks "the image of x is x": {
+        rational: |r| r.trunc(),
+    }
+    wrapping_sum breaks "a + b": {
+        add: |a, b| wrapped(&(a + b)),
+        sub: |a, b| wrapped(&(a - b)),
+    }
+    wrapping_difference breaks "a - b": {
+        sub: |a, b| wrapped(&(a - b)),
+    }
+    wrapping_product breaks "a b": {
+        mul: |a, b| wrapped(&(a * b)),
+    }
+    quotient_upside_down breaks "a / b": {
+        div: |a, b| (!b.is_zero() && !a.is_zero()).then(|| b / a),
+    }
+    division_by_zero breaks "a / b is undefined just for b = 0": {
+        div: |a, b| Some(if b.is_zero() { Q::zero() } else { a / b }),
+    }
+    division_by_magnitude breaks "a / n": {
+        div_int: |a, n| a / BigInt::from(n).abs(),
+    }
+    sign_of_zero breaks "the sign is that of the value": {
+        sign: |a| if a.is_negative() { RealSign::Negative } else { RealSign::Positive },
+    }
+    cast_to_64_bits breaks "n and n/1 have one image": {
+        integer: |n| wrapped(&Q::from_integer(n.into())),
+    }
+    float_that_claims_to_be_exact breaks "(a + b) + c = a + (b + c)": {
+        add: |a, b| double(&(a + b)),
+        sub: |a, b| double(&(a - b)),
+        mul: |a, b| double(&(a * b)),
+        rational: |r| double(r),
+    }
+    sum_with_zero breaks "a + 0 = a": {
+        add: |a, b| if a.is_zero() || b.is_zero() { a + b + Q::one() } else { a + b },
+    }
+    division_by_minus_one breaks "(a / n) n = a": {
+        div_int: |a, n| if n == -1 { a.clone() } else { a / BigInt::from(n) },
+    }
+    division_by_minus_seven breaks "(a / n) n = a": {
+        div_int: |a, n| if n == -7 { a / BigInt::from(7) } else { a / BigInt::from(n) },
+    }
+    division_by_two breaks "(a / n) n = a": {
+        div_int: |a, n| if n == 2 { a.clone() } else { a / BigInt::from(n) },
+    }
+    division_by_three breaks "(a / n) n = a": {
+        div_int: |a, n| if n == 3 { a.clone() } else { a / BigInt::from(n) },
+    }
+    division_by_the_least_integer breaks "(a / n) n = a": {
+        div_int: |a, n| if n == i64::MIN { a.clone() } else { a / BigInt::from(n) },
+    }
+    division_refused breaks "a / b is undefined just for b = 0": {
+        div: |a, b| b.is_positive().then(|| a / b),
+    }
+    denominator_left_out breaks "n / d is the value": {
+        ratio: |n, d| (!d.is_zero()).then(|| n + d),
+    }
+}
+
+caught! {
+    of Double:
+    single_that_claims_to_be_double breaks "a b": {
+        mul: |a, b| single(&(a * b)),
+    }
+    double_whose_great_products_are_single breaks "a b": {
+        rational: |r| double(r),
+        mul: |a, b| {
+            if (a * b).abs() > ratio(1 << 40, 1) { single(&(a * b)) } else { double(&(a * b)) }
+        },
+    }
+}
+
+caught! {
+    of ExactOrFault:
+    saturation_in_place_of_a_fault breaks "(a + b) + c = a + (b + c)": {
+        add: |a, b| (a + b).min(ratio(i64::MAX, 1)),
+    }
+    fault_in_place_of_an_integer breaks "n and n/1 have one image": {
+        integer: |n| i64::try_from(n).map_or(fault(), |n| ratio(n, 1)),
+        is_defined: |a| *a != fault(),
+    }
+}
+
+caught! {
+    of Enclosed:
+    bounds_beside_the_sum breaks "a + b": {
+        add: |a, b| a + b + ratio(1, 100),
+        enclosure: |a| {
+            let hair = ratio(1, 1_000_000);
+            Enclosure { lower: a - &hair, upper: a + hair }
+        },
+    }
+    sign_of_bounds breaks "the sign is that of the value": {
+        sign: |a| if a.is_negative() { RealSign::Positive } else { RealSign::Negative },
+    }
+}
+
+#[test]
+fn what_is_broken_is_said() {
+    from_now_on(Operations {
+        integer: |n| wrapped(&Q::from_integer(n.into())),
+        ..Operations::RIGHT
+    });
+    let broken = laws::integers::<Flawed<Exact>>(1 << 70).unwrap_err();
+    let says = "Flawed breaks n and n/1 have one image: 1180591620717411303424: ";
+    assert!(broken.to_string().starts_with(says), "{broken}");
+}
+
+/// No value of its own, but a number that stands for none.
+fn fault() -> Q {
+    ratio(1, 1_000_003)
+}
+
+/// A numerator that wraps around like an `i64`.
+fn wrapped(r: &Q) -> Q {
+    let (half, whole) = (BigInt::one() << 63, BigInt::one() << 64);
+    let shifted: BigInt = (r.numer() + &half) % &whole;
+    let shifted = if shifted.is_negative() {
+        shifted + whole
+    } else {
+        shifted
+    };
+    Q::new(shifted - half, r.denom().clone())
+}
+
+fn double(r: &Q) -> Q {
+    f64::nearest_to_rational(r)
+        .and_then(Q::from_float)
+        .expect("in range")
+}
+
+fn single(r: &Q) -> Q {
+    f32::nearest_to_rational(r)
+        .and_then(Q::from_float)
+        .expect("in range")
+}

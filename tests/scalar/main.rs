@@ -1,0 +1,21 @@
+//! Fixed and exhaustive tests of the scalars.
+//!
+//! Without the feature `std` only roots are computed in another way, so only the tests of rounding are built then.
+
+mod double_double;
+#[cfg(feature = "std")]
+mod fixed_width;
+#[cfg(feature = "std")]
+mod flaws;
+#[cfg(feature = "std")]
+mod half;
+#[cfg(feature = "std")]
+mod interval;
+#[cfg(feature = "std")]
+mod laws;
+#[cfg(feature = "std")]
+mod pair;
+#[cfg(feature = "std")]
+mod polynomial;
+#[cfg(feature = "std")]
+mod sums;

@@ -1,0 +1,283 @@
+//! The least contact and the first failure: at surfaces with other weights, of piles that end a search, and at the limits of
+//! what is looked at.
+
+use cannonpile::lattice::{Axis, Direction, HorizontalContact, Region, Site};
+use cannonpile::shape::Selection;
+use cannonpile::stacking::Stacking;
+use cannonpile::{Error, Pile, Standing};
+use num_bigint::{BigInt, BigUint};
+use num_rational::BigRational;
+
+use cannonpile_testkit::cases::{Bounds, Case, Random, repeated, stacking};
+use cannonpile_testkit::compare::{agrees, standing};
+use cannonpile_testkit::oracles::balance::ratio;
+use cannonpile_testkit::oracles::brute;
+
+fn least(case: &Case) -> (Site, Direction, BigRational) {
+    standing(&case.pile, &case.balance.forces()).unwrap();
+    let least = case.pile.standing().unwrap().least.unwrap();
+    (least.site, least.direction, least.force)
+}
+
+/// The sphere below both of the top receives 1, 1 and 0, turned 1/3, 1/3 and 4/3: at a change of sign no line begins with
+/// the weight of its sphere, here 0.
+#[test]
+fn no_line_begins_at_a_change_of_sign() {
+    let pair = Bounds {
+        x: (0, 1),
+        y: (0, 0),
+        s: (0, 1),
+    };
+    let between = Site { i: 1, j: 0, k: 1 };
+    for signs in ["+--", "+-"] {
+        let case = Case::under(&pair, signs).with_weight((1, 0, 1), &ratio(0, 1));
+        let expected = (between, Direction::Alpha, ratio(1, 3));
+        assert_eq!(least(&case), expected, "{signs}");
+    }
+}
+
+#[test]
+fn a_light_sphere_at_a_surface_inside_a_run_has_the_least_force() {
+    let case = Case::under(&Bounds::SITE, "+++").with_weight((1, 0, 1), &ratio(1, 7));
+    let light = Site { i: 1, j: 0, k: 1 };
+    assert_eq!(least(&case), (light, Direction::Alpha, ratio(1, 7)));
+}
+
+/// Two neighbours that are pushed apart in a straight pile: one pulls at a sphere below it, where no line begins.
+#[test]
+fn spheres_that_are_pushed_may_pull() {
+    let mut case = Case::under(&Bounds::SITE, "+++");
+    let contact = HorizontalContact {
+        site: Site { i: 0, j: 0, k: 2 },
+        axis: Axis::AlphaBeta,
+    };
+    let pushed = case.pile.with_horizontal_force(contact, ratio(5, 1));
+    case.pile = pushed.unwrap();
+    case.balance.push((2, 0, 0), [1, 0], &ratio(5, 1));
+    agrees(&case).unwrap();
+    let standing = case.pile.standing().unwrap();
+    assert_eq!(standing.first_failure, Some(2));
+    assert!(standing.least.unwrap().force < ratio(0, 1));
+}
+
+#[test]
+fn a_pushed_pile_is_as_the_oracle_has_it() {
+    let mut random = Random(12);
+    for signs in ["+-+", "++-", "-+"] {
+        let case = Case::under(&Bounds::hexagon(2, 2), signs).pushed(3, &mut random);
+        assert!(case.pile.horizontal_forces().len() > 0);
+        agrees(&case).unwrap();
+    }
+}
+
+/// Many changes of sign under tops that a third of a turn maps onto themselves: swept by thirds, in several windows.
+#[test]
+fn high_piles_are_as_the_oracle_has_them() {
+    for (top, signs) in [
+        (Bounds::SITE, repeated("+-", 13)),
+        (Bounds::hexagon(2, 1), repeated("+-++-", 13)),
+    ] {
+        let case = Case::under(&top, &signs);
+        standing(&case.pile, &case.balance.forces()).unwrap();
+        extremes_are_those_of_the_oracle(&case);
+    }
+}
+
+fn extremes_are_those_of_the_oracle(case: &Case) {
+    let floor = case.balance.forces().floor;
+    let extremes = case.pile.base_extremes().unwrap();
+    let normals = || floor.values().map(|[normal, ..]| normal);
+    assert_eq!(Some(&extremes.normal_min), normals().min());
+    assert_eq!(Some(&extremes.normal_max), normals().max());
+    let squared = floor.values();
+    let squared = squared.map(|[n, x, y]| (x * x + y * y * ratio(3, 1)) / (n * n));
+    assert_eq!(Some(extremes.max_shear_ratio.square()), squared.max());
+}
+
+/// Numbers of two limbs, beside brute force.
+#[test]
+fn the_least_of_numbers_of_two_limbs_is_that_of_brute_force() {
+    let case = Case::under(&Bounds::SITE, &repeated("+-", 40));
+    assert_eq!(case.pile.plan(Selection::Base).unwrap().planes, 2);
+    let passed = brute::all(&case.balance);
+    let contacts = (0..).zip(&passed).flat_map(|(k, passed)| {
+        let over = BigInt::from(3).pow(u32::try_from(passed.below.changes).unwrap());
+        passed.forces.iter().flat_map(move |(&(j, i), forces)| {
+            let over = over.clone();
+            let forces = forces.iter().zip(Direction::ALL);
+            forces.map(move |(force, direction)| {
+                let force = BigRational::new(force.clone(), over.clone());
+                (force, Site { i, j, k }, direction)
+            })
+        })
+    });
+    // The first of those that are least.
+    let least = contacts.min_by(|one, other| one.0.cmp(&other.0)).unwrap();
+    let found = case.pile.standing().unwrap().least.unwrap();
+    assert_eq!((found.force, found.site, found.direction), least);
+}
+
+/// A bottom sphere that weighs nothing, and carries what others beside it do, speaks for none of them.
+#[test]
+fn a_light_bottom_sphere_hides_no_other() {
+    let row = Bounds {
+        x: (0, 7),
+        y: (0, 0),
+        s: (0, 7),
+    };
+    let bottom = Case::under(&row, "+-").balance.layers[2].clone();
+    for (j, i) in bottom {
+        let case = Case::under(&row, "+-").with_weight((2, j, i), &ratio(0, 1));
+        extremes_are_those_of_the_oracle(&case);
+    }
+    // Of two that carry as much, and more than all others, it is the first.
+    let top = Bounds {
+        x: (-1, 2),
+        y: (-1, 1),
+        s: (-1, 2),
+    };
+    let case = Case::under(&top, "+-").with_weight((2, 0, 0), &ratio(0, 1));
+    extremes_are_those_of_the_oracle(&case);
+}
+
+/// In units of 2cosφ that are not whole.
+#[test]
+fn the_greatest_ratio_of_an_isosceles_pile_is_one_of_its_base() {
+    for s in [ratio(1, 3), ratio(4, 5), ratio(5, 7)] {
+        let pile = Pile::isosceles(5, s.clone()).unwrap();
+        let across = ratio(4, 1) * (ratio(1, 1) - &s * &s);
+        let forces = pile.forces::<BigRational>();
+        let base = forces.base(Selection::Base).unwrap();
+        let squared = base.map(|force| {
+            let (n, x, y) = force.map(|f| (f.normal, f.shear_x, f.shear_y)).unwrap();
+            (&x * &x + &y * &y * &across) / (&n * &n)
+        });
+        let extremes = pile.base_extremes().unwrap();
+        assert_eq!(Some(extremes.max_shear_ratio.square()), squared.max());
+    }
+}
+
+/// What lies below a failure is not looked at: not even a change of sign below a nonillion layers.
+#[test]
+fn a_failure_near_the_top_is_found_without_what_is_far_below() {
+    let stacking = format!("(1,1,1,1,{},1)", 10_i128.pow(30));
+    let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
+    assert_eq!(pile.first_failure(), Ok(Some(4)));
+}
+
+/// Nine rows of n to n + 8 spheres at the only change of sign, on eight steps below a row of n: 9n + 36 spheres.
+fn ridge(n: i128) -> Pile {
+    let row = Region::new(0..=n - 1, 0..=0, 0..=n - 1).unwrap();
+    Pile::under(row, stacking("++++++++-")).unwrap()
+}
+
+/// A ridge fails at its ends, as a short one does.
+fn fails_as_a_short_one(found: &Standing) {
+    let bounds = Bounds {
+        x: (0, 29),
+        y: (0, 0),
+        s: (0, 29),
+    };
+    let short = Case::under(&bounds, "++++++++-");
+    let (_, direction, force) = least(&short);
+    let least = found.least.as_ref().unwrap();
+    assert_eq!((&least.force, least.direction), (&force, direction));
+    assert_eq!(found.first_failure, Some(8));
+}
+
+/// Three numbers a sphere at a change of sign, 10⁹ in all: 333,333,333 spheres are the most.
+#[test]
+fn the_least_of_a_pile_that_fails_is_sought_among_a_billion_numbers() {
+    let most = ridge(37_037_033);
+    let at_the_change = most.rows(Selection::Layer(8)).unwrap().site_count();
+    assert_eq!(at_the_change, 333_333_333_u32.into());
+    fails_as_a_short_one(&most.standing().unwrap());
+    let more = ridge(37_037_034).standing().unwrap();
+    assert_eq!((more.first_failure, more.least), (Some(8), None));
+}
+
+/// Numbers are counted limb by limb: with a load on the floor that they have just room for beside the weights, and with
+/// one that takes a second limb.
+#[test]
+fn longer_numbers_leave_fewer_spheres_to_look_at() {
+    let pile = ridge(30_000_000);
+    let bottom = Site { i: 0, j: 0, k: 9 };
+    // 2√3·B·D ≤ √(36·K·N) + 6·W < 2⁶².
+    let root = (pile.sphere_count() * 360_u32).sqrt() + 1_u32;
+    let most: BigUint = ((BigUint::from(1_u32) << 62_u32) - 1_u32 - root) / 6_u32;
+    let loaded = |load: BigUint| {
+        let load = BigRational::from_integer(BigInt::from(load));
+        pile.clone().with_load(bottom, load).unwrap()
+    };
+    fails_as_a_short_one(&loaded(most.clone()).standing().unwrap());
+    let longer = loaded(most + 1_u32).standing().unwrap();
+    assert_eq!((longer.first_failure, longer.least), (Some(8), None));
+}
+
+/// Changes of sign in layers of 8 and 9 rows, below a row of n spheres with a load: 14 places for each row, and 9 for each
+/// of the 8n + 28 spheres of the first change, and twice for the load.
+fn refused(n: i128, load: BigRational, loaded: fn(i128) -> Site) {
+    let row = Region::new(5..=4 + n, 3..=3, 8..=7 + n).unwrap();
+    let pile = Pile::under(row, stacking("+++++++-+")).unwrap();
+    let pile = pile.with_load(loaded(n), load);
+    let starts = 8 * n.unsigned_abs() + 28;
+    let refused = Error::too_large(
+        "the verdict on this pile",
+        BigUint::from(14 * (8 + 9) + 9 * (starts + 2)),
+        134_217_728,
+        "let the sign change nearer to the top",
+    );
+    assert_eq!(pile.unwrap().standing(), Err(refused));
+}
+
+/// A sweep has room down to the last change of sign, and none one layer further down.
+#[test]
+fn a_verdict_on_too_many_spheres_is_refused_with_their_number() {
+    refused(4_600_000, ratio(2, 1), |_| Site { i: 6, j: 3, k: 0 });
+}
+
+/// As before, but with room for one limb each there, which the load makes too few for: 3·(√(36·K·N) + 6·W) ≥ 2⁶² for all
+/// ten layers, and for none less.
+#[test]
+fn a_verdict_is_refused_for_limbs_that_the_last_layer_needs() {
+    let n = 4_400_000;
+    let row = Region::new(5..=4 + n, 3..=3, 8..=7 + n).unwrap();
+    let spheres = Pile::under(row, stacking("+++++++-+")).unwrap();
+    let root = (spheres.sphere_count() * 360_u32).sqrt() + 1_u32;
+    let least = ((BigUint::from(1_u32) << 62_u32) / 3_u32 + 1_u32 - root) / 6_u32 + 1_u32;
+    let load = BigRational::from_integer(BigInt::from(least));
+    refused(n, load, |n| Site {
+        i: n / 2,
+        j: 4,
+        k: 9,
+    });
+}
+
+/// Two rows, of n + 1 spheres that bear two each, or one at the ends, and of n that bear one: the loaded one is among
+/// those few that are looked at.
+#[test]
+fn a_load_on_the_floor_is_found_in_long_rows() {
+    let n = 100_000;
+    let row = Region::new(0..=n - 1, 0..=0, 0..=n - 1).unwrap();
+    let pile = Pile::under(row, stacking("+")).unwrap();
+    let bottom = Site {
+        i: 5_000,
+        j: 0,
+        k: 1,
+    };
+    let loaded = pile.with_load(bottom, ratio(50, 1)).unwrap();
+    let extremes = loaded.base_extremes().unwrap();
+    assert_eq!(extremes.normal_min, ratio(4, 3));
+    assert_eq!(extremes.normal_max, ratio(155, 3));
+}
+
+/// Where all of the top is special, no other layer is searched for a line that begins: without runs there is none.
+#[test]
+fn a_load_on_the_top_of_a_million_layers() {
+    let hcp = Stacking::hcp(1_000_000).unwrap();
+    let pile = Pile::under(Region::SITE, hcp).unwrap();
+    for load in [ratio(1, 1), ratio(1, 1000)] {
+        let pile = pile.clone().with_load(Site::APEX, load).unwrap();
+        assert_eq!(pile.first_failure(), Ok(Some(4)));
+    }
+}

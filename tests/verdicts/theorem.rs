@@ -1,0 +1,158 @@
+//! Every theorem holds of the crate's formulas, says what it is about, and refuses wrong formulas.
+
+mod numbers;
+
+use std::sync::LazyLock;
+
+use cannonpile::theorem;
+use cannonpile::theorem::{Formulas, Theorem};
+use cannonpile_testkit::proofs;
+use cannonpile_testkit::proofs::Attempts;
+
+/// Every theorem with what becomes of its proof, for each fault: for all tests once.
+static ATTEMPTS: LazyLock<Attempts<Formulas>> =
+    LazyLock::new(|| Attempts::new(theorem::all(), proofs::of_the_core()));
+
+fn theorems() -> Vec<&'static Theorem> {
+    theorem::all().collect()
+}
+
+#[test]
+fn every_theorem_holds() {
+    proofs::hold(&theorems());
+}
+
+#[test]
+fn names_are_unique_and_found() {
+    proofs::have_names(&theorems());
+    for name in theorems().iter().map(|theorem| theorem.name) {
+        assert_eq!(theorem::find(name).map(|found| found.name), Some(name));
+        assert!(theorem::find(&name.to_uppercase()).is_none());
+    }
+    assert!(theorem::find("").is_none());
+}
+
+/// What each statement must name.
+const SUBJECTS: [(&str, &str); 29] = [
+    ("counts", "(N_α, N_β, N_γ) = (k−i−j, i, j)"),
+    ("rotation", "rotation"),
+    ("spheres", "L(L+1)(L+2)/6 spheres"),
+    ("contacts", "L(L−1)(L+1)/2 contacts"),
+    ("strengths", "carry n·f₀"),
+    ("paper-system", "the paper's system"),
+    ("unit-directions", "length 1"),
+    ("equilibrium", "Equilibrium of every sphere"),
+    ("surface", "at the surface"),
+    ("action-reaction", "Action and reaction"),
+    ("central-force", "Central force"),
+    ("half-turn", "its own inverse"),
+    ("base-normal", "normal force on the floor"),
+    ("uniform-base", "Uniform base"),
+    ("weight", "Total weight"),
+    ("shear", "shear on the floor"),
+    ("total-shear", "Total shear"),
+    ("total-moment", "Total moment"),
+    ("second-moment", "Second moment"),
+    ("shear-on-axis", "vanishes on the axis"),
+    ("shear-ratio", "Largest shear/normal ratio"),
+    ("discs", "pile of discs"),
+    ("dimensions", "d = 2 … 6 dimensions"),
+    ("region-counts", "Any base under straight steps"),
+    ("run", "carries f + m w after m spheres more"),
+    ("tripled-half-turn", "are 3Gg"),
+    ("change-of-sign", "Equilibrium at a change of sign"),
+    ("edge", "no run of five steps or more"),
+    ("point-load", "Σv r² = n²ρ²"),
+];
+
+#[test]
+fn statements_name_their_subject_and_method() {
+    proofs::name_subject_and_method(&theorems(), &SUBJECTS);
+}
+
+/// A fault is refused by the theorems it is said to break, and by no others.
+#[test]
+fn faults_are_refused() {
+    ATTEMPTS.are_refused_as_said();
+}
+
+#[test]
+fn every_theorem_refuses_a_fault() {
+    ATTEMPTS.every_theorem_refuses_one();
+}
+
+/// Fields by name; one that is missing does not compile.
+macro_rules! fields {
+    ($($field:ident)*) => {{
+        let Formulas { $($field: _),* } = Formulas::<cannonpile::scalar::Polynomial>::LIBRARY;
+        [$(stringify!($field)),*]
+    }};
+}
+
+#[test]
+fn every_formula_is_put_wrong() {
+    let fields = fields! {
+        above bounds_above descent spheres spheres_in_layer contacts contacts_of_strength directions
+        disc_directions turned_about_z position squared_distance increments weight force passed_on
+        resultant handed_on unbalanced half_turn tripled_half_turn tripled_apart pushed beside
+    };
+    ATTEMPTS.are_of(&fields);
+}
+
+/// No step is idle: each is broken by some fault.
+#[test]
+fn every_step_refuses_a_fault() {
+    ATTEMPTS.every_step_refuses_one();
+}
+
+/// The printed proof says that it fails, where it does.
+#[test]
+fn a_refuted_proof_is_listed_as_such() {
+    ATTEMPTS.are_listed_as_refuted();
+}
+
+/// How many steps each proof has, counted by cases: the theorem `dimensions` has 2d + 4 for each d from 2 to 6.
+const STEPS: [(&str, usize); 29] = [
+    ("counts", 15),
+    ("rotation", 3),
+    ("spheres", 3),
+    ("contacts", 6),
+    ("strengths", 6),
+    ("paper-system", 8),
+    ("unit-directions", 4),
+    ("equilibrium", 12),
+    ("surface", 3),
+    ("action-reaction", 3),
+    ("central-force", 6),
+    ("half-turn", 11),
+    ("base-normal", 2),
+    ("uniform-base", 4),
+    ("weight", 1),
+    ("shear", 2),
+    ("total-shear", 2),
+    ("total-moment", 3),
+    ("second-moment", 1),
+    ("shear-on-axis", 10),
+    ("shear-ratio", 5),
+    ("discs", 8),
+    ("dimensions", 60),
+    ("region-counts", 72),
+    ("run", 12),
+    ("tripled-half-turn", 6),
+    ("change-of-sign", 6),
+    ("edge", 24),
+    ("point-load", 29),
+];
+
+/// As many steps as there are cases: none is passed over.
+#[test]
+fn no_case_is_left_out() {
+    proofs::have_steps(&theorems(), &STEPS);
+    // Where the sign is kept, nothing is turned.
+    let proof = theorem::find("point-load").map(theorem::Theorem::prove);
+    let claims = proof.into_iter().flat_map(|proof| proof.steps);
+    let claims = claims.map(|step| step.claim);
+    let squares = claims.filter(|claim| claim.ends_with("Σv² stays"));
+    let signs = squares.map(|claim| claim.replace(": Σv² stays", ""));
+    assert!(signs.eq(["+ above, − below", "− above, + below"]));
+}
