@@ -39,8 +39,8 @@ import tree_sitter_rust
 
 HERE = Path(__file__).parent.parent
 SURVIVORS = HERE / ".ci" / "mutants.survivors"
-# Rooms and files that read, write and draw: their faults are seen, and no number comes from them.
-TOOLS = {"cli", "data", "dem", "figure"}
+# Rooms and files that read, write, draw or make inputs of tests: their faults are seen, and no number comes from them.
+TOOLS = {"arbitrary", "cli", "data", "dem", "figure", "testing"}
 RECORDS = {
     "crates/disorder/src/ensemble/record.rs",
     "crates/horizontal/src/certificate/file.rs",

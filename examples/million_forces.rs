@@ -25,7 +25,7 @@ fn straight() -> Result<(), Error> {
         .with_mass(parse::rational("0.033")?)?
         .with_gravity(parse::rational("1.62")?)?;
     let layers = packing.layers::<f64>(Selection::All)?;
-    let spheres = layers.spheres()?;
+    let spheres = layers.slice_len()?;
     let mut forces = [(); 3].map(|()| vec![0.0; spheres]);
     let start = Instant::now();
     layers.fill(forces.each_mut().map(Vec::as_mut_slice))?;
@@ -61,16 +61,16 @@ fn mixed() -> Result<(), Error> {
             break;
         }
         for slice in &mut slices {
-            slice.resize(layer.spheres(), 0.0);
+            slice.resize(layer.sphere_count(), 0.0);
         }
         layer.fill(slices.each_mut().map(Vec::as_mut_slice))?;
-        filled += 3 * layer.spheres();
+        filled += 3 * layer.sphere_count();
     }
     report("24 layers of hcp, in mg/(3 cosθ)", filled, start);
 
     // The lowest contacts bear all that lies above the floor: an increment is a third of a sphere.
     let sum: f64 = slices.iter().flatten().sum();
-    let above = pile.weight() - BigRational::from_integer(pile.base_spheres().into());
+    let above = pile.weight() - BigRational::from_integer(pile.base_sphere_count().into());
     let weight = Surd::from(&above * BigRational::from_integer(3.into())).nearest::<f64>();
     println!(
         "  The lowest ones sum to {sum}; the {above} spheres above weigh a third of that in mg."

@@ -2,16 +2,17 @@
 //!
 //! | method | how | where |
 //! |---|---|---|
-//! | *closed* | by counting the spheres on a line, paper, (8) and (9) | `tree.rs`, which such a line begins |
+//! | *closed* | by counting the spheres on a line, paper, (8) and (9) | `closed.rs` |
 //! | *tree* | the lines above one sphere, which begin at the changes of sign | `tree.rs` |
 //! | *sweep* | layer after layer, one in memory: plainly in the numbers of a scalar, or in limbs; of extremes a third of it | `sweep.rs`, `cells.rs`, `bands.rs`, `plane.rs`, `limbs.rs`, `thirds.rs` |
 //! | *table* | the distinct forces of a straight pile, copied row by row | `table.rs` |
 //!
-//! Engines know a [`System`](crate::pile::System), not a pile. They count and pass on by the functions of
+//! Engines know a `System`, not a pile. They count and pass on by the functions of
 //! [`formula`](crate::formula), and by nothing else.
 
 mod bands;
 mod cells;
+mod closed;
 mod ends;
 mod grid;
 mod interrupt;
@@ -32,20 +33,24 @@ mod thirds;
 mod tree;
 
 pub(crate) use cells::Cells;
+pub(crate) use closed::closed_contact;
 pub(crate) use grid::{Grid, MAX_NUMBERS};
 #[cfg(feature = "std")]
 pub use interrupt::Interrupt;
 pub use interrupt::check as check_interrupt;
+#[cfg(feature = "rayon")]
+pub(crate) use interrupt::{current as current_request, within};
 pub(crate) use limbs::Planes;
 pub(crate) use lines::{Lines, Received};
-pub use meter::{Counters, Meter};
+pub use meter::Counters;
+pub(crate) use meter::Meter;
 pub(crate) use nearest::{Readout, Unit};
 pub use parallel::{map, threads, try_for_each};
 pub use plan::Plan;
 pub(crate) use plan::{Keeping, trees_are_cheaper, unless_too_large};
 pub use question::{Method, Quantity, Question};
 pub(crate) use rows::{Engine, exact_sweep, received_in, shortest_exact_sweep};
-pub(crate) use single::{closed_contact, plain_sweep, received};
+pub(crate) use single::{plain_sweep, received};
 pub(crate) use slices::{fill_layers, fill_rows, split_front};
 pub(crate) use sweep::Descent;
 pub(crate) use table::Table;

@@ -12,7 +12,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::engine::Method;
-use crate::geometry::{Apart, Spacing};
+use crate::geometry::{LayerGap, Spacing};
 use crate::lattice::{Dimension, Direction, Region, Site};
 
 /// Why a pile, a site, a geometry or a number was refused.
@@ -185,7 +185,7 @@ pub enum Error {
         /// The spacing asked for.
         spacing: Box<Spacing>,
         /// Which spheres overlap.
-        apart: Apart,
+        apart: LayerGap,
         /// The least and the greatest spacing allowed, where there is one.
         allowed: Box<(Option<Spacing>, Option<Spacing>)>,
     },
@@ -356,7 +356,7 @@ fn is_to_be_had(numbers: u64, bytes: usize) -> bool {
 impl Error {
     pub(crate) fn overlap(
         spacing: &Spacing,
-        apart: Apart,
+        apart: LayerGap,
         allowed: (Option<Spacing>, Option<Spacing>),
     ) -> Self {
         Self::Overlap {

@@ -10,12 +10,14 @@ mod ends;
 mod layers;
 mod nearest;
 mod numerators;
+#[cfg(feature = "rayon")]
+pub mod parallel;
 mod screen;
 mod sums;
 mod terms;
 mod walk;
 
-pub use base::{Base, FloorForce};
+pub use base::{FloorForce, FloorForces};
 pub use contacts::{ContactForce, Contacts};
 pub(crate) use layers::check_lengths;
 pub use layers::{Layer, Layers};
@@ -24,8 +26,8 @@ pub use nearest::{NearestLayer, NearestLayers};
 pub use numerators::{NumeratorLayer, NumeratorLayers};
 
 use crate::engine::{
-    Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact, nodes,
-    received,
+    Counters, Keeping, Meter, Method, Plan, Quantity, Question, Received, Wanted, closed_contact,
+    nodes, received,
 };
 use crate::formula;
 use crate::geometry::{Vector, position};
@@ -56,7 +58,7 @@ use terms::{Terms, edge, edge_all, of_direction};
 /// sum of squares over a layer: [`Layer::error_bound`] says how far a force is off at most. A number that the scalar
 /// cannot hold is [`Error::Overflow`], never a wrong value.
 ///
-/// Inside, formulas run on the scalar's [numerators](Algebra::Numerator): for rationals on integers over a
+/// Inside, formulas run on the scalar's numerators: for rationals on integers over a
 /// denominator known beforehand, reduced once at the end.
 ///
 /// # Examples
@@ -71,16 +73,19 @@ use terms::{Terms, edge, edge_all, of_direction};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Forces<'p, T: Algebra, M = ()> {
+pub struct Forces<'p, T: Algebra> {
     pile: &'p Pile,
     terms: Terms<'p, T>,
     /// The method asked for, if it is not the cheapest.
     method: Option<Method>,
-    meter: M,
+    meter: Meter<'p>,
 }
 
 impl Pile {
     /// Returns the forces of the pile, in the scalar `T`.
+    ///
+    /// Name the scalar, `pile.forces::<f64>()`, or give the type of an answer: without either rustc reports E0283, "type
+    /// annotations needed".
     ///
     /// # Examples
     /// One pile in two scalars:
@@ -102,7 +107,7 @@ impl Pile {
             pile: self,
             terms: Terms::new(self.system()),
             method: None,
-            meter: (),
+            meter: Meter::NONE,
         }
     }
 
@@ -126,7 +131,7 @@ impl Pile {
     /// let plan = pile.plan(Selection::Base)?;
     /// assert_eq!((plan.method, plan.planes), (Method::Sweep, 1));
     ///
-    /// let by_trees = Question { method: Some(Method::Tree), ..Selection::Base.into() };
+    /// let by_trees = Question::from(Selection::Base).with_method(Method::Tree);
     /// assert_eq!(pile.plan(by_trees)?.method, Method::Tree);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
@@ -159,12 +164,12 @@ impl Pile {
     /// let pile = Pile::under(Region::SITE, format!("(2,1,{layers})").parse()?)?;
     /// // A line that begins at the surface of the last run, far below the changes of sign.
     /// let low = Site { i: 5, j: 7, k: pile.layers() - 2 };
-    /// assert_eq!(pile.nodes(low, Direction::Alpha)?, 0);
+    /// assert_eq!(pile.tree_size(low, Direction::Alpha)?, 0);
     /// // And one that passes through both changes.
-    /// assert_eq!(pile.nodes(Site { i: 1, j: 0, ..low }, Direction::Alpha)?, 4);
+    /// assert_eq!(pile.tree_size(Site { i: 1, j: 0, ..low }, Direction::Alpha)?, 4);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn nodes(&self, site: Site, direction: Direction) -> Result<usize, Error> {
+    pub fn tree_size(&self, site: Site, direction: Direction) -> Result<usize, Error> {
         let site = self.shape().check(site)?;
         if site.k == self.layers() - 1 {
             return Err(Error::OnFloor { site });
@@ -173,8 +178,8 @@ impl Pile {
     }
 }
 
-impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
-    /// Returns the forces, of which a meter hears what every answer takes.
+impl<'p, T: Algebra> Forces<'p, T> {
+    /// Counts the work of every answer with `counters`.
     ///
     /// # Examples
     /// ```
@@ -182,18 +187,19 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// use cannonpile::{Counters, Pile};
     ///
     /// let (pile, counters) = (Pile::triangular(4)?, Counters::default());
-    /// let forces = pile.forces::<f64>().metered(&counters);
+    /// let forces = pile.forces::<f64>().with_counters(&counters);
     /// assert_eq!(forces.contacts(Selection::All)?.count(), 30);
     /// assert_eq!(counters.to_string(), "10 visited, 0 turned, 0 passes, 30 rows");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn metered<N: Meter>(self, meter: N) -> Forces<'p, T, N> {
+    pub fn with_counters<'c>(self, counters: &'c Counters) -> Forces<'c, T>
+    where
+        'p: 'c,
+    {
         Forces {
-            pile: self.pile,
-            terms: self.terms,
-            method: self.method,
-            meter,
+            meter: Meter::of(counters),
+            ..self
         }
     }
 
@@ -210,14 +216,14 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     ///
     /// let pile = Pile::triangular(10)?;
     /// let forces = pile.forces::<f64>();
-    /// let swept = forces.clone().by(Method::Sweep)?;
+    /// let swept = forces.clone().with_method(Method::Sweep)?;
     /// let base = |forces: &cannonpile::Forces<'_, f64>| {
     ///     forces.base(Selection::Base)?.collect::<Result<Vec<_>, _>>()
     /// };
     /// assert_eq!(base(&swept)?, base(&forces)?);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn by(self, method: Method) -> Result<Self, Error> {
+    pub fn with_method(self, method: Method) -> Result<Self, Error> {
         self.terms.system.check_method(method)?;
         Ok(Self {
             method: Some(method),
@@ -234,7 +240,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// let pile = Pile::triangular(4)?;
     /// let forces = pile.forces::<f64>();
     /// assert_eq!(forces.method(), None);
-    /// assert_eq!(forces.by(Method::Tree)?.method(), Some(Method::Tree));
+    /// assert_eq!(forces.with_method(Method::Tree)?.method(), Some(Method::Tree));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -242,7 +248,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
         self.method
     }
 
-    pub(crate) fn meter(&self) -> M {
+    pub(crate) fn meter(&self) -> Meter<'p> {
         self.meter
     }
 
@@ -368,7 +374,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// assert_eq!(total, 1485.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T, M>, Error> {
+    pub fn contacts(&self, part: Selection) -> Result<Contacts<'p, T>, Error> {
         Contacts::new(self, part)
     }
 
@@ -388,12 +394,12 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// assert!(base?.iter().all(|force| force.normal == 4.0));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn base(&self, part: Selection) -> Result<Base<'p, T, M>, Error> {
-        Base::new(self, part)
+    pub fn base(&self, part: Selection) -> Result<FloorForces<'p, T>, Error> {
+        FloorForces::new(self, part)
     }
 
-    /// Returns a way down through the layers of a part of the pile, which fills the forces of each into slices: the fast
-    /// way to many of them, for every stacking.
+    /// Walks down the layers of `part`. Each layer writes its contact forces, in f₀, into slices of yours. The fastest way to
+    /// many forces.
     ///
     /// # Errors
     /// As for [`contacts`](Self::contacts).
@@ -411,7 +417,7 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     ///     if layer.is_floor() {
     ///         break;
     ///     }
-    ///     let mut forces = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+    ///     let mut forces = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
     ///     let [alpha, beta, gamma] = &mut forces;
     ///     layer.fill([alpha, beta, gamma])?;
     ///     total += forces.concat().iter().sum::<f64>();
@@ -420,11 +426,14 @@ impl<'p, T: Algebra, M: Meter> Forces<'p, T, M> {
     /// assert!((total - 45.0).abs() < 1e-12);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn layers(&self, part: Selection) -> Result<Layers<'p, T, M>, Error> {
+    pub fn layers(&self, part: Selection) -> Result<Layers<'p, T>, Error> {
         Layers::new(self, part)
     }
 
-    /// Returns the magnitude of the contact force between `site` and the sphere below it, in f₀.
+    /// Returns the force between the sphere at `site` and the one below it along `direction`, in units of f₀ = mg/(W cos θ),
+    /// which is mg/(3 cos θ) on an equilateral base.
+    ///
+    /// Positive: they push. Negative: they would have to pull, and the pile does not stand.
     ///
     /// # Errors
     /// [`Error::SiteOutside`]; [`Error::OnFloor`] for a sphere of the bottom layer;

@@ -52,6 +52,7 @@ use crate::scalar::Ring;
 ///
 /// assert_eq!(increments(&0.25), [1.0, 1.0, 0.5]);
 /// ```
+#[must_use]
 pub fn increments<T: Ring>(s: &T) -> [T; 3] {
     [T::one(), T::one(), s.clone() + s]
 }
@@ -67,6 +68,7 @@ pub fn increments<T: Ring>(s: &T) -> [T; 3] {
 /// // 2(1+s).
 /// assert_eq!(weight(&increments(&0.25)), 2.5);
 /// ```
+#[must_use]
 pub fn weight<T: Ring>(increments: &[T]) -> T {
     increments.iter().fold(T::zero(), |sum, w| sum + w)
 }
@@ -81,6 +83,7 @@ pub fn weight<T: Ring>(increments: &[T]) -> T {
 ///
 /// assert_eq!(force(3.0, &0.5), 1.5);
 /// ```
+#[must_use]
 #[inline]
 pub fn force<T: Ring>(n: T, increment: &T) -> T {
     n * increment
@@ -98,6 +101,7 @@ pub fn force<T: Ring>(n: T, increment: &T) -> T {
 /// let [_, _, w] = increments(&0.25);
 /// assert_eq!(passed_on(force(3.0, &w), &w), force(4.0, &w));
 /// ```
+#[must_use]
 #[inline]
 pub fn passed_on<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
     received + own
@@ -115,6 +119,7 @@ pub fn passed_on<T: for<'a> Add<&'a T, Output = T>>(received: T, own: &T) -> T {
 /// let force = resultant(&[1.0, 1.0, 1.0], &directions(&0.5));
 /// assert_eq!(force, Vector { x: 0.0, y: 0.0, z: 3.0 });
 /// ```
+#[must_use]
 pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<T> {
     -Vector::combination(from_above, directions)
 }
@@ -134,6 +139,7 @@ pub fn resultant<T: Ring>(from_above: &[T; 3], directions: &[Vector<T>; 3]) -> V
 /// let force = handed_on(&[9.0, 0.0, 0.0], &directions(&0.5), &3.0);
 /// assert_eq!(force, Vector { x: -4.5, y: -4.5, z: 12.0 });
 /// ```
+#[must_use]
 pub fn handed_on<T: Ring>(
     from_above: &[T; 3],
     directions: &[Vector<T>; 3],
@@ -162,6 +168,7 @@ pub fn handed_on<T: Ring>(
 /// let left = unbalanced(&[2.0, 3.0, 4.0], &e, &[1.0, 2.0, 3.0], &e, &3.0);
 /// assert_eq!(left, Vector::zero());
 /// ```
+#[must_use]
 pub fn unbalanced<T: Ring>(
     to_below: &[T; 3],
     below: &[Vector<T>; 3],

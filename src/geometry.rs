@@ -14,7 +14,7 @@ mod clearance;
 mod spacing;
 mod vector;
 
-pub use clearance::{Apart, Clearance};
+pub use clearance::{Clearance, LayerGap};
 pub(crate) use spacing::Bound;
 pub use spacing::Spacing;
 pub use vector::Vector;
@@ -42,6 +42,7 @@ use crate::scalar::{Algebra, Ring, Surd, TWO};
 /// // On an equilateral base the horizontal parts cancel.
 /// assert_eq!(a + &b + &c, Vector { x: 0.0, y: 0.0, z: -3.0 });
 /// ```
+#[must_use]
 pub fn directions<T: Algebra>(s: &T) -> [Vector<T>; 3] {
     let half = T::one().div_int(TWO);
     let up = -T::one();
@@ -113,6 +114,7 @@ pub fn disc_directions<T: Algebra>() -> [Vector<T>; 3] {
 /// let r = position(&count::above(&1.0, &0.0, &1.0), &directions(&0.5));
 /// assert_eq!(r, Vector { x: -0.5, y: 0.5, z: 1.0 });
 /// ```
+#[must_use]
 pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<T> {
     -Vector::combination(above, directions)
 }
@@ -131,6 +133,7 @@ pub fn position<T: Ring>(above: &[T; 3], directions: &[Vector<T>; 3]) -> Vector<
 /// let d = squared_distance(&[1.0, -1.0, 0.0], &0.5, &(1.0 / 3.0));
 /// assert!((d - 1.0_f64).abs() < 1e-15);
 /// ```
+#[must_use]
 pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
     let two = T::from_i128(2);
     let cos2 = T::one() - sin2;
@@ -155,7 +158,7 @@ pub fn squared_distance<T: Ring>(n: &[T; 3], s: &T, sin2: &T) -> T {
 /// assert_eq!(angle.tan2().to_string(), "12/13");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Inclination {
     sin2: BigRational,
 }

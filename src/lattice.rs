@@ -21,7 +21,7 @@ mod region;
 mod row;
 mod sign;
 
-pub use axis::{Axis, HorizontalContact, Link};
+pub use axis::{Axis, ContactKind, HorizontalContact};
 pub use region::Region;
 pub(crate) use region::{Along, Counts, Slopes, Trapezoid};
 pub use row::{Row, Sites};
@@ -31,7 +31,10 @@ use alloc::string::ToString;
 use core::fmt;
 use core::str::FromStr;
 
+use exact_surd::layout::padded;
+
 use crate::Error;
+use crate::scalar::parse::integer;
 
 /// The greatest number of layers, 10³⁶: sites, and sums of a few of them, stay within `i128`.
 pub const MAX_LAYERS: i128 = 10_i128.pow(36);
@@ -252,6 +255,20 @@ impl Site {
     /// The sphere on top of a pile, (0, 0, 0).
     pub const APEX: Self = Self { i: 0, j: 0, k: 0 };
 
+    /// Returns the site (i, j, k).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Site;
+    ///
+    /// assert_eq!(Site::new(1, 2, 5), Site { i: 1, j: 2, k: 5 });
+    /// assert_eq!(Site::from((1, 2, 5)), Site::new(1, 2, 5));
+    /// ```
+    #[must_use]
+    pub const fn new(i: i128, j: i128, k: i128) -> Self {
+        Self { i, j, k }
+    }
+
     /// Returns the site `steps` further down in `direction` under steps of one sign, up for a negative number; `None`
     /// past `i128`.
     pub(crate) fn step(self, sign: Sign, direction: Direction, steps: i128) -> Option<Self> {
@@ -276,10 +293,49 @@ impl PartialOrd for Site {
     }
 }
 
+impl From<(i128, i128, i128)> for Site {
+    fn from((i, j, k): (i128, i128, i128)) -> Self {
+        Self { i, j, k }
+    }
+}
+
 impl fmt::Display for Site {
     /// Prints `(i,j,k)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "({},{},{})", self.i, self.j, self.k)
+        padded(f, format_args!("({},{},{})", self.i, self.j, self.k))
+    }
+}
+
+impl FromStr for Site {
+    type Err = Error;
+
+    /// Reads a site as it is printed, `(0,1,2)`; blanks before a number are allowed.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`].
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::lattice::Site;
+    ///
+    /// assert_eq!("(0,1,2)".parse::<Site>()?, Site::new(0, 1, 2));
+    /// assert_eq!("(0, -1, 2)".parse::<Site>()?, Site::new(0, -1, 2));
+    /// assert!("0,1,2".parse::<Site>().is_err());
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let syntax = || Error::syntax(text, "a site such as (0,1,2)");
+        let inside = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
+        let mut numbers = inside.ok_or_else(syntax)?.split(',');
+        let mut next = || {
+            let number = numbers.next().ok_or_else(syntax)?;
+            integer(number.trim_start_matches(' ')).map_err(|_| syntax())
+        };
+        let site = Self::new(next()?, next()?, next()?);
+        match numbers.next() {
+            None => Ok(site),
+            Some(_) => Err(syntax()),
+        }
     }
 }
 
@@ -308,5 +364,53 @@ mod tests {
             ..Site::APEX
         };
         assert_eq!(last.step(Sign::Plus, Direction::Alpha, 1), None);
+    }
+
+    #[test]
+    fn sites_are_read_as_they_are_printed() {
+        for site in [
+            Site::APEX,
+            Site::new(1, -2, 3),
+            Site::new(i128::MIN, 0, i128::MAX),
+        ] {
+            assert_eq!(site.to_string().parse(), Ok(site));
+        }
+        assert_eq!("(1, -2,  3)".parse(), Ok(Site::new(1, -2, 3)));
+        for refused in [
+            "",
+            "()",
+            "(0,1)",
+            "(0,1,2,3)",
+            "0,1,2",
+            "(0,1,2",
+            "(0,1,2))",
+            "(0,1,)",
+            "(0;1;2)",
+            "(0,1,2) ",
+            "(0 ,1,2)",
+            "(0,1/2,2)",
+        ] {
+            let read = refused.parse::<Site>();
+            assert!(matches!(read, Err(Error::Syntax { .. })), "{refused}");
+        }
+        // Beyond i128.
+        assert!("(0,0,1e39)".parse::<Site>().is_err());
+    }
+
+    #[test]
+    fn sites_and_regions_are_padded() {
+        let site = Site::new(0, 1, 2);
+        assert_eq!(
+            alloc::format!("{site:>10}|{site:<10}|"),
+            "   (0,1,2)|(0,1,2)   |"
+        );
+        let region = Region::SITE;
+        assert_eq!(alloc::format!("{region:*^16}"), "*0..0,0..0,0..0*");
+        assert_eq!(alloc::format!("{region:>#12}"), "   hexagon:1");
+        let outside = Region::new(2..=3, 0..=1, 2..=4).unwrap();
+        assert_eq!(
+            alloc::format!("{outside:#25}|"),
+            "region:2..3,0..1,2..4    |"
+        );
     }
 }

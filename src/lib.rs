@@ -54,23 +54,41 @@
 //! | one contact force, in any scalar, in multiples of f₀ | [`pile.forces::<T>()`](Pile::forces)[`.contact(site, direction)`](Forces::contact) |
 //! | the force of one sphere on the floor | [`.on_floor(site)`](Forces::on_floor) |
 //! | all of them, one by one | [`.contacts(part)`](Forces::contacts), [`.base(part)`](Forces::base); `part` is a [`Selection`](shape::Selection) |
+//! | the same on all cores (feature `rayon`) | `parallel::contacts(&forces, part)`, `parallel::base(&forces, part)` |
+//! | the sites of a part | [`pile.sites(part)`](Pile::sites), or row by row [`pile.rows(part)`](Pile::rows) |
 //! | many, fast, into slices | [`.layers(part)`](Forces::layers), and of these the [nearest floats](Layers::nearest) or [exact integers](Layers::numerators) |
 //! | the same in newtons and metres | a [`Packing`], with [`.layers::<f64>(part)`](Packing::layers) for nearest floats in slices |
 //! | rows of them, for what is larger than memory | [`fill_row`](NearestLayers::fill_row) and its like; [`packing.places()`](Packing::places) for centres and points of contact |
 //! | totals | [`.sum_of_contacts(part)`](Forces::sum_of_contacts), [`.sum_on_floor(part)`](Forces::sum_on_floor) |
-//! | what springs bear where neighbours of a layer touch | `pile.elastic(ratio)?.pile()` (feature `horizontal`), and of that pile any of these |
-//! | what a bottom sphere can bear there at least and at most | `pile.bounds(site)` (feature `horizontal`) |
-//! | whether a pile stands, and what its base bears at most | [`Pile::standing`], [`Pile::base_extremes`] |
-//! | which stackings stand | [`census`] |
-//! | what the piles of all stackings bear in the mean, at any fault probability | [`disorder`] |
-//! | whether a pile stands with horizontal contacts (a = R), and which do | `Pile::equilibrium`, `horizontal::census` |
-//! | whether forces with horizontal contacts (a = R) are what somebody says, checked anew | [`certificate`] |
-//! | what is proved for every pile | [`theorem`]; for Coq to check, `proof` |
-//! | to end what takes too long | `Interrupt` |
-//! | how a question is answered, and what that takes | [`Pile::plan`], [`Counters`] |
-//! | a pile as a user describes it | [`scene::Scene`] |
-//! | benchmark cases with names that others can quote | `scene::cases` (feature `toml`) |
-//! | tables; files for LAMMPS, YADE, ParaView, a page for a browser; a comparison with measured forces; figures | `table`, `dem`, `verify`, `figure` |
+//! | the verdict on a pile, and the extremes of its base | [`Pile::standing`], [`Pile::base_extremes`] |
+//! | the stable stackings | [`census`] |
+//! | what is proved for every pile | [`theorem`] |
+//! | an end to a long computation | `Interrupt` |
+//! | the cost of a query, before and after | [`Pile::plan`], [`Counters`] |
+//! | random piles for my own tests | `testing::piles` (feature `proptest`), `arbitrary` for fuzz targets |
+//! | a scalar of my own | [`scalar::Ring`], [`scalar::Algebra`], [`scalar::OwnNumerators`], checked by [`scalar::laws`] |
+//!
+//! Crates beside this one answer further questions:
+//!
+//! | I want | crate |
+//! |---|---|
+//! | horizontal contacts at a = R: bounds, elastic states, verdicts, certificates | `cannonpile-horizontal` |
+//! | means and ensembles over random stackings | `cannonpile-disorder` |
+//! | scenes, benchmark cases, files for LAMMPS, YADE and ParaView, a comparison with measured forces | `cannonpile-dem` |
+//! | figures, and a page for a browser | `cannonpile-figure` |
+//! | the theorems for Coq to check | `cannonpile-proof` |
+//!
+//! # Features
+//! | feature | what it adds |
+//! |---|---|
+//! | `std` (default) | faster big integers; double-doubles decide most roundings of roots |
+//! | `rayon` | sweeps and slices on all cores, and `parallel` |
+//! | `serde` | `Serialize` and `Deserialize` for the data types, and `data` |
+//! | `arbitrary` | `arbitrary`: random piles, regions, stackings and sites from plain bytes, for fuzz targets |
+//! | `proptest` | `testing`: the same as strategies of proptest |
+//!
+//! Rust 1.88 or later. The types of `num-bigint` 0.4 and `num-rational` 0.4 are part of the interface; they are re-exported as
+//! [`num_bigint`] and [`num_rational`].
 //!
 //! No one has to choose a method: the plan does. A pile equal to another is the same pile.
 //!
@@ -86,11 +104,13 @@
 //! | | [`geometry`] | a/R, θ, φ, the symbolic basis, positions, overlap |
 //! | physics | [`formula`] | the paper's equations, each once, under its printed number, and the step across a change of sign |
 //! | | [`Pile`] | a validated pile, of any stacking, on any region, under loads |
-//! | answers | `engine` (private) | the [`Plan`], and the engines it chooses among |
+//! | answers | `engine` | the [`Plan`], and the engines it chooses among; no promise to users |
 //! | | [`Forces`], [`Packing`] | the one thing to ask, in pile units and in SI |
 //! | | [`Standing`], [`census`] | which piles stand |
 //! | | [`theorem`] | what is proved for every pile: of [`formula`], and of nothing else |
 //! | tools | `data` | the types as serde writes and reads them (feature `serde`) |
+//! | | `arbitrary` | random piles and their parts from plain bytes (feature `arbitrary`) |
+//! | | `testing` | strategies of proptest for the same (feature `proptest`) |
 //! | errors | [`Error`] | what can be wrong with a question |
 //!
 //! From the paper to the code: [`paper`] lists its equations by their printed numbers, and the mathematics that goes beyond.
@@ -122,6 +142,9 @@
 
 extern crate alloc;
 
+#[cfg(feature = "arbitrary")]
+#[cfg_attr(docsrs, doc(cfg(feature = "arbitrary")))]
+pub mod arbitrary;
 pub mod census;
 #[cfg(feature = "serde")]
 #[cfg_attr(docsrs, doc(cfg(feature = "serde")))]
@@ -141,16 +164,22 @@ pub mod scalar;
 pub mod shape;
 pub mod stacking;
 mod standing;
+#[cfg(feature = "proptest")]
+#[cfg_attr(docsrs, doc(cfg(feature = "proptest")))]
+pub mod testing;
 pub mod theorem;
 
 #[cfg(feature = "std")]
 #[cfg_attr(docsrs, doc(cfg(feature = "std")))]
 pub use engine::Interrupt;
-pub use engine::{Counters, Meter, Method, Plan, Quantity, Question};
+pub use engine::{Counters, Method, Plan, Quantity, Question};
 pub use error::Error;
+#[cfg(feature = "rayon")]
+#[cfg_attr(docsrs, doc(cfg(feature = "rayon")))]
+pub use forces::parallel;
 pub use forces::{
-    Base, ContactForce, Contacts, FloorForce, Forces, Layer, Layers, NearestLayer, NearestLayers,
-    NumeratorLayer, NumeratorLayers,
+    ContactForce, Contacts, FloorForce, FloorForces, Forces, Layer, Layers, NearestLayer,
+    NearestLayers, NumeratorLayer, NumeratorLayers,
 };
 pub use packing::{PackedContact, Packing, Places};
 pub use pile::Pile;

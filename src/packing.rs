@@ -11,8 +11,8 @@ use alloc::vec::Vec;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
-use crate::engine::{Meter, Method};
-use crate::geometry::{Apart, Inclination, Spacing, Vector};
+use crate::engine::{Counters, Method};
+use crate::geometry::{Inclination, LayerGap, Spacing, Vector};
 use crate::lattice::{Direction, Site};
 use crate::scalar::{Ring, Surd, product};
 use crate::{Error, FloorForce, Forces, Pile};
@@ -32,12 +32,10 @@ use crate::{Error, FloorForce, Forces, Pile};
 /// ```
 /// use cannonpile::geometry::Spacing;
 /// use cannonpile::lattice::{Direction, Site};
-/// use cannonpile::{Packing, Pile};
-/// use num_rational::BigRational;
+/// use cannonpile::{Packing, Pile, ratio};
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
 /// let pile = Pile::triangular(10)?;
-/// let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?.with_mass(ratio(1, 10))?;
+/// let packing = Packing::new(&pile, &Spacing::new(ratio!(6/5))?)?.with_mass(ratio!(1/10))?;
 ///
 /// let force = packing.contact(Site::APEX, Direction::Alpha)?;
 /// assert_eq!(force.to_string(), "1/78*sqrt(13)");
@@ -49,10 +47,10 @@ use crate::{Error, FloorForce, Forces, Pile};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Packing<'p, M = ()> {
-    forces: Forces<'p, BigRational, M>,
+pub struct Packing<'p> {
+    forces: Forces<'p, BigRational>,
     inclination: Inclination,
-    touching: Vec<Apart>,
+    touching: Vec<LayerGap>,
     roots: Roots,
     /// W.
     increment_sum: BigRational,
@@ -75,18 +73,17 @@ impl<'p> Packing<'p> {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use cannonpile::{Error, Packing, Pile};
-    /// use num_rational::BigRational;
+    /// use cannonpile::{Error, Packing, Pile, ratio};
     ///
     /// let pile = Pile::triangular(10)?;
-    /// let spacing = |n: i64, d: i64| Spacing::new(BigRational::new(n.into(), d.into()));
-    /// assert!(Packing::new(&pile, &spacing(6, 5)?).is_ok());
-    /// assert!(matches!(Packing::new(&pile, &spacing(9, 10)?), Err(Error::Overlap { .. })));
+    /// assert!(Packing::new(&pile, &Spacing::new(ratio!(6/5))?).is_ok());
+    /// let refused = Packing::new(&pile, &Spacing::new(ratio!(9/10))?);
+    /// assert!(matches!(refused, Err(Error::Overlap { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn new(pile: &'p Pile, spacing: &Spacing) -> Result<Self, Error> {
         let touching = pile.clearance().check(spacing)?;
-        if pile.horizontal_forces().len() > 0 && !touching.contains(&Apart { layers: 0 }) {
+        if pile.horizontal_forces().len() > 0 && !touching.contains(&LayerGap { layers: 0 }) {
             return Err(Error::NotTouching {
                 spacing: spacing.clone(),
             });
@@ -111,8 +108,8 @@ impl<'p> Packing<'p> {
     }
 }
 
-impl<'p, M: Meter> Packing<'p, M> {
-    /// Returns the packing, of which a meter hears what every answer takes.
+impl<'p> Packing<'p> {
+    /// Counts the work of every answer with `counters`.
     ///
     /// # Examples
     /// ```
@@ -124,31 +121,26 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let pile = Pile::triangular(10)?;
     /// let counters = Counters::default();
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
-    /// let packing = Packing::new(&pile, &spacing)?.metered(&counters);
+    /// let packing = Packing::new(&pile, &spacing)?.with_counters(&counters);
     /// assert_eq!(packing.base(Selection::Base)?.count(), 55);
     /// assert_eq!(counters.rows(), 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn metered<N: Meter>(self, meter: N) -> Packing<'p, N> {
+    pub fn with_counters<'c>(self, counters: &'c Counters) -> Packing<'c>
+    where
+        'p: 'c,
+    {
         Packing {
-            forces: self.forces.metered(meter),
-            inclination: self.inclination,
-            touching: self.touching,
-            roots: self.roots,
-            increment_sum: self.increment_sum,
-            radius: self.radius,
-            mass: self.mass,
-            gravity: self.gravity,
-            weight_per_sum: self.weight_per_sum,
-            unit_force: self.unit_force,
+            forces: self.forces.with_counters(counters),
+            ..self
         }
     }
 
     /// Returns the packing whose forces are found by this method, whether it is the cheapest or not: for comparison.
     ///
     /// # Errors
-    /// As for [`Forces::by`].
+    /// As for [`Forces::with_method`].
     ///
     /// # Examples
     /// ```
@@ -159,14 +151,14 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// let pile = Pile::triangular(10)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let swept = packing.clone().by(Method::Sweep)?;
+    /// let swept = packing.clone().with_method(Method::Sweep)?;
     /// let (site, along) = (Site { i: 1, j: 2, k: 5 }, Direction::Alpha);
     /// assert_eq!(swept.contact(site, along)?, packing.contact(site, along)?);
     /// assert_eq!((packing.method(), swept.method()), (None, Some(Method::Sweep)));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn by(self, method: Method) -> Result<Self, Error> {
-        let forces = self.forces.by(method)?;
+    pub fn with_method(self, method: Method) -> Result<Self, Error> {
+        let forces = self.forces.with_method(method)?;
         Ok(Self { forces, ..self })
     }
 
@@ -251,7 +243,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let pile = Pile::triangular(10)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// assert_eq!(packing.method(), None);
-    /// assert_eq!(packing.by(Method::Tree)?.method(), Some(Method::Tree));
+    /// assert_eq!(packing.with_method(Method::Tree)?.method(), Some(Method::Tree));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -276,7 +268,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn forces(&self) -> &Forces<'p, BigRational, M> {
+    pub fn forces(&self) -> &Forces<'p, BigRational> {
         &self.forces
     }
 
@@ -416,7 +408,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn touching(&self) -> &[Apart] {
+    pub fn touching(&self) -> &[LayerGap] {
         &self.touching
     }
 
@@ -481,7 +473,8 @@ impl<'p, M: Meter> Packing<'p, M> {
         self.unit_force.scaled(&self.diameter().recip())
     }
 
-    /// The magnitude of the contact force between `site` and the sphere below it.
+    /// Returns the force between the sphere at `site` and the one below it along `direction`: positive if they push,
+    /// negative if they would have to pull.
     ///
     /// # Errors
     /// As for [`Forces::contact`].
@@ -598,7 +591,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn on_floor(&self, site: Site) -> Result<FloorForce<Surd>, Error> {
-        Ok(self.floor_force(self.forces.on_floor(site)?))
+        Ok(self.floor_force_in_si(self.forces.on_floor(site)?))
     }
 
     /// Returns a force on the floor in SI, from its multiples of mg and mg·tanθ.
@@ -614,11 +607,11 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let site = Site { i: 0, j: 0, k: 9 };
     /// let multiples = packing.forces().on_floor(site)?;
-    /// assert_eq!(packing.floor_force(multiples), packing.on_floor(site)?);
+    /// assert_eq!(packing.floor_force_in_si(multiples), packing.on_floor(site)?);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn floor_force(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
+    pub fn floor_force_in_si(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
         let site = force.site;
         let force = Vector {
             x: force.shear_x,

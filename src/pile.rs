@@ -1,5 +1,6 @@
 //! A pile that exists only validated.
 
+mod display;
 mod loading;
 mod system;
 
@@ -15,7 +16,7 @@ use crate::formula;
 use crate::geometry::{Clearance, Vector, directions, disc_directions};
 use crate::lattice::{Dimension, HorizontalContact, Region, Site, count};
 use crate::scalar::{Algebra, Ring, sum_of};
-use crate::shape::{Numbering, Rows, Selection, Shape};
+use crate::shape::{Numbering, Rows, Selection, Shape, Sites};
 use crate::stacking::Stacking;
 
 /// A pile: which sites it has, how they are stacked, what they weigh, and sin φ.
@@ -36,7 +37,7 @@ use crate::stacking::Stacking;
 /// assert_eq!(force.normal.to_string(), "333333333333333333333333333334");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Pile {
     shape: Shape,
     /// 0 for discs: the s → 0 limit of the isosceles pile, whose γ lines carry nothing.
@@ -58,6 +59,15 @@ impl Pile {
     /// assert!(matches!(Pile::triangular(0), Err(Error::Layers { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
+    /// Layers are counted in an `i128`. From a `u32` or an `i64` comes `layers.into()`; a `usize` takes `try_into`, which fails
+    /// on no machine of today:
+    /// ```
+    /// use cannonpile::Pile;
+    ///
+    /// let layers: usize = 3;
+    /// assert_eq!(Pile::triangular(layers.try_into().unwrap())?.layers(), 3);
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
     pub fn triangular(layers: i128) -> Result<Self, Error> {
         Self::isosceles(layers, BigRational::new(1.into(), 2.into()))
     }
@@ -69,12 +79,10 @@ impl Pile {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::{Error, Pile};
-    /// use num_rational::BigRational;
+    /// use cannonpile::{Error, Pile, ratio};
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// assert!(Pile::isosceles(10, ratio(2, 5)).is_ok());
-    /// assert!(matches!(Pile::isosceles(10, ratio(1, 1)), Err(Error::SinPhi { .. })));
+    /// assert!(Pile::isosceles(10, ratio!(2/5)).is_ok());
+    /// assert!(matches!(Pile::isosceles(10, ratio!(1)), Err(Error::SinPhi { .. })));
     /// # Ok::<(), Error>(())
     /// ```
     pub fn isosceles(layers: i128, sin_phi: BigRational) -> Result<Self, Error> {
@@ -382,11 +390,11 @@ impl Pile {
     /// ```
     /// use cannonpile::Pile;
     ///
-    /// assert_eq!(Pile::triangular(10)?.base_spheres(), 55_u32.into());
+    /// assert_eq!(Pile::triangular(10)?.base_sphere_count(), 55_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn base_spheres(&self) -> BigUint {
+    pub fn base_sphere_count(&self) -> BigUint {
         self.shape.base().site_count()
     }
 
@@ -400,12 +408,12 @@ impl Pile {
     /// use cannonpile::Pile;
     ///
     /// let pile = Pile::triangular(10)?;
-    /// assert_eq!(pile.contacts_of_strength(9), 1_u32.into());
-    /// assert_eq!(pile.contacts_of_strength(10), 0_u32.into());
+    /// assert_eq!(pile.contact_count_of_strength(9), 1_u32.into());
+    /// assert_eq!(pile.contact_count_of_strength(10), 0_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn contacts_of_strength(&self, n: i128) -> BigUint {
+    pub fn contact_count_of_strength(&self, n: i128) -> BigUint {
         if !(1..self.layers()).contains(&n) || !self.is_paper_pile() {
             return BigUint::zero();
         }
@@ -454,6 +462,27 @@ impl Pile {
     /// ```
     pub fn rows(&self, selection: Selection) -> Result<Rows<'_>, Error> {
         self.shape.rows(selection)
+    }
+
+    /// Returns the sites of a part of the pile, from the top, row by row.
+    ///
+    /// # Errors
+    /// As for [`rows`](Self::rows).
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    /// use cannonpile::shape::Selection;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let base: Vec<Site> = pile.sites(Selection::Base)?.collect();
+    /// assert_eq!(base.len(), 55);
+    /// assert_eq!(base[0], Site::new(0, 0, 9));
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    pub fn sites(&self, selection: Selection) -> Result<Sites<'_>, Error> {
+        Ok(self.rows(selection)?.sites())
     }
 
     /// The numbers of all spheres, both ways: [`Shape::numbering`].

@@ -7,7 +7,7 @@
 //! | [`Ring`] | `+ − ×` and the integers | integers |
 //! | [`Algebra`] | a ring that contains ℚ: rationals in, division by a nonzero machine integer | polynomials |
 //! | [`Field`] | division by whatever is not zero | |
-//! | [`RealEmbeddable`] | a place on the real line: a sign, and rational bounds | |
+//! | [`RealEmbeddable`] | comparison with rationals: a sign, and rational bounds | |
 //!
 //! [`Field`] and [`RealEmbeddable`] are independent: the first is algebraic structure, the second
 //! is order. None of them is built on `num_traits::{Num, Float}`, none asks for `Copy`, and no
@@ -52,20 +52,24 @@ mod float;
 mod interval;
 pub mod laws;
 mod polynomial;
+mod ratio;
 mod rational;
 
 pub use exact_surd::{DoubleDouble, NearestFloat, Surd, parse};
 pub use fixed::{FixedInteger, FixedRational};
 pub use interval::Interval;
 pub use polynomial::{Polynomial, Symbol};
+#[doc(hidden)]
+pub use ratio::quotient;
 
 pub(crate) use exact_surd::float_between;
 pub(crate) use exact_surd::rational::{common_denominator, common_multiple, product, sum_of};
 
-use core::fmt::Debug;
+use core::fmt::{self, Debug};
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
+use exact_surd::layout::{padded, part};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -122,8 +126,30 @@ impl Exactness {
 
 /// A commutative ring with the integers in it: all that most formulas need.
 ///
-/// Operators take the right operand by reference, so that no big number is copied for nothing; in
-/// a generic body `Self` stays on the left. Rows of a layer may be worked on in several threads (feature `rayon`).
+/// Operators take the right operand by reference, so that no big number is copied for nothing; in a generic body `Self`
+/// stays on the left. So a·b − a of two references is `a.clone() * b - a`, and a temporary value on the right needs `&`.
+///
+/// Every scalar is `Send` and `Sync`, also without the feature `rayon`, with which threads share the rows of a layer. Cargo
+/// turns a feature on for all crates of a build: if `rayon` added these bounds, another dependency could break a scalar
+/// without them. So a value that holds an `Rc`, such as a node of a tape for reverse differentiation, is no scalar. An
+/// index into the tape, or an `Arc`, is.
+///
+/// # Examples
+/// ```
+/// use cannonpile::scalar::Ring;
+///
+/// fn square_of_difference<T: Ring>(a: &T, b: &T) -> T {
+///     let difference = a.clone() - b;
+///     difference.clone() * &difference
+/// }
+///
+/// fn product_less_first<T: Ring>(a: &T, b: &T) -> T {
+///     a.clone() * b - a
+/// }
+///
+/// assert_eq!(square_of_difference(&2.0, &5.0), 9.0);
+/// assert_eq!(product_less_first(&2.0, &5.0), 8.0);
+/// ```
 ///
 /// # Laws
 /// For exact scalars, and for rounded ones as far as their precision goes ([`laws`] checks this):
@@ -161,8 +187,6 @@ impl Ring for BigInt {
 /// * [`from_rational`](Self::from_rational) respects `+`, `*` and 1, and agrees with
 ///   [`from_i128`](Ring::from_i128);
 /// * `a.div_int(n)` is the one `b` with `b * n = a`;
-/// * [`from_ratio`](Self::from_ratio) of a [numerator](Self::numerators) of r and the denominator is the
-///   image of r.
 ///
 /// # Examples
 /// A formula written once, evaluated in two scalars:
@@ -178,16 +202,16 @@ impl Ring for BigInt {
 /// let half = BigRational::new(1.into(), 2.into());
 /// assert_eq!(triangle_number(&half), BigRational::new(3.into(), 8.into()));
 /// ```
-pub trait Algebra: Ring {
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a scalar of cannonpile",
+    note = "for exact rationals of machine integers use `FixedRational<i64>`; a scalar of your own implements `Ring`, `Algebra` and `OwnNumerators`"
+)]
+pub trait Algebra: Ring + Numerators {
     /// How far results can be trusted.
     const EXACTNESS: Exactness;
 
     /// The scalar's name in messages, such as `f64`.
     const NAME: &'static str;
-
-    /// The ring in which a formula is cheapest before one final division: the scalar itself, or for
-    /// rationals their integers, where nothing is reduced along the way.
-    type Numerator: Ring;
 
     /// Returns the image of the rational `r`: exact, or rounded once to the nearest.
     fn from_rational(r: &BigRational) -> Self;
@@ -198,64 +222,79 @@ pub trait Algebra: Ring {
 
     /// Returns whether the value stands for a number; false for a fault, an infinity, not-a-number.
     ///
-    /// It is asked once, at the edge of the library: arithmetic carries such values along.
+    /// The library asks once, before it returns a value, and answers [`Error::Overflow`](crate::Error::Overflow) if this is
+    /// false. Operations may return undefined values freely.
     fn is_defined(&self) -> bool;
 
     /// Returns whether two values may stand for the same number: equality, or for bounds that they overlap.
     fn may_equal(&self, other: &Self) -> bool {
         self == other
     }
+}
+
+/// A scalar that is its own ring of numerators: every one but the rationals, whose numerators are integers.
+///
+/// The engines compute numerators over a known denominator and divide once. A scalar of your own needs this and nothing
+/// else for them.
+///
+/// # Examples
+/// In a [`Field`] the quotient is that of the field:
+/// ```ignore
+/// impl OwnNumerators for Mine {
+///     fn ratio(n: Self, d: &Self) -> Option<Self> {
+///         n.checked_div(d)
+///     }
+/// }
+/// ```
+pub trait OwnNumerators: Algebra + Numerators<Numerator = Self> {
+    /// Returns n/d, reduced or rounded once; `None` if d is zero or does not divide n in the scalar.
+    fn ratio(n: Self, d: &Self) -> Option<Self>;
+}
+
+/// What the engines compute a scalar by: numerators over a common denominator, and one division at the end.
+///
+/// A scalar of your own has it by [`OwnNumerators`].
+#[doc(hidden)]
+pub trait Numerators: Sized {
+    /// The ring in which a formula is cheapest before one final division: the scalar itself, or for
+    /// rationals their integers, where nothing is reduced along the way.
+    ///
+    /// For a scalar of your own it is `Self`: implement [`OwnNumerators`], and this trait follows.
+    type Numerator: Ring;
 
     /// Returns numerators of `values` over a common denominator, and that denominator.
     ///
     /// For rationals they are integers, and the denominator is the least one; a scalar that is its own ring
     /// of numerators takes the values themselves, over 1.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::Algebra;
-    /// use num_rational::BigRational;
-    ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// let values = [ratio(1, 2), ratio(1, 3)];
-    /// assert_eq!(BigRational::numerators(&values), ([3.into(), 2.into()], 6.into()));
-    /// assert_eq!(f64::numerators(&values), ([0.5, 1.0 / 3.0], 1.0));
-    /// ```
     fn numerators<const N: usize>(
         values: &[BigRational; N],
     ) -> ([Self::Numerator; N], Self::Numerator);
 
     /// Returns `n / by` in the ring of numerators, or `None` if its denominator has to take the divisor instead, as for
     /// integers. Which of the two it is does not depend on `n`.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::Algebra;
-    /// use num_rational::BigRational;
-    ///
-    /// let three = 3.try_into().unwrap();
-    /// assert_eq!(f64::divide_numerator(6.0, three), Some(2.0));
-    /// assert_eq!(BigRational::divide_numerator(6.into(), three), None);
-    /// ```
     #[must_use]
-    fn divide_numerator(n: Self::Numerator, by: NonZeroI64) -> Option<Self::Numerator> {
-        // Integers are in every ring of numerators; quotients may not be.
-        let _ = (n, by);
-        None
-    }
+    fn divide_numerator(n: Self::Numerator, by: NonZeroI64) -> Option<Self::Numerator>;
 
     /// Returns `n / d`, reduced or rounded once; `None` if `d` is zero or does not divide `n` in the scalar.
-    ///
-    /// # Examples
-    /// ```
-    /// use cannonpile::scalar::Algebra;
-    /// use num_rational::BigRational;
-    ///
-    /// let third = BigRational::from_ratio(2.into(), &6.into());
-    /// assert_eq!(third, Some(BigRational::new(1.into(), 3.into())));
-    /// assert_eq!(f64::from_ratio(2.0, &0.0), None);
-    /// ```
     fn from_ratio(n: Self::Numerator, d: &Self::Numerator) -> Option<Self>;
+}
+
+impl<T: OwnNumerators> Numerators for T {
+    type Numerator = T;
+
+    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([T; N], T) {
+        (values.each_ref().map(T::from_rational), T::one())
+    }
+
+    #[inline]
+    fn divide_numerator(n: T, by: NonZeroI64) -> Option<T> {
+        Some(n.div_int(by))
+    }
+
+    #[inline]
+    fn from_ratio(n: T, d: &T) -> Option<T> {
+        T::ratio(n, d)
+    }
 }
 
 /// An [`Algebra`] with division.
@@ -278,6 +317,7 @@ pub trait Field: Algebra {
 
 /// The sign of a value on the real line, as far as the scalar knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum RealSign {
     /// Less than zero.
     Negative,
@@ -290,7 +330,7 @@ pub enum RealSign {
 }
 
 /// Rational bounds of a value: `lower ≤ x ≤ upper`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
     derive(::serde::Serialize, ::serde::Deserialize),
@@ -341,7 +381,23 @@ impl Enclosure {
     }
 }
 
-/// A scalar whose values have a place on the real line.
+impl fmt::Display for Enclosure {
+    /// Prints `[1/3, 1/2]`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::RealEmbeddable;
+    ///
+    /// let half = 0.5.enclosure().unwrap();
+    /// assert_eq!(format!("{half:>14}"), "    [1/2, 1/2]");
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [lower, upper] = [&self.lower, &self.upper].map(|bound| part(f, bound));
+        padded(f, format_args!("[{lower}, {upper}]"))
+    }
+}
+
+/// A scalar that can be compared with rationals: it has a sign, and rational bounds.
 ///
 /// Of a rounded scalar this is the place of the *stored* value, which says nothing certain about
 /// the quantity it approximates: a verdict needs a scalar that is exact.

@@ -2,11 +2,18 @@
 
 mod counts;
 mod numbering;
+#[cfg(feature = "rayon")]
+mod parts;
 mod rows;
 mod runs;
+mod sites;
 
 pub use numbering::Numbering;
+#[cfg(feature = "rayon")]
+pub(crate) use parts::Part;
 pub use rows::{Rows, Selection};
+pub use sites::Sites;
+pub(crate) use sites::exact_hint;
 
 use runs::Steps;
 pub(crate) use runs::Stretch;
@@ -46,7 +53,7 @@ use crate::stacking::{Pattern, Run, Stacking};
 /// assert_eq!(on_a_hexagon.layer(0)?, Region::hexagon(2, 2)?);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Shape {
     dimension: Dimension,
     stacking: Stacking,
@@ -69,7 +76,7 @@ pub struct Shape {
 /// assert_eq!(pile.shape().anchor(), Anchor::Base(Region::triangle(4)?));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
     derive(::serde::Serialize, ::serde::Deserialize),
@@ -599,8 +606,8 @@ impl Shape {
     /// assert_eq!(sites[1..], [(0, 0), (1, 0), (0, 1)].map(|(i, j)| Site { i, j, k: 1 }));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn sites(&self) -> impl Iterator<Item = Site> + '_ {
-        Rows::of_layers(self, 0..self.layers()).flatten()
+    pub fn sites(&self) -> Sites<'_> {
+        Rows::of_layers(self, 0..self.layers()).sites()
     }
 
     /// Returns the greatest number of layers that a pattern, read from the base up, carries a base to.

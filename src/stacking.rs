@@ -461,9 +461,9 @@ impl fmt::Display for Pattern {
     /// Prints what [`FromStr`] reads: a name, or the stacking.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Fcc => f.write_str("fcc"),
-            Self::Hcp => f.write_str("hcp"),
-            Self::Dhcp => f.write_str("dhcp"),
+            Self::Fcc => f.pad("fcc"),
+            Self::Hcp => f.pad("hcp"),
+            Self::Dhcp => f.pad("dhcp"),
             Self::Spelled(stacking) => stacking.fmt(f),
         }
     }

@@ -22,12 +22,12 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use crate::engine::{
-    Descent, Grid, Lines, MAX_NUMBERS, Planes, Received, Wanted, shortest_exact_sweep,
+    Descent, Grid, Lines, MAX_NUMBERS, Meter, Planes, Received, Wanted, shortest_exact_sweep,
     trees_are_cheaper, unless_too_large,
 };
 use crate::error::{bug, refuse_beyond};
 use crate::formula;
-use crate::geometry::Apart;
+use crate::geometry::LayerGap;
 use crate::lattice::{Direction, Site};
 use crate::pile::System;
 use crate::shape::{Selection, Shape};
@@ -103,8 +103,7 @@ pub struct Standing {
     /// The contact with the least force, the first of them in the order of tables; none of a single layer, and none where
     /// a pile fails near the top and more than 10⁹ numbers would have to be looked at below.
     pub least: Option<ContactForce<BigRational>>,
-    /// The first layer with a sphere that would have to pull at one below it: down to there, and no further, the
-    /// stacking stands.
+    /// The first layer (from 0 at the top) in which some contact would have to pull. The layers above it stand on their own.
     pub first_failure: Option<i128>,
 }
 
@@ -115,17 +114,17 @@ impl Standing {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::geometry::LayerGap;
     /// use cannonpile::lattice::Region;
     /// use cannonpile::{Pile, Verdict};
     ///
     /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
-    /// let touching = [Apart { layers: 2 }];
+    /// let touching = [LayerGap { layers: 2 }];
     /// assert_eq!(pile.standing()?.verdict(&touching), Verdict::Undetermined);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn verdict(&self, touching: &[Apart]) -> Verdict {
+    pub fn verdict(&self, touching: &[LayerGap]) -> Verdict {
         match (self.first_failure, touching) {
             (None, _) => Verdict::Yes,
             (Some(_), []) => Verdict::No,
@@ -185,8 +184,8 @@ impl Pile {
         Ok(standing)
     }
 
-    /// The first layer with a sphere that would have to pull at one below it: down to there, and no further, the stacking
-    /// stands. What lies below is not looked at.
+    /// Returns the first layer (from 0 at the top) in which some contact would have to pull. The layers above it stand on
+    /// their own, and those below it are not looked at.
     ///
     /// # Errors
     /// As for [`standing`](Self::standing).
@@ -329,7 +328,7 @@ impl Pile {
         let by_sweep = || {
             let mut sweep = shortest_exact_sweep(&lines, &system, last + 1)?;
             let least = layers.iter().map(|k| {
-                sweep.advance(*k, ())?;
+                sweep.advance(*k, Meter::NONE)?;
                 least_passed_on(&mut sweep, &lines)
             });
             least.collect()
@@ -354,7 +353,7 @@ fn least_at_ends(
         for ([i, j], forces) in row.into_iter().zip(above.forces) {
             let site = Site { i, j, k };
             let Received { forces, changes } =
-                lines.to_below(site, Received { forces, changes }, ());
+                lines.to_below(site, Received { forces, changes }, Meter::NONE);
             denominator = lines.scale(changes);
             for (force, direction) in forces.into_iter().zip(Direction::ALL) {
                 if least.as_ref().is_none_or(|(least, ..)| force < *least) {

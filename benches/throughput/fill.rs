@@ -56,7 +56,7 @@ fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
 ) -> f64 {
     let layers = pile.forces::<f64>().layers(Selection::All);
     let spheres = layers
-        .and_then(|layers| layers.spheres())
+        .and_then(|layers| layers.slice_len())
         .expect("as many as fit");
     let mut slices = [value; 3].map(|value| vec![value; spheres]);
     let mut other = slices.clone();

@@ -3,7 +3,7 @@
 use std::num::NonZeroI64;
 use std::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{Algebra, Exactness, Ring};
+use cannonpile::scalar::{Algebra, Exactness, OwnNumerators, Ring};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -18,8 +18,6 @@ impl Ring for Plain {
 }
 
 impl Algebra for Plain {
-    type Numerator = Self;
-
     // An exact scalar would be swept in limbs.
     const EXACTNESS: Exactness = Exactness::Rounded { bits: 1 << 20 };
     const NAME: &'static str = "plain rational";
@@ -35,16 +33,10 @@ impl Algebra for Plain {
     fn is_defined(&self) -> bool {
         true
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.clone().map(Self), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl OwnNumerators for Plain {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         (!d.is_zero()).then(|| Self(n.0 / &d.0))
     }
 }

@@ -70,7 +70,7 @@ fn alternating(layers: i128) -> Pile {
 /// A slice for each direction, a number for each sphere that is not on the floor.
 fn slices(pile: &Pile) -> [Vec<f64>; 3] {
     let layers = pile.forces::<f64>().layers(Selection::All);
-    let spheres = layers.expect("room").spheres().expect("as many as fit");
+    let spheres = layers.expect("room").slice_len().expect("as many as fit");
     [(); 3].map(|()| vec![1.5; spheres])
 }
 
@@ -97,7 +97,7 @@ fn over_memset(pile: &Pile, pairs: usize) -> f64 {
     let layer = Selection::Layer(pile.layers() - 2);
     let mut layers = pile.forces::<f64>().layers(layer).expect("room");
     let last = layers.next_layer().expect("a sweep").expect("a layer");
-    let first = slices[0].len() - last.spheres();
+    let first = slices[0].len() - last.sphere_count();
     let bound = last.error_bound().expect("floats");
     let bound = bound.to_f64().expect("small");
     let contacts = pile.forces::<BigRational>().contacts(layer);

@@ -53,7 +53,7 @@ fn tables(bench: &Bench) -> [Run; 3] {
             .forces::<BigRational>()
             .layers(Selection::All);
         let layers = layers.expect("room").numerators::<i64>().expect("integers");
-        filled(layers.spheres().expect("as many as fit"), |slices| {
+        filled(layers.slice_len().expect("as many as fit"), |slices| {
             layers.fill(slices).expect("lengths that fit");
         })
     });
@@ -84,7 +84,7 @@ fn table<T: Algebra + RealEmbeddable>(bench: &Bench, run: impl FnMut() -> Vec<[T
 
 fn nearest<F: NearestFloat + Default>(packing: &Packing<'_>) -> Vec<[F; 3]> {
     let layers = packing.layers::<F>(Selection::All).expect("floats");
-    filled(layers.spheres().expect("as many as fit"), |slices| {
+    filled(layers.slice_len().expect("as many as fit"), |slices| {
         layers.fill(slices).expect("lengths that fit");
     })
 }
@@ -113,7 +113,11 @@ fn recursion<T: Algebra + RealEmbeddable>(bench: &Bench) -> Run {
 fn engine(bench: &Bench) -> Run {
     let run = measured::<BigRational>(bench, Method::Engine, || {
         let forces = bench.case.pile.forces::<BigRational>();
-        contacts(&forces.by(cannonpile::Method::Sweep).expect("spheres"))
+        contacts(
+            &forces
+                .with_method(cannonpile::Method::Sweep)
+                .expect("spheres"),
+        )
     });
     Run {
         scalar: "integers",
@@ -123,10 +127,10 @@ fn engine(bench: &Bench) -> Run {
 
 /// All contact forces, layer after layer.
 fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
-    let forces = pile.forces::<T>().by(cannonpile::Method::Sweep);
+    let forces = pile.forces::<T>().with_method(cannonpile::Method::Sweep);
     let layers = forces.and_then(|forces| forces.layers(Selection::All));
     let layers = layers.expect("room");
-    let spheres = layers.spheres().expect("few");
+    let spheres = layers.slice_len().expect("few");
     let mut forces = [(); 3].map(|()| vec![T::zero(); spheres]);
     layers
         .fill(forces.each_mut().map(Vec::as_mut_slice))

@@ -61,6 +61,9 @@ def number(given):
 
 
 def integer(given):
+    """A JSON integer of at most 64 bits, or the digits of one as a string."""
+    if type(given) is int and -(2**63) <= given < 2**64:
+        return given
     return int(matched(r"-?\d{1,38}", given, "an integer")[0])
 
 

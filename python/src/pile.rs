@@ -183,7 +183,7 @@ impl Pile {
     /// The number of spheres on the floor.
     #[getter]
     fn base_count(&self) -> BigUint {
-        self.exact.base_spheres()
+        self.exact.base_sphere_count()
     }
 
     /// The weight of spheres and loads.

@@ -1,4 +1,4 @@
-//! Numbers through [serde](https://serde.rs): exact ones as strings, as they print.
+//! Numbers through [serde](https://serde.rs): exact ones as strings, as they print; [integers](super::integers) apart.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -6,16 +6,19 @@ use core::ops::Range;
 
 use ::serde::de::Error as _;
 use ::serde::{Deserialize, Deserializer, Serialize, Serializer};
-use num_bigint::{BigInt, BigUint};
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use exact_surd::text::{Float, read_text};
 
 use crate::Error;
-use crate::scalar::parse::{big_integer, integer, rational};
+use crate::scalar::parse::rational;
 use crate::scalar::{DoubleDouble, FixedInteger, FixedRational, Interval, Surd};
 
-/// A number, as the answers of piles hold them: exact ones are strings, floats are numbers.
+/// A number, as the answers of piles hold them: rationals and surds are strings, floats are numbers.
+///
+/// In a text format such as JSON an integer within ±(2⁵³ − 1) is a number, and one beyond is a string, since many readers
+/// keep numbers as floats. Either form is read. In a binary format `i128` and big integers are strings, counts are numbers.
 ///
 /// Options, vectors and arrays of three of them count as numbers too. A scalar of your own needs this for
 /// [`ContactForce`](crate::ContactForce) and its like to be written.
@@ -33,8 +36,13 @@ use crate::scalar::{DoubleDouble, FixedInteger, FixedRational, Interval, Surd};
 ///     offset: Option<i128>,
 /// }
 ///
-/// let probe = Probe { force: BigRational::new(7.into(), 3.into()), offset: None };
-/// assert_eq!(serde_json::to_string(&probe)?, r#"{"force":"7/3","offset":null}"#);
+/// let written = |offset| {
+///     let force = BigRational::new(7.into(), 3.into());
+///     serde_json::to_string(&Probe { force, offset })
+/// };
+/// assert_eq!(written(None)?, r#"{"force":"7/3","offset":null}"#);
+/// assert_eq!(written(Some(-12))?, r#"{"force":"7/3","offset":-12}"#);
+/// assert_eq!(written(Some(1 << 53))?, r#"{"force":"7/3","offset":"9007199254740992"}"#);
 /// # Ok::<(), serde_json::Error>(())
 /// ```
 pub trait Number: Sized {
@@ -65,7 +73,7 @@ pub mod number {
     /// use num_bigint::BigInt;
     ///
     /// let written = cannonpile::data::number::serialize(&BigInt::from(12), serde_json::value::Serializer)?;
-    /// assert_eq!(written, "12");
+    /// assert_eq!(written, 12);
     /// # Ok::<(), serde_json::Error>(())
     /// ```
     pub fn serialize<T: Number, S: Serializer>(
@@ -87,6 +95,10 @@ pub mod number {
     /// let mut text = serde_json::Deserializer::from_str(r#""1.2""#);
     /// let number: BigRational = cannonpile::data::number::deserialize(&mut text)?;
     /// assert_eq!(number.to_string(), "6/5");
+    /// for text in ["12", r#""12""#] {
+    ///     let mut text = serde_json::Deserializer::from_str(text);
+    ///     assert_eq!(cannonpile::data::number::deserialize::<i128, _>(&mut text)?, 12);
+    /// }
     /// let mut text = serde_json::Deserializer::from_str(r#""1/0""#);
     /// assert!(cannonpile::data::number::deserialize::<BigRational, _>(&mut text).is_err());
     /// # Ok::<(), serde_json::Error>(())
@@ -137,14 +149,6 @@ macro_rules! printed {
 
 printed! {
     BigRational: rational;
-    i128: integer;
-    BigInt: big_integer;
-    BigUint: natural;
-}
-
-fn natural(text: &str) -> Result<BigUint, Error> {
-    let natural = BigUint::try_from(big_integer(text)?);
-    natural.map_err(|_| Error::syntax(text, "a number that is not negative"))
 }
 
 /// Numbers that serde knows, or that have their implementation here.

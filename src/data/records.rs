@@ -6,7 +6,7 @@ use num_rational::BigRational;
 
 use crate::census::Entry;
 use crate::data::{Number, number};
-use crate::lattice::{Direction, Link, Site};
+use crate::lattice::{ContactKind, Direction, Site};
 use crate::scalar::Surd;
 use crate::shape::Selection;
 use crate::{
@@ -40,7 +40,6 @@ records! {
     Entry as EntryRecord;
     Question as QuestionRecord;
     Plan as PlanRecord;
-    Counters as CountersRecord;
 }
 
 #[derive(Serialize, Deserialize)]
@@ -82,7 +81,7 @@ struct FloorForceRecord<T> {
 )]
 struct PackedContactRecord {
     site: Site,
-    direction: Link,
+    direction: ContactKind,
     force: Surd,
     vector: [Surd; 3],
     point: [Surd; 3],
@@ -125,6 +124,7 @@ struct QuestionRecord {
 #[serde(remote = "Plan", rename = "Plan", deny_unknown_fields)]
 struct PlanRecord {
     method: Method,
+    #[serde(with = "number")]
     runs: usize,
     #[serde(with = "number")]
     visited: BigUint,
@@ -134,9 +134,13 @@ struct PlanRecord {
     passes: BigUint,
     #[serde(with = "number")]
     numbers: BigUint,
+    #[serde(with = "number")]
     bits: u64,
+    #[serde(with = "number")]
     reserved: u64,
+    #[serde(with = "number")]
     planes: usize,
+    #[serde(with = "number")]
     roots: u64,
     #[serde(with = "number")]
     rows: BigUint,
@@ -144,21 +148,27 @@ struct PlanRecord {
     bytes: BigUint,
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Counters", rename = "Counters", deny_unknown_fields)]
+#[derive(Serialize)]
+#[serde(rename = "Counters")]
 struct CountersRecord {
-    #[serde(getter = "Counters::visited")]
+    #[serde(with = "number")]
     visited: u64,
-    #[serde(getter = "Counters::turned")]
+    #[serde(with = "number")]
     turned: u64,
-    #[serde(getter = "Counters::passes")]
+    #[serde(with = "number")]
     passes: u64,
-    #[serde(getter = "Counters::rows")]
+    #[serde(with = "number")]
     rows: u64,
 }
 
-impl From<CountersRecord> for Counters {
-    fn from(record: CountersRecord) -> Self {
-        Self::of([record.visited, record.turned, record.passes, record.rows])
+impl Serialize for Counters {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let record = CountersRecord {
+            visited: self.visited(),
+            turned: self.turned(),
+            passes: self.passes(),
+            rows: self.rows(),
+        };
+        record.serialize(serializer)
     }
 }

@@ -537,8 +537,8 @@ mod tests {
             plain_sweep(&lines, &system, last).unwrap();
         // Far, so that passes wait, and then one by one.
         for k in (0..=last).filter(|k| *k % 13 == 7 || last - *k < 4) {
-            exact.advance(k, ()).unwrap();
-            plain.advance(k, ()).unwrap();
+            exact.advance(k, crate::engine::Meter::NONE).unwrap();
+            plain.advance(k, crate::engine::Meter::NONE).unwrap();
             for site in pile.shape().layer(k).unwrap().rows(k).flatten() {
                 let [exact, plain] = [exact.received(site), plain.received(site)];
                 assert_eq!(exact.unwrap().forces, plain.unwrap().forces, "{site}");

@@ -186,12 +186,7 @@ impl<'p, T: Algebra> Lines<'p, T> {
     }
 
     /// Returns what a sphere passes on in each direction, from what it receives.
-    pub(crate) fn to_below(
-        &self,
-        site: Site,
-        above: Received<T>,
-        meter: impl Meter,
-    ) -> Received<T> {
+    pub(crate) fn to_below(&self, site: Site, above: Received<T>, meter: Meter<'_>) -> Received<T> {
         let Some(run) = self.shape.stretch_to(site.k + 1) else {
             return above;
         };

@@ -265,7 +265,7 @@ mod tests {
         let lines = Lines::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, last).unwrap();
         for k in 1..=last {
-            sweep.advance(k, ()).unwrap();
+            sweep.advance(k, crate::engine::Meter::NONE).unwrap();
             let changes = sweep.turned_already();
             for combination in [
                 [[1, 0, 0], [0, 1, 0], [0, 0, 1]],

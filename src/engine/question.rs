@@ -46,7 +46,7 @@ impl fmt::Display for Method {
 ///
 /// let pile = Pile::triangular(10)?;
 /// let roots = |quantity| {
-///     pile.plan(Question { quantity, ..Selection::All.into() }).map(|plan| plan.roots)
+///     pile.plan(Question::new(Selection::All, quantity)).map(|plan| plan.roots)
 /// };
 /// assert_eq!(roots(Quantity::ContactMultiples)?, 0);
 /// assert_eq!(roots(Quantity::ContactMagnitudes)?, 1);
@@ -57,7 +57,7 @@ impl fmt::Display for Method {
 pub enum Quantity {
     /// The forces to the spheres below, in f₀: [`Forces::contacts`](crate::Forces::contacts).
     ContactMultiples,
-    /// Their magnitudes in SI: [`Packing::magnitudes`](crate::Packing::magnitudes).
+    /// The same in SI, without vectors: [`Packing::contact_forces`](crate::Packing::contact_forces).
     ContactMagnitudes,
     /// The contact forces in SI, with vectors and contact points: [`Packing::contacts`](crate::Packing::contacts).
     ContactVectors,
@@ -136,6 +136,7 @@ impl fmt::Display for Quantity {
 /// assert_eq!((question.quantity, question.method), (Quantity::FloorMultiples, None));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub struct Question {
     /// Which spheres.
     pub part: Selection,
@@ -145,16 +146,51 @@ pub struct Question {
     pub method: Option<Method>,
 }
 
+impl Question {
+    /// Returns the question for a quantity of a part of a pile, by the cheapest method.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Quantity, Question};
+    ///
+    /// let question = Question::new(Selection::Base, Quantity::FloorMultiples);
+    /// assert_eq!(question, Selection::Base.into());
+    /// ```
+    #[must_use]
+    pub const fn new(part: Selection, quantity: Quantity) -> Self {
+        Self {
+            part,
+            quantity,
+            method: None,
+        }
+    }
+
+    /// Returns the question with a method in place of the cheapest.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    /// use cannonpile::{Method, Question};
+    ///
+    /// let question = Question::from(Selection::Base).with_method(Method::Tree);
+    /// assert_eq!(question.method, Some(Method::Tree));
+    /// ```
+    #[must_use]
+    pub const fn with_method(self, method: Method) -> Self {
+        Self {
+            method: Some(method),
+            ..self
+        }
+    }
+}
+
 impl From<Selection> for Question {
     fn from(part: Selection) -> Self {
         let quantity = match part {
             Selection::Base => Quantity::FloorMultiples,
             _ => Quantity::ContactMultiples,
         };
-        Self {
-            part,
-            quantity,
-            method: None,
-        }
+        Self::new(part, quantity)
     }
 }

@@ -61,7 +61,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         &mut self,
         pile: (&Lines<'p, T>, &System<'p>),
         site: Site,
-        meter: impl Meter,
+        meter: Meter<'_>,
     ) -> Result<Received<T>, Error> {
         match self {
             Self::Single(method) => received(pile, (site, Wanted::All), *method, meter),
@@ -79,7 +79,7 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         &mut self,
         pile: (&Lines<'p, T>, &System<'p>),
         site: Site,
-        meter: impl Meter,
+        meter: Meter<'_>,
     ) -> Result<Received<T>, Error> {
         if let Self::Sweep(sweep) = self {
             // Where the sign changes the cells are turned already.
@@ -89,6 +89,79 @@ impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
         }
         let above = self.received(pile, site, meter)?;
         Ok(pile.0.to_below(site, above, meter))
+    }
+}
+
+/// For the threads that share a layer.
+#[cfg(feature = "rayon")]
+impl<'p, T: Algebra, L: Layer<T>> Engine<'p, T, L> {
+    pub(crate) const fn is_sweep(&self) -> bool {
+        matches!(self, Self::Sweep(_))
+    }
+
+    /// Returns how many spheres of a row are best asked for at once: what a tree shares among them, or what a cache holds.
+    pub(crate) const fn sites_at_once(&self) -> i128 {
+        match self {
+            Self::Tree(_) => CHUNK,
+            Self::Single(_) | Self::Sweep(_) => 64,
+        }
+    }
+
+    /// Goes down to layer `k`, if this is a sweep and the layer is further down.
+    ///
+    /// # Errors
+    /// [`Error::Bug`], [`Error::Interrupted`].
+    pub(crate) fn go_down_to(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
+        match self {
+            Self::Sweep(sweep) => sweep.advance(k, meter),
+            Self::Single(_) | Self::Tree(_) => Ok(()),
+        }
+    }
+
+    /// Returns the forces from above on each sphere of a piece of a row; a sweep has gone down to its layer.
+    pub(crate) fn received_in(
+        &self,
+        pile: (&Lines<'p, T>, &System<'p>),
+        piece: &Row,
+        meter: Meter<'_>,
+    ) -> Vec<Result<Received<T>, Error>> {
+        let sites = piece.clone().into_iter();
+        let one = |method, site| received(pile, (site, Wanted::All), method, meter);
+        match self {
+            Self::Single(method) => sites.map(|site| one(*method, site)).collect(),
+            Self::Tree(_) => match received_in(pile.0, piece, meter) {
+                Ok(received) => received.into_iter().map(Ok).collect(),
+                Err(error) => sites.map(|_| Err(error.clone())).collect(),
+            },
+            Self::Sweep(sweep) => {
+                let one = |site| {
+                    meter.visit(1);
+                    sweep.received(site)
+                };
+                sites.map(one).collect()
+            }
+        }
+    }
+
+    /// Returns the forces to the spheres below each sphere of a piece of a row that is not on the floor; a sweep has gone
+    /// down to its layer.
+    pub(crate) fn passed_on_in(
+        &self,
+        pile: (&Lines<'p, T>, &System<'p>),
+        piece: &Row,
+        meter: Meter<'_>,
+    ) -> Vec<Result<Received<T>, Error>> {
+        let sites = piece.clone().into_iter();
+        if let Self::Sweep(sweep) = self {
+            let one = |site| {
+                meter.visit(1);
+                sweep.passed_on(site, meter)
+            };
+            return sites.map(one).collect();
+        }
+        let above = self.received_in(pile, piece, meter);
+        let below = |(site, above): (_, Result<_, _>)| Ok(pile.0.to_below(site, above?, meter));
+        sites.zip(above).map(below).collect()
     }
 }
 
@@ -142,7 +215,7 @@ pub(crate) fn exact_sweep<'p>(
 pub(crate) fn received_in<T: Algebra>(
     lines: &Lines<'_, T>,
     row: &Row,
-    meter: impl Meter,
+    meter: Meter<'_>,
 ) -> Result<Vec<Received<T>>, Error> {
     let mut received = Vec::new();
     for piece in row.pieces(CHUNK) {
@@ -178,7 +251,7 @@ impl<T: Algebra> Piece<T> {
         piece: &mut Option<Self>,
         lines: &Lines<'_, T>,
         site: Site,
-        meter: impl Meter,
+        meter: Meter<'_>,
     ) -> Result<Received<T>, Error> {
         if let Some(found) = piece.as_ref().and_then(|piece| piece.get(site)) {
             return Ok(found);

@@ -12,22 +12,9 @@ use super::sweep::Descent;
 use super::tree::{Above, Wanted};
 use crate::Error;
 use crate::error::bug;
-use crate::lattice::{Direction, Site};
+use crate::lattice::Site;
 use crate::pile::System;
 use crate::scalar::{Algebra, Exactness};
-
-/// Returns the force below a sphere of a straight stacking along one line, if the closed form may be used.
-pub(crate) fn closed_contact<T: Algebra>(
-    lines: &Lines<'_, T>,
-    (site, direction): (Site, Direction),
-    method: Option<Method>,
-    meter: impl Meter,
-) -> Option<T::Numerator> {
-    let closed = matches!(method, None | Some(Method::Closed));
-    let force = closed.then(|| lines.closed_contact(site, direction))??;
-    meter.visit(1);
-    Some(force)
-}
 
 /// Returns the forces from above on a sphere of the pile, on the lines that are wanted; zero on others.
 ///
@@ -37,7 +24,7 @@ pub(crate) fn received<T: Algebra>(
     (lines, system): (&Lines<'_, T>, &System<'_>),
     (site, wanted): (Site, Wanted),
     method: Option<Method>,
-    meter: impl Meter,
+    meter: Meter<'_>,
 ) -> Result<Received<T>, Error> {
     match method {
         Some(Method::Sweep) => return by_sweep(lines, system, site, meter),
@@ -70,7 +57,7 @@ pub(super) fn by_tree<T: Algebra>(
     k: i128,
     sites: &[[i128; 2]],
     wanted: Wanted,
-    meter: impl Meter,
+    meter: Meter<'_>,
 ) -> Result<Above<T>, Error> {
     let above = lines.forces_above(k, sites, wanted)?;
     meter.visit(above.nodes + sites.len());
@@ -83,7 +70,7 @@ fn by_sweep<T: Algebra>(
     lines: &Lines<'_, T>,
     system: &System<'_>,
     site: Site,
-    meter: impl Meter,
+    meter: Meter<'_>,
 ) -> Result<Received<T>, Error> {
     let mut sweep = plain_sweep(lines, system, site.k)?;
     sweep.advance(site.k, meter)?;

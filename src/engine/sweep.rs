@@ -65,7 +65,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     ///
     /// # Errors
     /// [`Error::Bug`].
-    pub(crate) fn advance<M: Meter>(&mut self, k: i128, meter: M) -> Result<(), Error> {
+    pub(crate) fn advance(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         if k > self.k {
             let shape = self.grid.shape;
             let passes = shape.changes_above(k) - shape.changes_above(self.k);
@@ -76,7 +76,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
         self.make_passes(k, meter)
     }
 
-    fn make_passes<M: Meter>(&mut self, k: i128, meter: M) -> Result<(), Error> {
+    fn make_passes(&mut self, k: i128, meter: Meter<'_>) -> Result<(), Error> {
         while k > self.k {
             check_interrupt()?;
             if self.k == self.grid.last {
@@ -92,7 +92,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
             let increments = self.lines.increments_after(pass.run.index);
             self.layer.pass(&self.grid, &pass, &increments)?;
             meter.pass();
-            if M::COUNTS && pass.turns {
+            if meter.counts() && pass.turns {
                 let sites = pass.part.site_count().to_usize();
                 // Not a default: more than a counter holds are counted as the most.
                 meter.turn(sites.unwrap_or(usize::MAX));
@@ -162,7 +162,7 @@ impl<'p, T: Algebra, S: Layer<T>> Descent<'p, T, S> {
     ///
     /// # Errors
     /// [`Error::Bug`] if the sphere is of another layer.
-    pub(crate) fn passed_on(&self, site: Site, meter: impl Meter) -> Result<Received<T>, Error> {
+    pub(crate) fn passed_on(&self, site: Site, meter: Meter<'_>) -> Result<Received<T>, Error> {
         let Received { forces, changes } = self.received(site)?;
         Ok(match self.pass {
             Some(pass) if pass.turns => self.lines.with_own(site, forces, changes + 1),
@@ -245,7 +245,7 @@ mod tests {
         let system = pile.system();
         let lines = Lines::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
-        sweep.advance(4, ()).unwrap();
+        sweep.advance(4, crate::engine::Meter::NONE).unwrap();
         let readout = Readout {
             combination: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
             own: [(); 3].map(|()| BigInt::zero()),
@@ -263,7 +263,7 @@ mod tests {
         let lines = Lines::<BigRational>::new(&system);
         let mut sweep = exact_sweep(&lines, &system, 6).unwrap();
         for (asked, at) in [(4, 4), (1, 4), (4, 4), (5, 5)] {
-            sweep.advance(asked, ()).unwrap();
+            sweep.advance(asked, crate::engine::Meter::NONE).unwrap();
             assert_eq!(sweep.k(), at);
         }
     }

@@ -219,8 +219,8 @@ mod tests {
         let mut whole = exact_sweep(&lines, &system, last).unwrap();
         let mut third = shortest_exact_sweep(&lines, &system, last).unwrap();
         for k in (0..=last).filter(|k| (last - k) % stops == 0) {
-            whole.advance(k, ()).unwrap();
-            third.advance(k, ()).unwrap();
+            whole.advance(k, crate::engine::Meter::NONE).unwrap();
+            third.advance(k, crate::engine::Meter::NONE).unwrap();
             let what = alloc::format!("{} {k} {stops}", pile.shape().stacking());
             for site in pile.shape().layer(k).unwrap().rows(k).flatten() {
                 let [whole, third] = [&whole, &third].map(|sweep| sweep.received(site));
@@ -262,8 +262,8 @@ mod tests {
         assert!(grid.last < last);
         let cells = Cells::new(&grid, &BigInt::ZERO);
         let mut third = Descent::<BigRational, Cells<BigInt>>::new(lines, grid, cells);
-        whole.advance(last, ()).unwrap();
-        third.advance(last, ()).unwrap();
+        whole.advance(last, crate::engine::Meter::NONE).unwrap();
+        third.advance(last, crate::engine::Meter::NONE).unwrap();
         for site in pile.shape().layer(last).unwrap().rows(last).flatten() {
             let [whole, third] = [whole.received(site), third.received(site)];
             assert_eq!(whole.unwrap().forces, third.unwrap().forces, "{site}");

@@ -5,12 +5,12 @@ use alloc::vec::Vec;
 use num_traits::{One, Zero};
 
 use super::interrupt::check as check_interrupt;
-use super::lines::{Line, Lines, start_of};
+use super::lines::{Lines, start_of};
 use crate::Error;
 use crate::error::{bug, refuse_beyond_memory};
 use crate::formula;
 use crate::lattice::{Direction, Site};
-use crate::scalar::{Algebra, Ring};
+use crate::scalar::Algebra;
 use crate::shape::{Shape, Stretch};
 
 /// The most nodes of a tree that are visited for one row.
@@ -62,7 +62,7 @@ impl Wanted {
         }
     }
 
-    fn includes(self, direction: Direction) -> bool {
+    pub(super) fn includes(self, direction: Direction) -> bool {
         self == Self::All || self == Self::One(direction)
     }
 }
@@ -126,39 +126,6 @@ fn levels(
 }
 
 impl<T: Algebra> Lines<'_, T> {
-    /// The force below a sphere of a straight stacking, whose site the caller has checked: one increment more than the
-    /// spheres above it on the line. `None` if a sign changes.
-    pub(crate) fn closed_contact(&self, site: Site, direction: Direction) -> Option<T::Numerator> {
-        if !self.shape.stacking().is_straight() {
-            return None;
-        }
-        let Site { i, j, k } = site;
-        let run = self.shape.stretch_to(k + 1)?;
-        let above = self.shape.spheres_above(&run, k, [i, j])[direction.index()];
-        let below = start_of([i, j], direction, run.sign, -1);
-        Some(self.counted(run, k + 1, below, direction, above + 1))
-    }
-
-    /// The forces from above on a sphere above which no sign changes, whose site the caller has checked; zero on lines
-    /// not wanted. `None` below a change.
-    pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
-        let Site { i, j, k } = site;
-        let Some(run) = self.shape.stretch_to(k) else {
-            return Some([(); 3].map(|()| T::Numerator::zero()));
-        };
-        if run.index > 0 {
-            return None;
-        }
-        let counts = self.shape.spheres_above(&run, k, [i, j]);
-        Some(Direction::ALL.map(|direction| {
-            if wanted.includes(direction) {
-                self.counted(run, k, [i, j], direction, counts[direction.index()])
-            } else {
-                T::Numerator::zero()
-            }
-        }))
-    }
-
     /// The forces from above on spheres of layer `k`, whose sites the caller has checked; zero on lines not wanted.
     ///
     /// # Errors
@@ -237,25 +204,6 @@ impl<T: Algebra> Lines<'_, T> {
             forces.push(force);
         }
         Ok(forces)
-    }
-
-    /// What the `n` spheres above a site on a line add to it, over the first denominator.
-    fn counted(
-        &self,
-        run: Stretch,
-        k: i128,
-        site: [i128; 2],
-        direction: Direction,
-        n: i128,
-    ) -> T::Numerator {
-        let ordinary = self.ordinary(T::Numerator::from_i128(n), direction.index());
-        if self.extras.is_empty() {
-            return ordinary;
-        }
-        let [i, j] = site;
-        let line = Line::through(Site { i, j, k }, direction, run);
-        let extras = self.extras.range((line, k - n)..(line, k));
-        extras.fold(ordinary, |sum, (_, extra)| formula::passed_on(sum, extra))
     }
 }
 

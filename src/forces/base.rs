@@ -1,6 +1,9 @@
 //! Forces on the floor.
 
-use core::iter::Flatten;
+use core::fmt;
+use core::iter::FusedIterator;
+
+use exact_surd::layout::{padded, part};
 
 use super::Forces;
 use super::walk::Walk;
@@ -8,7 +11,7 @@ use crate::Error;
 use crate::engine::{Meter, Plan, Quantity};
 use crate::lattice::Site;
 use crate::scalar::Algebra;
-use crate::shape::{Rows, Selection};
+use crate::shape::{Selection, Sites};
 
 /// The force of one bottom sphere on the floor.
 ///
@@ -61,6 +64,27 @@ impl<T> FloorForce<T> {
     }
 }
 
+impl<T: fmt::Display> fmt::Display for FloorForce<T> {
+    /// Prints `(3,3,9): normal 4, shear (0, 0)`; a sign and a precision are those of the components.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::Pile;
+    /// use cannonpile::lattice::Site;
+    ///
+    /// let pile = Pile::triangular(10)?;
+    /// let force = pile.forces::<f64>().on_floor(Site::new(0, 0, 9))?;
+    /// assert_eq!(force.to_string(), "(0,0,9): normal 4, shear (-1.5, -1.5)");
+    /// # Ok::<(), cannonpile::Error>(())
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let components = [&self.normal, &self.shear_x, &self.shear_y];
+        let [normal, x, y] = components.map(|component| part(f, component));
+        let site = self.site;
+        padded(f, format_args!("{site}: normal {normal}, shear ({x}, {y})"))
+    }
+}
+
 /// The forces of bottom spheres on the floor, one by one in row order.
 ///
 /// Made by [`Forces::base`]. An item is an error if the scalar overflows.
@@ -76,21 +100,22 @@ impl<T> FloorForce<T> {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Base<'p, T: Algebra, M = ()> {
+#[must_use = "iterators are lazy and do nothing unless consumed"]
+pub struct FloorForces<'p, T: Algebra> {
     plan: Plan,
-    sites: Flatten<Rows<'p>>,
+    sites: Sites<'p>,
     walk: Walk<'p, T>,
-    meter: M,
+    meter: Meter<'p>,
 }
 
-impl<'p, T: Algebra, M: Meter> Base<'p, T, M> {
-    pub(super) fn new(forces: &Forces<'p, T, M>, part: Selection) -> Result<Self, Error> {
+impl<'p, T: Algebra> FloorForces<'p, T> {
+    pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
         let rows = forces.pile.rows(part)?;
         let plan = forces.plan(&rows, Quantity::FloorMultiples)?;
         Ok(Self {
             walk: Walk::new(&plan, &rows, &forces.terms)?,
             plan,
-            sites: rows.flatten(),
+            sites: rows.sites(),
             meter: forces.meter,
         })
     }
@@ -113,12 +138,54 @@ impl<'p, T: Algebra, M: Meter> Base<'p, T, M> {
     }
 }
 
-impl<T: Algebra, M: Meter> Iterator for Base<'_, T, M> {
+impl<T: Algebra> Iterator for FloorForces<'_, T> {
     type Item = Result<FloorForce<T>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let site = self.sites.next()?;
         self.meter.answer(1);
         Some(self.walk.on_floor(site, self.meter))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.sites.size_hint()
+    }
+}
+
+impl<T: Algebra> FusedIterator for FloorForces<'_, T> {}
+
+#[cfg(test)]
+mod tests {
+    use crate::Pile;
+    use crate::shape::Selection;
+
+    #[test]
+    fn hints_are_exact() {
+        let piles = [
+            Pile::triangular(4).unwrap(),
+            Pile::discs(4).unwrap(),
+            Pile::under("hexagon:2".parse().unwrap(), "+-+".parse().unwrap()).unwrap(),
+        ];
+        for pile in &piles {
+            for part in [Selection::Base, Selection::Layer(3)] {
+                let mut items = pile.forces::<f64>().base(part).unwrap();
+                let mut left = items.clone().count();
+                loop {
+                    assert_eq!(items.size_hint(), (left, Some(left)));
+                    if items.next().is_none() {
+                        break;
+                    }
+                    left -= 1;
+                }
+                assert!(left == 0 && items.next().is_none());
+            }
+        }
+    }
+
+    #[test]
+    fn more_than_a_usize_has_no_upper_bound() {
+        let pile = Pile::triangular(10_i128.pow(30)).unwrap();
+        let items = pile.forces::<f64>().base(Selection::Base).unwrap();
+        assert_eq!(items.size_hint(), (usize::MAX, None));
     }
 }

@@ -1,6 +1,9 @@
 //! Forces between spheres.
 
-use core::iter::{Flatten, Zip};
+use core::fmt;
+use core::iter::{FusedIterator, Zip};
+
+use exact_surd::layout::{padded, part};
 
 use super::Forces;
 use super::walk::Walk;
@@ -8,7 +11,7 @@ use crate::Error;
 use crate::engine::{Meter, Plan, Quantity};
 use crate::lattice::{Direction, Site};
 use crate::scalar::Algebra;
-use crate::shape::{Rows, Selection};
+use crate::shape::{Selection, Sites, exact_hint};
 
 /// The force of contact between a sphere and the one below it.
 ///
@@ -30,8 +33,31 @@ pub struct ContactForce<T> {
     pub site: Site,
     /// The direction in which the lower one lies.
     pub direction: Direction,
-    /// The magnitude, in f₀; positive is push.
+    /// The force, in f₀. Positive: they push. Negative: they would have to pull.
     pub force: T,
+}
+
+impl<T: fmt::Display> fmt::Display for ContactForce<T> {
+    /// Prints `(0,0,0) alpha: 1`; a sign and a precision are those of the force.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::ContactForce;
+    /// use cannonpile::lattice::{Direction, Site};
+    ///
+    /// let contact = ContactForce { site: Site::APEX, direction: Direction::Gamma, force: 0.5 };
+    /// assert_eq!(contact.to_string(), "(0,0,0) gamma: 0.5");
+    /// assert_eq!(format!("{contact:+.2}"), "(0,0,0) gamma: +0.50");
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (
+            Self {
+                site, direction, ..
+            },
+            force,
+        ) = (self, part(f, &self.force));
+        padded(f, format_args!("{site} {direction}: {force}"))
+    }
 }
 
 /// The contact forces of a part of a pile, one by one in row order: of each sphere those with the spheres below it.
@@ -50,28 +76,29 @@ pub struct ContactForce<T> {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Contacts<'p, T: Algebra, M = ()> {
+#[must_use = "iterators are lazy and do nothing unless consumed"]
+pub struct Contacts<'p, T: Algebra> {
     plan: Plan,
-    sites: Flatten<Rows<'p>>,
+    sites: Sites<'p>,
     walk: Walk<'p, T>,
     directions: &'static [Direction],
     /// The sphere that was reached, and its forces that were not given yet.
     reached: Option<(Site, Below<T>)>,
-    meter: M,
+    meter: Meter<'p>,
 }
 
 /// The forces below a sphere, with their directions.
 type Below<T> =
     Zip<core::array::IntoIter<Result<T, Error>, 3>, core::slice::Iter<'static, Direction>>;
 
-impl<'p, T: Algebra, M: Meter> Contacts<'p, T, M> {
-    pub(super) fn new(forces: &Forces<'p, T, M>, part: Selection) -> Result<Self, Error> {
+impl<'p, T: Algebra> Contacts<'p, T> {
+    pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
         let rows = forces.pile.rows(part)?.off_the_floor();
         let plan = forces.plan(&rows, Quantity::ContactMultiples)?;
         Ok(Self {
             walk: Walk::new(&plan, &rows, &forces.terms)?,
             plan,
-            sites: rows.flatten(),
+            sites: rows.sites(),
             directions: forces.pile.dimension().directions(),
             reached: None,
             meter: forces.meter,
@@ -96,7 +123,7 @@ impl<'p, T: Algebra, M: Meter> Contacts<'p, T, M> {
     }
 }
 
-impl<T: Algebra, M: Meter> Iterator for Contacts<'_, T, M> {
+impl<T: Algebra> Iterator for Contacts<'_, T> {
     type Item = Result<ContactForce<T>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -119,5 +146,49 @@ impl<T: Algebra, M: Meter> Iterator for Contacts<'_, T, M> {
             };
             self.reached = Some((site, forces.into_iter().zip(self.directions)));
         }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let reached = self.reached.iter().map(|(_, below)| below.len());
+        let further = self.sites.remaining() * self.directions.len();
+        exact_hint(&reached.fold(further, |further, reached| further + reached))
+    }
+}
+
+impl<T: Algebra> FusedIterator for Contacts<'_, T> {}
+
+#[cfg(test)]
+mod tests {
+    use crate::Pile;
+    use crate::shape::Selection;
+
+    #[test]
+    fn hints_are_exact() {
+        let piles = [
+            Pile::triangular(4).unwrap(),
+            Pile::discs(4).unwrap(),
+            Pile::under("hexagon:2".parse().unwrap(), "+-+".parse().unwrap()).unwrap(),
+        ];
+        for pile in &piles {
+            for part in [Selection::All, Selection::Layer(1), Selection::Base] {
+                let mut items = pile.forces::<f64>().contacts(part).unwrap();
+                let mut left = items.clone().count();
+                loop {
+                    assert_eq!(items.size_hint(), (left, Some(left)));
+                    if items.next().is_none() {
+                        break;
+                    }
+                    left -= 1;
+                }
+                assert!(left == 0 && items.next().is_none());
+            }
+        }
+    }
+
+    #[test]
+    fn more_than_a_usize_has_no_upper_bound() {
+        let pile = Pile::triangular(10_i128.pow(30)).unwrap();
+        let items = pile.forces::<f64>().contacts(Selection::All).unwrap();
+        assert_eq!(items.size_hint(), (usize::MAX, None));
     }
 }

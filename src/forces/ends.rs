@@ -7,7 +7,7 @@ use super::Forces;
 use super::screen::Screen;
 use crate::Error;
 use crate::engine::{
-    Engine, Method, Quantity, Received, Wanted, shortest_exact_sweep, trees_are_cheaper,
+    Engine, Meter, Method, Quantity, Received, Wanted, shortest_exact_sweep, trees_are_cheaper,
 };
 use crate::error::refuse_beyond;
 use crate::geometry::Vector;
@@ -60,7 +60,7 @@ impl Forces<'_, BigRational> {
             let plan = self.plan(&rows, Quantity::FloorMultiples)?;
             if plan.method == Method::Sweep {
                 let mut sweep = shortest_exact_sweep(lines, &terms.system, floor)?;
-                sweep.advance(floor, ())?;
+                sweep.advance(floor, Meter::NONE)?;
                 // Images have the same normal force, and as great a shear.
                 let part = sweep.part()?;
                 let mut screen = Screen::new((terms, &sweep), across);
@@ -91,7 +91,10 @@ impl Forces<'_, BigRational> {
             } else {
                 let mut engine = Engine::exact(&plan, &rows, (lines, &terms.system))?;
                 for site in rows.flatten() {
-                    meet(site, &engine.received((lines, &terms.system), site, ())?);
+                    meet(
+                        site,
+                        &engine.received((lines, &terms.system), site, Meter::NONE)?,
+                    );
                 }
             }
         }

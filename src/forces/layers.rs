@@ -42,7 +42,7 @@ use crate::shape::{Selection, Shape};
 /// assert_eq!(alpha, [3.0, 2.0, 1.0, 2.0, 1.0, 1.0]);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub struct Layers<'p, T: Algebra, M = ()> {
+pub struct Layers<'p, T: Algebra> {
     pub(super) terms: Terms<'p, T>,
     way: Way<'p, T>,
     /// The layers still to come.
@@ -53,7 +53,7 @@ pub struct Layers<'p, T: Algebra, M = ()> {
     stops: usize,
     /// Whether a number of a sweep may be too great for the scalar.
     may_overflow: bool,
-    meter: M,
+    meter: Meter<'p>,
 }
 
 /// How the layers are gone through.
@@ -74,8 +74,8 @@ enum Way<'p, T: Algebra> {
     ),
 }
 
-impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
-    pub(super) fn new(forces: &Forces<'p, T, M>, part: Selection) -> Result<Self, Error> {
+impl<'p, T: Algebra> Layers<'p, T> {
+    pub(super) fn new(forces: &Forces<'p, T>, part: Selection) -> Result<Self, Error> {
         let (pile, terms) = (forces.pile, forces.terms.clone());
         let floor = pile.layers() - 1;
         let part = match part {
@@ -123,12 +123,12 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     /// let mut layers = pile.forces::<f64>().layers(Selection::All)?;
     /// let mut spheres = 0;
     /// while let Some(layer) = layers.next_layer()? {
-    ///     spheres += layer.spheres();
+    ///     spheres += layer.sphere_count();
     /// }
     /// assert_eq!(spheres, 20);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T, M>>, Error> {
+    pub fn next_layer(&mut self) -> Result<Option<Layer<'_, 'p, T>>, Error> {
         let Some(k) = self.ahead.clone().next() else {
             return Ok(None);
         };
@@ -178,8 +178,8 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         Ok(())
     }
 
-    /// Returns how many spheres of the layers still to come rest on others: the length of each slice of
-    /// [`fill`](Self::fill).
+    /// Returns the length that each of the three slices of [`fill`](Self::fill) must have: one entry for each sphere still
+    /// to come that is not on the floor.
     ///
     /// # Errors
     /// [`Error::TooLarge`] if no memory could hold as many.
@@ -194,7 +194,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     /// assert_eq!(pile.forces::<f64>().layers(Selection::All)?.spheres()?, 220 - 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn spheres(&self) -> Result<usize, Error> {
+    pub fn slice_len(&self) -> Result<usize, Error> {
         let spheres = self.shape().spheres_in(self.above_the_floor());
         spheres.to_usize().ok_or(Error::TooLarge {
             quantity: "all contact forces",
@@ -208,7 +208,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
     /// with the feature `rayon` on all cores, but for exact numbers after changes of sign, which one thread writes.
     ///
     /// # Errors
-    /// [`Error::Length`] for a slice that is not as long as there are [`spheres`](Self::spheres); else as for
+    /// [`Error::Length`] for a slice that is not as long as there are [`slice_len`](Self::slice_len); else as for
     /// [`Layer::fill`].
     ///
     /// # Examples
@@ -228,14 +228,14 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         if let Way::Table(table) = &self.way {
             return self.fill_from_table(table, slices);
         }
-        check_lengths(self.spheres()?, &slices)?;
+        check_lengths(self.slice_len()?, &slices)?;
         let mut rest = slices;
         self.ahead = self.above_the_floor();
         // Exact numbers are written by one thread.
         let by_rows = matches!(self.way, Way::Plain(_));
         fill_layers(by_rows, rest[0].len(), || {
             while let Some(layer) = self.next_layer()? {
-                let front = split_front(&mut rest, layer.spheres())?;
+                let front = split_front(&mut rest, layer.sphere_count())?;
                 layer.fill(front)?;
             }
             Ok(())
@@ -248,7 +248,7 @@ impl<'p, T: Algebra, M: Meter> Layers<'p, T, M> {
         table: &Table<V>,
         slices: [&mut [V]; 3],
     ) -> Result<(), Error> {
-        check_lengths(self.spheres()?, &slices)?;
+        check_lengths(self.slice_len()?, &slices)?;
         table.fill(self.above_the_floor(), slices)
     }
 
@@ -343,7 +343,7 @@ fn most_increments(shape: &Shape, last: i128) -> i128 {
     (last + 1).min(shape.layers() - 1)
 }
 
-impl<'p, M: Meter> Layers<'p, BigRational, M> {
+impl<'p> Layers<'p, BigRational> {
     /// Returns the denominator of forces below so many changes of sign.
     pub(super) fn denominator(&self, changes: usize) -> BigInt {
         self.terms.lines.scale(changes)
@@ -400,7 +400,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     }
 }
 
-impl<T: Algebra, M> fmt::Debug for Layers<'_, T, M> {
+impl<T: Algebra> fmt::Debug for Layers<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Layers")
             .field("ahead", &self.ahead)

@@ -14,7 +14,7 @@ use source::{Asked, Source};
 
 use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
-use crate::engine::{Meter, Table, Unit, fill_layers, split_front};
+use crate::engine::{Table, Unit, fill_layers, split_front};
 use crate::error::bug;
 use crate::lattice::{Row, Site};
 use crate::scalar::{NearestFloat, Surd};
@@ -38,8 +38,8 @@ use crate::scalar::{NearestFloat, Surd};
 /// assert_eq!(alpha, [0.46225016352102425]);
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub struct NearestLayers<'p, F, M = ()> {
-    layers: Layers<'p, BigRational, M>,
+pub struct NearestLayers<'p, F> {
+    layers: Layers<'p, BigRational>,
     units: Units,
     /// The distinct forces of a straight pile.
     table: Option<Table<F>>,
@@ -48,13 +48,13 @@ pub struct NearestLayers<'p, F, M = ()> {
 }
 
 /// One layer of a pile, with its forces at hand as nearest floats.
-pub struct NearestLayer<'l, 'p, F, M = ()> {
-    layer: Layer<'l, 'p, BigRational, M>,
+pub struct NearestLayer<'l, 'p, F> {
+    layer: Layer<'l, 'p, BigRational>,
     units: &'l Units,
     table: Option<&'l Table<F>>,
 }
 
-impl<'p, M: Meter> Layers<'p, BigRational, M> {
+impl<'p> Layers<'p, BigRational> {
     /// Returns the layers in the floats nearest to the exact forces, in pile units.
     ///
     /// # Errors
@@ -75,7 +75,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     /// assert_eq!(normal[0], 14.0 / 9.0);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn nearest<F: NearestFloat>(self) -> Result<NearestLayers<'p, F, M>, Error> {
+    pub fn nearest<F: NearestFloat>(self) -> Result<NearestLayers<'p, F>, Error> {
         let one = || Surd::from(BigRational::one());
         let units = Units {
             contact: one(),
@@ -89,7 +89,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     pub(crate) fn nearest_in<F: NearestFloat>(
         self,
         units: Units,
-    ) -> Result<NearestLayers<'p, F, M>, Error> {
+    ) -> Result<NearestLayers<'p, F>, Error> {
         // The floor has no contacts below it.
         let table = if self.above_the_floor().is_empty() {
             None
@@ -108,7 +108,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     }
 }
 
-impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
+impl<'p, F: NearestFloat> NearestLayers<'p, F> {
     /// Goes down to the next layer of the part and returns it, or `None` below the last one.
     ///
     /// # Errors
@@ -124,12 +124,12 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     /// let mut layers = pile.forces::<BigRational>().layers(Selection::All)?.nearest::<f32>()?;
     /// let mut spheres = 0;
     /// while let Some(layer) = layers.next_layer()? {
-    ///     spheres += layer.spheres();
+    ///     spheres += layer.sphere_count();
     /// }
     /// assert_eq!(spheres, 20);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn next_layer(&mut self) -> Result<Option<NearestLayer<'_, 'p, F, M>>, Error> {
+    pub fn next_layer(&mut self) -> Result<Option<NearestLayer<'_, 'p, F>>, Error> {
         let layer = self.layers.next_layer()?;
         Ok(layer.map(|layer| NearestLayer {
             layer,
@@ -142,7 +142,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     /// [`fill`](Self::fill).
     ///
     /// # Errors
-    /// As for [`Layers::spheres`].
+    /// As for [`Layers::slice_len`].
     ///
     /// # Examples
     /// ```
@@ -152,11 +152,11 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     ///
     /// let pile = Pile::triangular(10)?;
     /// let layers = pile.forces::<BigRational>().layers(Selection::All)?.nearest::<f32>()?;
-    /// assert_eq!(layers.spheres()?, 220 - 55);
+    /// assert_eq!(layers.slice_len()?, 220 - 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn spheres(&self) -> Result<usize, Error> {
-        self.layers.spheres()
+    pub fn slice_len(&self) -> Result<usize, Error> {
+        self.layers.slice_len()
     }
 
     /// Writes the contact forces of all layers still to come into slices, one for each direction, layer after layer; on
@@ -182,7 +182,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
         if let Some(table) = &self.table {
             return self.layers.fill_from_table(table, slices);
         }
-        check_lengths(self.spheres()?, &slices)?;
+        check_lengths(self.slice_len()?, &slices)?;
         let mut rest = slices;
         let by_rows = self.layers.exact_sweep().is_some();
         fill_layers(by_rows, rest[0].len(), || {
@@ -190,7 +190,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
                 if layer.is_floor() {
                     break;
                 }
-                let front = split_front(&mut rest, layer.spheres())?;
+                let front = split_front(&mut rest, layer.sphere_count())?;
                 layer.fill(front)?;
             }
             Ok(())
@@ -339,7 +339,7 @@ impl<'p, F: NearestFloat, M: Meter> NearestLayers<'p, F, M> {
     }
 }
 
-impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
+impl<F: NearestFloat> NearestLayer<'_, '_, F> {
     /// Returns the number of the layer, counted from 0 at the top.
     ///
     /// # Examples
@@ -368,12 +368,12 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
     ///
     /// let pile = Pile::triangular(4)?;
     /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.nearest::<f64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.spheres()), Some(10));
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.sphere_count()), Some(10));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn spheres(&self) -> usize {
-        self.layer.spheres()
+    pub fn sphere_count(&self) -> usize {
+        self.layer.sphere_count()
     }
 
     /// Whether the layer is the one on the floor, which has no contacts below it.
@@ -449,19 +449,19 @@ impl<F: NearestFloat, M: Meter> NearestLayer<'_, '_, F, M> {
     }
 
     fn write(&self, asked: Asked, slices: [&mut [F]; 3]) -> Result<(), Error> {
-        check_lengths(self.spheres(), &slices)?;
+        check_lengths(self.sphere_count(), &slices)?;
         let source = self.layer.layers.source(self.units, asked, self.k())?;
         self.layer.write((asked, &source), slices)
     }
 }
 
-impl<F, M> fmt::Debug for NearestLayers<'_, F, M> {
+impl<F> fmt::Debug for NearestLayers<'_, F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.layers.fmt(f)
     }
 }
 
-impl<F, M> fmt::Debug for NearestLayer<'_, '_, F, M> {
+impl<F> fmt::Debug for NearestLayer<'_, '_, F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.layer.fmt(f)
     }

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 
 use super::layers::{Layer, Layers, check_lengths};
 use crate::Error;
-use crate::engine::{Meter, Table, split_front};
+use crate::engine::{Table, split_front};
 
 /// A way down through the layers of a part of a pile, in integers `V` over a denominator that a layer shares.
 ///
@@ -31,19 +31,19 @@ use crate::engine::{Meter, Table, split_front};
 /// assert_eq!((alpha[0], layer.denominator()), (2, 3.into()));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-pub struct NumeratorLayers<'p, V, M = ()> {
-    layers: Layers<'p, BigRational, M>,
+pub struct NumeratorLayers<'p, V> {
+    layers: Layers<'p, BigRational>,
     /// The distinct numerators of a straight pile.
     table: Option<Table<V>>,
 }
 
 /// One layer of a pile, with the numerators of its forces at hand.
-pub struct NumeratorLayer<'l, 'p, V, M = ()> {
-    layer: Layer<'l, 'p, BigRational, M>,
+pub struct NumeratorLayer<'l, 'p, V> {
+    layer: Layer<'l, 'p, BigRational>,
     table: Option<&'l Table<V>>,
 }
 
-impl<'p, M: Meter> Layers<'p, BigRational, M> {
+impl<'p> Layers<'p, BigRational> {
     /// Returns the layers in exact integers over a denominator that each layer shares.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     /// assert!(matches!(refused, Err(Error::Overflow { .. })));
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn numerators<V: TryFrom<BigInt>>(self) -> Result<NumeratorLayers<'p, V, M>, Error> {
+    pub fn numerators<V: TryFrom<BigInt>>(self) -> Result<NumeratorLayers<'p, V>, Error> {
         let scale = self.denominator(0);
         // An integer: the scale is a multiple of all denominators.
         let whole = |multiple: &BigRational| numerator((multiple * &scale).to_integer());
@@ -74,7 +74,7 @@ impl<'p, M: Meter> Layers<'p, BigRational, M> {
     }
 }
 
-impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayers<'p, V, M> {
+impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayers<'p, V> {
     /// Goes down to the next layer of the part and returns it, or `None` below the last one.
     ///
     /// # Errors
@@ -95,7 +95,7 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayers<'p,
     /// assert_eq!(layers_met, 4);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn next_layer(&mut self) -> Result<Option<NumeratorLayer<'_, 'p, V, M>>, Error> {
+    pub fn next_layer(&mut self) -> Result<Option<NumeratorLayer<'_, 'p, V>>, Error> {
         let layer = self.layers.next_layer()?;
         Ok(layer.map(|layer| NumeratorLayer {
             layer,
@@ -107,7 +107,7 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayers<'p,
     /// [`fill`](Self::fill).
     ///
     /// # Errors
-    /// As for [`Layers::spheres`].
+    /// As for [`Layers::slice_len`].
     ///
     /// # Examples
     /// ```
@@ -117,11 +117,11 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayers<'p,
     ///
     /// let pile = Pile::triangular(10)?;
     /// let layers = pile.forces::<BigRational>().layers(Selection::All)?.numerators::<i64>()?;
-    /// assert_eq!(layers.spheres()?, 220 - 55);
+    /// assert_eq!(layers.slice_len()?, 220 - 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn spheres(&self) -> Result<usize, Error> {
-        self.layers.spheres()
+    pub fn slice_len(&self) -> Result<usize, Error> {
+        self.layers.slice_len()
     }
 
     /// Writes the numerators of the contact forces of all layers still to come into slices, one for each direction, layer
@@ -149,20 +149,20 @@ impl<'p, V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayers<'p,
             self.layers.fill_from_table(table, slices)?;
             return Ok(lowest);
         }
-        check_lengths(self.spheres()?, &slices)?;
+        check_lengths(self.slice_len()?, &slices)?;
         let mut rest = slices;
         while let Some(layer) = self.next_layer()? {
             if layer.is_floor() {
                 break;
             }
-            let front = split_front(&mut rest, layer.spheres())?;
+            let front = split_front(&mut rest, layer.sphere_count())?;
             layer.fill_over(&lowest, front)?;
         }
         Ok(lowest)
     }
 }
 
-impl<V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayer<'_, '_, V, M> {
+impl<V: TryFrom<BigInt> + Clone + Send + Sync> NumeratorLayer<'_, '_, V> {
     /// Returns the number of the layer, counted from 0 at the top.
     ///
     /// # Examples
@@ -191,12 +191,12 @@ impl<V: TryFrom<BigInt> + Clone + Send + Sync, M: Meter> NumeratorLayer<'_, '_, 
     ///
     /// let pile = Pile::triangular(4)?;
     /// let mut layers = pile.forces::<BigRational>().layers(Selection::Base)?.numerators::<i64>()?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.spheres()), Some(10));
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.sphere_count()), Some(10));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn spheres(&self) -> usize {
-        self.layer.spheres()
+    pub fn sphere_count(&self) -> usize {
+        self.layer.sphere_count()
     }
 
     /// Whether the layer is the one on the floor, which has no contacts below it.
@@ -284,13 +284,13 @@ fn numerator<V: TryFrom<BigInt>>(numerator: BigInt) -> Result<V, Error> {
     })
 }
 
-impl<V, M> fmt::Debug for NumeratorLayers<'_, V, M> {
+impl<V> fmt::Debug for NumeratorLayers<'_, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.layers.fmt(f)
     }
 }
 
-impl<V, M> fmt::Debug for NumeratorLayer<'_, '_, V, M> {
+impl<V> fmt::Debug for NumeratorLayer<'_, '_, V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.layer.fmt(f)
     }

@@ -13,7 +13,6 @@ use num_traits::Zero;
 use super::Forces;
 use super::terms::{Terms, edge, edge_all};
 use crate::Error;
-use crate::engine::Meter;
 use crate::error::refuse_beyond;
 use crate::formula;
 use crate::formula::{force, half_turn, passed_on};
@@ -22,7 +21,7 @@ use crate::shape::{Selection, Stretch};
 /// The most layers that are summed one by one.
 const MOST_LAYERS: u64 = 10_000_000;
 
-impl<M: Meter> Forces<'_, BigRational, M> {
+impl Forces<'_, BigRational> {
     /// Returns the sum of all contact forces that [`contacts`](Self::contacts) gives of a part, in f₀. Takes as long as the
     /// part has layers, and the pile changes of sign, loads and weights of its own.
     ///

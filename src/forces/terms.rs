@@ -59,7 +59,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         &self,
         site: Site,
         method: Option<Method>,
-        meter: impl Meter,
+        meter: Meter<'_>,
     ) -> Result<Received<T>, Error> {
         let system = (&self.lines, &self.system);
         received(system, (site, Wanted::All), method, meter)
@@ -70,7 +70,7 @@ impl<'p, T: Algebra> Terms<'p, T> {
         &self,
         site: Site,
         method: Option<Method>,
-        meter: impl Meter,
+        meter: Meter<'_>,
     ) -> Result<Received<T>, Error> {
         let above = self.received(site, method, meter)?;
         Ok(self.lines.to_below(site, above, meter))

@@ -16,6 +16,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::fmt;
 
+use exact_surd::layout::padded;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
@@ -29,10 +30,10 @@ use crate::shape::Shape;
 ///
 /// # Examples
 /// ```
-/// use cannonpile::geometry::Apart;
+/// use cannonpile::geometry::LayerGap;
 ///
-/// assert_eq!(Apart { layers: 0 }.to_string(), "in one layer");
-/// assert_eq!(Apart { layers: 3 }.to_string(), "3 layers apart");
+/// assert_eq!(LayerGap { layers: 0 }.to_string(), "in one layer");
+/// assert_eq!(LayerGap { layers: 3 }.to_string(), "3 layers apart");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(
@@ -40,24 +41,24 @@ use crate::shape::Shape;
     derive(::serde::Serialize, ::serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub struct Apart {
+pub struct LayerGap {
     /// The number of layers between them, 0 for neighbours of one layer.
     pub layers: u8,
 }
 
-impl fmt::Display for Apart {
+impl fmt::Display for LayerGap {
     /// Prints `in one layer`, `3 layers apart`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.layers {
-            0 => f.write_str("in one layer"),
-            1 => f.write_str("1 layer apart"),
-            m => write!(f, "{m} layers apart"),
+            0 => padded(f, format_args!("in one layer")),
+            1 => padded(f, format_args!("1 layer apart")),
+            m => padded(f, format_args!("{m} layers apart")),
         }
     }
 }
 
 /// A pair of spheres that may come too close, with the q at which it touches.
-type Touch = (BigRational, Apart);
+type Touch = (BigRational, LayerGap);
 
 /// The spacings a pile allows: those at which no two of its spheres overlap.
 ///
@@ -100,7 +101,7 @@ impl Clearance {
     /// On an equilateral base, of any stacking (module documentation).
     fn of_stacking(shape: &Shape, s: &BigRational) -> Self {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-        let touch = |q, layers| (q, Apart { layers });
+        let touch = |q, layers| (q, LayerGap { layers });
         let neighbours = shape.base().widths().iter().any(|width| *width > 0);
         let lower = neighbours.then(|| touch(ratio(1, 1), 0));
         let upper = match (shape.stacking().is_straight(), shape.layers()) {
@@ -133,7 +134,7 @@ impl Clearance {
             }
             // at_zero + σ·slope ≥ 1
             let sin2 = (BigRational::one() - at_zero) / &slope;
-            let apart = Apart { layers };
+            let apart = LayerGap { layers };
             if slope.is_positive() {
                 lower.push((sin2 * &flat, apart));
             } else if sin2 < BigRational::one() {
@@ -194,16 +195,16 @@ impl Clearance {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::geometry::LayerGap;
     /// use cannonpile::{Error, Pile};
     ///
     /// let clearance = Pile::triangular(10)?.clearance();
-    /// assert_eq!(clearance.check(&"2/3*sqrt(6)".parse()?)?, [Apart { layers: 3 }]);
+    /// assert_eq!(clearance.check(&"2/3*sqrt(6)".parse()?)?, [LayerGap { layers: 3 }]);
     /// let wide = "sqrt(17/6)".parse()?;
     /// assert!(matches!(clearance.check(&wide), Err(Error::Overlap { .. })));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn check(&self, spacing: &Spacing) -> Result<Vec<Apart>, Error> {
+    pub fn check(&self, spacing: &Spacing) -> Result<Vec<LayerGap>, Error> {
         let (least, most) = (self.least(), self.most());
         if let Some(least) = &least {
             let room = match &most {

@@ -18,15 +18,14 @@ use crate::scalar::Surd;
 /// # Examples
 /// ```
 /// use cannonpile::geometry::Spacing;
-/// use num_rational::BigRational;
+/// use cannonpile::ratio;
 ///
-/// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-/// assert_eq!(Spacing::new(ratio(6, 5))?.square(), &ratio(36, 25));
+/// assert_eq!(Spacing::new(ratio!(6/5))?.square(), &ratio!(36/25));
 /// // The bound √(8/3) of a tall pile is no rational, but its square is.
-/// assert_eq!(Spacing::from_square(ratio(8, 3))?.to_string(), "2/3*sqrt(6)");
+/// assert_eq!(Spacing::from_square(ratio!(8/3))?.to_string(), "2/3*sqrt(6)");
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Spacing {
     square: BigRational,
 }
@@ -41,11 +40,10 @@ impl Spacing {
     /// ```
     /// use cannonpile::Error;
     /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
+    /// use cannonpile::ratio;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// assert_eq!(Spacing::new(ratio(6, 5))?.to_string(), "6/5");
-    /// assert!(matches!(Spacing::new(ratio(-6, 5)), Err(Error::NotPositive { .. })));
+    /// assert_eq!(Spacing::new(ratio!(6/5))?.to_string(), "6/5");
+    /// assert!(matches!(Spacing::new(ratio!(-6/5)), Err(Error::NotPositive { .. })));
     /// # Ok::<(), Error>(())
     /// ```
     pub fn new(ratio: BigRational) -> Result<Self, Error> {
@@ -70,12 +68,11 @@ impl Spacing {
     /// ```
     /// use cannonpile::Error;
     /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
+    /// use cannonpile::ratio;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// assert_eq!(Spacing::from_square(ratio(36, 25))?, Spacing::new(ratio(6, 5))?);
-    /// assert_eq!(Spacing::from_square(ratio(8, 3))?.to_string(), "2/3*sqrt(6)");
-    /// assert!(matches!(Spacing::from_square(ratio(0, 1)), Err(Error::NotPositive { .. })));
+    /// assert_eq!(Spacing::from_square(ratio!(36/25))?, Spacing::new(ratio!(6/5))?);
+    /// assert_eq!(Spacing::from_square(ratio!(8/3))?.to_string(), "2/3*sqrt(6)");
+    /// assert!(matches!(Spacing::from_square(ratio!(0)), Err(Error::NotPositive { .. })));
     /// # Ok::<(), Error>(())
     /// ```
     pub fn from_square(square: BigRational) -> Result<Self, Error> {
@@ -94,10 +91,9 @@ impl Spacing {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
+    /// use cannonpile::ratio;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// assert_eq!(Spacing::new(ratio(6, 5))?.square(), &ratio(36, 25));
+    /// assert_eq!(Spacing::new(ratio!(6/5))?.square(), &ratio!(36/25));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -110,11 +106,10 @@ impl Spacing {
     /// # Examples
     /// ```
     /// use cannonpile::geometry::Spacing;
-    /// use num_rational::BigRational;
+    /// use cannonpile::ratio;
     ///
-    /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    /// assert_eq!(Spacing::new(ratio(6, 5))?.ratio().to_rational(), Some(ratio(6, 5)));
-    /// assert_eq!(Spacing::from_square(ratio(2, 1))?.ratio().to_string(), "sqrt(2)");
+    /// assert_eq!(Spacing::new(ratio!(6/5))?.ratio().to_rational(), Some(ratio!(6/5)));
+    /// assert_eq!(Spacing::from_square(ratio!(2))?.ratio().to_string(), "sqrt(2)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
@@ -192,5 +187,27 @@ impl fmt::Display for Bound<'_> {
             (false, _) if self.up => write!(f, ", just below {whole}.{rest:06}"),
             (false, _) => write!(f, " = {whole}.{rest:06}…"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+
+    use super::*;
+    use crate::geometry::LayerGap;
+    use crate::ratio;
+
+    #[test]
+    fn width_fill_and_sign_are_honoured() {
+        let spacing = Spacing::from_square(ratio!(8 / 3)).unwrap();
+        assert_eq!(format!("{spacing:>13}|"), "  2/3*sqrt(6)|");
+        assert_eq!(format!("{spacing:*<13}"), "2/3*sqrt(6)**");
+        assert_eq!(format!("{spacing:+}"), "+2/3*sqrt(6)");
+        assert_eq!(
+            format!("{:^14}|", LayerGap { layers: 0 }),
+            " in one layer |"
+        );
+        assert_eq!(format!("{:>15}", LayerGap { layers: 2 }), " 2 layers apart");
     }
 }

@@ -1,6 +1,9 @@
 //! Vectors in the symbolic basis.
 
+use core::fmt;
 use core::ops::{Add, Neg, Sub};
+
+use exact_surd::layout::{padded, part};
 
 use crate::scalar::Ring;
 
@@ -141,6 +144,24 @@ impl<T> Vector<T> {
     #[must_use]
     pub fn into_array(self) -> [T; 3] {
         [self.x, self.y, self.z]
+    }
+}
+
+impl<T: fmt::Display> fmt::Display for Vector<T> {
+    /// Prints `(1/2, 0, -1)`; a sign and a precision are those of the components.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::geometry::Vector;
+    ///
+    /// let v = Vector { x: 0.25, y: 0.0, z: -1.0 };
+    /// assert_eq!(v.to_string(), "(0.25, 0, -1)");
+    /// assert_eq!(format!("{v:+.1}"), "(+0.2, +0.0, -1.0)");
+    /// assert_eq!(format!("{v:>16}"), "   (0.25, 0, -1)");
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = [&self.x, &self.y, &self.z].map(|component| part(f, component));
+        padded(f, format_args!("({x}, {y}, {z})"))
     }
 }
 

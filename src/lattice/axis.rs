@@ -3,6 +3,8 @@
 use core::fmt;
 use core::str::FromStr;
 
+use exact_surd::layout::padded;
+
 use super::{Direction, Sign, Site};
 use crate::Error;
 
@@ -96,21 +98,21 @@ impl FromStr for Axis {
 ///
 /// # Examples
 /// ```
-/// use cannonpile::lattice::{Axis, Direction, Link};
+/// use cannonpile::lattice::{Axis, Direction, ContactKind};
 ///
-/// assert_eq!(Link::from(Direction::Beta).name(), "beta");
-/// assert_eq!("alpha-beta".parse::<Link>()?, Link::Horizontal(Axis::AlphaBeta));
+/// assert_eq!(ContactKind::from(Direction::Beta).name(), "beta");
+/// assert_eq!("alpha-beta".parse::<ContactKind>()?, ContactKind::Horizontal(Axis::AlphaBeta));
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Link {
+pub enum ContactKind {
     /// With a sphere of the layer below.
     Sloping(Direction),
     /// With a neighbour, at a = R.
     Horizontal(Axis),
 }
 
-impl Link {
+impl ContactKind {
     /// Every one, in the order of tables.
     pub const ALL: [Self; 6] = [
         Self::Sloping(Direction::Alpha),
@@ -125,9 +127,9 @@ impl Link {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Axis, Link};
+    /// use cannonpile::lattice::{Axis, ContactKind};
     ///
-    /// assert_eq!(Link::from(Axis::GammaBeta).name(), "gamma-beta");
+    /// assert_eq!(ContactKind::from(Axis::GammaBeta).name(), "gamma-beta");
     /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -141,10 +143,10 @@ impl Link {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::{Axis, Direction, Link};
+    /// use cannonpile::lattice::{Axis, Direction, ContactKind};
     ///
-    /// assert_eq!(Link::Sloping(Direction::Alpha).direction(), Some(Direction::Alpha));
-    /// assert_eq!(Link::Horizontal(Axis::AlphaBeta).direction(), None);
+    /// assert_eq!(ContactKind::Sloping(Direction::Alpha).direction(), Some(Direction::Alpha));
+    /// assert_eq!(ContactKind::Horizontal(Axis::AlphaBeta).direction(), None);
     /// ```
     #[must_use]
     pub const fn direction(self) -> Option<Direction> {
@@ -155,25 +157,25 @@ impl Link {
     }
 }
 
-impl From<Direction> for Link {
+impl From<Direction> for ContactKind {
     fn from(direction: Direction) -> Self {
         Self::Sloping(direction)
     }
 }
 
-impl From<Axis> for Link {
+impl From<Axis> for ContactKind {
     fn from(axis: Axis) -> Self {
         Self::Horizontal(axis)
     }
 }
 
-impl fmt::Display for Link {
+impl fmt::Display for ContactKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
 }
 
-impl FromStr for Link {
+impl FromStr for ContactKind {
     type Err = Error;
 
     /// Reads a link by its [`name`](Self::name).
@@ -183,9 +185,9 @@ impl FromStr for Link {
     ///
     /// # Examples
     /// ```
-    /// use cannonpile::lattice::Link;
+    /// use cannonpile::lattice::ContactKind;
     ///
-    /// assert!("delta".parse::<Link>().is_err());
+    /// assert!("delta".parse::<ContactKind>().is_err());
     /// ```
     fn from_str(text: &str) -> Result<Self, Error> {
         let found = Self::ALL.into_iter().find(|found| found.name() == text);
@@ -199,7 +201,7 @@ impl FromStr for Link {
 }
 
 #[cfg(feature = "serde")]
-crate::data::as_text!(Axis, Link);
+crate::data::as_text!(Axis, ContactKind);
 
 /// A contact between two spheres of a layer, at a = R: `site`, and its [neighbour](Self::neighbour) along an axis.
 ///
@@ -250,6 +252,6 @@ impl HorizontalContact {
 impl fmt::Display for HorizontalContact {
     /// Prints `(i,j,k) alpha-beta`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.site, self.axis)
+        padded(f, format_args!("{} {}", self.site, self.axis))
     }
 }

@@ -19,6 +19,7 @@ use crate::scalar::Algebra;
 ///
 /// assert_eq!(count::above(&2_i128, &1, &5), [2, 2, 1]);
 /// ```
+#[must_use]
 pub fn above<T>(i: &T, j: &T, k: &T) -> [T; 3]
 where
     T: Clone + for<'a> Sub<&'a T, Output = T>,
@@ -41,6 +42,7 @@ where
 /// let bounds = count::bounds_above(&1_i128, &2, &[0, 0, 0], &[5, 5, 5], &5, Sign::Plus);
 /// assert_eq!(bounds.map(|bounds| bounds.into_iter().min()), [Some(2), Some(1), Some(2)]);
 /// ```
+#[must_use]
 pub fn bounds_above<T>(
     i: &T,
     j: &T,
@@ -82,6 +84,7 @@ where
 /// assert_eq!(count::spheres(&10.0, 3), 220.0);
 /// assert_eq!(count::spheres(&10.0, 2), 55.0);
 /// ```
+#[must_use]
 pub fn spheres<T: Algebra>(layers: &T, d: u32) -> T {
     binomial(&shifted(layers, i128::from(d) - 1), d)
 }
@@ -94,6 +97,7 @@ pub fn spheres<T: Algebra>(layers: &T, d: u32) -> T {
 ///
 /// assert_eq!(count::spheres_in_layer(&9.0, 3), 55.0);
 /// ```
+#[must_use]
 pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
     let below = d.saturating_sub(1);
     binomial(&shifted(k, below.into()), below)
@@ -110,6 +114,7 @@ pub fn spheres_in_layer<T: Algebra>(k: &T, d: u32) -> T {
 /// assert_eq!(count::contacts(&10.0, 3), 495.0);
 /// assert_eq!(count::contacts(&1.0, 3), 0.0);
 /// ```
+#[must_use]
 pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
     spheres(&shifted(layers, -1), d) * &T::from_i128(d.into())
 }
@@ -125,6 +130,7 @@ pub fn contacts<T: Algebra>(layers: &T, d: u32) -> T {
 /// assert_eq!(count::contacts_of_strength(&10.0, &1.0, 3), 45.0);
 /// assert_eq!(count::contacts_of_strength(&10.0, &9.0, 3), 1.0);
 /// ```
+#[must_use]
 pub fn contacts_of_strength<T: Algebra>(layers: &T, n: &T, d: u32) -> T {
     spheres_in_layer(&(shifted(layers, -1) - n), d)
 }

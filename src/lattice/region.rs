@@ -9,6 +9,7 @@ use core::fmt;
 use core::ops::RangeInclusive;
 use core::str::FromStr;
 
+use exact_surd::layout::padded;
 use num_bigint::{BigInt, BigUint};
 use num_integer::Integer;
 
@@ -473,18 +474,19 @@ impl fmt::Display for Region {
     /// ```
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x0, y0, s0], [x1, y1, s1]) = (self.lower, self.upper);
+        let mut kind = "";
         if f.alternate() {
             // Within ±10³⁶.
             let (p, q) = (x1 + 1, 1 - x0);
             let about_zero = Self::hexagon(p, q).as_ref() == Ok(self);
             match (about_zero, p, q) {
-                (true, 2.., 1) => return write!(f, "triangle:{p}"),
-                (true, ..) if p == q => return write!(f, "hexagon:{p}"),
-                (true, ..) => return write!(f, "hexagon:{p},{q}"),
-                (false, ..) => f.write_str("region:")?,
+                (true, 2.., 1) => return padded(f, format_args!("triangle:{p}")),
+                (true, ..) if p == q => return padded(f, format_args!("hexagon:{p}")),
+                (true, ..) => return padded(f, format_args!("hexagon:{p},{q}")),
+                (false, ..) => kind = "region:",
             }
         }
-        write!(f, "{x0}..{x1},{y0}..{y1},{s0}..{s1}")
+        padded(f, format_args!("{kind}{x0}..{x1},{y0}..{y1},{s0}..{s1}"))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Consecutive sites of a layer.
 
+use core::iter::FusedIterator;
 use core::ops::Range;
 
 use super::Site;
@@ -87,7 +88,16 @@ impl IntoIterator for Row {
 
 /// The sites of a [`Row`], in order.
 #[derive(Clone, Debug)]
+#[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Sites(Row);
+
+impl Sites {
+    /// Returns how many sites are still to come.
+    pub(crate) fn remaining(&self) -> u128 {
+        let Range { start, end } = self.0.i;
+        if start < end { end.abs_diff(start) } else { 0 }
+    }
+}
 
 impl Iterator for Sites {
     type Item = Site;
@@ -101,3 +111,5 @@ impl Iterator for Sites {
         self.0.i.size_hint()
     }
 }
+
+impl FusedIterator for Sites {}

@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 use super::upwards;
-use crate::engine::{Meter, Unit, check_interrupt};
+use crate::engine::{Unit, check_interrupt};
 use crate::forces::check_lengths;
 use crate::geometry::Vector;
 use crate::lattice::{Direction, Row, Site};
@@ -32,15 +32,15 @@ use crate::{Error, Packing};
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Places<'p, F, M = ()> {
-    packing: Packing<'p, M>,
+pub struct Places<'p, F> {
+    packing: Packing<'p>,
     /// Of half the coordinates in the symbolic basis.
     halves: BigInt,
     units: [Unit; 3],
     floats: PhantomData<F>,
 }
 
-impl<'p, M: Meter> Packing<'p, M> {
+impl<'p> Packing<'p> {
     /// Returns where spheres are and where they touch, as nearest floats: the fast way to many of them.
     ///
     /// # Examples
@@ -58,7 +58,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn places<F: NearestFloat>(&self) -> Places<'p, F, M> {
+    pub fn places<F: NearestFloat>(&self) -> Places<'p, F> {
         // Coordinates are sums of the directions, those of points of contact of halves of them.
         let halves: BigInt = self.forces.direction_scale() * 2;
         let diameter = self.diameter();
@@ -72,7 +72,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     }
 }
 
-impl<F: NearestFloat, M: Meter> Places<'_, F, M> {
+impl<F: NearestFloat> Places<'_, F> {
     /// Writes the centres of consecutive spheres of a row into slices of x, y and z.
     ///
     /// # Errors
@@ -193,7 +193,7 @@ fn overflow<F>() -> Error {
     }
 }
 
-impl<M: Meter> Packing<'_, M> {
+impl Packing<'_> {
     /// Returns where a sphere touches that below it, in 2R and the symbolic basis, z up from the bottom layer.
     pub(super) fn point(
         &self,

@@ -1,9 +1,8 @@
 //! Many answers in SI, one after the other.
 
 use super::on_basis;
-use crate::engine::Meter;
 use crate::forces::{NearestLayers, Units};
-use crate::lattice::{Direction, HorizontalContact, Link, Site};
+use crate::lattice::{ContactKind, Direction, HorizontalContact, Site};
 use crate::scalar::{NearestFloat, Surd, product};
 use crate::shape::Selection;
 use crate::{ContactForce, Error, FloorForce, Packing};
@@ -34,8 +33,8 @@ pub struct PackedContact {
     /// The upper sphere; of two neighbours, the one that the contact is named by.
     pub site: Site,
     /// Where the other one lies.
-    pub direction: Link,
-    /// The magnitude of the force; positive is push.
+    pub direction: ContactKind,
+    /// The force. Positive: they push. Negative: they would have to pull.
     pub force: Surd,
     /// The force on the sphere `site`, z up.
     pub vector: [Surd; 3],
@@ -43,9 +42,9 @@ pub struct PackedContact {
     pub point: [Surd; 3],
 }
 
-impl<'p, M: Meter> Packing<'p, M> {
-    /// Returns a way down through the layers of a part of the pile, which fills the floats nearest to the exact forces into
-    /// slices: the fast way to many of them, for every stacking.
+impl<'p> Packing<'p> {
+    /// Walks down the layers of `part`. Each layer writes its contact forces, in newtons, correctly rounded, into slices of
+    /// yours. The fastest way to many forces.
     ///
     /// # Errors
     /// As for [`Forces::layers`](crate::Forces::layers); [`Error::Overflow`] for a force beyond the floats.
@@ -66,10 +65,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// assert_eq!(forces[0][0], 0.46225016352102425);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn layers<F: NearestFloat>(
-        &self,
-        part: Selection,
-    ) -> Result<NearestLayers<'p, F, M>, Error> {
+    pub fn layers<F: NearestFloat>(&self, part: Selection) -> Result<NearestLayers<'p, F>, Error> {
         let [x, y, z] = self.roots.forces();
         let basis = |unit: &BigRational| [x, y, z].map(|root| root.scaled(unit));
         let [along_x, along_y, downwards] = basis(&self.weight_per_sum);
@@ -107,10 +103,10 @@ impl<'p, M: Meter> Packing<'p, M> {
     pub fn contacts(
         &self,
         part: Selection,
-    ) -> Result<impl Iterator<Item = Result<PackedContact, Error>> + use<'p, M>, Error> {
+    ) -> Result<impl Iterator<Item = Result<PackedContact, Error>> + use<'p>, Error> {
         let packing = self.clone();
         let contacts = self.forces.contacts(part)?;
-        Ok(contacts.map(move |contact| packing.packed(contact?)))
+        Ok(contacts.map(move |contact| packing.contact_in_si(contact?)))
     }
 
     /// Returns a contact in SI, from its force in f₀.
@@ -129,11 +125,14 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
     /// let multiples = packing.forces().contacts(Selection::All)?;
     /// for (multiple, contact) in multiples.zip(packing.contacts(Selection::All)?) {
-    ///     assert_eq!(packing.packed(multiple?)?, contact?);
+    ///     assert_eq!(packing.contact_in_si(multiple?)?, contact?);
     /// }
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn packed(&self, contact: ContactForce<BigRational>) -> Result<PackedContact, Error> {
+    pub fn contact_in_si(
+        &self,
+        contact: ContactForce<BigRational>,
+    ) -> Result<PackedContact, Error> {
         let ContactForce {
             site,
             direction,
@@ -164,12 +163,12 @@ impl<'p, M: Meter> Packing<'p, M> {
     /// let contact = HorizontalContact { site: Site { i: 0, j: 0, k: 1 }, axis: Axis::AlphaBeta };
     /// let pile = Pile::triangular(3)?.with_horizontal_force(contact, one.clone())?;
     /// let packing = Packing::new(&pile, &Spacing::new(one.clone())?)?;
-    /// let packed = packing.packed_horizontal(contact, &one)?;
+    /// let packed = packing.horizontal_contact_in_si(contact, &one)?;
     /// // Its neighbour lies along +y, and pushes back.
     /// assert_eq!(packed.vector[1], -packed.force);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn packed_horizontal(
+    pub fn horizontal_contact_in_si(
         &self,
         contact: HorizontalContact,
         force: &BigRational,
@@ -194,7 +193,8 @@ impl<'p, M: Meter> Packing<'p, M> {
         })
     }
 
-    /// Returns the magnitudes alone of the contact forces of a part of the pile, one by one.
+    /// Returns the contact forces of a part of the pile without vectors and points, one by one: positive where the spheres
+    /// push, negative where they would have to pull.
     ///
     /// # Errors
     /// As for [`Forces::contacts`](crate::Forces::contacts).
@@ -208,17 +208,17 @@ impl<'p, M: Meter> Packing<'p, M> {
     ///
     /// let pile = Pile::triangular(3)?;
     /// let packing = Packing::new(&pile, &Spacing::new(BigRational::new(6.into(), 5.into()))?)?;
-    /// let forces = packing.magnitudes(Selection::All)?;
+    /// let forces = packing.contact_forces(Selection::All)?;
     /// let forces = forces.map(|contact| contact.map(|contact| contact.force));
     /// let forces: Result<Vec<_>, _> = forces.collect();
     /// assert_eq!(forces.as_ref().map(Vec::len), Ok(12));
     /// assert_eq!(forces?.iter().max().unwrap().to_string(), "10/39*sqrt(13)");
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    pub fn magnitudes(
+    pub fn contact_forces(
         &self,
         part: Selection,
-    ) -> Result<impl Iterator<Item = Result<ContactForce<Surd>, Error>> + use<'p, M>, Error> {
+    ) -> Result<impl Iterator<Item = Result<ContactForce<Surd>, Error>> + use<'p>, Error> {
         let packing = self.clone();
         let contacts = self.forces.contacts(part)?;
         Ok(contacts.map(move |contact| {
@@ -258,7 +258,7 @@ impl<'p, M: Meter> Packing<'p, M> {
     pub fn positions(
         &self,
         part: Selection,
-    ) -> Result<impl Iterator<Item = Result<[Surd; 3], Error>> + use<'p, M>, Error> {
+    ) -> Result<impl Iterator<Item = Result<[Surd; 3], Error>> + use<'p>, Error> {
         let packing = self.clone();
         let sites = self.pile().rows(part)?.flatten();
         Ok(sites.map(move |site| {
@@ -290,9 +290,9 @@ impl<'p, M: Meter> Packing<'p, M> {
     pub fn base(
         &self,
         part: Selection,
-    ) -> Result<impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p, M>, Error> {
+    ) -> Result<impl Iterator<Item = Result<FloorForce<Surd>, Error>> + use<'p>, Error> {
         let packing = self.clone();
         let forces = self.forces.base(part)?;
-        Ok(forces.map(move |force| Ok(packing.floor_force(force?))))
+        Ok(forces.map(move |force| Ok(packing.floor_force_in_si(force?))))
     }
 }

@@ -14,7 +14,7 @@ use crate::lattice::{HorizontalContact, Sign, Site};
 /// negative.
 ///
 /// For the forces a load is one with the weight of its sphere; only the floor and the mass tell them apart.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Loading {
     weightless: bool,
     /// Of the spheres that do not weigh mg.

@@ -4,9 +4,8 @@ use core::num::NonZeroI64;
 
 use exact_surd::DoubleDouble;
 use num_rational::BigRational;
-use num_traits::One;
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
+use super::{Algebra, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable, RealSign, Ring};
 
 impl Ring for DoubleDouble {
     fn from_i128(n: i128) -> Self {
@@ -15,8 +14,6 @@ impl Ring for DoubleDouble {
 }
 
 impl Algebra for DoubleDouble {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::Rounded { bits: 100 };
     const NAME: &'static str = "DoubleDouble";
 
@@ -31,16 +28,10 @@ impl Algebra for DoubleDouble {
     fn is_defined(&self) -> bool {
         self.is_finite()
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl OwnNumerators for DoubleDouble {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }

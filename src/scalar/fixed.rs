@@ -4,6 +4,8 @@
 //! operation in its checked form: the first that does not fit leaves a *fault*, which no later
 //! operation removes.
 
+use alloc::format;
+use core::cmp::Ordering;
 use core::fmt;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -13,7 +15,10 @@ use num_integer::Integer;
 use num_rational::{BigRational, Ratio};
 use num_traits::{Bounded, CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, One, Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
+use super::{
+    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
+    Ring,
+};
 
 mod sealed {
     pub trait Sealed {}
@@ -78,7 +83,10 @@ impl<I: FixedInteger> FixedRational<I> {
     /// The sticky result of an operation that did not fit.
     pub const FAULT: Self = Self(None);
 
-    /// Returns the rational `numer / denom`; a fault if the denominator is zero or either is `I::MIN`.
+    /// Returns the rational `numer / denom`, or silently a [fault](Self::FAULT) where there is none: `new(1, 0)` does not
+    /// panic.
+    ///
+    /// A fault comes of a denominator of zero, and of `I::MIN` as either part. [`parts`](Self::parts) tells.
     ///
     /// # Examples
     /// ```
@@ -125,6 +133,25 @@ impl<I: FixedInteger> FixedRational<I> {
             .map(|(n, d)| BigRational::new_raw(n.into(), d.into()))
     }
 
+    /// Returns the nearest `f64`, and not-a-number for a fault.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::FixedRational;
+    ///
+    /// assert_eq!(FixedRational::new(1_i64, 3).to_f64(), 1.0 / 3.0);
+    /// assert!(FixedRational::<i64>::FAULT.to_f64().is_nan());
+    /// ```
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        let nearest = self
+            .to_rational()
+            .as_ref()
+            .and_then(f64::nearest_to_rational);
+        // Not a default: no number of 128 bits is beyond the floats, and a fault is not a number.
+        nearest.unwrap_or(f64::NAN)
+    }
+
     /// Applies a checked operation to two numbers, and keeps `I::MIN` out of the result.
     fn checked(self, rhs: &Self, op: impl Fn(&Ratio<I>, &Ratio<I>) -> Option<Ratio<I>>) -> Self {
         let result = match (&self.0, &rhs.0) {
@@ -144,6 +171,13 @@ impl<I: FixedInteger> PartialEq for FixedRational<I> {
     }
 }
 
+impl<I: FixedInteger> PartialOrd for FixedRational<I> {
+    /// Compares exactly; a fault is neither less nor greater than anything.
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.0.as_ref()?.cmp(other.0.as_ref()?))
+    }
+}
+
 impl<I: FixedInteger> fmt::Debug for FixedRational<I> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
@@ -151,12 +185,18 @@ impl<I: FixedInteger> fmt::Debug for FixedRational<I> {
 }
 
 impl<I: FixedInteger> fmt::Display for FixedRational<I> {
+    /// Prints `7/3`, and `overflow` for a fault.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.parts() {
-            None => f.write_str("overflow"),
-            Some((n, d)) if d.is_one() => write!(f, "{n}"),
-            Some((n, d)) => write!(f, "{n}/{d}"),
-        }
+        let Some((n, d)) = self.parts() else {
+            return f.pad("overflow");
+        };
+        // |n| ≤ MAX has a magnitude.
+        let magnitude = if d.is_one() {
+            format!("{}", n.abs())
+        } else {
+            format!("{}/{d}", n.abs())
+        };
+        f.pad_integral(!n.is_negative(), "", &magnitude)
     }
 }
 
@@ -218,8 +258,6 @@ impl<I: FixedInteger> Ring for FixedRational<I> {
 }
 
 impl<I: FixedInteger> Algebra for FixedRational<I> {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::ExactOrFault;
     const NAME: &'static str = I::RATIONAL_NAME;
 
@@ -241,16 +279,10 @@ impl<I: FixedInteger> Algebra for FixedRational<I> {
     fn is_defined(&self) -> bool {
         self.0.is_some()
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl<I: FixedInteger> OwnNumerators for FixedRational<I> {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }
@@ -321,5 +353,64 @@ mod tests {
             }
         }
         assert!(held > 500_000, "only {held} results were in range");
+    }
+
+    #[test]
+    fn numbers_are_ordered_and_faults_are_not() {
+        let ratio = FixedRational::<i8>::new;
+        let numbers = [
+            ratio(-127, 1),
+            ratio(-1, 2),
+            ratio(0, 5),
+            ratio(126, 127),
+            ratio(1, 1),
+        ];
+        for (n, x) in numbers.iter().enumerate() {
+            for (m, y) in numbers.iter().enumerate() {
+                assert_eq!(x.partial_cmp(y), Some(n.cmp(&m)));
+            }
+            assert_eq!(x.partial_cmp(&FixedRational::FAULT), None);
+        }
+        let fault = FixedRational::<i8>::FAULT;
+        assert_eq!(fault.partial_cmp(&fault), None);
+        // No product of parts is needed that might not fit.
+        let [a, b] = [i128::MAX - 1, i128::MAX].map(|n| FixedRational::new(n, i128::MAX - 2));
+        assert_eq!(a.partial_cmp(&b), Some(Ordering::Less));
+        assert_eq!(b.partial_cmp(&a), Some(Ordering::Greater));
+    }
+
+    /// Without `std` a `Ratio` is not padded.
+    #[cfg(feature = "std")]
+    #[test]
+    fn width_fill_and_sign_are_as_of_big_rationals() {
+        for (n, d) in [(22, 7), (-22, 7), (3, 1), (0, 1)] {
+            let (short, long) = (FixedRational::new(n, d), ratio_of(n, d));
+            for (short, long) in [
+                (format!("{short}"), format!("{long}")),
+                (format!("{short:>9}"), format!("{long:>9}")),
+                (format!("{short:9}"), format!("{long:9}")),
+                (format!("{short:*<9}"), format!("{long:*<9}")),
+                (format!("{short:^+9}"), format!("{long:^+9}")),
+                (format!("{short:07}"), format!("{long:07}")),
+                (format!("{short:.1}"), format!("{long:.1}")),
+            ] {
+                assert_eq!(short, long);
+            }
+        }
+        assert_eq!(format!("{:>10}", FixedRational::<i64>::FAULT), "  overflow");
+    }
+
+    fn ratio_of(n: i64, d: i64) -> BigRational {
+        BigRational::new(n.into(), d.into())
+    }
+
+    #[test]
+    fn floats_are_the_nearest() {
+        for (n, d) in [(1, 3), (-2, 3), (0, 1), (i64::MAX, 1), (1, i64::MAX)] {
+            let nearest = FixedRational::new(n, d).to_f64();
+            assert_eq!(f64::nearest_to_rational(&ratio_of(n, d)), Some(nearest));
+        }
+        let greatest = FixedRational::new(i128::MAX, 1).to_f64();
+        assert_eq!(Some(greatest), Some(2_f64.powi(127)));
     }
 }

@@ -5,7 +5,10 @@ use core::num::NonZeroI64;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring};
+use super::{
+    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
+    Ring,
+};
 
 macro_rules! float_scalar {
     ($float:ident) => {
@@ -20,8 +23,6 @@ macro_rules! float_scalar {
         }
 
         impl Algebra for $float {
-            type Numerator = Self;
-
             const EXACTNESS: Exactness = Exactness::Rounded {
                 bits: $float::MANTISSA_DIGITS,
             };
@@ -54,19 +55,12 @@ macro_rules! float_scalar {
             fn is_defined(&self) -> bool {
                 self.is_finite()
             }
+        }
 
-            fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-                (values.each_ref().map(Self::from_rational), 1.0)
-            }
-
-            #[inline]
-            fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-                Some(n.div_int(by))
-            }
-
+        impl OwnNumerators for $float {
             #[expect(clippy::float_cmp, reason = "exactly 1, which nothing is divided by")]
             #[inline]
-            fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+            fn ratio(n: Self, d: &Self) -> Option<Self> {
                 if *d == 1.0 {
                     return Some(n);
                 }

@@ -1,14 +1,19 @@
 //! Intervals of floats: every result contains the true one.
 
 use core::cmp::Ordering;
+use core::fmt;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring};
+use super::{
+    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
+    Ring,
+};
 use exact_surd::error_free::{is_ordinary, significand, two_product, two_sum};
+use exact_surd::layout::padded;
 
 /// A closed interval [lower, upper] of reals with `f64` ends, which may be infinite.
 ///
@@ -124,6 +129,54 @@ impl Interval {
         above && BigRational::from_float(self.upper).is_none_or(|upper| *value <= upper)
     }
 
+    /// Returns whether a float lies inside; an infinity or not-a-number does not.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Interval;
+    ///
+    /// let interval = Interval::new(1.0, f64::INFINITY).unwrap();
+    /// assert!(interval.contains_f64(1.0) && !interval.contains_f64(0.5));
+    /// assert!(!interval.contains_f64(f64::INFINITY));
+    /// ```
+    #[must_use]
+    pub fn contains_f64(&self, value: f64) -> bool {
+        value.is_finite() && self.lower <= value && value <= self.upper
+    }
+
+    /// Returns the width, upper − lower, rounded up: infinite without two finite ends.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Interval;
+    ///
+    /// assert_eq!(Interval::new(1.0, 1.5).unwrap().width(), 0.5);
+    /// assert_eq!(Interval::point(0.1).width(), 0.0);
+    /// assert_eq!(Interval::WHOLE.width(), f64::INFINITY);
+    /// ```
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        if self.lower.is_infinite() || self.upper.is_infinite() {
+            return f64::INFINITY;
+        }
+        (Self::point(self.upper) - &Self::point(self.lower)).upper
+    }
+
+    /// Returns a float inside, halfway between the ends up to rounding; an infinite end counts as the greatest float.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Interval;
+    ///
+    /// assert_eq!(Interval::new(1.0, 2.0).unwrap().midpoint(), 1.5);
+    /// assert_eq!(Interval::point(0.1).midpoint(), 0.1);
+    /// assert_eq!(Interval::WHOLE.midpoint(), 0.0);
+    /// ```
+    #[must_use]
+    pub fn midpoint(&self) -> f64 {
+        self.lower.max(f64::MIN).midpoint(self.upper.min(f64::MAX))
+    }
+
     /// Returns the smallest interval with the four ends that corners of two intervals give.
     fn hull(corners: [(f64, f64); 4], end: impl Fn(f64, f64) -> (f64, f64)) -> Self {
         let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -151,6 +204,45 @@ impl Interval {
 
     fn has_zero(&self) -> bool {
         self.lower <= 0.0 && self.upper >= 0.0
+    }
+}
+
+impl PartialOrd for Interval {
+    /// Orders intervals that are apart: one is less if all of it is below all of the other.
+    ///
+    /// Intervals that overlap are neither, but for two with the same ends, which are equal as `==` has it. That is said of
+    /// the ends: only if both are points do they hold the same number. So `<` and `>` are certain of the numbers inside.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::scalar::Interval;
+    ///
+    /// let interval = |lower, upper| Interval::new(lower, upper).unwrap();
+    /// assert!(interval(0.0, 1.0) < interval(1.5, 2.0));
+    /// assert_eq!(interval(0.0, 1.0).partial_cmp(&interval(1.0, 2.0)), None);
+    /// ```
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        if self == other {
+            Some(Ordering::Equal)
+        } else if self.upper < other.lower {
+            Some(Ordering::Less)
+        } else if self.lower > other.upper {
+            Some(Ordering::Greater)
+        } else {
+            None
+        }
+    }
+}
+
+impl fmt::Display for Interval {
+    /// Prints `[0.5, 0.75]`: each end is the shortest decimal that reads back the same, whatever the precision.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (lower, upper) = (self.lower, self.upper);
+        if f.sign_plus() {
+            padded(f, format_args!("[{lower:+?}, {upper:+?}]"))
+        } else {
+            padded(f, format_args!("[{lower:?}, {upper:?}]"))
+        }
     }
 }
 
@@ -298,8 +390,6 @@ impl Ring for Interval {
 }
 
 impl Algebra for Interval {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::Enclosure;
     const NAME: &'static str = "Interval";
 
@@ -337,16 +427,10 @@ impl Algebra for Interval {
     fn may_equal(&self, other: &Self) -> bool {
         self.lower <= other.upper && other.lower <= self.upper
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl OwnNumerators for Interval {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }
@@ -375,5 +459,74 @@ impl RealEmbeddable for Interval {
         let lower = BigRational::from_float(self.lower)?;
         let upper = BigRational::from_float(self.upper)?;
         Some(Enclosure { lower, upper })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+    use alloc::string::ToString;
+
+    use super::*;
+
+    const ENDS: [f64; 11] = [
+        f64::NEG_INFINITY,
+        f64::MIN,
+        -1.0,
+        -5e-324,
+        0.0,
+        5e-324,
+        1e-323,
+        0.1,
+        1.0,
+        f64::MAX,
+        f64::INFINITY,
+    ];
+
+    fn intervals() -> impl Iterator<Item = Interval> {
+        let pairs = ENDS.into_iter().flat_map(|x| ENDS.map(|y| (x, y)));
+        pairs.filter_map(|(x, y)| Interval::new(x, y))
+    }
+
+    #[test]
+    fn the_order_is_certain_and_agrees_with_equality() {
+        for x in intervals() {
+            for y in intervals() {
+                let order = x.partial_cmp(&y);
+                assert_eq!(order == Some(Ordering::Equal), x == y);
+                assert_eq!(order, y.partial_cmp(&x).map(Ordering::reverse));
+                if let Some(Ordering::Less | Ordering::Greater) = order {
+                    assert!(!x.may_equal(&y), "{x} {y}");
+                    assert_eq!(x < y, (y - &x).sign() == RealSign::Positive, "{x} {y}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn midpoints_lie_inside_and_widths_reach_over_all() {
+        for x in intervals() {
+            assert!(x.contains_f64(x.midpoint()), "{x}");
+            if let Some(Enclosure { lower, upper }) = x.enclosure() {
+                assert_eq!(Some(x.width()) == Some(0.0), lower == upper, "{x}");
+                let width = BigRational::from_float(x.width());
+                assert!(width.is_none_or(|width| width >= upper - lower), "{x}");
+            } else {
+                assert!(x.width().is_infinite(), "{x}");
+            }
+        }
+        for value in ENDS {
+            let inside = Interval::WHOLE.contains_f64(value);
+            assert_eq!(inside, value.is_finite());
+        }
+    }
+
+    #[test]
+    fn both_ends_are_printed() {
+        let x = Interval::new(-0.25, 1e300).unwrap();
+        assert_eq!(x.to_string(), "[-0.25, 1e300]");
+        assert_eq!(format!("{x:>16}"), "  [-0.25, 1e300]");
+        assert_eq!(format!("{x:*^+18.1}"), "*[-0.25, +1e300]**");
+        assert_eq!(Interval::WHOLE.to_string(), "[-inf, inf]");
     }
 }

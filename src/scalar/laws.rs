@@ -14,7 +14,7 @@
 //! laws::algebra(&0.1, &0.2, &0.3)?;
 //! let third = BigRational::new(1.into(), 3.into());
 //! laws::embedding::<f32>(&third, &third)?;
-//! # Ok::<(), laws::Broken>(())
+//! # Ok::<(), laws::BrokenLaw>(())
 //! ```
 
 use alloc::format;
@@ -30,7 +30,7 @@ use super::{Algebra, Exactness, Field, RealEmbeddable, RealSign};
 
 /// A law that does not hold, and the operands that show it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Broken {
+pub struct BrokenLaw {
     /// The law, as a formula.
     pub law: &'static str,
     /// The scalar.
@@ -39,13 +39,13 @@ pub struct Broken {
     pub witness: String,
 }
 
-impl fmt::Display for Broken {
+impl fmt::Display for BrokenLaw {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} breaks {}: {}", self.scalar, self.law, self.witness)
     }
 }
 
-impl core::error::Error for Broken {}
+impl core::error::Error for BrokenLaw {}
 
 /// Checks the laws of a commutative algebra over ℚ.
 ///
@@ -64,9 +64,9 @@ impl core::error::Error for Broken {}
 /// // Of floats no associativity is demanded.
 /// assert_ne!((1e16 - 1e16) + 1.0, 1e16 + (1.0 - 1e16));
 /// laws::algebra(&1e16, &-1e16, &1.0)?;
-/// # Ok::<(), laws::Broken>(())
+/// # Ok::<(), laws::BrokenLaw>(())
 /// ```
-pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
+pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), BrokenLaw> {
     let law = |law: &'static str, left: T, right: T| {
         // A fault or an overflow on either side excuses a scalar that may have them.
         let excused =
@@ -75,7 +75,7 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
             return Ok(());
         }
         let witness = format!("a = {a:?}, b = {b:?}, c = {c:?}: {left:?} is not {right:?}");
-        Err(Broken {
+        Err(BrokenLaw {
             law,
             scalar: T::NAME,
             witness,
@@ -133,12 +133,12 @@ pub fn algebra<T: Algebra>(a: &T, b: &T, c: &T) -> Result<(), Broken> {
 /// laws::embedding::<f64>(&ratio(1, 3), &ratio(-2, 7))?;
 /// // The sum does not fit in eight bits: a fault, which breaks no law.
 /// laws::embedding::<FixedRational<i8>>(&ratio(1, 100), &ratio(1, 101))?;
-/// # Ok::<(), laws::Broken>(())
+/// # Ok::<(), laws::BrokenLaw>(())
 /// ```
 pub fn embedding<T: Field + RealEmbeddable>(
     x: &BigRational,
     y: &BigRational,
-) -> Result<(), Broken> {
+) -> Result<(), BrokenLaw> {
     let (a, b) = (T::from_rational(x), T::from_rational(y));
     stands_for("the image of x is x", &a, x)?;
     // Bounds stand for the numbers they were made of, anything else for what is stored.
@@ -157,7 +157,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
         None if q.is_zero() || b.sign() == RealSign::Unknown => {}
         _ => {
             let (law, witness) = ("a / b is undefined just for b = 0", format!("b = {b:?}"));
-            return Err(Broken {
+            return Err(BrokenLaw {
                 law,
                 scalar: T::NAME,
                 witness,
@@ -187,7 +187,7 @@ pub fn embedding<T: Field + RealEmbeddable>(
         Ok(())
     } else {
         let witness = format!("{a:?} has sign {:?}", a.sign());
-        Err(Broken {
+        Err(BrokenLaw {
             law: "the sign is that of the value",
             scalar: T::NAME,
             witness,
@@ -206,9 +206,9 @@ pub fn embedding<T: Field + RealEmbeddable>(
 ///
 /// // No f32, and rounded to the same on both ways.
 /// laws::integers::<f32>((1 << 24) + 1)?;
-/// # Ok::<(), laws::Broken>(())
+/// # Ok::<(), laws::BrokenLaw>(())
 /// ```
-pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
+pub fn integers<T: Algebra>(n: i128) -> Result<(), BrokenLaw> {
     let (direct, by_rational) = (
         T::from_i128(n),
         T::from_rational(&BigRational::from_integer(n.into())),
@@ -217,7 +217,7 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
         return Ok(());
     }
     let witness = format!("{n}: {direct:?} is not {by_rational:?}");
-    Err(Broken {
+    Err(BrokenLaw {
         law: "n and n/1 have one image",
         scalar: T::NAME,
         witness,
@@ -237,9 +237,9 @@ pub fn integers<T: Algebra>(n: i128) -> Result<(), Broken> {
 /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
 /// // 3/6 and 2/6, reduced again.
 /// laws::numerators::<BigRational>(&ratio(1, 2), &ratio(1, 3))?;
-/// # Ok::<(), laws::Broken>(())
+/// # Ok::<(), laws::BrokenLaw>(())
 /// ```
-pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Broken> {
+pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), BrokenLaw> {
     let values = [x.clone(), y.clone()];
     let (numerators, denominator) = T::numerators(&values);
     for (numerator, value) in numerators.into_iter().zip(&values) {
@@ -262,7 +262,7 @@ pub fn numerators<T: Algebra>(x: &BigRational, y: &BigRational) -> Result<(), Br
             "n / d is the value",
             format!("{value}: {back:?} is not {image:?}"),
         );
-        return Err(Broken {
+        return Err(BrokenLaw {
             law,
             scalar: T::NAME,
             witness,
@@ -282,7 +282,7 @@ fn stands_for<T: Algebra + RealEmbeddable>(
     law: &'static str,
     got: &T,
     want: &BigRational,
-) -> Result<(), Broken> {
+) -> Result<(), BrokenLaw> {
     let holds = match (T::EXACTNESS, point(got)) {
         (Exactness::Exact, value) => value.as_ref() == Some(want),
         (Exactness::ExactOrFault, None) => !got.is_defined(),
@@ -301,7 +301,7 @@ fn stands_for<T: Algebra + RealEmbeddable>(
         return Ok(());
     }
     let witness = format!("{got:?} stands for {want}");
-    Err(Broken {
+    Err(BrokenLaw {
         law,
         scalar: T::NAME,
         witness,

@@ -14,7 +14,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero, pow};
 
-use super::{Algebra, Exactness, Ring, common_multiple};
+use super::{Algebra, Exactness, OwnNumerators, Ring, common_multiple};
 
 /// A symbol of a [`Polynomial`], known by its name.
 ///
@@ -531,8 +531,6 @@ impl Ring for Polynomial {
 }
 
 impl Algebra for Polynomial {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::ExactOrFault;
     const NAME: &'static str = "Polynomial";
 
@@ -552,16 +550,10 @@ impl Algebra for Polynomial {
     fn is_defined(&self) -> bool {
         !self.denominator.is_zero()
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl OwnNumerators for Polynomial {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.divide_exactly(d)
     }
 }

@@ -7,7 +7,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-use super::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
+use super::{Algebra, Enclosure, Exactness, Field, Numerators, RealEmbeddable, RealSign, Ring};
 
 impl Ring for BigRational {
     fn from_i128(n: i128) -> Self {
@@ -16,8 +16,6 @@ impl Ring for BigRational {
 }
 
 impl Algebra for BigRational {
-    type Numerator = BigInt;
-
     const EXACTNESS: Exactness = Exactness::Exact;
     const NAME: &'static str = "BigRational";
 
@@ -32,11 +30,20 @@ impl Algebra for BigRational {
     fn is_defined(&self) -> bool {
         true
     }
+}
+
+impl Numerators for BigRational {
+    type Numerator = BigInt;
 
     fn numerators<const N: usize>(values: &[BigRational; N]) -> ([BigInt; N], BigInt) {
         let common = common_denominator(values);
         let numerators = values.each_ref().map(|r| r.numer() * (&common / r.denom()));
         (numerators, common)
+    }
+
+    fn divide_numerator(_: BigInt, _: NonZeroI64) -> Option<BigInt> {
+        // Integers are numerators; their quotients may not be.
+        None
     }
 
     fn from_ratio(n: BigInt, d: &BigInt) -> Option<Self> {

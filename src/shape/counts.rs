@@ -45,6 +45,23 @@ impl Shape {
         sum
     }
 
+    /// Returns the number of rows in these layers: within a piece it is a linear function of k.
+    pub(super) fn rows_in(&self, layers: Range<i128>) -> BigUint {
+        let rows = |k| {
+            let region = self.region(k);
+            region.map_or_else(BigUint::zero, |r| (r.widths()[1].unsigned_abs() + 1).into())
+        };
+        let mut twice_sum = BigUint::zero();
+        let mut from = layers.start.max(0);
+        let end = layers.end.min(self.layers());
+        while from < end {
+            let to = self.end_of_piece(from).min(end);
+            twice_sum += (rows(from) + rows(to - 1)) * (to - from).unsigned_abs();
+            from = to;
+        }
+        twice_sum / 2_u32
+    }
+
     /// The first layer past `k` where the count of spheres begins to follow another polynomial.
     fn end_of_piece(&self, k: i128) -> i128 {
         let Some(Stretch { sign, to, .. }) = self.stretch_to(k + 1) else {

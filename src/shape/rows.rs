@@ -1,9 +1,13 @@
 //! Walking a pile row by row.
 
 use alloc::vec::Vec;
+use core::fmt;
+use core::iter::FusedIterator;
 use core::ops::Range;
 
-use super::Shape;
+use exact_surd::layout::padded;
+
+use super::{Shape, exact_hint};
 use crate::Error;
 use crate::lattice::{Row, Site};
 use num_bigint::BigUint;
@@ -37,6 +41,26 @@ pub enum Selection {
     All,
 }
 
+impl fmt::Display for Selection {
+    /// Prints `all`, `base`, `layer 3` or the site, `(0,1,2)`.
+    ///
+    /// # Examples
+    /// ```
+    /// use cannonpile::shape::Selection;
+    ///
+    /// assert_eq!(Selection::Base.to_string(), "base");
+    /// assert_eq!(format!("{:>9}", Selection::Layer(3)), "  layer 3");
+    /// ```
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::One(site) => site.fmt(f),
+            Self::Layer(k) => padded(f, format_args!("layer {k}")),
+            Self::Base => padded(f, format_args!("base")),
+            Self::All => padded(f, format_args!("all")),
+        }
+    }
+}
+
 /// The rows of a [`Selection`], from the top, made as they are asked for.
 ///
 /// # Examples
@@ -52,6 +76,7 @@ pub enum Selection {
 /// # Ok::<(), cannonpile::Error>(())
 /// ```
 #[derive(Clone, Debug)]
+#[must_use = "iterators are lazy and do nothing unless consumed"]
 pub struct Rows<'p> {
     shape: &'p Shape,
     /// The layer of the next row, if there is one before `end`.
@@ -103,7 +128,6 @@ impl<'p> Rows<'p> {
     /// assert_eq!(rows.site_count(), 10_u32.into());
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
-    #[must_use]
     pub fn off_the_floor(mut self) -> Self {
         let floor = self.shape.layers() - 1;
         self.one = self.one.filter(|site| site.k < floor);
@@ -172,6 +196,19 @@ impl<'p> Rows<'p> {
         }
     }
 
+    /// Returns how many rows are still to come.
+    fn remaining(&self) -> BigUint {
+        if self.one.is_some() {
+            return 1_u32.into();
+        }
+        let all = self.shape.rows_in(self.k..self.end);
+        match (self.j, self.shape.layer(self.k)) {
+            // Some rows of the layer have been given already.
+            (Some(j), Ok(region)) => all - j.abs_diff(*region.y().start()),
+            _ => all,
+        }
+    }
+
     /// Returns the corner sites of the first and the last layer. A linear function of (i, j, k), or its norm, is
     /// extreme at one of them on a straight pile. Rows that were given already still count.
     ///
@@ -224,4 +261,10 @@ impl Iterator for Rows<'_> {
         let i = region.row(j);
         Some(Row { k, j, i })
     }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        exact_hint(&self.remaining())
+    }
 }
+
+impl FusedIterator for Rows<'_> {}

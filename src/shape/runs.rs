@@ -4,7 +4,7 @@ use super::{Anchor, Shape};
 use crate::lattice::Sign;
 
 /// A number of steps of each sign.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct Steps {
     pub(super) plus: i128,
     pub(super) minus: i128,
@@ -22,7 +22,7 @@ impl Steps {
 }
 
 /// A [`Run`](crate::stacking::Run) with its place in a pile: the layers it leads from and to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Stretch {
     /// The number of changes of sign before the run.
     pub(crate) index: usize,

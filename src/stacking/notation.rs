@@ -4,6 +4,8 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::str::FromStr;
 
+use exact_surd::layout::padded;
+
 use super::{Run, Stacking};
 use crate::Error;
 use crate::lattice::Sign;
@@ -66,7 +68,17 @@ struct Written<'a>(&'a Stacking, Notation);
 
 impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(stacking, notation) = self;
+        padded(f, format_args!("{}", Plain(self.0, self.1, "")))
+    }
+}
+
+/// A stacking in a notation after a prefix, which nothing pads.
+struct Plain<'a>(&'a Stacking, Notation, &'static str);
+
+impl fmt::Display for Plain<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(stacking, notation, prefix) = self;
+        f.write_str(prefix)?;
         match notation {
             Notation::Hagg => stacking.signs().try_for_each(|sign| sign.fmt(f)),
             Notation::Abc => write_abc(stacking, f),
@@ -117,17 +129,13 @@ impl fmt::Display for Stacking {
     /// Prints what reads back the same: the signs of up to 65 layers, Zhdanov's lengths beyond, with `-` before them if
     /// the first sign is −. One layer is `A`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let notation = match self.layers() {
-            1 => Notation::Abc,
-            layers if layers <= LONGEST_HAGG + 1 => Notation::Hagg,
-            _ => {
-                if self.first == Sign::Minus {
-                    f.write_str("-")?;
-                }
-                Notation::Zhdanov
-            }
+        let (notation, prefix) = match self.layers() {
+            1 => (Notation::Abc, ""),
+            layers if layers <= LONGEST_HAGG + 1 => (Notation::Hagg, ""),
+            _ if self.first == Sign::Minus => (Notation::Zhdanov, "-"),
+            _ => (Notation::Zhdanov, ""),
         };
-        self.in_notation(notation).fmt(f)
+        padded(f, format_args!("{}", Plain(self, notation, prefix)))
     }
 }
 
@@ -250,4 +258,30 @@ fn runs_of_zhdanov(text: &str) -> Result<Vec<Run>, usize> {
         }
     };
     inside.split(',').map(run).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::format;
+    use alloc::string::ToString;
+
+    use super::*;
+    use crate::stacking::Pattern;
+
+    #[test]
+    fn stackings_are_padded_in_every_notation() {
+        let stacking: Stacking = "++-+".parse().unwrap();
+        assert_eq!(format!("{stacking:>6}|{stacking:<6}|"), "  ++-+|++-+  |");
+        let abc = stacking.in_notation(Notation::Abc);
+        assert_eq!(format!("{abc:*^9}"), "**ABCBC**");
+        let long = Stacking::fcc(100).unwrap().mirrored();
+        assert_eq!(format!("{long:>6}"), " -(99)");
+        assert_eq!(long.to_string().parse(), Ok(long));
+        for (pattern, padded) in [
+            (Pattern::Hcp, "hcp  "),
+            (Pattern::Spelled("+-".parse().unwrap()), "+-   "),
+        ] {
+            assert_eq!(format!("{pattern:5}"), padded);
+        }
+    }
 }

@@ -19,6 +19,8 @@ type Unbalanced<P> = fn(&Three<P>, &Directions<P>, &Three<P>, &Directions<P>, &P
 /// each one means is said where it links to.
 ///
 /// They are exactly the functions that engines and answers call: a test reads the sources for it.
+// Not `non_exhaustive`: other crates build changed ones, `Formulas { weight, ..Formulas::LIBRARY }`, which that would forbid.
+// Write them with `..`, and a formula more breaks nothing.
 #[derive(Debug)]
 pub struct Formulas<P = Polynomial> {
     /// [`count::above`].

@@ -3,7 +3,9 @@
 use core::num::NonZeroI64;
 
 use cannonpile::lattice::{Direction, MAX_LAYERS, Site};
-use cannonpile::scalar::{Algebra, FixedInteger, FixedRational, RealEmbeddable, RealSign, Ring};
+use cannonpile::scalar::{
+    Algebra, FixedInteger, FixedRational, Numerators, RealEmbeddable, RealSign, Ring,
+};
 use cannonpile::{Error, Forces, Pile};
 use cannonpile_testkit::answers::{Shape, ratio};
 use num_bigint::BigInt;

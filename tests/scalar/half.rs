@@ -4,7 +4,8 @@ use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use cannonpile::scalar::{
-    Algebra, Enclosure, Exactness, Field, NearestFloat, RealEmbeddable, RealSign, Ring, laws,
+    Algebra, Enclosure, Exactness, Field, NearestFloat, OwnNumerators, RealEmbeddable, RealSign,
+    Ring, laws,
 };
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};
@@ -85,8 +86,6 @@ impl<const LOST: i32> Ring for Half<LOST> {
 }
 
 impl<const LOST: i32> Algebra for Half<LOST> {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::Rounded { bits: 11 };
     const NAME: &'static str = "Half";
 
@@ -101,12 +100,10 @@ impl<const LOST: i32> Algebra for Half<LOST> {
     fn is_defined(&self) -> bool {
         self.0.is_finite()
     }
+}
 
-    fn numerators<const N: usize>(values: &[Q; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl<const LOST: i32> OwnNumerators for Half<LOST> {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }
@@ -128,7 +125,7 @@ impl<const LOST: i32> RealEmbeddable for Half<LOST> {
 }
 
 /// The verdicts on operands from the least numbers of the format to beyond the greatest.
-fn verdicts<const LOST: i32>() -> impl Iterator<Item = Result<(), laws::Broken>> {
+fn verdicts<const LOST: i32>() -> impl Iterator<Item = Result<(), laws::BrokenLaw>> {
     let powers = [-70, -24, -15, -14, -13, -7, 0, 7, 13, 15, 16, 70];
     let powers = powers.map(|exponent: i32| Q::from_integer(2.into()).pow(exponent));
     let factors = [

@@ -6,8 +6,8 @@ use core::ops::{Add, Mul, Neg, Sub};
 use cannonpile::Pile;
 use cannonpile::lattice::{Direction, Site};
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Enclosure, Exactness, Field, FixedRational, Interval, RealEmbeddable,
-    RealSign, Ring,
+    Algebra, DoubleDouble, Enclosure, Exactness, Field, FixedRational, Interval, OwnNumerators,
+    RealEmbeddable, RealSign, Ring,
 };
 use cannonpile::shape::Selection;
 use num_bigint::BigInt;
@@ -92,8 +92,6 @@ impl<const WRONG: u8> Ring for Planted<WRONG> {
 }
 
 impl<const WRONG: u8> Algebra for Planted<WRONG> {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::Exact;
     const NAME: &'static str = "Planted";
 
@@ -108,12 +106,10 @@ impl<const WRONG: u8> Algebra for Planted<WRONG> {
     fn is_defined(&self) -> bool {
         true
     }
+}
 
-    fn numerators<const N: usize>(values: &[Q; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl<const WRONG: u8> OwnNumerators for Planted<WRONG> {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }

@@ -2,7 +2,7 @@
 
 use core::num::NonZeroI64;
 
-use cannonpile::scalar::{Algebra, Polynomial, Symbol, laws};
+use cannonpile::scalar::{Algebra, Numerators, Polynomial, Symbol, laws};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Pow, Zero};

@@ -66,7 +66,7 @@ impl Part {
 pub(crate) fn spheres(pile: &Pile, selection: Selection) -> Result<BigUint, Error> {
     Ok(match selection {
         Selection::All => pile.sphere_count(),
-        Selection::Base => pile.base_spheres(),
+        Selection::Base => pile.base_sphere_count(),
         Selection::Layer(k) => pile.shape().layer(k)?.site_count(),
         Selection::One(_) => BigUint::from(1_u32),
     })

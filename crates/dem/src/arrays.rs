@@ -277,7 +277,7 @@ impl<'p> PileArrays<'p> {
         let packing = self.packing(Quantity::ContactVectors)?;
         let contacts = self.pile.horizontal_forces();
         for (place, (contact, force)) in left.zip(contacts) {
-            *place = of(&packing.packed_horizontal(contact, force)?)?;
+            *place = of(&packing.horizontal_contact_in_si(contact, force)?)?;
         }
         Ok(())
     }

@@ -184,7 +184,7 @@ impl<'p> PileExport<'p> {
             | PileFile::SpheresVtp
             | PileFile::YadeSpheres => Some(self.numbering().sphere_count()),
             PileFile::ContactsCsv | PileFile::ContactsVtp => few(self.pile.contact_count()),
-            PileFile::BaseCsv => few(self.pile.pile().base_spheres()),
+            PileFile::BaseCsv => few(self.pile.pile().base_sphere_count()),
             PileFile::ColumnsCsv
             | PileFile::LammpsInput
             | PileFile::YadeScript

@@ -5,7 +5,7 @@ use num_traits::Zero;
 
 use crate::Error;
 use crate::table::{columns, in_pieces, refuse_beyond, slices};
-use cannonpile::lattice::{Direction, Link, Row, Site};
+use cannonpile::lattice::{ContactKind, Direction, Row, Site};
 use cannonpile::scalar::Surd;
 use cannonpile::shape::{Numbering, Rows, Selection};
 use cannonpile::{FloorForce, NearestLayers, Packing, Pile};
@@ -43,7 +43,7 @@ pub struct NumberedContact {
     /// The upper sphere; of two neighbours the one that names their contact.
     pub site: Site,
     /// Where the other one lies.
-    pub direction: Link,
+    pub direction: ContactKind,
     /// The float nearest to the force in N; positive is push. It is 0 if and only if the force is.
     pub force: f64,
     /// The floats nearest to x, y and z (up) of the force on the sphere that comes first in `ids`, in N.
@@ -172,7 +172,7 @@ impl<'p> NumberedPile<'p> {
     /// How contacts lie, and their spheres: in the order of [`contacts`](Self::contacts).
     pub(super) fn touches(
         &self,
-    ) -> Result<impl Iterator<Item = Result<(Link, [u64; 2]), Error>> + '_, Error> {
+    ) -> Result<impl Iterator<Item = Result<(ContactKind, [u64; 2]), Error>> + '_, Error> {
         let sloping = in_pieces(self.rows_above_the_floor()?, |piece| {
             let touches = self.touches_of(piece)?;
             let touches = touches.map(|touch| (touch.direction.into(), touch.ids));
@@ -292,7 +292,7 @@ impl<'p> NumberedPile<'p> {
         let pile = self.pile();
         pile.horizontal_forces().map(move |(contact, force)| {
             let neighbour = pile.shape().neighbour(contact)?;
-            let packed = self.packing.packed_horizontal(contact, force)?;
+            let packed = self.packing.horizontal_contact_in_si(contact, force)?;
             let contact = NumberedContact {
                 ids: [
                     self.numbering.id(contact.site)?,

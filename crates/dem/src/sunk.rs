@@ -3,7 +3,7 @@
 use super::numbered::NumberedPile;
 use super::springs::Springs;
 use crate::Error;
-use cannonpile::lattice::Link;
+use cannonpile::lattice::ContactKind;
 
 /// The centres of the spheres in the order of their numbers, as springs of stiffness k leave them, moved by a multiple of R
 /// so that all coordinates are at least 2R: what is compared by a relative error must not be near to 0.
@@ -35,7 +35,8 @@ impl Sunk {
             let contact = contact?;
             let [upper, lower] = contact.ids.map(|id| usize::try_from(id - 1));
             // Numbers of spheres that are kept in memory.
-            let (Ok(upper), Ok(lower), Link::Sloping(_)) = (upper, lower, contact.direction) else {
+            let (Ok(upper), Ok(lower), ContactKind::Sloping(_)) = (upper, lower, contact.direction)
+            else {
                 continue;
             };
             if let Some(supports) = supports.get_mut(upper) {

@@ -6,7 +6,7 @@ use super::numbered::NumberedPile;
 use super::polydata::{Array, Kind, PolyData, Section};
 use super::weights::{PerSphere, nearest_rational};
 use crate::table::WriteError;
-use cannonpile::lattice::{Axis, Direction, Link};
+use cannonpile::lattice::{Axis, ContactKind, Direction};
 
 /// A point and a vertex for each sphere.
 pub(super) fn write_spheres(
@@ -131,12 +131,12 @@ pub(super) fn write_contacts(
     for touch in pile.touches()? {
         let (link, _) = touch?;
         data.byte(match link {
-            Link::Sloping(Direction::Alpha) => 0,
-            Link::Sloping(Direction::Beta) => 1,
-            Link::Sloping(Direction::Gamma) => 2,
-            Link::Horizontal(Axis::AlphaBeta) => 3,
-            Link::Horizontal(Axis::AlphaGamma) => 4,
-            Link::Horizontal(Axis::GammaBeta) => 5,
+            ContactKind::Sloping(Direction::Alpha) => 0,
+            ContactKind::Sloping(Direction::Beta) => 1,
+            ContactKind::Sloping(Direction::Gamma) => 2,
+            ContactKind::Horizontal(Axis::AlphaBeta) => 3,
+            ContactKind::Horizontal(Axis::AlphaGamma) => 4,
+            ContactKind::Horizontal(Axis::GammaBeta) => 5,
         })?;
     }
     data.array()?;

@@ -1,6 +1,6 @@
 //! What bottom spheres bear in all stackings with so many faults: the answer for every fault probability.
 
-use cannonpile::scalar::{Algebra, Polynomial, Symbol};
+use cannonpile::scalar::{Numerators, Polynomial, Symbol};
 use num_bigint::{BigInt, BigUint};
 use num_integer::binomial;
 use num_rational::BigRational;

@@ -2,7 +2,7 @@
 
 use core::num::NonZeroI64;
 
-use cannonpile::scalar::{Algebra, Field};
+use cannonpile::scalar::{Algebra, Field, Numerators};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::pow;

@@ -22,9 +22,9 @@ use crate::Error;
 const LIMIT_OF_ALL: u32 = 200_000;
 
 /// A contact as it is seen.
-struct Link {
+struct ContactKind {
     site: Site,
-    direction: lattice::Link,
+    direction: lattice::ContactKind,
     /// Rounded once; negative is pull.
     force: f64,
     /// The centres of both spheres, to the right and upwards, in R.
@@ -35,7 +35,7 @@ struct Link {
 struct Network {
     /// To the right and upwards, in R.
     spheres: BTreeMap<Site, Point>,
-    links: Vec<Link>,
+    links: Vec<ContactKind>,
     /// How many of the contacts that were looked at pull.
     pulling: usize,
     axes: Axes,
@@ -164,14 +164,14 @@ fn links(
     subject: &Subject<'_>,
     part: Selection,
     place: impl Fn(Site) -> Result<Option<Point>, Error>,
-) -> Result<(Vec<Link>, usize), Error> {
+) -> Result<(Vec<ContactKind>, usize), Error> {
     let (mut links, mut pulling) = (Vec::new(), 0);
     for contact in subject.forces().contacts(part)? {
         let contact = contact?;
         pulling += usize::from(contact.force.is_negative());
         let lower = below(subject.pile(), contact.site, contact.direction)?;
         if let (Some(upper), Some(lower)) = (place(contact.site)?, place(lower)?) {
-            links.push(Link {
+            links.push(ContactKind {
                 force: subject.force(&contact.force)?,
                 site: contact.site,
                 direction: contact.direction.into(),
@@ -182,7 +182,7 @@ fn links(
     for (contact, force) in subject.horizontal(part)? {
         let neighbour = subject.pile().shape().neighbour(contact)?;
         if let (Some(one), Some(other)) = (place(contact.site)?, place(neighbour)?) {
-            links.push(Link {
+            links.push(ContactKind {
                 force: subject.force(&force)?,
                 site: contact.site,
                 direction: contact.axis.into(),
@@ -260,7 +260,7 @@ impl Network {
     }
 }
 
-impl Link {
+impl ContactKind {
     /// Returns the contact as a line: dashed if it bears nothing, and never too thin for its colour if it pulls.
     fn mark(&self, panel: &Panel, scale: &Scale, widest: f64) -> Mark {
         let [upper, lower] = self.ends.map(|at| panel.at(at));

@@ -5,7 +5,7 @@ use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use cannonpile::engine::bug;
-use cannonpile::scalar::{Algebra, Exactness, Polynomial, Ring, Symbol};
+use cannonpile::scalar::{Algebra, Exactness, OwnNumerators, Polynomial, Ring, Symbol};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -314,8 +314,6 @@ impl Ring for Expression {
 }
 
 impl Algebra for Expression {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = Exactness::ExactOrFault;
     const NAME: &'static str = "Expression";
 
@@ -330,17 +328,11 @@ impl Algebra for Expression {
     fn is_defined(&self) -> bool {
         self.to_polynomial().is_ok_and(|p| p.is_defined())
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
+impl OwnNumerators for Expression {
     /// Returns `n / d` for a number d; `None` for zero, and for what has symbols in it.
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         let divisor = d.to_polynomial().ok()?.to_constant()?;
         if divisor.is_zero() {
             return None;

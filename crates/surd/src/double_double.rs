@@ -14,6 +14,7 @@ use num_traits::{One, Zero};
 
 use crate::NearestFloat;
 use crate::error_free::{fast_two_sum, is_ordinary, scale, significand, two_product, two_sum};
+use crate::layout::padded;
 
 /// A number high + low with |low| at most half a unit in the last place of high: about 106 bits.
 ///
@@ -334,7 +335,12 @@ impl fmt::Display for DoubleDouble {
             return fmt::Display::fmt(&self.high, f);
         }
         let sign = if self.low < 0.0 { '-' } else { '+' };
-        f.pad(&format!("{:?} {sign} {:?}", self.high, self.low.abs()))
+        let high = if f.sign_plus() {
+            format!("{:+?}", self.high)
+        } else {
+            format!("{:?}", self.high)
+        };
+        padded(f, format_args!("{high} {sign} {:?}", self.low.abs()))
     }
 }
 

@@ -35,6 +35,8 @@ extern crate alloc;
 mod double_double;
 mod error;
 pub mod error_free;
+#[doc(hidden)]
+pub mod layout;
 mod nearest;
 pub mod parse;
 pub mod rational;

@@ -18,7 +18,7 @@
 //! | [`oracles`] | slow, simple computations that the library is compared with | some |
 //! | [`pair`] | two scalars in step, and the first operation at which they differ | |
 //! | [`proofs`] | what must hold of the theorems of a crate, and wrong formulas that they refuse | |
-//! | [`properties`] | the runner that tests a claim on random bytes | |
+//! | [mod@properties] | the runner that tests a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
 //! | [`rounding`] | inputs that are critical for correct rounding | some |
 //! | `scenes` | scenes of every kind, and the files of their piles | `dem` |

@@ -4,7 +4,9 @@ use core::fmt;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
+use cannonpile::scalar::{
+    Algebra, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable, RealSign, Ring,
+};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -221,8 +223,6 @@ where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
 {
-    type Numerator = Self;
-
     /// The weaker of the two.
     const EXACTNESS: Exactness = A::EXACTNESS.weaker(B::EXACTNESS);
     const NAME: &'static str = "Pair";
@@ -247,16 +247,14 @@ where
     fn may_equal(&self, other: &Self) -> bool {
         self.first.may_equal(&other.first) && self.second.may_equal(&other.second)
     }
+}
 
-    fn numerators<const N: usize>(values: &[BigRational; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn divide_numerator(n: Self, by: NonZeroI64) -> Option<Self> {
-        Some(n.div_int(by))
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl<A, B> OwnNumerators for Pair<A, B>
+where
+    A: Field + RealEmbeddable,
+    B: Field + RealEmbeddable,
+{
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         n.checked_div(d)
     }
 }

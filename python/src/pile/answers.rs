@@ -1,6 +1,6 @@
 //! Forces one by one, exact.
 
-use cannonpile::lattice::{HorizontalContact, Link, Site};
+use cannonpile::lattice::{ContactKind, HorizontalContact, Site};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -28,8 +28,8 @@ pub(crate) fn force(
     let site = input::site(&k, &i, &j)?;
     let link = read("direction", direction, str::parse)?;
     pile.ask(py, || match link {
-        Link::Sloping(direction) => pile.exact.forces().contact(site, direction),
-        Link::Horizontal(axis) => {
+        ContactKind::Sloping(direction) => pile.exact.forces().contact(site, direction),
+        ContactKind::Horizontal(axis) => {
             let contact = HorizontalContact { site, axis };
             pile.exact.shape().neighbour(contact)?;
             Ok(pile.exact.horizontal_force(contact))

@@ -27,7 +27,7 @@ impl Pile {
 
     /// How many spheres of the base there are places for.
     fn base_places(&self) -> PyResult<usize> {
-        let count = self.exact.base_spheres();
+        let count = self.exact.base_sphere_count();
         usize::try_from(&count).map_err(|_| {
             let error = cannonpile::Error::too_large(
                 "the forces of all bottom spheres",

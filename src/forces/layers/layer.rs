@@ -17,14 +17,14 @@ use crate::shape::Shape;
 use crate::{Error, FloorForce};
 
 /// One layer of a pile, with its forces at hand.
-pub struct Layer<'l, 'p, T: Algebra, M = ()> {
-    pub(in crate::forces) layers: &'l Layers<'p, T, M>,
+pub struct Layer<'l, 'p, T: Algebra> {
+    pub(in crate::forces) layers: &'l Layers<'p, T>,
     pub(super) k: i128,
     pub(in crate::forces) region: Region,
     pub(in crate::forces) spheres: usize,
 }
 
-impl<M: Meter> Layer<'_, '_, BigRational, M> {
+impl Layer<'_, '_, BigRational> {
     /// Returns the denominator of the forces below the layer.
     pub(in crate::forces) fn denominator(&self) -> BigInt {
         self.layers
@@ -52,7 +52,7 @@ impl<M: Meter> Layer<'_, '_, BigRational, M> {
     }
 }
 
-impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
+impl<T: Algebra> Layer<'_, '_, T> {
     /// Returns the number of the layer, counted from 0 at the top.
     ///
     /// # Examples
@@ -79,11 +79,11 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     ///
     /// let pile = Pile::triangular(4)?;
     /// let mut layers = pile.forces::<f64>().layers(Selection::Base)?;
-    /// assert_eq!(layers.next_layer()?.map(|layer| layer.spheres()), Some(10));
+    /// assert_eq!(layers.next_layer()?.map(|layer| layer.sphere_count()), Some(10));
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     #[must_use]
-    pub fn spheres(&self) -> usize {
+    pub fn sphere_count(&self) -> usize {
         self.spheres
     }
 
@@ -175,7 +175,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     /// discs.
     ///
     /// # Errors
-    /// [`Error::Length`] for a slice that is not as long as the layer has [`spheres`](Self::spheres); [`Error::OnFloor`];
+    /// [`Error::Length`] for a slice that is not as long as the layer has [`sphere_count`](Self::sphere_count); [`Error::OnFloor`];
     /// [`Error::Overflow`] if the scalar cannot hold a force, after the slices were written to.
     ///
     /// # Examples
@@ -397,7 +397,10 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
         // Spheres that weigh more or less than the others, or carry loads.
         for site in lines.extras_in(self.k..self.k + 1) {
             check_interrupt()?;
-            let forces = self.layers.terms.contacts(sweep.passed_on(site, ())?)?;
+            let forces = self
+                .layers
+                .terms
+                .contacts(sweep.passed_on(site, Meter::NONE)?)?;
             self.put_at(site, forces, [&mut *alpha, &mut *beta, &mut *gamma])?;
         }
         if defined.into_inner() {
@@ -411,7 +414,7 @@ impl<T: Algebra, M: Meter> Layer<'_, '_, T, M> {
     }
 }
 
-impl<T: Algebra, M> fmt::Debug for Layer<'_, '_, T, M> {
+impl<T: Algebra> fmt::Debug for Layer<'_, '_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Layer")
             .field("k", &self.k)

@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use crate::Error;
-use crate::engine::{Meter, Readout, Table, Unit, check_interrupt, fill_rows, split_front};
+use crate::engine::{Readout, Table, Unit, check_interrupt, fill_rows, split_front};
 use crate::error::bug;
 use crate::forces::layers::{Layer, Layers};
 use crate::formula::tripled_half_turn;
@@ -55,7 +55,7 @@ pub(super) enum Source<F> {
     },
 }
 
-impl<M: Meter> Layers<'_, BigRational, M> {
+impl Layers<'_, BigRational> {
     /// Returns how something is found in layer `k`, which was reached.
     pub(super) fn source<F: NearestFloat>(
         &self,
@@ -198,7 +198,7 @@ impl<M: Meter> Layers<'_, BigRational, M> {
     }
 }
 
-impl<M: Meter> Layer<'_, '_, BigRational, M> {
+impl Layer<'_, '_, BigRational> {
     /// Writes what was asked for into slices as long as the layer, row after row.
     pub(super) fn write<F: NearestFloat>(
         &self,

@@ -1,5 +1,6 @@
 //! Polynomials as a person writes them: `(L^3 + 3 L^2 + 2 L)/6`.
 
+use alloc::string::ToString;
 use core::fmt;
 
 use num_traits::{One, Signed};
@@ -25,15 +26,35 @@ impl fmt::Display for Monomial {
 impl fmt::Display for Polynomial {
     /// Writes the terms by falling degree, with the common denominator outside.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.terms.is_empty() {
-            return f.write_str(if self.is_defined() { "0" } else { "overflow" });
+        if !self.is_defined() {
+            return f.pad("overflow");
         }
-        let fraction = !self.denominator.is_one();
-        let bracketed = fraction && self.terms.len() > 1;
+        let text = Terms(self).to_string();
+        // A minus inside brackets is not the sign of the whole.
+        match text.strip_prefix('-') {
+            Some(magnitude) => f.pad_integral(false, "", magnitude),
+            None => f.pad_integral(true, "", &text),
+        }
+    }
+}
+
+/// The terms of a polynomial, which nothing pads.
+struct Terms<'p>(&'p Polynomial);
+
+impl fmt::Display for Terms<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(Polynomial {
+            terms, denominator, ..
+        }) = self;
+        if terms.is_empty() {
+            return f.write_str("0");
+        }
+        let fraction = !denominator.is_one();
+        let bracketed = fraction && terms.len() > 1;
         if bracketed {
             f.write_str("(")?;
         }
-        for (place, (monomial, coefficient)) in self.terms.iter().rev().enumerate() {
+        for (place, (monomial, coefficient)) in terms.iter().rev().enumerate() {
             f.write_str(match (place, coefficient.is_negative()) {
                 (0, false) => "",
                 (0, true) => "-",
@@ -51,7 +72,7 @@ impl fmt::Display for Polynomial {
             f.write_str(")")?;
         }
         if fraction {
-            write!(f, "/{}", self.denominator)?;
+            write!(f, "/{denominator}")?;
         }
         Ok(())
     }
@@ -59,7 +80,7 @@ impl fmt::Display for Polynomial {
 
 #[cfg(test)]
 mod tests {
-    use alloc::string::ToString;
+    use alloc::format;
 
     use super::super::Symbol;
     use super::*;
@@ -78,5 +99,17 @@ mod tests {
         assert_eq!(n(0).to_string(), "0");
         assert_eq!(l.div_int(six).to_string(), "L/6");
         assert_eq!(n(-3).div_int(six).to_string(), "-1/2");
+    }
+
+    #[test]
+    fn width_fill_and_sign_are_honoured() {
+        let l = Polynomial::from(Symbol("L"));
+        let next = l.clone() + &Polynomial::from_i128(1);
+        assert_eq!(format!("{next:>9}|{next:<9}|"), "    L + 1|L + 1    |");
+        assert_eq!(format!("{:*^9}", -next.clone()), "*-L - 1**");
+        assert_eq!(format!("{next:+}"), "+L + 1");
+        let halved = (-next.clone()).div_int(2.try_into().unwrap());
+        assert_eq!(format!("{halved:+.1}"), "+(-L - 1)/2");
+        assert_eq!(format!("{:>4}", Polynomial::from_i128(0)), "   0");
     }
 }

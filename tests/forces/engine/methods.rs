@@ -94,13 +94,16 @@ fn run(pile: &Pile, question: Question) -> Result<Counters, Error> {
     let (mut forces, packing) = (pile.forces::<BigRational>(), Packing::new(pile, &spacing));
     let mut packing = packing.unwrap();
     if let Some(method) = question.method {
-        (forces, packing) = (forces.by(method)?, packing.by(method)?);
+        (forces, packing) = (forces.with_method(method)?, packing.with_method(method)?);
     }
-    let (forces, packing) = (forces.metered(&counters), packing.metered(&counters));
+    let (forces, packing) = (
+        forces.with_counters(&counters),
+        packing.with_counters(&counters),
+    );
     let part = question.part;
     match question.quantity {
         Quantity::ContactMultiples => drop(all(forces.contacts(part)?)?),
-        Quantity::ContactMagnitudes => drop(all(packing.magnitudes(part)?)?),
+        Quantity::ContactMagnitudes => drop(all(packing.contact_forces(part)?)?),
         Quantity::ContactVectors => drop(all(packing.contacts(part)?)?),
         Quantity::FloorMultiples => drop(all(forces.base(part)?)?),
         Quantity::FloorForces => drop(all(packing.base(part)?)?),
@@ -132,11 +135,8 @@ fn nothing_takes_more_than_planned() {
             .flat_map(|part| QUANTITIES.map(|q| (*part, q)))
         {
             for method in METHODS.map(Some).into_iter().chain([None]) {
-                let question = Question {
-                    part,
-                    quantity,
-                    method,
-                };
+                let mut question = Question::new(part, quantity);
+                question.method = method;
                 let Ok(plan) = pile.plan(question) else {
                     // No closed form, or not on the floor.
                     assert!(run(&pile, question).is_err(), "{pile:?} {question:?}");
@@ -164,7 +164,9 @@ fn all_methods_agree() {
         for part in parts(&pile) {
             let contacts = |method: Option<Method>| -> Option<Vec<_>> {
                 let forces = exact.clone();
-                let forces = method.map_or(Ok(forces.clone()), |m| forces.by(m)).ok()?;
+                let forces = method
+                    .map_or(Ok(forces.clone()), |m| forces.with_method(m))
+                    .ok()?;
                 Some(all(forces.contacts(part).unwrap()).unwrap())
             };
             let cheapest = contacts(None).unwrap();
@@ -177,7 +179,7 @@ fn all_methods_agree() {
             }
             for contact in cheapest {
                 for method in METHODS.into_iter().filter(|method| Some(*method) != unfit) {
-                    let forces = exact.clone().by(method).unwrap();
+                    let forces = exact.clone().with_method(method).unwrap();
                     let one = forces.contact(contact.site, contact.direction).unwrap();
                     assert_eq!(one, contact.force, "{method} {contact:?}");
                 }
@@ -187,7 +189,10 @@ fn all_methods_agree() {
             let base = |forces: cannonpile::Forces<'_, BigRational>| {
                 all(forces.base(Selection::Base).unwrap()).unwrap()
             };
-            assert_eq!(base(exact.clone().by(method).unwrap()), base(exact.clone()));
+            assert_eq!(
+                base(exact.clone().with_method(method).unwrap()),
+                base(exact.clone())
+            );
         }
     }
 }
@@ -200,7 +205,7 @@ fn filled<T: Algebra>(pile: &Pile) -> (Vec<[T; 3]>, Option<BigRational>) {
         if layer.is_floor() {
             break;
         }
-        let n = layer.spheres();
+        let n = layer.sphere_count();
         let [mut a, mut b, mut c] = [(); 3].map(|()| vec![T::from_rational(&ratio(77, 1)); n]);
         layer.fill([&mut a, &mut b, &mut c]).unwrap();
         bound = layer.error_bound();
@@ -212,7 +217,10 @@ fn filled<T: Algebra>(pile: &Pile) -> (Vec<[T; 3]>, Option<BigRational>) {
 #[test]
 fn layers_are_filled_with_the_forces() {
     for pile in spheres() {
-        let forces = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+        let forces = pile
+            .forces::<BigRational>()
+            .with_method(Method::Tree)
+            .unwrap();
         let contacts = all(forces.contacts(Selection::All).unwrap()).unwrap();
         let exact: Vec<&[_]> = contacts.chunks(3).collect();
         let (filled_exactly, _) = filled::<BigRational>(&pile);
@@ -280,7 +288,7 @@ fn layers_say_what_they_do_not_do() {
     let mut layers = forces.layers(Selection::Layer(2)).unwrap();
     let layer = layers.next_layer().unwrap().unwrap();
     let refused = layer.fill([&mut [], &mut [], &mut []]);
-    let needed = layer.spheres();
+    let needed = layer.sphere_count();
     assert_eq!(refused, Err(Error::length(needed, 0)));
     let elsewhere = layer.to_below(Site::APEX);
     assert!(matches!(
@@ -298,7 +306,7 @@ fn layers_say_what_they_do_not_do() {
     assert!(layers.next_layer().unwrap().is_none());
 
     let discs = Pile::discs(4).unwrap();
-    let by_sweep = discs.forces::<f64>().by(Method::Sweep);
+    let by_sweep = discs.forces::<f64>().with_method(Method::Sweep);
     assert!(matches!(
         by_sweep.err(),
         Some(Error::NoSuchMethod {
@@ -326,7 +334,7 @@ fn layers_say_what_they_do_not_do() {
 fn one_contact_of_a_million_layers_visits_no_other_sphere() {
     let pile = Pile::triangular(1_000_000).unwrap();
     let counters = Counters::default();
-    let forces = pile.forces::<f64>().metered(&counters);
+    let forces = pile.forces::<f64>().with_counters(&counters);
     let site = Site {
         i: 123_456,
         j: 7,
@@ -351,7 +359,10 @@ fn are_swept_in_bands(top: Region, loaded: i128) {
         k: 1,
     };
     let pile = under(top, "+-++-").with_load(loaded, ratio(22, 7)).unwrap();
-    let lines = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+    let lines = pile
+        .forces::<BigRational>()
+        .with_method(Method::Tree)
+        .unwrap();
     for k in [1, 2, 4] {
         let mut floats = pile.forces::<f64>().layers(Selection::Layer(k)).unwrap();
         let floats = floats.next_layer().unwrap().unwrap();
@@ -360,7 +371,7 @@ fn are_swept_in_bands(top: Region, loaded: i128) {
             .layers(Selection::Layer(k))
             .unwrap();
         let exact = exact.next_layer().unwrap().unwrap();
-        let n = floats.spheres();
+        let n = floats.sphere_count();
         assert!(n > 10_000);
         let mut forces = [(); 3].map(|()| vec![0.0; n]);
         floats
@@ -387,7 +398,7 @@ fn large_piles_are_filled_in_parts() {
     let pile = Pile::triangular(layers).unwrap();
     let layers = || pile.forces::<BigRational>().layers(Selection::All).unwrap();
     let numerators = layers().numerators::<i32>().unwrap();
-    let n = numerators.spheres().unwrap();
+    let n = numerators.slice_len().unwrap();
     assert!(n > 1 << 16);
     let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0; n]);
     assert_eq!(numerators.fill([&mut a, &mut b, &mut c]), Ok(1.into()));
@@ -405,7 +416,7 @@ fn what_overflows_in_a_sweep_is_an_error() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(50).unwrap()).unwrap();
     let forces = pile.forces::<Pair<f64, FixedRational<i64>>>();
     let layers = forces.layers(Selection::Layer(48)).unwrap();
-    let n = layers.spheres().unwrap();
+    let n = layers.slice_len().unwrap();
     let mut forces = [(); 3].map(|()| vec![Pair::from_rational(&ratio(0, 1)); n]);
     let filled = layers.fill(forces.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(filled, Err(Error::Overflow { .. })));
@@ -428,7 +439,7 @@ fn one_sphere_is_left_to_a_sweep_where_its_tree_is_too_large() {
     let words = plan.planes + size_of::<BigInt>().div_ceil(8);
     assert_eq!(plan.bytes, &plan.numbers * words * 8_u32);
     let counters = Counters::default();
-    let forces = pile.forces::<f64>().metered(&counters);
+    let forces = pile.forces::<f64>().with_counters(&counters);
     let three = all(forces.contacts(Selection::One(site)).unwrap()).unwrap();
     assert_eq!(three.len(), 3);
     for (name, most, counted) in promises(&plan, &counters) {
@@ -447,12 +458,12 @@ fn wide_numbers_are_swept_limb_by_limb() {
     let pile = under(Region::hexagon(3, 2).unwrap(), "+-++-+--+-+-+-+");
     let pile = long(200, Site { i: 0, j: 1, k: 0 }, pile);
     let pile = long(117, Site { i: 1, j: 0, k: 7 }, pile);
-    let by_sweep = Question {
-        method: Some(Method::Sweep),
-        ..Selection::All.into()
-    };
+    let by_sweep = Question::from(Selection::All).with_method(Method::Sweep);
     assert!(pile.plan(by_sweep).unwrap().planes > 12);
-    let trees = pile.forces::<BigRational>().by(Method::Tree).unwrap();
+    let trees = pile
+        .forces::<BigRational>()
+        .with_method(Method::Tree)
+        .unwrap();
     // One after the other, and each in one go, so that passes wait for each other.
     let mut in_turn = pile.forces::<BigRational>().layers(Selection::All).unwrap();
     for k in 0..pile.layers() - 1 {
@@ -517,8 +528,14 @@ fn a_closed_force_is_rounded_once() {
 fn a_row_by_trees_visits_each_sphere_once() {
     let pile = under(Region::SITE, "+-+");
     let counters = Counters::default();
-    let forces = pile.forces::<BigRational>().by(Method::Tree).unwrap();
-    let layers = forces.metered(&counters).layers(Selection::Base).unwrap();
+    let forces = pile
+        .forces::<BigRational>()
+        .with_method(Method::Tree)
+        .unwrap();
+    let layers = forces
+        .with_counters(&counters)
+        .layers(Selection::Base)
+        .unwrap();
     let mut layers = layers.nearest::<f64>().unwrap();
     let row = pile.rows(Selection::Base).unwrap().nth(1).unwrap();
     assert_eq!(row.i, -1..3);

@@ -24,10 +24,7 @@ fn under_a_row(n: i128, signs: &str) -> Pile {
 }
 
 fn by(method: Method, part: Selection) -> Question {
-    Question {
-        method: Some(method),
-        ..part.into()
-    }
+    Question::from(part).with_method(method)
 }
 
 /// Layers of 1, 3, 7, 12, 19 and 27 spheres.
@@ -48,7 +45,7 @@ fn a_sweep_to_the_floor_of_six_layers() {
     assert_eq!((plan.bits, plan.planes, plan.reserved), (12, 1, 62));
 
     let counters = Counters::default();
-    let forces = pile.forces::<BigRational>().metered(&counters);
+    let forces = pile.forces::<BigRational>().with_counters(&counters);
     assert_eq!(forces.base(Selection::Base).unwrap().plan(), &plan);
     assert_eq!(forces.base(Selection::Base).unwrap().count(), 27);
     assert_eq!((counters.passes(), counters.turned()), (5, 41));
@@ -112,14 +109,15 @@ fn a_plan_is_told_in_a_line() {
 #[test]
 fn a_sphere_inside_a_run_is_one_of_three_at_the_change_above() {
     let pile = under_one_sphere("+--");
-    let nodes = |i, j, k| Direction::ALL.map(|line| pile.nodes(Site { i, j, k }, line).unwrap());
+    let nodes =
+        |i, j, k| Direction::ALL.map(|line| pile.tree_size(Site { i, j, k }, line).unwrap());
     assert_eq!(nodes(0, 0, 0), [0; 3]);
     // At the change of sign: itself.
     assert_eq!(nodes(0, 0, 1), [1; 3]);
     // Each line comes from one of the three there.
     assert_eq!(nodes(0, 0, 2), [1; 3]);
     let counters = Counters::default();
-    let forces = pile.forces::<BigRational>().metered(&counters);
+    let forces = pile.forces::<BigRational>().with_counters(&counters);
     forces.from_above(Site { i: 0, j: 0, k: 2 }).unwrap();
     // The three, and itself.
     assert_eq!((counters.turned(), counters.visited()), (3, 4));
@@ -162,10 +160,13 @@ fn a_sweep_for_one_sphere_is_refused_with_the_words_that_it_needs() {
         Err(Error::TooLarge { needed, .. }) => needed,
         other => panic!("{other:?}"),
     };
-    let floats = pile.forces::<f64>().by(Method::Sweep).unwrap();
+    let floats = pile.forces::<f64>().with_method(Method::Sweep).unwrap();
     let numbers = BigUint::from(3 * (2 * n + 1).unsigned_abs());
     assert_eq!(refused(floats.from_above(site).map(|_| ())), numbers);
-    let exact = pile.forces::<BigRational>().by(Method::Sweep).unwrap();
+    let exact = pile
+        .forces::<BigRational>()
+        .with_method(Method::Sweep)
+        .unwrap();
     let words = size_of::<BigInt>().div_ceil(8) + 1;
     assert_eq!(refused(exact.from_above(site).map(|_| ())), numbers * words);
 }
@@ -174,7 +175,7 @@ fn a_sweep_for_one_sphere_is_refused_with_the_words_that_it_needs() {
 fn floats_below_changes_of_sign_are_near_the_exact_forces() {
     let pile = under_one_sphere("+-++-");
     let (floats, exact) = (pile.forces::<f64>(), pile.forces::<BigRational>());
-    let by_sweep = floats.clone().by(Method::Sweep).unwrap();
+    let by_sweep = floats.clone().with_method(Method::Sweep).unwrap();
     for contact in exact.contacts(Selection::All).unwrap() {
         let contact = contact.unwrap();
         let near = contact.force.to_f64().unwrap();

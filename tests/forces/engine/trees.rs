@@ -55,7 +55,7 @@ fn visits_what_it_must(case: &Case) {
         let at_changes = cone.iter().filter(|at| at_a_change(balance, at.0)).count();
         let most = (3_usize.pow(u32::try_from(changes).unwrap()) - 1) / 2;
         for m in 0..3 {
-            let nodes = case.pile.nodes(site(at), direction(m)).unwrap();
+            let nodes = case.pile.tree_size(site(at), direction(m)).unwrap();
             assert_eq!(nodes, visited(balance, (at, m)).len(), "{at:?} {m}");
             assert!(nodes <= most.min(at_changes), "{at:?} {m}");
         }
@@ -82,7 +82,7 @@ fn a_tree_visits_the_spheres_that_its_lines_pass_at_changes_and_each_once() {
 fn no_tree_is_asked_of_a_bottom_sphere_for_a_contact() {
     let case = Case::under(&Bounds::SITE, "+-");
     let bottom = Site { i: 0, j: 0, k: 2 };
-    assert!(case.pile.nodes(bottom, Direction::Alpha).is_err());
+    assert!(case.pile.tree_size(bottom, Direction::Alpha).is_err());
 }
 
 #[test]
@@ -90,12 +90,12 @@ fn where_a_tree_would_be_too_large_a_sweep_answers() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(400).unwrap()).unwrap();
     let middle = Site { i: 0, j: 0, k: 398 };
     assert!(matches!(
-        pile.nodes(middle, Direction::Alpha),
+        pile.tree_size(middle, Direction::Alpha),
         Err(Error::TooLarge { .. })
     ));
     let forces = pile.forces::<f64>();
     // But not where a tree is asked for.
-    let by_tree = forces.clone().by(Method::Tree).unwrap();
+    let by_tree = forces.clone().with_method(Method::Tree).unwrap();
     let refused = by_tree.contact(middle, Direction::Alpha);
     assert!(matches!(refused, Err(Error::TooLarge { .. })));
     let one = forces.contact(middle, Direction::Alpha).unwrap();

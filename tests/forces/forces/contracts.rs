@@ -25,7 +25,10 @@ fn a_straight_pile_of_minus_steps_is_as_well_known_as_its_mirror_image() {
     let (plus, minus) = (repeated("+", 5), repeated("-", 5));
     let [plus, minus] = [plus, minus].map(|signs| under_one_sphere(&signs));
     for n in 0..7 {
-        assert_eq!(minus.contacts_of_strength(n), plus.contacts_of_strength(n));
+        assert_eq!(
+            minus.contact_count_of_strength(n),
+            plus.contact_count_of_strength(n)
+        );
     }
     assert_eq!(minus.base_extremes(), plus.base_extremes());
     let high = Stacking::fcc(10_i128.pow(30)).unwrap().mirrored();

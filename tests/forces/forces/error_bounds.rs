@@ -27,7 +27,7 @@ fn bounds<T: Algebra>(pile: &Pile) -> Vec<(usize, Option<BigRational>)> {
     let mut layers = pile.forces::<T>().layers(Selection::All).unwrap();
     let mut bounds = Vec::new();
     while let Some(layer) = layers.next_layer().unwrap() {
-        bounds.push((layer.spheres(), layer.error_bound()));
+        bounds.push((layer.sphere_count(), layer.error_bound()));
     }
     bounds.pop();
     bounds
@@ -123,7 +123,7 @@ fn forces_beyond_the_floats_are_refused_in_every_layer() {
     for k in 0..4 {
         let mut layers = forces.layers(Selection::Layer(k)).unwrap();
         let layer = layers.next_layer().unwrap().unwrap();
-        let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+        let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
         let filled = layer.fill([&mut a, &mut b, &mut c]);
         assert!(matches!(filled, Err(Error::Overflow { .. })), "layer {k}");
     }
@@ -162,7 +162,7 @@ fn sums_on_the_way_overflow_too() {
     let forces = pile.forces::<f64>();
     let mut layers = forces.layers(Selection::Layer(19)).unwrap();
     let layer = layers.next_layer().unwrap().unwrap();
-    let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+    let [mut a, mut b, mut c] = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
     match layer.fill([&mut a, &mut b, &mut c]) {
         Ok(()) => assert!([a, b, c].iter().flatten().all(|force| force.is_finite())),
         refused => assert!(matches!(refused, Err(Error::Overflow { .. }))),

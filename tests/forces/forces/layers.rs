@@ -102,7 +102,7 @@ fn nearest_are_those_of_the_packing<F: NearestFloat + PartialEq + core::fmt::Deb
             || zero,
         );
         let layers = packing.layers::<F>(Selection::All).expect("layers");
-        let mut whole = slices(&zero, layers.spheres().expect("few"));
+        let mut whole = slices(&zero, layers.slice_len().expect("few"));
         layers
             .fill(whole.each_mut().map(Vec::as_mut_slice))
             .expect("lengths");
@@ -111,7 +111,7 @@ fn nearest_are_those_of_the_packing<F: NearestFloat + PartialEq + core::fmt::Deb
         let mut layers = packing.layers::<F>(Selection::All).expect("layers");
         let mut by_layer = Vec::new();
         while let Some(layer) = layers.next_layer().expect("room") {
-            let mut forces = slices(&zero, layer.spheres());
+            let mut forces = slices(&zero, layer.sphere_count());
             let filled = forces.each_mut().map(Vec::as_mut_slice);
             if !layer.is_floor() {
                 layer.fill(filled).expect("lengths");
@@ -160,7 +160,7 @@ fn numerators_are_exact() {
                 .numerators::<i64>()
         };
         let whole = layers().expect("integers");
-        let mut integers = slices(&0, whole.spheres().expect("few"));
+        let mut integers = slices(&0, whole.slice_len().expect("few"));
         let filled = whole.fill(integers.each_mut().map(Vec::as_mut_slice));
         assert_eq!(over(&integers, &filled.expect("lengths")), asked);
 
@@ -170,7 +170,7 @@ fn numerators_are_exact() {
             if layer.is_floor() {
                 break;
             }
-            let mut integers = slices(&0, layer.spheres());
+            let mut integers = slices(&0, layer.sphere_count());
             layer
                 .fill(integers.each_mut().map(Vec::as_mut_slice))
                 .expect("lengths");
@@ -201,10 +201,10 @@ fn what_does_not_fit_is_refused() {
     let wrong = layer.fill([&mut a, &mut b, &mut [0.0; 2]]);
     assert_eq!(wrong, Err(Error::length(3, 2)));
     let whole = forces.layers(Selection::All).expect("layers");
-    let needed = whole.spheres().expect("few");
+    let needed = whole.slice_len().expect("few");
     let wrong = whole.fill([&mut a, &mut b, &mut c]);
     assert_eq!(wrong, Err(Error::length(needed, 3)));
-    let floor = forces.layers(Selection::Base).expect("a base").spheres();
+    let floor = forces.layers(Selection::Base).expect("a base").slice_len();
     assert_eq!(floor, Ok(0));
 }
 
@@ -221,7 +221,7 @@ fn small_forces_that_are_no_fractions_of_words_are_refused() {
         if layer.is_floor() {
             break;
         }
-        let mut forces = slices(&Fraction::FAULT, layer.spheres());
+        let mut forces = slices(&Fraction::FAULT, layer.sphere_count());
         match layer.fill(forces.each_mut().map(Vec::as_mut_slice)) {
             Ok(()) => {
                 let contacts = exact
@@ -249,7 +249,7 @@ fn a_layer_fills_what_its_spheres_hand_on_to_the_floor() {
         let mut layers = forces.layers(Selection::Base).expect("a base");
         let layer = layers.next_layer().expect("room").expect("a floor");
         let zero = ratio(0, 1);
-        let mut filled = slices(&zero, layer.spheres());
+        let mut filled = slices(&zero, layer.sphere_count());
         let done = layer.fill_base(filled.each_mut().map(Vec::as_mut_slice));
         assert_eq!(done, Ok(()));
         let base = forces.base(Selection::Base).expect("a base");

@@ -53,7 +53,7 @@ fn every_method_and_the_floats_nearest_to_it_agree() {
             .map(Result::unwrap)
             .collect();
         for method in [Method::Tree, Method::Sweep] {
-            let by = forces.clone().by(method).unwrap();
+            let by = forces.clone().with_method(method).unwrap();
             let contacts = by.contacts(Selection::All).unwrap().map(Result::unwrap);
             assert!(contacts.eq(exact.iter().cloned()), "{method:?}");
         }
@@ -123,7 +123,7 @@ fn long_pushes_keep_every_digit() {
     let by = |method| {
         let contacts = exact
             .clone()
-            .by(method)
+            .with_method(method)
             .unwrap()
             .contacts(Selection::All)
             .unwrap();

@@ -116,7 +116,7 @@ fn rows_are_the_nearest_floats_by_any_method() {
     let mut met = 0;
     for pile in piles() {
         for method in [Method::Closed, Method::Tree, Method::Sweep] {
-            if let Ok(packing) = packing_of(&pile).by(method) {
+            if let Ok(packing) = packing_of(&pile).with_method(method) {
                 rows_are_the_nearest::<f64>(&packing, 3);
                 met += 1;
             }
@@ -236,7 +236,7 @@ fn spheres_that_weigh_nothing_are_rounded_where_others_would_have_no_float() {
             let unit = BigRational::from_float(nearest::<f64>(&unit)).expect("a number");
             let mass = packing.mass() * &greatest / unit;
             let packing = packing.with_mass(mass).expect("a mass");
-            let packing = packing.by(Method::Sweep).expect("a sweep");
+            let packing = packing.with_method(Method::Sweep).expect("a sweep");
             let mut layers = packing.layers::<f64>(part).expect("layers");
             let mut met = 0;
             let mut refused = false;
@@ -278,11 +278,11 @@ fn layers_without_a_float_are_refused() {
     let packing = packing_of(&pile);
     let heavy = BigRational::from_float(1e60).expect("a number");
     let packing = packing.with_mass(heavy).expect("a mass");
-    let packing = packing.by(Method::Sweep).expect("a sweep");
+    let packing = packing.with_method(Method::Sweep).expect("a sweep");
     let mut layers = packing.layers::<f32>(Selection::All).expect("layers");
     let mut refused = 0;
     while let Some(layer) = layers.next_layer().expect("room") {
-        let mut floats = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+        let mut floats = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
         let slices = floats.each_mut().map(Vec::as_mut_slice);
         let filled = if layer.is_floor() {
             layer.fill_base(slices)

@@ -156,10 +156,16 @@ fn a_packing_knows_by_what_method_it_is_asked() {
     let pile = Pile::triangular(3).unwrap();
     assert_eq!(packing(&pile).method(), None);
     for method in [Method::Closed, Method::Tree, Method::Sweep] {
-        assert_eq!(packing(&pile).by(method).unwrap().method(), Some(method));
+        assert_eq!(
+            packing(&pile).with_method(method).unwrap().method(),
+            Some(method)
+        );
         let forces = pile.forces::<f64>();
         assert_eq!(
-            (forces.method(), forces.by(method).unwrap().method()),
+            (
+                forces.method(),
+                forces.with_method(method).unwrap().method()
+            ),
             (None, Some(method))
         );
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use cannonpile::geometry::{Apart, Clearance, Spacing};
+use cannonpile::geometry::{Clearance, LayerGap, Spacing};
 use cannonpile::lattice::{Region, Sign};
 use cannonpile::stacking::Stacking;
 use cannonpile::{Error, Pile};
@@ -317,7 +317,7 @@ fn one_sphere_sets_no_lower_bound() {
 #[test]
 fn what_is_too_close_and_the_bounds_are_named() {
     let clearance = Shape::Spheres(ratio(4, 5)).pile(9).clearance();
-    let apart = |layers| Apart { layers };
+    let apart = |layers| LayerGap { layers };
     let touching = |q| clearance.check(&spacing(&q)).unwrap();
     assert_eq!(touching(ratio(25, 12)), [apart(0)]);
     assert_eq!(touching(ratio(5, 2)), [apart(2)]);

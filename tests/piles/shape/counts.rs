@@ -35,7 +35,7 @@ fn spheres_contacts_and_base() {
             .iter()
             .filter(|site| site.k == pile.layers() - 1)
             .count();
-        assert_eq!(pile.base_spheres(), base.into());
+        assert_eq!(pile.base_sphere_count(), base.into());
         let contacts = (sites.len() - base) * shape.directions().len();
         assert_eq!(pile.contact_count(), contacts.into());
     }
@@ -54,11 +54,11 @@ fn contacts_of_each_strength() {
             }
             for (strength, contacts) in found.into_iter().enumerate() {
                 let strength = i128::try_from(strength).unwrap();
-                assert_eq!(pile.contacts_of_strength(strength), contacts.into());
+                assert_eq!(pile.contact_count_of_strength(strength), contacts.into());
             }
         }
         for outside in [i128::MIN, -1, 0, pile.layers(), i128::MAX] {
-            assert_eq!(pile.contacts_of_strength(outside), BigUint::ZERO);
+            assert_eq!(pile.contact_count_of_strength(outside), BigUint::ZERO);
         }
     }
 }
@@ -189,9 +189,9 @@ fn the_greatest_pile() {
         )),
     );
     let triangle = "500000000000000000000000000000000000500000000000000000000000000000000000";
-    assert_eq!(pile.base_spheres(), number(triangle));
+    assert_eq!(pile.base_sphere_count(), number(triangle));
     assert_eq!(
-        pile.contacts_of_strength(10_i128.pow(35)),
+        pile.contact_count_of_strength(10_i128.pow(35)),
         number("405000000000000000000000000000000000450000000000000000000000000000000000"),
     );
     assert_eq!(
@@ -206,11 +206,11 @@ fn the_greatest_pile() {
         number("999999999999999999999999999999999999000000000000000000000000000000000000"),
     );
     assert_eq!(
-        discs.base_spheres(),
+        discs.base_sphere_count(),
         number("1000000000000000000000000000000000000")
     );
     assert_eq!(
-        discs.contacts_of_strength(10_i128.pow(35)),
+        discs.contact_count_of_strength(10_i128.pow(35)),
         number("900000000000000000000000000000000000"),
     );
 }

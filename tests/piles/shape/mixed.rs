@@ -46,7 +46,7 @@ fn counts(Case { pile, balance }: &Case) {
     assert_eq!(pile.sphere_count(), big(spheres));
     assert_eq!(pile.shape().sphere_count(), big(spheres));
     assert_eq!(pile.contact_count(), big(3 * (spheres - bottom)));
-    assert_eq!(pile.base_spheres(), big(bottom));
+    assert_eq!(pile.base_sphere_count(), big(bottom));
 }
 
 /// Of every site, and of all places around it.

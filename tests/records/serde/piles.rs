@@ -48,7 +48,7 @@ fn piles() {
     assert_eq!(
         back(&pile),
         r#"{"dimension":2,"sin_phi":"0","stacking":"+","anchor":{"top":"hexagon:1"},"weightless":false,"#.to_owned()
-            + r#""weights":[],"loads":[{"site":{"i":"0","j":"0","k":"0"},"weight":"1/3"}],"horizontal":[]}"#
+            + r#""weights":[],"loads":[{"site":{"i":0,"j":0,"k":0},"weight":"1/3"}],"horizontal":[]}"#
     );
 }
 

@@ -6,7 +6,9 @@ use core::marker::PhantomData;
 use core::num::NonZeroI64;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use cannonpile::scalar::{Algebra, Enclosure, Exactness, Field, RealEmbeddable, RealSign, Ring};
+use cannonpile::scalar::{
+    Algebra, Enclosure, Exactness, Field, OwnNumerators, RealEmbeddable, RealSign, Ring,
+};
 use num_bigint::BigInt;
 use num_rational::BigRational as Q;
 use num_traits::{One, Zero};
@@ -167,8 +169,6 @@ impl<C: Claim> Ring for Flawed<C> {
 }
 
 impl<C: Claim> Algebra for Flawed<C> {
-    type Numerator = Self;
-
     const EXACTNESS: Exactness = C::EXACTNESS;
     const NAME: &'static str = "Flawed";
 
@@ -183,12 +183,10 @@ impl<C: Claim> Algebra for Flawed<C> {
     fn is_defined(&self) -> bool {
         (operations().is_defined)(&self.0)
     }
+}
 
-    fn numerators<const N: usize>(values: &[Q; N]) -> ([Self; N], Self) {
-        (values.each_ref().map(Self::from_rational), Self::one())
-    }
-
-    fn from_ratio(n: Self, d: &Self) -> Option<Self> {
+impl<C: Claim> OwnNumerators for Flawed<C> {
+    fn ratio(n: Self, d: &Self) -> Option<Self> {
         (operations().ratio)(&n.0, &d.0).map(flawed)
     }
 }

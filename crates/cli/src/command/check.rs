@@ -16,16 +16,16 @@ A certificate says what a pile bears at a = R, where the spheres of a layer touc
 forces of horizontal contacts, in mg/(3 cosθ), a field with three numbers for each sphere above the floor, or both. It is
 accepted if these forces and those that balance them push, and the field proves that no others do better; if it is refused,
 the exit status is 1, and the first equation that does not hold is named. The equations are in the documentation of the
-module 'certificate'; proofs/check_certificate.py is another program that checks them.
+module 'certificate'; crates/horizontal/check_certificate.py is another program that checks them.
 
   {
     \"pile\": {\"dimension\": 3, \"sin_phi\": \"1/2\", \"stacking\": \"++\", \"anchor\": {\"top\": \"hexagon:1\"},
              \"weightless\": false, \"weights\": [], \"loads\": []},
-    \"claim\": {\"greatest\": {\"site\": {\"i\": \"0\", \"j\": \"0\", \"k\": \"2\"}, \"normal\": \"7/3\", \"attained\": true}},
-    \"horizontal\": [{\"site\": {\"i\": \"0\", \"j\": \"0\", \"k\": \"1\"}, \"axis\": \"alpha-beta\", \"force\": \"1\"},
-                   {\"site\": {\"i\": \"0\", \"j\": \"0\", \"k\": \"1\"}, \"axis\": \"alpha-gamma\", \"force\": \"1\"}],
-    \"field\": [{\"site\": {\"i\": \"0\", \"j\": \"0\", \"k\": \"0\"}, \"alpha\": \"1\", \"beta\": \"0\", \"gamma\": \"0\"},
-              {\"site\": {\"i\": \"0\", \"j\": \"0\", \"k\": \"1\"}, \"alpha\": \"1\", \"beta\": \"1\", \"gamma\": \"1\"}]
+    \"claim\": {\"greatest\": {\"site\": {\"i\": 0, \"j\": 0, \"k\": 2}, \"normal\": \"7/3\", \"attained\": true}},
+    \"horizontal\": [{\"site\": {\"i\": 0, \"j\": 0, \"k\": 1}, \"axis\": \"alpha-beta\", \"force\": \"1\"},
+                   {\"site\": {\"i\": 0, \"j\": 0, \"k\": 1}, \"axis\": \"alpha-gamma\", \"force\": \"1\"}],
+    \"field\": [{\"site\": {\"i\": 0, \"j\": 0, \"k\": 0}, \"alpha\": \"1\", \"beta\": \"0\", \"gamma\": \"0\"},
+              {\"site\": {\"i\": 0, \"j\": 0, \"k\": 1}, \"alpha\": \"1\", \"beta\": \"1\", \"gamma\": \"1\"}]
   }
 
 The claim is \"stands\", \"cannot-stand\", {\"least\": …}, {\"greatest\": …} or {\"elastic\": {\"stiffness_ratio\": \"1\"}}.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use cannonpile::Verdict;
-use cannonpile::geometry::Apart;
+use cannonpile::geometry::LayerGap;
 use cannonpile_dem::table;
 use cannonpile_horizontal::certificate::write_certificate;
 use cannonpile_horizontal::equilibrium;
@@ -46,7 +46,7 @@ impl Summary {
         let units = self.numbers.units.of(&scene, &pile)?;
         // At the default spacing, where none is given: if that fits.
         let touching = pile.clearance().check(&scene.spacing()?);
-        if self.certificate.is_some() && touching.as_deref() != Ok(&[Apart { layers: 0 }]) {
+        if self.certificate.is_some() && touching.as_deref() != Ok(&[LayerGap { layers: 0 }]) {
             return Err(Failure::Message(
                 "--certificate: a proof is about horizontal contacts, and the row would not be: give --spacing 1, a = R"
                     .to_owned(),

@@ -76,7 +76,7 @@ fn without_horizontal_contacts(
 ) -> Result<Vec<Cell>, Error> {
     let least = standing.and_then(|standing| standing.least.as_ref());
     let mut cells = vec![least.map_or(Cell::Missing, |least| least.force.clone().into())];
-    cells.push(Cell::Integer(pile.base_spheres().into()));
+    cells.push(Cell::Integer(pile.base_sphere_count().into()));
     let stands = standing.is_some_and(|standing| standing.first_failure.is_none());
     let is_tall = pile.layers() > MOST_LAYERS && pile.shape().stacking().changes() > 0;
     let base = if stands && !is_tall {

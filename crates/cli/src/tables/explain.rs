@@ -26,11 +26,8 @@ impl<'p> Explanation<'p> {
         quantity: Quantity,
         part: Selection,
     ) -> Result<Self, Error> {
-        let question = Question {
-            part,
-            quantity,
-            method: units.method(),
-        };
+        let mut question = Question::new(part, quantity);
+        question.method = units.method();
         Ok(Self {
             units: units.clone(),
             plan: units.pile().plan(question)?,
@@ -58,12 +55,16 @@ impl<'p> Explanation<'p> {
         let quantity = self.question.quantity;
         match &self.units {
             Units::Pile(forces) => {
-                multiples(&forces.as_ref().clone().metered(&counters), quantity, part)?;
+                multiples(
+                    &forces.as_ref().clone().with_counters(&counters),
+                    quantity,
+                    part,
+                )?;
             }
             Units::Si(packing) => {
-                let packing = packing.as_ref().clone().metered(&counters);
+                let packing = packing.as_ref().clone().with_counters(&counters);
                 match quantity {
-                    Quantity::ContactMagnitudes => all(packing.magnitudes(part)?)?,
+                    Quantity::ContactMagnitudes => all(packing.contact_forces(part)?)?,
                     Quantity::ContactVectors => all(packing.contacts(part)?)?,
                     Quantity::FloorForces => all(packing.base(part)?)?,
                     Quantity::Positions => all(packing.positions(part)?)?,
@@ -110,7 +111,7 @@ impl<'p> Explanation<'p> {
 
 /// Answers a question in units of the pile.
 fn multiples(
-    forces: &Forces<'_, BigRational, &Counters>,
+    forces: &Forces<'_, BigRational>,
     quantity: Quantity,
     part: Selection,
 ) -> Result<(), cannonpile::Error> {

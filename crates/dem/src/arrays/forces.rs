@@ -43,7 +43,7 @@ impl<'p> PileArrays<'p> {
                 break;
             }
             for column in &mut found {
-                column.resize(layer.spheres(), 0.0);
+                column.resize(layer.sphere_count(), 0.0);
             }
             layer.fill(slices(&mut found))?;
             put_by_direction(&found[..lines], &mut left);
@@ -85,14 +85,14 @@ impl<'p> PileArrays<'p> {
         let mut left = numerators.iter_mut();
         if self.pile.horizontal_forces().len() == 0 {
             let layers = layers.numerators::<V>()?;
-            let spheres = layers.spheres()?;
+            let spheres = layers.slice_len()?;
             let mut found = [zeros::<V>(spheres)?, zeros(spheres)?, zeros(spheres)?];
             let denominator = layers.fill(slices(&mut found))?;
             put_by_direction(&found[..lines], &mut left);
             return Ok(denominator);
         }
         let layers = layers.numerators::<BigInt>()?;
-        let spheres = layers.spheres()?;
+        let spheres = layers.slice_len()?;
         let mut found = [zeros(spheres)?, zeros(spheres)?, zeros(spheres)?];
         let sloping = layers.fill(slices(&mut found))?;
         let horizontal = || self.pile.horizontal_forces().map(|(_, force)| force);
@@ -167,8 +167,8 @@ impl<'p> PileArrays<'p> {
         let mut layers = self.layers(Selection::Base)?;
         let mut left = base.iter_mut();
         while let Some(layer) = layers.next_layer()? {
-            check_length(layer.spheres(), left.as_slice())?;
-            let mut found = [(); 3].map(|()| vec![0.0; layer.spheres()]);
+            check_length(layer.sphere_count(), left.as_slice())?;
+            let mut found = [(); 3].map(|()| vec![0.0; layer.sphere_count()]);
             layer.fill_base(slices(&mut found))?;
             put_vectors(&found, &mut left);
         }

@@ -9,7 +9,7 @@ use num_traits::{Signed, Zero};
 use crate::Error;
 use crate::error::bug;
 use cannonpile::Pile;
-use cannonpile::lattice::{Direction, Link, Site};
+use cannonpile::lattice::{ContactKind, Direction, Site};
 use cannonpile::shape::Selection;
 
 /// A contact, and its force in f₀.
@@ -17,7 +17,7 @@ use cannonpile::shape::Selection;
 pub(super) struct Extreme {
     /// The upper sphere; of two neighbours the one that names their contact.
     pub(super) site: Site,
-    pub(super) link: Link,
+    pub(super) link: ContactKind,
     pub(super) force: BigRational,
 }
 
@@ -52,7 +52,7 @@ impl Extremes {
             if layer.is_floor() {
                 break;
             }
-            let mut slices = [(); 3].map(|()| vec![BigInt::ZERO; layer.spheres()]);
+            let mut slices = [(); 3].map(|()| vec![BigInt::ZERO; layer.sphere_count()]);
             let [alpha, beta, gamma] = &mut slices;
             layer.fill([alpha, beta, gamma])?;
             let (k, denominator) = (layer.k(), layer.denominator());
@@ -155,7 +155,7 @@ fn nth(pile: &Pile, k: i128, place: usize) -> Result<Site, Error> {
         .ok_or_else(|| bug("a layer has a sphere for each of its forces"))
 }
 
-fn link(directions: &[Direction], line: usize) -> Result<Link, Error> {
-    let direction = directions.get(line).copied().map(Link::from);
+fn link(directions: &[Direction], line: usize) -> Result<ContactKind, Error> {
+    let direction = directions.get(line).copied().map(ContactKind::from);
     direction.ok_or_else(|| bug("each line of forces has its direction"))
 }

@@ -102,7 +102,7 @@ impl<'f, 'p> Facts<'f, 'p> {
             sin_theta: Value::new(&inclination.sin(), "sin θ")?,
             cos_theta: Value::new(&inclination.cos(), "cos θ")?,
             weight: Value::rational(weight, "the weight of all spheres")?,
-            base_count: pile.base_spheres(),
+            base_count: pile.base_sphere_count(),
             bearing: extremes.bearing,
             idle: extremes.idle,
             pulling: extremes.pulling,
@@ -117,7 +117,7 @@ impl<'f, 'p> Facts<'f, 'p> {
             contacts: few(&contact_count)
                 .then(|| contacts(numbered))
                 .transpose()?,
-            base: few(&pile.base_spheres())
+            base: few(&pile.base_sphere_count())
                 .then(|| base(numbered))
                 .transpose()?,
             sphere_count,

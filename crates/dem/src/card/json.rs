@@ -26,6 +26,8 @@ pub(super) fn text(
     let case = (!title.case.is_empty()).then_some(&title.case);
     let purpose = (!title.purpose.is_empty()).then_some(&title.purpose);
     let pile = facts.pile.pile();
+    let accept: Json = serde_json::from_str(&facts.accept)
+        .map_err(|_| bug("the digits of a tolerance are JSON"))?;
     let card = json!({
         "schema": SCHEMA,
         "schema_version": SCHEMA_VERSION,
@@ -38,12 +40,12 @@ pub(super) fn text(
         "units": {"length": "m", "mass": "kg", "force": "N", "up": "z"},
         "pile": {
             "dimension": pile.dimension().number(),
-            "layers": number(&pile.layers())?,
+            "layers": number(&pile.layers()),
             "stacking": stacking(pile),
             "grown_from": if pile.shape().is_grown_from_base() { "base" } else { "top" },
-            "spheres": number(&facts.sphere_count)?,
-            "fixed": number(&facts.base_count)?,
-            "contacts": number(&pile.contact_count())?,
+            "spheres": number(&facts.sphere_count),
+            "fixed": number(&facts.base_count),
+            "contacts": number(&pile.contact_count()),
             "spacing": value(&facts.spacing),
             "sin_theta": value(&facts.sin_theta),
             "cos_theta": value(&facts.cos_theta),
@@ -57,9 +59,9 @@ pub(super) fn text(
             "neighbours_touch": facts.neighbours_touch,
             "list_of_spheres": facts.spheres.as_ref().map(|all| list(all, |one| sphere(one, pile))),
         },
-        "answers": answers(facts)?,
+        "answers": answers(facts),
         "tolerance": {
-            "accept": number(&facts.accept)?,
+            "accept": accept,
             "order": 1,
             "order_in": "1/k",
             "stiffness": facts.stiffness.as_ref().map(|stiffness| stiffness.spring),
@@ -81,20 +83,20 @@ pub(super) fn text(
     Ok(text)
 }
 
-fn answers(facts: &Facts<'_, '_>) -> Result<Json, Error> {
+fn answers(facts: &Facts<'_, '_>) -> Json {
     let pile = facts.pile.pile();
     let unknown = match &facts.stands {
         Stands::TooLarge(reason) => Some(reason),
         Stands::Known(_) | Stands::NotAsked => None,
     };
     let floor = facts.floor.as_ref().ok();
-    Ok(json!({
+    json!({
         "stands": words::stands(facts),
         "why_not_known": unknown,
-        "bearing": number(&facts.bearing)?,
+        "bearing": number(&facts.bearing),
         "bearing_horizontal": facts.horizontal,
-        "idle": number(&facts.idle)?,
-        "pulling": number(&facts.pulling)?,
+        "idle": number(&facts.idle),
+        "pulling": number(&facts.pulling),
         "unit_force": value(&facts.unit_force),
         "total_on_floor": value(&facts.weight),
         "greatest": facts.greatest.as_ref().map(|found| contact(found, pile)),
@@ -106,13 +108,16 @@ fn answers(facts: &Facts<'_, '_>) -> Result<Json, Error> {
         "contacts_file": "contacts.csv",
         "base": facts.base.as_ref().map(|all| list(all, |one| on_floor(one, pile))),
         "base_file": "base.csv",
-    }))
+    })
 }
 
-/// A number as it is written, an integer of any size.
-fn number(number: &impl ToString) -> Result<Json, Error> {
-    let number = serde_json::from_str(&number.to_string());
-    number.map_err(|_| bug("the digits of a number are JSON"))
+/// An integer within 2^53 as a number, a greater one as a string: many readers keep a number as a float.
+fn number(number: &impl ToString) -> Json {
+    let text = number.to_string();
+    match text.parse::<i64>() {
+        Ok(small) if small.unsigned_abs() >> 53 == 0 => small.into(),
+        _ => text.into(),
+    }
 }
 
 fn value(value: &Value) -> Json {

@@ -6,7 +6,7 @@ use super::extremes::Extreme;
 use super::value::{FORCE, Value};
 use crate::Error;
 use crate::numbered::NumberedPile;
-use cannonpile::lattice::{Axis, HorizontalContact, Link, Site};
+use cannonpile::lattice::{Axis, ContactKind, HorizontalContact, Site};
 use cannonpile::shape::Selection;
 
 /// The longest lists of a card.
@@ -26,7 +26,7 @@ impl Listed {
 pub(super) struct Contact {
     pub(super) ids: [u64; 2],
     pub(super) site: Site,
-    pub(super) link: Link,
+    pub(super) link: ContactKind,
     /// In f₀.
     pub(super) multiple: String,
     /// In N.
@@ -52,10 +52,10 @@ pub(super) fn contact(numbered: &NumberedPile<'_>, found: Extreme) -> Result<Con
     let Extreme { site, link, force } = found;
     let (shape, numbering) = (numbered.pile().shape(), numbered.numbering());
     let other = match link {
-        Link::Sloping(direction) => shape
+        ContactKind::Sloping(direction) => shape
             .below(site, direction)
             .ok_or_else(|| Error::on_floor(site))?,
-        Link::Horizontal(axis) => shape.neighbour(HorizontalContact { site, axis })?,
+        ContactKind::Horizontal(axis) => shape.neighbour(HorizontalContact { site, axis })?,
     };
     let newtons = numbered.packing().unit_force().scaled(&force);
     Ok(Contact {

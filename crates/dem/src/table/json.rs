@@ -37,7 +37,8 @@ pub(super) fn write(
     Ok(out.write_all(end.as_bytes())?)
 }
 
-/// Integers and floats are numbers, of any size; exact quantities are strings, which lose nothing.
+/// Writes floats and integers within 2^53 as numbers, greater integers and exact quantities as strings: many readers keep a
+/// number as a float.
 fn write_value(
     cell: &Cell,
     numbers: NumberFormat,
@@ -49,7 +50,9 @@ fn write_value(
         Cell::Flag(flag) => return Ok(write!(out, "{flag}")?),
         Cell::Word(_) => true,
         Cell::Number(_) => numbers == NumberFormat::Exact,
-        Cell::F64(_) | Cell::F32(_) | Cell::Integer(_) | Cell::Index(_) => false,
+        Cell::Integer(n) => n.bits() > 53,
+        Cell::Index(n) => n.unsigned_abs() >> 53 > 0,
+        Cell::F64(_) | Cell::F32(_) => false,
     };
     if quoted {
         Ok(serde_json::to_writer(out, text)?)

@@ -93,7 +93,7 @@ pub(crate) type RowIter<'a> = Box<dyn Iterator<Item = Row> + 'a>;
 /// Where the sums of the columns that are summed up come from, in their order.
 pub(super) enum Sums<'a> {
     /// Without the rows, of which there may be many.
-    Apart(Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>),
+    LayerGap(Box<dyn FnOnce() -> Result<Vec<Surd>, Error> + 'a>),
     /// From the exact cells of the rows, which are few, and as long to make as their sums.
     OfRows,
 }
@@ -203,7 +203,7 @@ impl<'a> Table<'a> {
     /// Returns the table with what makes the sums of its columns.
     pub(super) fn summed(self, sums: impl FnOnce() -> Result<Vec<Surd>, Error> + 'a) -> Self {
         Self {
-            sums: Some(Sums::Apart(Box::new(sums))),
+            sums: Some(Sums::LayerGap(Box::new(sums))),
             ..self
         }
     }

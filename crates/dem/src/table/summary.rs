@@ -7,7 +7,7 @@ use super::cell::Cell;
 use super::rows::{Column, Table};
 use super::units::Units;
 use crate::Error;
-use cannonpile::geometry::Apart;
+use cannonpile::geometry::LayerGap;
 use cannonpile::lattice::Dimension;
 use cannonpile::shape::Selection;
 use cannonpile::stacking::Stacking;
@@ -33,7 +33,7 @@ use cannonpile_horizontal::certificate::{Certificate, Claim};
 #[derive(Debug)]
 pub struct Summary<'p> {
     units: Units<'p>,
-    touching: Option<Vec<Apart>>,
+    touching: Option<Vec<LayerGap>>,
     standing: Standing,
     /// Whether horizontal contacts hold what pulls without them, where they are all that touches besides; or why that is
     /// not known.
@@ -54,7 +54,7 @@ impl<'p> Summary<'p> {
     /// # Examples
     /// ```
     /// use cannonpile_dem::table::{Summary, Units};
-    /// use cannonpile::geometry::Apart;
+    /// use cannonpile::geometry::LayerGap;
     /// use cannonpile::lattice::Region;
     /// use cannonpile::{Pile, Verdict};
     ///
@@ -62,16 +62,16 @@ impl<'p> Summary<'p> {
     /// let units = Units::of_pile(&pile);
     /// assert_eq!(Summary::new(&units, Some(Vec::new()))?.verdict(), Some(Verdict::No));
     /// // Where spheres two layers apart touch, they may take the part of a pull.
-    /// let touching = vec![Apart { layers: 2 }];
+    /// let touching = vec![LayerGap { layers: 2 }];
     /// assert_eq!(Summary::new(&units, Some(touching))?.verdict(), Some(Verdict::Undetermined));
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
-    pub fn new(units: &Units<'p>, touching: Option<Vec<Apart>>) -> Result<Self, Error> {
+    pub fn new(units: &Units<'p>, touching: Option<Vec<LayerGap>>) -> Result<Self, Error> {
         let pile = units.pile();
         let plan = pile.plan(Selection::Base);
         let standing = pile.standing()?;
         let held = {
-            let in_layers_only = touching.as_deref() == Some(&[Apart { layers: 0 }]);
+            let in_layers_only = touching.as_deref() == Some(&[LayerGap { layers: 0 }]);
             let pulls = standing.first_failure.is_some() && !pile.is_weightless();
             (in_layers_only && pulls).then(|| cannonpile_horizontal::equilibrium(pile))
         };
@@ -240,7 +240,7 @@ impl<'p> Summary<'p> {
                 units.force(),
                 least.map_or(Cell::Missing, Cell::from),
             ),
-            count("base_spheres", pile.base_spheres()),
+            count("base_spheres", pile.base_sphere_count()),
             measured(
                 "normal_min",
                 units.normal(),
@@ -300,7 +300,7 @@ fn as_read(pile: &Pile) -> Stacking {
 }
 
 /// `none`, `in one layer and 3 layers apart`.
-fn describe(touching: &[Apart]) -> Cell {
+fn describe(touching: &[LayerGap]) -> Cell {
     let words: Vec<String> = touching.iter().map(ToString::to_string).collect();
     if words.is_empty() {
         "none".into()

@@ -86,7 +86,7 @@ pub(super) fn write_rows(
         count += taken;
         let last = taken < page_length;
         let totals = match sums.take_if(|_| last) {
-            Some(Sums::Apart(sums)) => Some(totals(columns, sums()?, numbers)),
+            Some(Sums::LayerGap(sums)) => Some(totals(columns, sums()?, numbers)),
             Some(Sums::OfRows) => Some(totals(columns, core::mem::take(&mut of_rows), numbers)),
             None => None,
         };

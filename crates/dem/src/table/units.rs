@@ -107,7 +107,7 @@ impl<'p> Units<'p> {
     pub(super) fn on_floor(&self, force: FloorForce<BigRational>) -> FloorForce<Surd> {
         match self {
             Self::Pile(_) => force.map(Surd::from),
-            Self::Si(packing) => packing.floor_force(force),
+            Self::Si(packing) => packing.floor_force_in_si(force),
         }
     }
 
@@ -172,7 +172,7 @@ impl Units<'_> {
     /// Returns these units, for answers that are found by one method.
     ///
     /// # Errors
-    /// As for [`Forces::by`](cannonpile::Forces::by).
+    /// As for [`Forces::with_method`](cannonpile::Forces::with_method).
     ///
     /// # Examples
     /// ```
@@ -180,13 +180,13 @@ impl Units<'_> {
     /// use cannonpile::{Method, Pile};
     ///
     /// let pile = Pile::discs(5)?;
-    /// assert!(Units::of_pile(&pile).by(Method::Sweep).is_err());
+    /// assert!(Units::of_pile(&pile).with_method(Method::Sweep).is_err());
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
     pub fn by(self, method: Method) -> Result<Self, Error> {
         Ok(match self {
-            Self::Pile(forces) => Self::Pile(Box::new(forces.by(method)?)),
-            Self::Si(packing) => Self::Si(Box::new(packing.by(method)?)),
+            Self::Pile(forces) => Self::Pile(Box::new(forces.with_method(method)?)),
+            Self::Si(packing) => Self::Si(Box::new(packing.with_method(method)?)),
         })
     }
 
@@ -261,7 +261,7 @@ mod tests {
                         of_pile >= Surd::from(contact.force.abs()),
                         "{pile:?} {part:?}"
                     );
-                    let packed = packing.packed(contact).unwrap();
+                    let packed = packing.contact_in_si(contact).unwrap();
                     let [x, y, z] = packed.vector;
                     for force in [packed.force, x, y, z] {
                         assert!(of_si >= force && of_si >= -force, "{pile:?} {part:?}");

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::measured::{Measured, distance};
 use crate::NumberedContact;
-use cannonpile::lattice::{Dimension, Link, Site};
+use cannonpile::lattice::{ContactKind, Dimension, Site};
 
 /// A contact of the pile, what its force is, and what was measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Difference {
     /// The upper sphere.
     pub site: Site,
     /// The direction in which the lower one lies.
-    pub direction: Link,
+    pub direction: ContactKind,
     /// The nearest float to the exact force; positive is push.
     pub exact: f64,
     /// The nearest floats to the force on the upper sphere, where vectors were measured.

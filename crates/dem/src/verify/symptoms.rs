@@ -6,7 +6,7 @@ use super::axes::Axes;
 use super::finding::Finding;
 use super::measured::{Measured, distance, norm};
 use crate::NumberedContact;
-use cannonpile::lattice::Link;
+use cannonpile::lattice::ContactKind;
 
 /// How far off a turn of the axes may be and still be followed.
 const FOLLOWED: f64 = 0.25;
@@ -74,7 +74,7 @@ impl Symptoms {
 
     /// Counts a contact with a force of a layer and the one below, with how many of it are missing: 0 or 1.
     fn count(&mut self, exact: &NumberedContact, missing: u64) {
-        if let Link::Sloping(_) = exact.direction {
+        if let ContactKind::Sloping(_) = exact.direction {
             let [there, lost] = self.layers.entry(exact.site.k).or_default();
             *there += 1;
             *lost += missing;

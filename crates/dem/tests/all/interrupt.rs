@@ -58,7 +58,7 @@ fn work(pile: &Pile, name: &str) -> Result<(), Error> {
         "a force" => drop(exact.to_below(above)?),
         "floats" => {
             let layers = pile.forces::<f64>().layers(part)?;
-            let mut columns = [(); 3].map(|()| vec![0.0; layers.spheres().expect("a number")]);
+            let mut columns = [(); 3].map(|()| vec![0.0; layers.slice_len().expect("a number")]);
             layers.fill(columns.each_mut().map(Vec::as_mut_slice))?;
         }
         "forces" => arrays.fill_forces(&mut vec![0.0; arrays.contacts()])?,
@@ -207,7 +207,7 @@ fn without_a_request_an_error_is_what_it_was() {
 fn a_fill_that_threads_share_ends() {
     let pile = Pile::triangular(80).unwrap();
     let layers = pile.forces::<f64>().layers(Selection::All).unwrap();
-    let n = layers.spheres().unwrap();
+    let n = layers.slice_len().unwrap();
     assert!(n > 1 << 16);
     let mut columns = [(); 3].map(|()| vec![0.0; n]);
     let interrupt = Interrupt::new();

@@ -28,7 +28,7 @@ fn scenes() {
         back(&scene),
         format!(
             r#"{{"layers":"{MAX_LAYERS}","dimension":3,"sin-phi":null,"stacking":"hcp","anchor":{{"base":"hexagon:3,2"}},"#
-        ) + r#""loads":[{"at":{"layer":null,"i":"1","j":"-2"},"weight":"5/2"}],"weightless":false,"#
+        ) + r#""loads":[{"at":{"layer":null,"i":1,"j":-2},"weight":"5/2"}],"weightless":false,"#
             + r#""spacing":"6/5","radius":"1","mass":"1","gravity":"1","state":"isostatic","stiffness-ratio":"1"}"#
     );
     back(&Scene::default());

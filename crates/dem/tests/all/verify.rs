@@ -501,7 +501,7 @@ fn horizontal_contacts_are_compared_too() {
     let pile = elastic.pile();
     let packing = packing(pile, ratio(1, 1));
     let horizontal = pile.horizontal_forces().map(|(contact, force)| {
-        let packed = packing.packed_horizontal(contact, force).unwrap();
+        let packed = packing.horizontal_contact_in_si(contact, force).unwrap();
         let neighbour = pile.shape().neighbour(contact).unwrap();
         let vector = packed.vector.map(|x| x.nearest::<f64>().unwrap());
         let ids = [id(pile, contact.site), id(pile, neighbour)];

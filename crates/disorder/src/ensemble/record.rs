@@ -3,6 +3,7 @@
 use std::io::{self, BufReader, Read, Write};
 
 use cannonpile::data::number;
+use num_bigint::BigUint;
 use num_rational::BigRational;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,11 @@ use crate::Error;
 
 /// The most bytes of a tally that is read: 512 MiB.
 const MOST_BYTES: u64 = 512 << 20;
+
+/// A number of stackings, as the records of this crate write it.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Count(#[serde(with = "number")] BigUint);
 
 /// A tally, with what its file says of it: the version of this crate that has counted, and the fault probability at which
 /// probabilities are given.
@@ -167,7 +173,7 @@ impl TallyRecord {
         object.entry("choice", &tally.choice)?;
         object.entry("shard", &tally.shard)?;
         object.entry("fault_probability", &fault_probability.to_string())?;
-        object.entry("stackings", &tally.stackings().to_string())?;
+        object.entry("stackings", &Count(tally.stackings()))?;
         let names = [
             (
                 By::Sloping,
@@ -182,7 +188,7 @@ impl TallyRecord {
             let Some(standing) = tally.standing(by) else {
                 continue;
             };
-            object.entry(count, &standing.to_string())?;
+            object.entry(count, &Count(standing))?;
             let exact = tally.standing_probability(by, fault_probability);
             if let Some(exact) = exact.map_err(io::Error::other)? {
                 object.entry(probability, &exact.to_string())?;

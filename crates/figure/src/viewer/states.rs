@@ -31,7 +31,7 @@ impl Quantities {
             shear_x: BigRational::one(),
             shear_y: BigRational::one(),
         };
-        let unit = packing.floor_force(one);
+        let unit = packing.floor_force_in_si(one);
         let units = cannonpile_dem::table::Units::of_pile(pile.pile());
         Self {
             contact: Quantity::new(units.force(), packing.unit_force(), "a contact force"),

@@ -13,7 +13,7 @@ fn too_many_marks() {
     assert!(matches!(
         &error,
         Error::TooManyMarks { marks, what: "bottom spheres", limit: 20_000, remedy: "use fewer layers", .. }
-            if *marks == pile.base_spheres()
+            if *marks == pile.base_sphere_count()
     ));
     says(
         &error,

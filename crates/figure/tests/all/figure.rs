@@ -31,7 +31,7 @@ fn every_sphere_of_a_picture_is_drawn_once_and_hides_only_those_behind() {
         let shadows = if discs {
             0_u32.into()
         } else {
-            pile.base_spheres()
+            pile.base_sphere_count()
         };
         assert_eq!(
             of_class(&document, "shadow").len().to_string(),
@@ -107,7 +107,10 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
         let svg = figure::base(&subject(&pile)).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
         let cells = of_class(&document, "cell");
-        assert_eq!(cells.len().to_string(), pile.base_spheres().to_string());
+        assert_eq!(
+            cells.len().to_string(),
+            pile.base_sphere_count().to_string()
+        );
         let sites = pile.rows(Selection::Base).unwrap().flatten();
         assert!(cells.iter().map(site).eq(sites));
         let forces = pile.forces::<BigRational>();

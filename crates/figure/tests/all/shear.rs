@@ -70,7 +70,7 @@ fn arrows_are_as_long_as_the_papers_formula_says() {
         ));
         let document = Document::parse(&svg).unwrap();
         let count = of_class(&document, "arrow").len() + of_class(&document, "vanishing").len();
-        assert_eq!(count.to_string(), pile.base_spheres().to_string());
+        assert_eq!(count.to_string(), pile.base_sphere_count().to_string());
         // Under the apex the force vanishes: a sphere is there if L ≡ 1 (mod 3).
         let still = usize::from(layers % 3 == 1);
         assert_eq!(of_class(&document, "vanishing").len(), still);

@@ -49,7 +49,7 @@ pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
 ///
 /// let text = r#"{
 ///   "pile": {"dimension":3,"sin_phi":"1/2","stacking":"+++","anchor":{"top":"hexagon:1"},"weightless":false,"weights":[],"loads":[]},
-///   "claim": {"least":{"site":{"i":"1","j":"1","k":"3"},"normal":"1","attained":false}},
+///   "claim": {"least":{"site":{"i":1,"j":1,"k":3},"normal":"1","attained":false}},
 ///   "horizontal": [],
 ///   "field": []
 /// }"#;
@@ -130,7 +130,7 @@ impl<'de> Visitor<'de> for OneOrMore {
 /// let text = String::from_utf8(text)?;
 /// let lines: Vec<&str> = text.lines().collect();
 /// assert_eq!(lines[2], r#"  "claim": "stands","#);
-/// assert_eq!(lines[5], r#"    {"site":{"i":"0","j":"0","k":"0"},"alpha":"1","beta":"0","gamma":"0"}"#);
+/// assert_eq!(lines[5], r#"    {"site":{"i":0,"j":0,"k":0},"alpha":"1","beta":"0","gamma":"0"}"#);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_certificate(certificate: &Certificate, out: &mut impl Write) -> io::Result<()> {

@@ -35,7 +35,7 @@ fn claims() -> [(Claim, &'static str); 5] {
         attained,
     };
     let stiffness_ratio = ratio(1, 2);
-    let site = r#"{"site":{"i":"0","j":"0","k":"2"},"normal":"7/3","attained":"#;
+    let site = r#"{"site":{"i":0,"j":0,"k":2},"normal":"7/3","attained":"#;
     let least = format!(r#"{{"least":{site}true}}}}"#);
     let greatest = format!(r#"{{"greatest":{site}false}}}}"#);
     [
@@ -63,11 +63,11 @@ fn certificates() {
         assert_eq!(same, certificate);
     }
     let written = back(&certificate(Claim::Stands));
-    let lists = r#""claim":"stands","horizontal":[{"site":{"i":"0","j":"-1","k":"1"},"axis":"alpha-beta","force":"1/2"},"#
+    let lists = r#""claim":"stands","horizontal":[{"site":{"i":0,"j":-1,"k":1},"axis":"alpha-beta","force":"1/2"},"#
         .to_owned()
-        + r#"{"site":{"i":"0","j":"-1","k":"1"},"axis":"gamma-beta","force":"0"}],"#
-        + r#""field":[{"site":{"i":"0","j":"0","k":"0"},"alpha":"0","beta":"-1","gamma":"1/3"},"#
-        + r#"{"site":{"i":"0","j":"-1","k":"1"},"alpha":"-7/3","beta":"1000000000000000000","gamma":"1"}]}"#;
+        + r#"{"site":{"i":0,"j":-1,"k":1},"axis":"gamma-beta","force":"0"}],"#
+        + r#""field":[{"site":{"i":0,"j":0,"k":0},"alpha":"0","beta":"-1","gamma":"1/3"},"#
+        + r#"{"site":{"i":0,"j":-1,"k":1},"alpha":"-7/3","beta":"1000000000000000000","gamma":"1"}]}"#;
     let (pile, after) = written.split_at(written.len() - lists.len());
     assert_eq!(after, lists);
     assert!(
@@ -86,8 +86,8 @@ fn no_doubtful_certificate_comes_in() {
             "two forces of the horizontal contact (0,-1,1) gamma-beta: leave one",
         ),
         (
-            r#""i":"0","j":"0","k":"0""#,
-            r#""i":"0","j":"-1","k":"1""#,
+            r#""i":0,"j":0,"k":0"#,
+            r#""i":0,"j":-1,"k":1"#,
             "two values of the field on the sphere (i,j,k) = (0,-1,1): leave one",
         ),
         (
@@ -113,12 +113,12 @@ fn no_doubtful_certificate_comes_in() {
         (r#""stands""#, r#""stand""#, "`stand`"),
         (
             r#""stands""#,
-            r#"{"elastic":{"stiffness_ratio":"1","k":"1"}}"#,
+            r#"{"elastic":{"stiffness_ratio":"1","k":1}}"#,
             "`k`",
         ),
         (
             r#""stands""#,
-            r#"{"least":{"site":{"i":"0","j":"0","k":"2"},"normal":"1"}}"#,
+            r#"{"least":{"site":{"i":0,"j":0,"k":2},"normal":"1"}}"#,
             "`attained`",
         ),
         (r#""stacking":"+-""#, r#""stacking":"+*""#, "such as ++-+"),

@@ -2,7 +2,7 @@
 
 use core::num::NonZeroI64;
 
-use cannonpile::scalar::{Algebra, Symbol};
+use cannonpile::scalar::{Algebra, Numerators, Symbol};
 use cannonpile_proof::Expression;
 use num_rational::BigRational;
 use num_traits::{One, Zero};

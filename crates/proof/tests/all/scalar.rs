@@ -2,7 +2,7 @@
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Direction, Site};
-use cannonpile::scalar::{Algebra, Ring, Symbol};
+use cannonpile::scalar::{Algebra, Numerators, Ring, Symbol};
 use cannonpile_proof::Expression;
 use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::laws::{keeps_numerators, obeys_algebra, obeys_integers, wide};

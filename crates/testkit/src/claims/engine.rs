@@ -128,7 +128,7 @@ fn filled(forces: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
         if layer.is_floor() || layer.k() < from {
             continue;
         }
-        let mut slices = [(); 3].map(|()| vec![BigRational::zero(); layer.spheres()]);
+        let mut slices = [(); 3].map(|()| vec![BigRational::zero(); layer.sphere_count()]);
         layer.fill(slices.each_mut().map(Vec::as_mut_slice))?;
         let here = contacts
             .iter()

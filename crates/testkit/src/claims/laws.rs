@@ -4,7 +4,7 @@
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{
-    Algebra, DoubleDouble, Field, FixedRational, Interval, RealEmbeddable, laws,
+    DoubleDouble, Field, FixedRational, Interval, Numerators, RealEmbeddable, laws,
 };
 use num_rational::BigRational;
 use num_traits::Zero;

@@ -87,7 +87,7 @@ pub mod standing;
 use core::fmt::{self, Debug, Display};
 
 use arbitrary::Unstructured;
-use cannonpile::scalar::laws::Broken;
+use cannonpile::scalar::laws::BrokenLaw;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
@@ -149,8 +149,8 @@ refusals! {
     #[cfg(feature = "proof")] cannonpile_proof::Error;
 }
 
-impl From<Broken> for Failure {
-    fn from(broken: Broken) -> Self {
+impl From<BrokenLaw> for Failure {
+    fn from(broken: BrokenLaw) -> Self {
         Self::Refuted(broken.to_string())
     }
 }

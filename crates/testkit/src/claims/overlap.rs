@@ -7,7 +7,7 @@
 use core::cmp::Ordering;
 
 use arbitrary::Unstructured;
-use cannonpile::geometry::{Apart, Spacing, squared_distance};
+use cannonpile::geometry::{LayerGap, Spacing, squared_distance};
 use cannonpile::lattice::Dimension;
 use cannonpile::{Error, Pile};
 use num_bigint::BigInt;
@@ -61,7 +61,7 @@ pub fn of_two_spheres(u: &mut Unstructured<'_>) -> Checked {
 
 /// A verdict agrees with all short differences: refused if a pair overlaps, and then because of such a pair,
 /// and otherwise with the pairs that touch named.
-fn agrees(verdict: &Result<Vec<Apart>, Error>, pile: &Pile, spacing: &Spacing) -> Checked {
+fn agrees(verdict: &Result<Vec<LayerGap>, Error>, pile: &Pile, spacing: &Spacing) -> Checked {
     let distances = Distances::new(pile, spacing);
     let mut overlapping = Vec::new();
     let mut touching = Vec::new();
@@ -69,7 +69,7 @@ fn agrees(verdict: &Result<Vec<Apart>, Error>, pile: &Pile, spacing: &Spacing) -
         // A sphere rests on those one contact below it.
         let layers = n.iter().sum::<i128>().unsigned_abs();
         let is_contact = layers == 1 && n.iter().filter(|c| **c != 0).count() == 1;
-        let apart = Apart {
+        let apart = LayerGap {
             layers: u8::try_from(layers).expect("a short difference"),
         };
         match distances.to_diameter(n) {
@@ -199,10 +199,10 @@ mod planted {
     fn a_forgotten_touch_is_caught() {
         let pile = Pile::triangular(4).unwrap();
         let spacing = Spacing::from_square(ratio(8, 3)).unwrap();
-        let three_layers = Apart { layers: 3 };
+        let three_layers = LayerGap { layers: 3 };
         assert!(agrees(&Ok(vec![three_layers]), &pile, &spacing).is_ok());
         assert!(agrees(&Ok(vec![]), &pile, &spacing).is_err());
-        assert!(agrees(&Ok(vec![Apart { layers: 2 }]), &pile, &spacing).is_err());
+        assert!(agrees(&Ok(vec![LayerGap { layers: 2 }]), &pile, &spacing).is_err());
     }
 
     #[test]

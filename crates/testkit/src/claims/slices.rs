@@ -164,7 +164,7 @@ where
         if layer.is_floor() {
             break;
         }
-        let (got, done) = fill::<T, _>(layer.spheres(), |slices| layer.fill(slices))?;
+        let (got, done) = fill::<T, _>(layer.sphere_count(), |slices| layer.fill(slices))?;
         let (Some(bound), false) = (
             layer.error_bound(),
             matches!(done, Err(Error::Overflow { .. })),

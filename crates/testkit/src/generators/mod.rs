@@ -1,10 +1,12 @@
 //! Random inputs from plain bytes, biased to trouble.
 //!
-//! Every generator reads an [`Unstructured`](arbitrary::Unstructured). The property tests feed it the bytes that proptest makes,
+//! Every generator reads an `Unstructured`. The property tests feed it the bytes that proptest makes,
 //! the fuzz targets those that libFuzzer makes: one description of the inputs serves both, and a byte
 //! string that one of them finds can be given to the other. A generator never fails for want of bytes: an
 //! empty input is read as zeros, which is the first of the choices throughout. So the first choice is the ordinary
 //! case, and a rare one is drawn by [`rarely`]: `ratio` is true where no bytes are left.
+//!
+//! Users need some of them too: those are in `cannonpile::arbitrary`, and the modules here re-export them.
 //!
 //! | file | what it makes |
 //! |---|---|
@@ -29,9 +31,4 @@ pub mod scene;
 pub mod stacking;
 pub mod text;
 
-use arbitrary::{Result, Unstructured};
-
-/// Once in so many times, and not where no bytes are left.
-pub fn rarely(u: &mut Unstructured<'_>, of: u8) -> Result<bool> {
-    Ok(u.int_in_range(1..=of)? == of)
-}
+pub use cannonpile::arbitrary::draw::rarely;

@@ -1,6 +1,8 @@
 //! Piles and places in them: one layer, the layers where widths end, corners, bounds of the spacing.
 
 use arbitrary::{Result, Unstructured};
+use cannonpile::arbitrary::regular_pile;
+pub use cannonpile::arbitrary::site;
 use cannonpile::geometry::{Clearance, Spacing};
 use cannonpile::lattice::{Dimension, Direction, MAX_LAYERS, Site};
 use cannonpile::{Error, Packing, Pile};
@@ -25,45 +27,19 @@ pub fn layers(u: &mut Unstructured<'_>) -> Result<i128> {
 /// Any pile: equilateral, isosceles or of discs.
 pub fn pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let layers = layers(u)?;
-    pile_of(u, layers)
+    regular_pile(u, layers)
 }
 
 /// A pile small enough to look at every sphere.
 pub fn small_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let layers = u.int_in_range(1..=5)?;
-    pile_of(u, layers)
+    regular_pile(u, layers)
 }
 
 /// A pile whose sin φ is a float.
 pub fn real_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let (layers, s) = (layers(u)?, number::real_sin_phi(u)?);
     Ok(Pile::isosceles(layers, number::exactly(s)).expect("0 < s < 1"))
-}
-
-fn pile_of(u: &mut Unstructured<'_>, layers: i128) -> Result<Pile> {
-    let pile = match u.int_in_range(0..=3)? {
-        0 => Pile::triangular(layers),
-        1 => Pile::discs(layers),
-        _ => Pile::isosceles(layers, number::sin_phi(u)?),
-    };
-    Ok(pile.expect("layers and sin phi within their limits"))
-}
-
-/// A site of the pile: apex, second, last but one or bottom layer or any; in it a corner, an edge, the
-/// middle or anywhere.
-pub fn site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
-    let floor = pile.layers() - 1;
-    let k = match u.int_in_range(0..=2)? {
-        0 => floor,
-        1 => [0, 1, floor - 1][u.choose_index(3)?].clamp(0, floor),
-        _ => u.int_in_range(0..=floor)?,
-    };
-    let j = match pile.dimension() {
-        Dimension::Two => 0,
-        Dimension::Three => place(u, k)?,
-    };
-    let i = place(u, k - j)?;
-    Ok(Site { i, j, k })
 }
 
 /// A site of the bottom layer.
@@ -73,16 +49,6 @@ pub fn bottom_site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
     Ok(Site {
         k: pile.layers() - 1,
         ..site
-    })
-}
-
-/// A place 0 … last.
-fn place(u: &mut Unstructured<'_>, last: i128) -> Result<i128> {
-    Ok(match u.int_in_range(0..=3)? {
-        0 => 0,
-        1 => last,
-        2 => last / 3,
-        _ => u.int_in_range(0..=last)?,
     })
 }
 

@@ -1,34 +1,9 @@
 //! Stackings: straight, periodic, changed once or anyhow; runs of any length; their notations, and damaged ones.
 
 use arbitrary::{Result, Unstructured};
-use cannonpile::lattice::{MAX_LAYERS, Sign};
+pub use cannonpile::arbitrary::{signs, signs_of};
+use cannonpile::lattice::MAX_LAYERS;
 use cannonpile::stacking::{Notation, Run, Stacking};
-
-/// Up to `most` signs.
-pub fn signs(u: &mut Unstructured<'_>, most: usize) -> Result<Vec<Sign>> {
-    let steps = u.int_in_range(0..=most)?;
-    signs_of(u, steps)
-}
-
-/// So many signs: straight, of period one or two, with one change, or any.
-pub fn signs_of(u: &mut Unstructured<'_>, steps: usize) -> Result<Vec<Sign>> {
-    let first = sign(u)?;
-    let signed = |plus: bool| if plus { first } else { -first };
-    Ok(match u.int_in_range(0..=4)? {
-        0 => vec![first; steps],
-        1 => (0..steps).map(|n| signed(n % 2 == 0)).collect(),
-        2 => (0..steps).map(|n| signed(n / 2 % 2 == 0)).collect(),
-        3 => {
-            let change = u.int_in_range(0..=steps)?;
-            (0..steps).map(|n| signed(n < change)).collect()
-        }
-        _ => (0..steps).map(|_| sign(u)).collect::<Result<_>>()?,
-    })
-}
-
-fn sign(u: &mut Unstructured<'_>) -> Result<Sign> {
-    u.choose(&[Sign::Plus, Sign::Minus]).copied()
-}
 
 /// Runs as somebody may list them: empty ones and neighbours of one sign among them, lengths about the greatest, and
 /// now and then a negative one.
@@ -36,7 +11,7 @@ pub fn runs(u: &mut Unstructured<'_>) -> Result<Vec<Run>> {
     let count = u.int_in_range(0..=6)?;
     let run = |_| {
         Ok(Run {
-            sign: sign(u)?,
+            sign: u.arbitrary()?,
             steps: length(u)?,
         })
     };

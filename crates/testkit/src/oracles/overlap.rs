@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use cannonpile::Error;
-use cannonpile::geometry::Apart;
+use cannonpile::geometry::LayerGap;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -100,7 +100,7 @@ pub fn room(
 }
 
 /// The library's answer says the same.
-pub fn agree(room: Option<&BTreeSet<i128>>, answer: &Result<Vec<Apart>, Error>) -> bool {
+pub fn agree(room: Option<&BTreeSet<i128>>, answer: &Result<Vec<LayerGap>, Error>) -> bool {
     match (room, answer) {
         (None, Err(_)) => true,
         (Some(touching), Ok(apart)) => {

@@ -204,7 +204,7 @@ fn elastic(
     }
     let horizontal = packing.pile().horizontal_forces();
     for (contact, force) in horizontal.filter(|(contact, _)| contact.site == site) {
-        let packed = packing.packed_horizontal(contact, force)?;
+        let packed = packing.horizontal_contact_in_si(contact, force)?;
         surds.push(packed.force);
         surds.extend(packed.vector);
         surds.extend(packed.point);
@@ -250,7 +250,7 @@ fn filled_as<F: Float>(
     match forces_of_layer::<F>(packing, k) {
         // One force is beyond the floats then, and so is the greatest.
         Err(Error::Overflow { .. }) => {
-            let all = packing.magnitudes(Selection::Layer(k))?;
+            let all = packing.contact_forces(Selection::Layer(k))?;
             let all = all.map(|contact| Ok(contact?.force));
             let all = all.collect::<Result<Vec<_>, Error>>()?;
             let greatest = all.iter().max_by_key(|force| force.square());
@@ -270,7 +270,7 @@ fn filled_as<F: Float>(
 fn forces_of_layer<F: Float>(packing: &Packing<'_>, k: i128) -> Result<[Vec<F>; 3], Error> {
     let mut layers = packing.layers::<F>(Selection::Layer(k))?;
     let layer = layers.next_layer()?.expect("the layer asked for");
-    let mut forces = [(); 3].map(|()| vec![F::zero(); layer.spheres()]);
+    let mut forces = [(); 3].map(|()| vec![F::zero(); layer.sphere_count()]);
     layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
     Ok(forces)
 }

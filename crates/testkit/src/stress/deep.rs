@@ -101,7 +101,7 @@ fn lowest_contacts<T: Algebra>(pile: &Pile) -> [Vec<T>; 3] {
         .layers(Selection::Layer(k))
         .expect("room");
     let nothing = T::from_rational(&BigRational::default());
-    let mut forces = [(); 3].map(|()| vec![nothing.clone(); layers.spheres().expect("few")]);
+    let mut forces = [(); 3].map(|()| vec![nothing.clone(); layers.slice_len().expect("few")]);
     layers
         .fill(forces.each_mut().map(Vec::as_mut_slice))
         .expect("forces");

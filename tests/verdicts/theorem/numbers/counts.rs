@@ -70,7 +70,7 @@ fn spheres_are_counted() {
         assert_eq!(in_all, Q::from_integer(all.len().into()));
         assert_eq!(in_all, Q::from_integer(pile.sphere_count().into()));
         let in_base = value(&proof, "Σ 1 over layer k", &[("k", int(last))]);
-        assert_eq!(in_base, Q::from_integer(pile.base_spheres().into()));
+        assert_eq!(in_base, Q::from_integer(pile.base_sphere_count().into()));
         let of_base = all.iter().filter(|site| site.k == last).count();
         assert_eq!(in_base, Q::from_integer(of_base.into()));
     }
@@ -103,7 +103,10 @@ fn contacts_are_counted_by_strength() {
                 let values = [l.clone(), ("n", n.clone())];
                 assert_eq!(&value(&strengths, "N_γ = n−1", &values), count);
                 let n = i128::try_from(n.to_integer()).expect("small");
-                assert_eq!(&Q::from_integer(pile.contacts_of_strength(n).into()), count);
+                assert_eq!(
+                    &Q::from_integer(pile.contact_count_of_strength(n).into()),
+                    count
+                );
             }
             let moment = |power: i32| -> Q {
                 of_direction()

@@ -10,7 +10,7 @@ use crate::table::cell::Cell;
 use crate::table::pieces::{columns, in_pieces, slices};
 use crate::table::rows::{Column, RowIter, Table};
 use crate::table::units::Units;
-use cannonpile::lattice::{HorizontalContact, Link, Site};
+use cannonpile::lattice::{ContactKind, HorizontalContact, Site};
 use cannonpile::shape::{Rows, Selection};
 use cannonpile::{Contacts, PackedContact, Pile};
 
@@ -123,7 +123,7 @@ fn table<'p>(
 }
 
 /// Where a contact is, and the first cells of its row.
-fn contact_cells(pile: &Pile, site: Site, direction: Link) -> Vec<Cell> {
+fn contact_cells(pile: &Pile, site: Site, direction: ContactKind) -> Vec<Cell> {
     let mut cells = Vec::with_capacity(11);
     cells.push(site.k.into());
     cells.extend(places(pile, site));
@@ -194,7 +194,9 @@ fn row(
     match units {
         Units::Pile(_) => cells.push(force.into()),
         Units::Si(packing) => {
-            cells.extend(packed_cells(packing.packed_horizontal(contact, &force)?));
+            cells.extend(packed_cells(
+                packing.horizontal_contact_in_si(contact, &force)?,
+            ));
         }
     }
     Ok(cells)
@@ -224,7 +226,7 @@ fn exact_contacts<'p>(units: &Units<'p>, forces: Contacts<'p, BigRational>) -> R
             Ok(cells)
         })),
         Units::Si(packing) => Box::new(forces.map(move |contact| {
-            let contact = packing.packed(contact?)?;
+            let contact = packing.contact_in_si(contact?)?;
             let mut cells = contact_cells(pile, contact.site, contact.direction);
             cells.extend(packed_cells(contact));
             Ok(cells)

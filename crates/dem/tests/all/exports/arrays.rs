@@ -1,6 +1,6 @@
 //! Numbers in slices: those of the files and tables, bit by bit, in the same order.
 
-use cannonpile::lattice::{HorizontalContact, Link};
+use cannonpile::lattice::{ContactKind, HorizontalContact};
 use cannonpile::shape::Selection;
 use cannonpile::{Pile, Quantity};
 use cannonpile_dem::table::{self, FileFormat, NumberFormat, Units};
@@ -187,7 +187,7 @@ fn horizontal_contacts_come_last_with_the_sphere_that_names_them_first() {
     let numbering = elastic.pile().numbering().expect("numbers");
     let contacts = elastic.pile().horizontal_forces();
     let named = contacts.map(|(HorizontalContact { site, axis }, _)| {
-        assert!(Link::from(axis).direction().is_none());
+        assert!(ContactKind::from(axis).direction().is_none());
         numbering.id(site).expect("a number")
     });
     let last = ids[ids.len() - 3..].iter().map(|[first, _]| *first);

@@ -538,7 +538,7 @@ fn every_kind_of_pile_has_a_card() {
         tables(&page).expect("whole tables");
         assert!(page.starts_with("# A pile of "), "{scene:?}");
         let packing = export.packing();
-        let greatest = packing.magnitudes(Selection::All).expect("forces");
+        let greatest = packing.contact_forces(Selection::All).expect("forces");
         let greatest = greatest
             .map(|contact| contact.expect("a force").force)
             .max();

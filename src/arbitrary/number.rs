@@ -1,0 +1,201 @@
+//! Numbers at which formulas degenerate, roundings tie or machine integers end.
+
+use arbitrary::{Result, Unstructured};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, Pow, Zero};
+
+/// Returns n/d; d is not 0.
+pub(super) fn ratio(n: i64, d: i64) -> BigRational {
+    BigRational::new(n.into(), d.into())
+}
+
+/// Returns base^exponent; the base is not 0.
+pub(super) fn power(base: u32, exponent: i32) -> BigRational {
+    BigRational::from_integer(base.into()).pow(exponent)
+}
+
+/// Draws an integer of either sign: small, about a power of two or of ten, where a machine integer ends, or any of
+/// 128 bits.
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, number};
+///
+/// assert!(number::integer(&mut Unstructured::new(b"some bytes"))?.bits() <= 201);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn integer(u: &mut Unstructured<'_>) -> Result<BigInt> {
+    let n = match u.int_in_range(0..=4)? {
+        0 => u.int_in_range(0..=12)?.into(),
+        3 => BigInt::from(2).pow(*u.choose(&[7_u32, 15, 31, 63, 127])?) + nudge(u)?,
+        1 => BigInt::from(2).pow(u.int_in_range(0..=200_u32)?) + nudge(u)?,
+        2 => BigInt::from(10).pow(u.int_in_range(0..=60_u32)?) + nudge(u)?,
+        _ => BigInt::from(u.arbitrary::<i128>()?),
+    };
+    Ok(if u.arbitrary()? { -n } else { n })
+}
+
+/// Draws an `i128`: about a power of two, at an end of the range, small, or any.
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, number};
+///
+/// assert_eq!(number::machine_integer(&mut Unstructured::new(b""))?, 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn machine_integer(u: &mut Unstructured<'_>) -> Result<i128> {
+    let n = match u.int_in_range(0..=3)? {
+        0 => u.int_in_range(0..=12)?,
+        1 => (1_i128 << u.int_in_range(0..=126)?) + i128::from(nudge(u)?),
+        2 => [i128::MIN, i128::MIN + 1, i128::MAX][u.choose_index(3)?],
+        _ => u.arbitrary()?,
+    };
+    Ok(if u.arbitrary()? { n.wrapping_neg() } else { n })
+}
+
+/// Draws a rational of either sign, zero included: simple, an integer, a float, close to ⅓, ½, 5/6 or 1, or a power of
+/// ten that no float holds.
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, number};
+///
+/// assert_eq!(number::rational(&mut Unstructured::new(b""))?.to_string(), "0");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn rational(u: &mut Unstructured<'_>) -> Result<BigRational> {
+    let r = match u.int_in_range(0..=5)? {
+        0 => ratio(u.int_in_range(0..=12)?, u.int_in_range(1..=12)?),
+        1 => integer(u)?.into(),
+        2 => {
+            let denom = integer(u)?;
+            let denom = if denom.is_zero() { One::one() } else { denom };
+            BigRational::new(integer(u)?, denom)
+        }
+        3 => exactly(float(u)?),
+        4 => {
+            let simple = [ratio(1, 1), ratio(1, 2), ratio(5, 6), ratio(1, 3)];
+            let centre = u.choose(&simple)?;
+            about(u, centre)?
+        }
+        _ => power(10, u.int_in_range(-400..=400)?),
+    };
+    Ok(if u.arbitrary()? { -r } else { r })
+}
+
+/// Draws a finite float: any bit pattern, next to a power of two, a subnormal, or ±[`f64::MAX`].
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, number};
+///
+/// assert!(number::float(&mut Unstructured::new(b"some bytes"))?.is_finite());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn float(u: &mut Unstructured<'_>) -> Result<f64> {
+    let x = match u.int_in_range(0..=4)? {
+        0 => f64::from(u.arbitrary::<i16>()?),
+        1 => power_of_two(u)?.next_up(),
+        2 => power_of_two(u)?.next_down(),
+        3 => f64::from_bits(u.int_in_range(0..=1 << 52)?),
+        _ => u.arbitrary()?,
+    };
+    // Infinities and NaN have a sign, which the largest float takes over.
+    Ok(if x.is_finite() {
+        x
+    } else {
+        f64::MAX.copysign(x)
+    })
+}
+
+/// Draws 2^n for −1022 ≤ n ≤ 1023, by its biased exponent: `powi` needs the standard library.
+fn power_of_two(u: &mut Unstructured<'_>) -> Result<f64> {
+    Ok(f64::from_bits(u.int_in_range(1..=2046_u64)? << 52))
+}
+
+/// Draws sin φ of a pile of spheres, 0 < s < 1: about ½, where the base is equilateral; about 5/6, above which three
+/// layers overlap at every spacing; next to 0 or 1; a simple fraction; or a float.
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, number};
+///
+/// let sin_phi = number::sin_phi(&mut Unstructured::new(b"some bytes"))?;
+/// assert!(cannonpile::Pile::isosceles(3, sin_phi).is_ok());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn sin_phi(u: &mut Unstructured<'_>) -> Result<BigRational> {
+    match u.int_in_range(0..=6)? {
+        0 => Ok(ratio(1, 2)),
+        1 => about(u, &ratio(1, 2)),
+        2 => about(u, &ratio(5, 6)),
+        3 => Ok(power(2, u.int_in_range(-200..=-1)?)),
+        4 => Ok(BigRational::one() - power(2, u.int_in_range(-200..=-1)?)),
+        5 => {
+            let d = u.int_in_range(2..=12)?;
+            Ok(ratio(u.int_in_range(1..=d - 1)?, d))
+        }
+        _ => real_sin_phi(u).map(exactly),
+    }
+}
+
+/// Draws sin φ as a float strictly between 0 and 1: any of them, subnormals included, or evenly spread.
+///
+/// # Errors
+/// Those of [`Unstructured`].
+///
+/// # Examples
+/// ```
+/// use cannonpile::arbitrary::{Unstructured, number};
+///
+/// let s = number::real_sin_phi(&mut Unstructured::new(b"some bytes"))?;
+/// assert!(0.0 < s && s < 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn real_sin_phi(u: &mut Unstructured<'_>) -> Result<f64> {
+    let largest = 1.0_f64.next_down();
+    Ok(if u.arbitrary()? {
+        f64::from_bits(u.int_in_range(1..=largest.to_bits())?)
+    } else {
+        let s = f64::from(u.arbitrary::<u32>()?) / f64::from(u32::MAX);
+        // Not a default: a number to be drawn lies between the two.
+        s.clamp(f64::MIN_POSITIVE, largest)
+    })
+}
+
+/// Returns the rational equal to a finite float, and 0 for the others.
+#[doc(hidden)]
+#[must_use]
+pub fn exactly(x: f64) -> BigRational {
+    // Not a default: the generators draw finite floats only.
+    BigRational::from_float(x).unwrap_or_default()
+}
+
+/// Draws `centre` itself, or a number so close to it that floats may not tell them apart; at most 1/16 off.
+fn about(u: &mut Unstructured<'_>, centre: &BigRational) -> Result<BigRational> {
+    let off = power(2, u.int_in_range(-120..=-4)?);
+    Ok(centre + off * BigInt::from(nudge(u)?))
+}
+
+/// Draws −1, 0 or 1.
+#[doc(hidden)]
+pub fn nudge(u: &mut Unstructured<'_>) -> Result<i32> {
+    u.int_in_range(-1..=1)
+}

@@ -1,0 +1,74 @@
+//! Forces below no sign change, in closed form: the paper, (8) and (9), with the loads on the line.
+
+use num_traits::Zero;
+
+use super::lines::{Line, Lines, start_of};
+use super::meter::Meter;
+use super::question::Method;
+use super::tree::Wanted;
+use crate::formula;
+use crate::lattice::{Direction, Site};
+use crate::scalar::{Algebra, Ring};
+use crate::shape::Stretch;
+
+/// Returns the force below a sphere of a straight stacking along one line, whose site the caller has checked: one increment
+/// more than the spheres above it on the line. `None` where a sign changes, or another method was asked for.
+pub(crate) fn closed_contact<T: Algebra>(
+    lines: &Lines<'_, T>,
+    (site, direction): (Site, Direction),
+    method: Option<Method>,
+    meter: Meter<'_>,
+) -> Option<T::Numerator> {
+    let shape = lines.shape;
+    if !matches!(method, None | Some(Method::Closed)) || !shape.stacking().is_straight() {
+        return None;
+    }
+    let Site { i, j, k } = site;
+    let run = shape.stretch_to(k + 1)?;
+    let above = shape.spheres_above(&run, k, [i, j])[direction.index()];
+    let below = start_of([i, j], direction, run.sign, -1);
+    let force = lines.counted(run, k + 1, below, direction, above + 1);
+    meter.visit(1);
+    Some(force)
+}
+
+impl<T: Algebra> Lines<'_, T> {
+    /// The forces from above on a sphere above which no sign changes, whose site the caller has checked; zero on lines
+    /// not wanted. `None` below a change.
+    pub(crate) fn closed(&self, site: Site, wanted: Wanted) -> Option<[T::Numerator; 3]> {
+        let Site { i, j, k } = site;
+        let Some(run) = self.shape.stretch_to(k) else {
+            return Some([(); 3].map(|()| T::Numerator::zero()));
+        };
+        if run.index > 0 {
+            return None;
+        }
+        let counts = self.shape.spheres_above(&run, k, [i, j]);
+        Some(Direction::ALL.map(|direction| {
+            if wanted.includes(direction) {
+                self.counted(run, k, [i, j], direction, counts[direction.index()])
+            } else {
+                T::Numerator::zero()
+            }
+        }))
+    }
+
+    /// What the `n` spheres above a site on a line add to it, over the first denominator.
+    pub(super) fn counted(
+        &self,
+        run: Stretch,
+        k: i128,
+        site: [i128; 2],
+        direction: Direction,
+        n: i128,
+    ) -> T::Numerator {
+        let ordinary = self.ordinary(T::Numerator::from_i128(n), direction.index());
+        if self.extras.is_empty() {
+            return ordinary;
+        }
+        let [i, j] = site;
+        let line = Line::through(Site { i, j, k }, direction, run);
+        let extras = self.extras.range((line, k - n)..(line, k));
+        extras.fold(ordinary, |sum, (_, extra)| formula::passed_on(sum, extra))
+    }
+}

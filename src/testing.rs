@@ -1,0 +1,110 @@
+//! Strategies of proptest for piles and their parts (feature `proptest`).
+//!
+//! Each strategy draws a byte string and passes it to a generator of [`cannonpile::arbitrary`](crate::arbitrary).
+//! Failing inputs shrink to fewer and smaller bytes, which mostly means smaller piles. The strategies are unnamed types
+//! and combine like all others, by `prop_map`, `prop_flat_map` or in tuples.
+//!
+//! # Examples
+//! ```
+//! use cannonpile::shape::Selection;
+//! use cannonpile::testing::piles;
+//! use proptest::prelude::*;
+//!
+//! proptest! {
+//!     # #![proptest_config(ProptestConfig { failure_persistence: None, cases: 16, ..Default::default() })]
+//!     // In a test module, with `#[test]` above the function.
+//!     fn every_layer_has_a_site(pile in piles()) {
+//!         for k in 0..pile.layers() {
+//!             prop_assert!(pile.sites(Selection::Layer(k)).unwrap().next().is_some());
+//!         }
+//!     }
+//! }
+//! every_layer_has_a_site();
+//! ```
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use arbitrary::{Result, Unstructured};
+use proptest::arbitrary::any;
+use proptest::collection::vec;
+use proptest::strategy::Strategy;
+
+use crate::Pile;
+use crate::arbitrary::site;
+use crate::lattice::{Region, Site};
+use crate::stacking::Stacking;
+
+/// As many bytes as a small pile uses up. A generator that receives fewer reads zeros.
+const BYTES: usize = 256;
+
+/// Small piles of any kind, most of them with weights and loads: those of `Pile`'s
+/// [`Arbitrary`](crate::arbitrary::Arbitrary).
+///
+/// # Examples
+/// ```
+/// use cannonpile::testing::piles;
+/// use proptest::prelude::*;
+///
+/// proptest!(|(pile in piles())| prop_assert!(pile.layers() <= 10));
+/// ```
+pub fn piles() -> impl Strategy<Value = Pile> + Clone {
+    drawn(|u: &mut Unstructured<'_>| u.arbitrary())
+}
+
+/// Regions of up to five sites a side, close to the origin.
+///
+/// # Examples
+/// ```
+/// use cannonpile::testing::regions;
+/// use proptest::prelude::*;
+///
+/// proptest!(|(region in regions())| {
+///     prop_assert_eq!(region.mirrored().mirrored(), region);
+/// });
+/// ```
+pub fn regions() -> impl Strategy<Value = Region> + Clone {
+    drawn(|u: &mut Unstructured<'_>| u.arbitrary())
+}
+
+/// Stackings of up to ten layers.
+///
+/// # Examples
+/// ```
+/// use cannonpile::testing::stackings;
+/// use proptest::prelude::*;
+///
+/// proptest!(|(stacking in stackings())| {
+///     prop_assert_eq!(stacking.reversed().reversed(), stacking);
+/// });
+/// ```
+pub fn stackings() -> impl Strategy<Value = Stacking> + Clone {
+    drawn(|u: &mut Unstructured<'_>| u.arbitrary())
+}
+
+/// Sites of the pile, which may be of any size: corners, edges and the bottom layer more often than others.
+///
+/// # Examples
+/// ```
+/// use cannonpile::testing::{piles, sites_of};
+/// use proptest::prelude::*;
+///
+/// let pairs = piles().prop_flat_map(|pile| (sites_of(&pile), Just(pile)));
+/// proptest!(|((site, pile) in pairs)| prop_assert!(pile.shape().contains(site)));
+/// ```
+pub fn sites_of(pile: &Pile) -> impl Strategy<Value = Site> + Clone + use<> {
+    let pile = pile.clone();
+    drawn(move |u: &mut Unstructured<'_>| site(u, &pile))
+}
+
+/// The values that a generator makes of random bytes.
+fn drawn<T, G>(generator: G) -> impl Strategy<Value = T> + Clone
+where
+    T: fmt::Debug,
+    G: Fn(&mut Unstructured<'_>) -> Result<T> + Clone,
+{
+    let bytes = vec(any::<u8>(), 0..=BYTES);
+    bytes.prop_filter_map("bytes that give a value", move |bytes: Vec<u8>| {
+        generator(&mut Unstructured::new(&bytes)).ok()
+    })
+}
