@@ -239,7 +239,7 @@ pub trait Algebra: Ring + Numerators {
 ///
 /// # Examples
 /// In a [`Field`] the quotient is that of the field:
-/// ```ignore
+/// ```text
 /// impl OwnNumerators for Mine {
 ///     fn ratio(n: Self, d: &Self) -> Option<Self> {
 ///         n.checked_div(d)

@@ -191,7 +191,7 @@ impl<'p, T: Algebra> Layers<'p, T> {
     ///
     /// // Of the 220 spheres 55 are on the floor.
     /// let pile = Pile::triangular(10)?;
-    /// assert_eq!(pile.forces::<f64>().layers(Selection::All)?.spheres()?, 220 - 55);
+    /// assert_eq!(pile.forces::<f64>().layers(Selection::All)?.slice_len()?, 220 - 55);
     /// # Ok::<(), cannonpile::Error>(())
     /// ```
     pub fn slice_len(&self) -> Result<usize, Error> {
