@@ -117,7 +117,7 @@ impl ByMethod {
     pub(crate) fn of<'p>(&self, units: Units<'p>) -> Result<Units<'p>, Error> {
         match self.method {
             None => Ok(units),
-            Some(method) => Ok(units.by(method.into())?),
+            Some(method) => Ok(units.with_method(method.into())?),
         }
     }
 }

@@ -183,7 +183,7 @@ impl Units<'_> {
     /// assert!(Units::of_pile(&pile).with_method(Method::Sweep).is_err());
     /// # Ok::<(), cannonpile_dem::Error>(())
     /// ```
-    pub fn by(self, method: Method) -> Result<Self, Error> {
+    pub fn with_method(self, method: Method) -> Result<Self, Error> {
         Ok(match self {
             Self::Pile(forces) => Self::Pile(Box::new(forces.with_method(method)?)),
             Self::Si(packing) => Self::Si(Box::new(packing.with_method(method)?)),
