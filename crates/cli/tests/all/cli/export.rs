@@ -154,7 +154,8 @@ fn what_is_refused_leaves_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn a_signal_takes_away_what_was_begun() {
+fn a_signal_removes_unfinished_files() {
+    use std::io::Read;
     use std::process::{Command, Stdio};
     use std::thread::sleep;
     use std::time::Duration;
@@ -163,15 +164,19 @@ fn a_signal_takes_away_what_was_begun() {
         let folder = tempfile::tempdir().expect("a folder");
         let into = folder.path().join("new/pile");
         let mut export = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
-            .args(["export", "--layers", "300"])
+            .args(["export", "--layers", "200"])
             .arg(&into)
-            .stderr(Stdio::null())
+            .stderr(Stdio::piped())
             .spawn()
             .expect("the binary runs");
         while !into.exists() || names(&into).is_empty() {
-            let ended = export.try_wait().expect("a child");
-            assert_eq!(ended, None, "it ended before a signal came");
-            sleep(Duration::from_millis(10));
+            if let Some(ended) = export.try_wait().expect("a child") {
+                let mut said = String::new();
+                let stderr = export.stderr.as_mut().expect("a pipe");
+                stderr.read_to_string(&mut said).expect("text");
+                panic!("{ended} before the signal: {said}");
+            }
+            sleep(Duration::from_millis(2));
         }
         let id = export.id().to_string();
         let sent = Command::new("kill").args(["-s", signal, &id]).status();
