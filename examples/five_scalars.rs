@@ -1,8 +1,7 @@
-//! One formula in five scalars: what a sphere presses on the floor with, as a float, a fraction, a fraction of fixed
-//! width, bounds, and for every pile at once.
+//! One formula in six scalar types: the load that a sphere transmits, in fractions, floats, bounds and symbols.
 //!
-//! The formula is written once, over `Ring`; the scalar decides what its answer is worth.
-//! Run it with `cargo run --example five_scalars`.
+//! The generic body is written once, over `Algebra`. The scalar type decides how exact the answer is, and a polynomial
+//! gives the answer for every pile at once. Run it with `cargo run --example five_scalars`.
 
 use core::array;
 
@@ -16,8 +15,8 @@ use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Signed;
 
-/// What sphere (i, j) of layer k presses on the layer below with, its own weight included, in mg/(2(1+s)): s = sin φ
-/// says how slender the base triangles are.
+/// Returns the vertical force that sphere (i, j) of layer k transmits to the layer below, in units of mg/(2(1+s)). Its own
+/// weight is included, and s = sin φ is the angle of the base triangle.
 fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
     let (above, own) = (count::above(&i, &j, &k), increments(&s));
     let received = array::from_fn(|line| force(above[line].clone(), &own[line]));
@@ -30,7 +29,7 @@ fn answer<T: Algebra>(numbers: &[BigRational; 4]) -> T {
 }
 
 fn main() -> Result<(), Error> {
-    // Layer 9 of the pile, sphere (4, 1), on a base with sin φ = 1/3, which is no float.
+    // Layer 9 of the pile, sphere (4, 1), on a base with sin φ = 1/3. No float is equal to 1/3.
     let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
     let numbers = [ratio(4, 1), ratio(1, 1), ratio(9, 1), ratio(1, 3)];
 
@@ -62,14 +61,14 @@ fn main() -> Result<(), Error> {
     );
     assert!(bounds.contains(&exact));
 
-    // And with symbols in place of the numbers: one answer for every sphere of every pile.
+    // Symbols in place of the numbers give one answer for every sphere of every pile.
     let symbols = ["i", "j", "k", "s"].map(Symbol);
     let formula = carried(symbols.map(Polynomial::from));
     println!("a polynomial             {formula}");
     let values: Vec<_> = symbols.into_iter().zip(numbers.clone()).collect();
     assert_eq!(formula.evaluate(&values), Some(exact.clone()));
 
-    // A validated pile is asked in the same scalars, and answers in mg.
+    // A pile answers queries in the same scalar types, in units of mg.
     let pile = Pile::isosceles(10, numbers[3].clone())?;
     let site = Site { i: 4, j: 1, k: 9 };
     let normal = pile.forces::<BigRational>().on_floor(site)?.normal;

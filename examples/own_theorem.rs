@@ -1,8 +1,8 @@
 //! A theorem of one's own: how much energy do the contacts of a cannonball stack store?
 //!
-//! If every contact is a spring, its energy goes as the square of its force. The crate's formula for the forces is run on
-//! symbols, squared, and summed over the pile: what comes out holds for every number of layers. No case is tried, and
-//! nothing is fitted. Run it with `cargo run --example own_theorem`.
+//! The energy of a linear spring is proportional to the square of its force. This program runs the force formula on
+//! symbols, squares it and sums over the pile, so the result holds for every number of layers. Run it with
+//! `cargo run --example own_theorem`.
 
 use core::num::NonZeroI64;
 
@@ -38,7 +38,7 @@ fn energy() -> P {
     layer.sum(Symbol("k"), &zero, &(layers - &P::from_i128(2)))
 }
 
-/// (L−1) L (L+1) (L+2) (2L+1), of which the energy is a fortieth.
+/// Returns (L−1) L (L+1) (L+2) (2L+1), forty times the energy.
 fn claimed() -> P {
     let layers = symbol("L");
     let plus = |n| layers.clone() + &P::from_i128(n);

@@ -1,7 +1,7 @@
-//! Which piles stand? Frictionless spheres only push: where a contact would have to pull, the pile falls.
+//! Which stackings are stable? Frictionless spheres cannot pull, so a pile with a tensile contact force is unstable.
 //!
-//! Lists the stackings of eight layers under one sphere that stand, the shortest that fails, and what a wider top
-//! changes. Run it with `cargo run --example which_stand`.
+//! The census lists the stable stackings of eight layers under one sphere, and of 10³⁰ layers. A wider top layer makes
+//! hexagonal close packing unstable one layer earlier. Run it with `cargo run --example which_stand`.
 
 use cannonpile::lattice::Region;
 use cannonpile::stacking::{Notation, Stacking};
