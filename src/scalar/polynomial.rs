@@ -59,38 +59,45 @@ impl Monomial {
         )
     }
 
-    /// Returns the product; `None` if a power leaves `u32`.
-    fn times(&self, other: &Self) -> Option<Self> {
-        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
-        for (symbol, power) in &other.0 {
-            let own = powers.entry(*symbol).or_default();
-            *own = own.checked_add(*power)?;
-        }
-        Some(Self(powers.into_iter().collect()))
+    /// Returns the symbols of both monomials, sorted.
+    fn symbols(&self, other: &Self) -> Vec<Symbol> {
+        let mut symbols: Vec<Symbol> = self.0.iter().chain(&other.0).map(|(s, _)| *s).collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
     }
 
-    /// Returns the monomial that times `other` is this one, if there is one.
-    fn over(&self, other: &Self) -> Option<Self> {
-        let mut powers: BTreeMap<Symbol, u32> = self.0.iter().copied().collect();
-        for (symbol, power) in &other.0 {
-            let own = powers.get_mut(symbol)?;
-            *own = own.checked_sub(*power)?;
+    /// Combines the powers of each symbol; `None` if one combination is `None`.
+    fn combined(&self, other: &Self, combine: fn(u32, u32) -> Option<u32>) -> Option<Self> {
+        let mut powers = Vec::new();
+        for symbol in self.symbols(other) {
+            match combine(self.power(symbol), other.power(symbol))? {
+                0 => {}
+                power => powers.push((symbol, power)),
+            }
         }
-        powers.retain(|_, power| *power > 0);
-        Some(Self(powers.into_iter().collect()))
+        Some(Self(powers))
+    }
+
+    /// Returns the product; `None` if a power exceeds `u32`.
+    fn times(&self, other: &Self) -> Option<Self> {
+        self.combined(other, u32::checked_add)
+    }
+
+    /// Returns the quotient; `None` if `other` does not divide this monomial.
+    fn over(&self, other: &Self) -> Option<Self> {
+        self.combined(other, u32::checked_sub)
     }
 }
 
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Lexicographic: at the first symbol where the powers differ, the greater power is greater.
+        // Lexicographic: the first symbol with different powers decides, and the greater power is greater.
         let lexicographic = || {
-            let mut symbols: Vec<Symbol> = self.0.iter().chain(&other.0).map(|(s, _)| *s).collect();
-            symbols.sort_unstable();
-            let differing = symbols
-                .into_iter()
-                .find(|s| self.power(*s) != other.power(*s));
-            differing.map_or(Ordering::Equal, |s| self.power(s).cmp(&other.power(s)))
+            let powers = |s: Symbol| self.power(s).cmp(&other.power(s));
+            let mut orders = self.symbols(other).into_iter().map(powers);
+            // Not a default: equal powers of all symbols are equal monomials.
+            orders.find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
         };
         self.degree().cmp(&other.degree()).then_with(lexicographic)
     }
