@@ -44,6 +44,20 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
     THEOREMS.iter()
 }
 
+/// Returns the theorem called `name`; `None` if there is none.
+///
+/// # Examples
+/// ```
+/// use cannonpile_horizontal::theorem;
+///
+/// assert!(theorem::find("virtual-work").is_some());
+/// assert!(theorem::find("equilibrium").is_none());
+/// ```
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Theorem> {
+    all().find(|theorem| theorem.name == name)
+}
+
 const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "horizontal-balance",

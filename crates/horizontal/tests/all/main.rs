@@ -7,6 +7,7 @@ mod census;
 mod certificate;
 mod error;
 mod json;
+mod rounded;
 mod states;
 mod theorem;
 
