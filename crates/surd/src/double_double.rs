@@ -1,8 +1,9 @@
-//! Double-double: an unevaluated sum of two floats, twice the precision of one.
+//! Double-double arithmetic: a number is an unevaluated sum of two floats, with twice the precision of one.
 //!
-//! Algorithms and their bounds: M. Joldes, J.-M. Muller and V. Popescu, "Tight and rigorous error bounds for
-//! basic building blocks of double-word arithmetic", ACM Trans. Math. Softw. 44 (2017). With u = 2^−53 the
-//! relative error of a sum is at most 3u² + 13u³, of a product 7u², of a quotient 15u² + 56u³.
+//! The algorithms and error bounds are from M. Joldes, J.-M. Muller and V. Popescu, "Tight and rigorous
+//! error bounds for basic building blocks of double-word arithmetic", ACM Trans. Math. Softw. 44 (2017).
+//! With u = 2^−53, the relative error is at most 3u² + 13u³ for a sum, 7u² for a product and 15u² + 56u³
+//! for a quotient.
 
 use core::fmt;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -16,11 +17,11 @@ use crate::NearestFloat;
 use crate::error_free::{fast_two_sum, is_ordinary, scale, significand, two_product, two_sum};
 use crate::layout::padded;
 
-/// A number high + low with |low| at most half a unit in the last place of high: about 106 bits.
+/// A number high + low of about 106 bits, with |low| at most half a unit in the last place of high.
 ///
-/// Each operation errs by at most 2^−100 of its result, as long as that is between 2^−900 and 2^1023. Below,
-/// digits are lost gradually. A result beyond the floats, or one of operands that are not finite, is what
-/// `f64` gives for the high parts: an infinity or not-a-number, with low = 0.
+/// The relative error of each operation is at most 2^−100 if the result lies between 2^−900 and 2^1023 in
+/// magnitude. Smaller results lose digits gradually. If the result overflows, or an operand is not finite,
+/// the result is that of `f64` for the high parts: an infinity or not-a-number, with low = 0.
 ///
 /// # Examples
 /// ```
@@ -38,7 +39,7 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Returns a float as a double-double.
+    /// Returns `value` as a double-double, exactly.
     ///
     /// # Examples
     /// ```
@@ -55,7 +56,7 @@ impl DoubleDouble {
         }
     }
 
-    /// Returns high + low, if they are the parts of a double-double: low at most half a unit in the last place of high.
+    /// Returns high + low, or `None` if |low| exceeds half a unit in the last place of high.
     ///
     /// # Examples
     /// ```
@@ -74,7 +75,8 @@ impl DoubleDouble {
         apart.then_some(Self { high, low })
     }
 
-    /// Returns the double-double nearest to a rational, to 2^−106 of it; not-a-number beyond the floats.
+    /// Returns `r` rounded to a double-double, with a relative error of at most 2^−106, or not-a-number if
+    /// `r` overflows an `f64`.
     ///
     /// # Examples
     /// ```
@@ -93,7 +95,7 @@ impl DoubleDouble {
         };
         match parts() {
             Some((high, low)) => Self::finite(fast_two_sum(high, low), high),
-            // Beyond the floats.
+            // The value overflows an `f64`.
             None => Self::new(f64::NAN),
         }
     }
@@ -114,7 +116,7 @@ impl DoubleDouble {
         Some(BigRational::from_float(self.high)? + BigRational::from_float(self.low)?)
     }
 
-    /// Returns whether the number is neither an infinity nor not-a-number.
+    /// Returns `false` for infinities and not-a-number, `true` otherwise.
     ///
     /// # Examples
     /// ```
@@ -143,7 +145,7 @@ impl DoubleDouble {
         (divisor.is_finite() && !divisor.is_zero()).then(|| self.over(divisor))
     }
 
-    /// Returns the nearest float.
+    /// Returns the high part: the number rounded to `f64`.
     ///
     /// # Examples
     /// ```
@@ -158,7 +160,7 @@ impl DoubleDouble {
         self.high
     }
 
-    /// Returns the rest: the number less its nearest float.
+    /// Returns the low part: the number minus its high part.
     ///
     /// # Examples
     /// ```
@@ -173,7 +175,7 @@ impl DoubleDouble {
         self.low
     }
 
-    /// Returns the parts of a result, or the float if that is not finite.
+    /// Returns (high, low) as a double-double, or `float` alone if one part is not finite.
     fn finite((high, low): (f64, f64), float: f64) -> Self {
         if high.is_finite() && low.is_finite() {
             Self { high, low }
@@ -188,12 +190,14 @@ impl DoubleDouble {
             return self;
         }
         let float = scale(self.high, e);
-        // Among the subnormals a low part may be rounded up to a tie.
+        // In the subnormal range the low part can be rounded up to exactly half a unit of the high part.
         Self::finite(fast_two_sum(float, scale(self.low, e)), float)
     }
 
-    /// Returns the number with its high part between 1 and 2, and the power of two taken out: no product of two such
-    /// numbers overflows or loses its error. One of ordinary size is not changed.
+    /// Returns (m, e) with the number equal to m·2^e and 1 ≤ |high part of m| < 2.
+    ///
+    /// Products of two such m neither overflow nor lose their rounding error. A number of moderate size
+    /// (see [`is_ordinary`]) is returned unchanged, with e = 0.
     fn normalised(self) -> (Self, i32) {
         if is_ordinary(self.high) {
             return (self, 0);
@@ -202,20 +206,22 @@ impl DoubleDouble {
         (self.scaled(-e), e)
     }
 
-    /// Returns the sum of two floats, of which the first is the greater, or zero.
+    /// Returns the sum of two floats with |`greater`| ≥ |`lesser`| or `greater` = 0.
     pub(crate) fn from_sum(greater: f64, lesser: f64) -> Self {
         let (high, low) = fast_two_sum(greater, lesser);
         Self { high, low }
     }
 
-    /// Returns the product, by `DWTimesDW1`; both are of ordinary size.
+    /// Returns the product, by the algorithm `DWTimesDW1`. Both factors must be of moderate size
+    /// ([`is_ordinary`]).
     pub(crate) fn ordinary_product(self, rhs: &Self) -> Self {
         let (c, c1) = two_product(self.high, rhs.high);
         let c2 = self.high * rhs.low + self.low * rhs.high;
         Self::from_sum(c, c1 + c2)
     }
 
-    /// Returns the quotient, by `DWDivDW2`; both are of ordinary size.
+    /// Returns the quotient, by the algorithm `DWDivDW2`. Both operands must be of moderate size
+    /// ([`is_ordinary`]).
     pub(crate) fn ordinary_quotient(self, divisor: &Self) -> Self {
         let t = self.high / divisor.high;
         let (r, r1) = divisor.times_float(t);
@@ -223,7 +229,7 @@ impl DoubleDouble {
         Self::from_sum(t, rest / divisor.high)
     }
 
-    /// Returns the quotient; the divisor is finite and not zero.
+    /// Returns the quotient. The divisor must be finite and not zero.
     #[doc(hidden)]
     #[must_use]
     pub fn over(self, divisor: &Self) -> Self {
@@ -244,7 +250,7 @@ impl DoubleDouble {
 impl Add for DoubleDouble {
     type Output = Self;
 
-    /// Returns the sum, by `AccurateDWPlusDW`.
+    /// Returns the sum, by the algorithm `AccurateDWPlusDW`.
     fn add(self, rhs: Self) -> Self {
         let (s, s1) = two_sum(self.high, rhs.high);
         let (t, t1) = two_sum(self.low, rhs.low);
@@ -308,7 +314,7 @@ impl Mul<&Self> for DoubleDouble {
 }
 
 impl PartialOrd for DoubleDouble {
-    /// Compares the exact values; not-a-number is neither less nor greater than anything.
+    /// Compares the exact values. Not-a-number is unordered, as for `f64`.
     fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
         let high = self.high.partial_cmp(&other.high)?;
         Some(high.then(self.low.partial_cmp(&other.low)?))
@@ -321,7 +327,7 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-/// Returns the nearest float.
+/// Returns the number rounded to `f64`.
 impl From<DoubleDouble> for f64 {
     fn from(value: DoubleDouble) -> Self {
         value.high
@@ -329,7 +335,8 @@ impl From<DoubleDouble> for f64 {
 }
 
 impl fmt::Display for DoubleDouble {
-    /// Writes the two parts as an exact sum, `0.1 - 5.551115123125783e-18`; one that is a float alone.
+    /// Writes the two parts as an exact sum, `0.1 - 5.551115123125783e-18`, or the high part alone if low =
+    /// 0.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.low == 0.0 {
             return fmt::Display::fmt(&self.high, f);

@@ -1,4 +1,4 @@
-//! What can be wrong with a number.
+//! Errors of parsing and of constructing numbers.
 
 use alloc::string::{String, ToString};
 use core::fmt;
@@ -7,7 +7,7 @@ use num_rational::BigRational;
 
 use crate::short::{numbers, quoted};
 
-/// What is wrong with a number that was given, with the number and the remedy.
+/// An invalid number. The message states the value that was given and the remedy.
 ///
 /// # Examples
 /// ```
@@ -19,7 +19,7 @@ use crate::short::{numbers, quoted};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The root of a negative number.
+    /// The radicand of a square root is negative.
     #[non_exhaustive]
     NegativeRadicand {
         /// The radicand that was given.

@@ -1,6 +1,7 @@
-//! Sums and products of floats together with their rounding errors, which are floats again.
+//! Error-free transformations: sums and products of floats together with their rounding errors, which are
+//! floats again.
 //!
-//! Without a fused multiply-add, which `core` does not have: Knuth's sum and Dekker's product.
+//! `core` has no fused multiply-add, so the algorithms are Knuth's sum and Dekker's product.
 
 /// Returns (s, e) with s = fl(a + b) and s + e = a + b exactly, unless s overflows.
 #[must_use]
@@ -11,14 +12,14 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - from_a) + (b - from_b))
 }
 
-/// Returns what [`two_sum`] does, for |a| ≥ |b| or a = 0.
+/// Returns the same as [`two_sum`], at half the cost, for |a| ≥ |b| or a = 0.
 #[must_use]
 pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
-/// Returns (p, e) with p = fl(a b) and p + e = a b exactly, for factors of ordinary size: [`significand`]s.
+/// Returns (p, e) with p = fl(a·b) and p + e = a·b exactly, for factors of moderate size ([`is_ordinary`]).
 #[must_use]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
@@ -26,21 +27,24 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     (p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2)
 }
 
-/// Returns a as a sum, by Veltkamp's splitting into two halves of at most 26 bits.
+/// Returns a as a sum of two halves of at most 26 bits each, by Veltkamp's splitting.
 fn split(a: f64) -> (f64, f64) {
     let c = 134_217_729.0 * a; // 2^27 + 1
     let high = c - (c - a);
     (high, a - high)
 }
 
-/// Returns whether a is neither so great nor so small that a product or quotient of two such numbers, or the error of
-/// one, leaves the range of floats: then [`two_product`] takes it unchanged.
+/// Returns whether 2^−400 ≤ |a| < 2^400.
+///
+/// Products and quotients of two such numbers neither overflow nor underflow, and neither do their rounding
+/// errors. So [`two_product`] is exact for them without scaling.
 #[must_use]
 pub fn is_ordinary(a: f64) -> bool {
     (power_of_two(-400)..power_of_two(400)).contains(&a.abs())
 }
 
-/// Returns (m, e) with a = m·2^e and 1 ≤ |m| < 2, for a finite and not zero; other values unchanged, with e = 0.
+/// Returns (m, e) with a = m·2^e and 1 ≤ |m| < 2. Zero and values that are not finite are returned
+/// unchanged, with e = 0.
 #[must_use]
 pub fn significand(a: f64) -> (f64, i32) {
     if a == 0.0 || !a.is_finite() {
@@ -56,19 +60,19 @@ pub fn significand(a: f64) -> (f64, i32) {
     (f64::from_bits(significand), i32::from(field) - 1023)
 }
 
-/// Returns 2^e for −1022 ≤ e ≤ 1023, and the nearer of these ends beyond.
+/// Returns 2^e for −1022 ≤ e ≤ 1023. An exponent outside this range is clamped to it.
 #[must_use]
 pub fn power_of_two(e: i32) -> f64 {
-    // Not a default: beyond the ends the nearer of them is what is asked for.
+    // Clamping is the documented behaviour, not a fallback for an impossible case.
     let field = e.clamp(-1022, 1023) + 1023;
     f64::from_bits(u64::from(field.unsigned_abs()) << 52)
 }
 
-/// Returns a·2^e, rounded once more where it is subnormal.
+/// Returns a·2^e, with one further rounding if the result is subnormal.
 #[must_use]
 pub fn scale(a: f64, e: i32) -> f64 {
-    // No one power reaches from the least subnormal to the greatest float; three do, and none overflows
-    // or underflows before the result does.
+    // One power of two cannot span the range from the smallest subnormal to the largest float. Three
+    // factors can, and no intermediate result overflows or underflows before the final one.
     let (third, rest) = (e / 3, e - 2 * (e / 3));
     a * power_of_two(third) * power_of_two(third) * power_of_two(rest)
 }
@@ -77,9 +81,9 @@ pub fn scale(a: f64, e: i32) -> f64 {
 mod tests {
     use super::*;
 
-    /// Of normal floats, and of the least and the greatest of those that are not.
+    /// Covers normal floats and the smallest and largest subnormals.
     #[test]
-    fn a_significand_and_its_power_are_the_float() {
+    fn significand_times_power_restores_float() {
         let least = f64::from_bits(1);
         let subnormal = f64::MIN_POSITIVE.next_down();
         for (a, parts) in [

@@ -4,15 +4,16 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use core::fmt::{self, Alignment, Display, Write};
 
-/// Writes `text` with the width, the fill and the alignment that `f` asks for, on the left unless it asks otherwise.
+/// Writes `text` with the width, fill and alignment of `f`; the default alignment is left.
 ///
-/// A precision does not cut the text off, as it would in `f.pad`: the rest would read as another number.
+/// A precision does not truncate the text, unlike in `f.pad`: a truncated number would read as another
+/// number.
 ///
 /// # Errors
-/// Those of the formatter.
+/// Returns the errors of the formatter.
 pub fn padded(f: &mut fmt::Formatter<'_>, text: fmt::Arguments<'_>) -> fmt::Result {
     let Some(width) = f.width() else {
-        // A long text is not copied.
+        // Without a width a long text is written without a copy.
         return f.write_fmt(text);
     };
     let text = text.to_string();
@@ -28,7 +29,8 @@ pub fn padded(f: &mut fmt::Formatter<'_>, text: fmt::Arguments<'_>) -> fmt::Resu
     (before..missing).try_for_each(|_| f.write_char(fill))
 }
 
-/// Returns a number as `f` prints it inside a larger text: with its sign and precision, without its width.
+/// Returns a number as `f` prints it inside a larger text: with the sign and precision of `f`, without its
+/// width.
 #[must_use]
 pub fn part(f: &fmt::Formatter<'_>, number: &impl Display) -> String {
     match (f.sign_plus(), f.precision()) {
@@ -43,7 +45,7 @@ pub fn part(f: &fmt::Formatter<'_>, number: &impl Display) -> String {
 mod tests {
     use super::*;
 
-    /// Two numbers with a dash between them.
+    /// Two numbers separated by a dash.
     struct Pair(f64, f64);
 
     impl Display for Pair {
@@ -54,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_is_padded_and_its_numbers_are_signed() {
+    fn padded_text_keeps_signs_and_precision() {
         let pair = Pair(0.5, -2.25);
         for (printed, expected) in [
             (format!("{pair}"), "0.5–-2.25"),

@@ -1,7 +1,8 @@
-//! Exact numbers c·√r, the float nearest to each, and double-double arithmetic.
+//! Exact numbers c·√r, their correct rounding to `f32` and `f64`, and double-double arithmetic.
 //!
-//! A [`Surd`] is a rational times the root of a positive integer. Surds multiply, compare and print exactly, and
-//! [`Surd::nearest`] rounds one correctly (to nearest, ties to even) to an `f32` or `f64`, whatever its size.
+//! A [`Surd`] is a rational number times the square root of a positive integer. Products, comparisons and
+//! printed forms of surds are exact. [`Surd::nearest`] rounds a surd of any size correctly (to nearest,
+//! ties to even).
 //! ```
 //! use exact_surd::Surd;
 //!
@@ -15,17 +16,19 @@
 //! # Map
 //! | module or type | contents |
 //! |---|---|
-//! | [`Surd`] | c·√r: products, order, roots taken out |
-//! | [`NearestFloat`] | correct rounding of a rational, decided by a double-double enclosure or else in integers |
-//! | [`DoubleDouble`] | the sum of two floats, with about 106 bits, after Joldes, Muller and Popescu (2017) |
-//! | [`error_free`] | sums and products of floats with their rounding errors, which are floats too |
-//! | [`rational`] | sums, products and quotients of rationals over denominators that are mostly powers of three |
-//! | [`parse`] | rationals and integers from text, exactly |
+//! | [`Surd`] | numbers c·√r: products, comparison, extraction of square factors |
+//! | [`NearestFloat`] | correct rounding of a rational, by a double-double enclosure or by integer arithmetic |
+//! | [`DoubleDouble`] | unevaluated sums of two floats, about 106 bits, after Joldes, Muller and Popescu (2017) |
+//! | [`error_free`] | error-free transformations: sums and products of floats with their rounding errors |
+//! | [`rational`] | sums, products and quotients of rationals whose denominators are mostly powers of three |
+//! | [`parse`] | exact rationals and integers from text |
 //!
 //! # Guarantees
-//! * Every operation on a surd is exact; [`Surd::nearest`] is correctly rounded, subnormals included.
-//! * No operation panics, except with a `Ratio` whose denominator is zero (made by `Ratio::new_raw`).
-//! * No `unsafe`; `no_std` with `alloc` without the default feature `std`. The feature `serde` writes numbers as strings.
+//! * Every operation on a surd is exact. [`Surd::nearest`] is correctly rounded, also among the subnormals.
+//! * No operation panics, with one exception: a `Ratio` whose denominator is zero, which only
+//!   `Ratio::new_raw` can make.
+//! * The crate contains no `unsafe`. Without the default feature `std` it is `no_std` with `alloc`. The
+//!   feature `serde` writes numbers as strings.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -1,9 +1,15 @@
-//! The float nearest to an exact value: decided in integers, never guessed.
+//! Correct rounding of rationals and square roots to `f32` and `f64` (to nearest, ties to even).
 //!
-//! A rational n/d, and a root √(n/d), are scaled by a power of two until their integer part has a
-//! few bits more than the float. What lies below that integer part is summed up in one *sticky* bit:
-//! is it zero or not? Together they decide every rounding, ties to even, through the subnormals
-//! down to zero. In front of that is a screen of double-doubles, which decides most of them at once.
+//! A rational n/d, or a root √(n/d), is scaled by a power of two until its integer part has a few bits more
+//! than the significand of the float. One *sticky* bit records whether the fractional part is zero. The
+//! integer part and the sticky bit determine the rounding, also for subnormals and for zero.
+//!
+//! Example: 1/3 in a format of 2 bits. Scaled by 2^6 it is 21 + 1/3, so the integer part is 10101 in binary
+//! and the sticky bit is 1. The first dropped bit is 1 and the rest is not zero, so the result is 11·2^−3 =
+//! 3/8.
+//!
+//! A faster test comes first: a double-double enclosure decides most roundings without big integers (see
+//! `screen`).
 
 use num_bigint::BigUint;
 use num_integer::Integer;
@@ -12,11 +18,14 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 mod sealed {
     pub trait Assemble: Sized {
-        /// Returns the float ±`significand` · 2^`exponent`, for a significand of at most one bit more than the float
-        /// has, and an exponent not below the least: `None` when it is too large.
+        /// Returns the float ±`significand` · 2^`exponent`, or `None` if it overflows.
+        ///
+        /// The significand has at most one bit more than the format, and the exponent is at least
+        /// `LEAST_EXPONENT`.
         fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
 
-        /// Returns the float that all numbers between these, times 2^`exponent`, are nearest to, if there is one.
+        /// Returns the float to which every number between `ends[0]`·2^`exponent` and
+        /// `ends[1]`·2^`exponent` rounds, or `None` if the two ends round differently.
         fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self>;
     }
 }
@@ -25,17 +34,17 @@ use crate::error_free::power_of_two;
 use crate::screen::enclose;
 use sealed::Assemble;
 
-/// A binary floating-point format to round to: `f32` or `f64`. Sealed.
+/// A binary floating-point format to round to: `f32` or `f64`. The trait is sealed.
 ///
-/// `f32` is reached directly, never by way of `f64`: rounding twice can miss the nearest.
+/// Rounding to `f32` is direct. Rounding to `f64` first and then to `f32` can miss the nearest `f32`.
 pub trait NearestFloat: Assemble + Copy + Send + Sync {
-    /// Bits of the significand, the leading one included.
+    /// The number of bits of the significand, including the leading bit.
     const PRECISION: u32;
 
-    /// The exponent of the last bit of the smallest subnormal.
+    /// The exponent of the last bit of a subnormal: the smallest positive float is 2 to this power.
     const LEAST_EXPONENT: i64;
 
-    /// Returns the float nearest to `r`, ties to even; `None` when it would be infinite.
+    /// Returns the float nearest to `r`, ties to even, or `None` if it overflows.
     ///
     /// # Examples
     /// ```
@@ -54,7 +63,7 @@ pub trait NearestFloat: Assemble + Copy + Send + Sync {
     }
 }
 
-/// Returns the float nearest to ±n/d; `None` when it would be infinite. d is not zero.
+/// Returns the float nearest to ±n/d, or `None` if it overflows. d must not be zero.
 pub(crate) fn nearest_ratio<F: NearestFloat>(
     negative: bool,
     n: &BigUint,
@@ -65,17 +74,18 @@ pub(crate) fn nearest_ratio<F: NearestFloat>(
     round(negative, &quotient, !remainder.is_zero(), -scale)
 }
 
-/// Returns the float nearest to ±√(n/d), which must be irrational, so that there are no ties; `None` when it would be
-/// infinite. d is not zero.
+/// Returns the float nearest to ±√(n/d), or `None` if it overflows. d must not be zero.
+///
+/// The root must be irrational, so that no tie can occur.
 pub(crate) fn nearest_root<F: NearestFloat>(negative: bool, n: &BigUint, d: &BigUint) -> Option<F> {
-    // ⌊√(2^(2s) n/d)⌋ = ⌊√⌊2^(2s) n/d⌋⌋: one integer division, one integer root.
+    // ⌊√(2^(2s) n/d)⌋ = ⌊√⌊2^(2s) n/d⌋⌋, so one integer division and one integer square root suffice.
     let scale = guard_bits::<F>() - (bits(n) - bits(d)).div_euclid(2);
     let (quotient, _) = shifted_quotient(n, d, 2 * scale);
     let sticky = true;
     round(negative, &quotient.sqrt(), sticky, -scale)
 }
 
-/// Returns the float nearest to ±(n/d)·√r, where the screen decides it; d is not zero.
+/// Returns the float nearest to ±(n/d)·√r if the double-double enclosure decides it. d must not be zero.
 pub(crate) fn screened<F: NearestFloat>(
     negative: bool,
     n: &BigUint,
@@ -86,8 +96,10 @@ pub(crate) fn screened<F: NearestFloat>(
     F::between(negative, ends, exponent)
 }
 
-/// Returns the float that both ends round to once they are multiplied by 2^exponent, if it is one; they lie between 2^−20 and
-/// 2^20. `None` where a f64 or its neighbours would not be normal.
+/// Returns the float to which both `ends`, times 2^`exponent`, round, or `None` if they round differently.
+///
+/// Both ends must lie between 2^−20 and 2^20. The result is also `None` if an `f64` near the ends is not
+/// normal.
 #[doc(hidden)]
 #[must_use]
 pub fn float_between<F: NearestFloat>(negative: bool, ends: [f64; 2], exponent: i64) -> Option<F> {
@@ -108,13 +120,13 @@ macro_rules! nearest_float {
         impl Assemble for $float {
             fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self> {
                 let hidden = 1_u64 << (Self::PRECISION - 1);
-                // Rounding up may have carried into one bit more than there are.
+                // Rounding up can carry into one further bit.
                 let (significand, exponent) = if significand == 2 * hidden {
                     (hidden, exponent.saturating_add(1))
                 } else {
                     (significand, exponent)
                 };
-                // Without the hidden bit the value is subnormal, and its exponent the least.
+                // Without the hidden bit the value is subnormal, and its biased exponent is 0.
                 let biased = if significand < hidden {
                     0
                 } else {
@@ -132,7 +144,7 @@ macro_rules! nearest_float {
                 Some(if negative { -float } else { float })
             }
 
-            #[expect(clippy::float_cmp, reason = "one and the same float is meant")]
+            #[expect(clippy::float_cmp, reason = "the test is for identical floats")]
             fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self> {
                 let [down, up] = $ends(ends, exponent);
                 (down == up && up.is_finite()).then(|| if negative { -down } else { down })
@@ -144,21 +156,22 @@ macro_rules! nearest_float {
 nearest_float!(f32, u32, ends_in_f32);
 nearest_float!(f64, u64, ends_in_f64);
 
-/// Returns the ends times a power of two: both are rounded to f64 already, and the power is exact.
+/// Returns the ends times a power of two. The ends are `f64` already, and the multiplication is exact.
 fn ends_in_f64(ends: [f64; 2], exponent: i32) -> [f64; 2] {
     ends.map(|end| end * power_of_two(exponent))
 }
 
-/// Returns the ends times a power of two, in `f32`. Never rounded twice: those in f64 are taken one float further out.
+/// Returns the ends times a power of two, rounded to `f32`. Each `f64` end is first moved outwards by one
+/// float, which makes double rounding harmless.
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "rounded, and compared with the other end"
+    reason = "the rounded value is compared with that of the other end"
 )]
 fn ends_in_f32([down, up]: [f64; 2], exponent: i32) -> [f32; 2] {
     [down.next_down(), up.next_up()].map(|end| (end * power_of_two(exponent)) as f32)
 }
 
-/// Returns how many bits of a value are computed: enough for the significand, the half and some more.
+/// Returns the number of bits of a value that are computed: those of the significand and three guard bits.
 fn guard_bits<F: NearestFloat>() -> i64 {
     i64::from(F::PRECISION) + 3
 }
@@ -172,7 +185,7 @@ fn bits(n: &BigUint) -> i64 {
     n.bits() as i64
 }
 
-/// Returns quotient and remainder of 2^`shift` · n / d, with d scaled instead where the shift is negative.
+/// Returns quotient and remainder of 2^`shift` · n / d. For a negative shift, d is scaled instead.
 fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) {
     if shift >= 0 {
         (n << shift).div_rem(d)
@@ -181,9 +194,9 @@ fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) 
     }
 }
 
-/// Rounds ±(m + ε) · 2^exponent, where 0 ≤ ε < 1 and `sticky` says whether ε > 0.
+/// Rounds ±(m + ε) · 2^exponent, where 0 ≤ ε < 1, and `sticky` is true if ε > 0.
 ///
-/// A sticky value must come with at least two bits more than the significand has.
+/// If `sticky` is true, m must have at least two bits more than the significand.
 fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i64) -> Option<F> {
     if m.is_zero() && !sticky {
         return F::assemble(false, 0, F::LEAST_EXPONENT);
@@ -191,7 +204,7 @@ fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i
     let last_bit = (bits(m) + exponent - i64::from(F::PRECISION)).max(F::LEAST_EXPONENT);
     let dropped = last_bit - exponent;
     let Ok(dropped @ 1..) = u64::try_from(dropped) else {
-        // All bits are kept, and some zeros appended.
+        // All bits are kept, with zeros appended.
         let significand = (m << -dropped).to_u64()?;
         return F::assemble(negative, significand, last_bit);
     };
@@ -207,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_has_fewer_bits_than_a_float_is_kept_whole() {
+    fn short_integers_are_exact() {
         let rounded = |n: u32, exponent| round::<f64>(false, &n.into(), false, exponent);
         assert_eq!(
             [rounded(5, 0), rounded(5, -1), rounded(1, 1023)],
@@ -218,15 +231,15 @@ mod tests {
         assert_eq!(zero.map(f64::to_bits), Some(0));
     }
 
-    /// A half and two bits more.
+    /// One bit for the half, and two more.
     #[test]
-    fn three_bits_guard_a_significand() {
+    fn significand_has_three_guard_bits() {
         assert_eq!((guard_bits::<f64>(), guard_bits::<f32>()), (56, 27));
     }
 
-    /// Not at the ends of the exponents, where floats are not normal.
+    /// Exponents near the ends of the range give `None`, because floats are not normal there.
     #[test]
-    fn ends_that_round_to_one_float_decide_it() {
+    fn equal_roundings_of_ends_decide() {
         let between = |ends, exponent| float_between::<f64>(false, ends, exponent);
         assert_eq!(between([1.0, 1.0], 0), Some(1.0));
         assert_eq!(between([1.5, 1.5], -3), Some(0.1875));

@@ -1,7 +1,7 @@
-//! Numbers from text, exactly.
+//! Exact parsing of rationals and integers.
 //!
-//! There is one limit for all of them, [`MOST_DIGITS`], so that whatever is read is also printed as something that is
-//! read.
+//! All parsers share one limit on the number of digits, [`MOST_DIGITS`]. Hence the printed form of every
+//! parsed number can be parsed again.
 
 use core::str::FromStr;
 
@@ -11,21 +11,21 @@ use num_traits::{Pow, Signed, Zero};
 
 use crate::{Error, Surd};
 
-/// The most digits of an integer, of a numerator and of a denominator, those of powers of ten included: 5,000.
+/// The maximum number of digits of an integer, a numerator or a denominator: 5,000.
 ///
-/// So `1e4999` is read and `1e5000` refused.
+/// Powers of ten count: `1e4999` is accepted and `1e5000` is rejected.
 pub const MOST_DIGITS: usize = 5_000;
 
-/// What was expected in place of a text.
+/// A description of the expected text, which completes "… is not".
 type Expected = &'static str;
 
 const NUMBER: Expected = "a number such as 6/5, 1.2 or 1e-3";
 const SHORTER: Expected = "a number of at most 5000 digits";
 
-/// Reads a rational: `6/5`, `-3`, or a decimal, `1.2`, `.5`, `1e-3`, which is taken at its exact value.
+/// Parses a rational: `6/5`, `-3`, or a decimal such as `1.2`, `.5` or `1e-3`, which is read exactly.
 ///
 /// # Errors
-/// [`Error::Syntax`], also for more than [`MOST_DIGITS`] digits.
+/// Returns [`Error::Syntax`] if `text` is not a rational, or has more than [`MOST_DIGITS`] digits.
 ///
 /// # Examples
 /// ```
@@ -48,10 +48,10 @@ pub fn rational(text: &str) -> Result<BigRational, Error> {
     read.map_err(|expected| Error::syntax(text, expected))
 }
 
-/// Reads an integer: `-12`, or with a power of ten, `1e36`, `2.5e3`.
+/// Parses an integer: `-12`, or with a power of ten, `1e36`, `2.5e3`.
 ///
 /// # Errors
-/// [`Error::Syntax`], also for more than [`MOST_DIGITS`] digits.
+/// Returns [`Error::Syntax`] if `text` is not an integer, or has more than [`MOST_DIGITS`] digits.
 ///
 /// # Examples
 /// ```
@@ -63,7 +63,7 @@ pub fn rational(text: &str) -> Result<BigRational, Error> {
 /// # Ok::<(), exact_surd::Error>(())
 /// ```
 pub fn big_integer(text: &str) -> Result<BigInt, Error> {
-    // Without a power of ten no point is needed.
+    // A decimal point is allowed only with a power of ten.
     let read = if text.contains(['e', 'E']) {
         decimal(text)
     } else {
@@ -76,10 +76,10 @@ pub fn big_integer(text: &str) -> Result<BigInt, Error> {
     }
 }
 
-/// Reads an integer that fits `i128`: `-12`, or with a power of ten, `1e36`.
+/// Parses an integer that fits an `i128`: `-12`, or with a power of ten, `1e36`.
 ///
 /// # Errors
-/// [`Error::Syntax`].
+/// Returns [`Error::Syntax`] if `text` is not an integer, or does not fit.
 ///
 /// # Examples
 /// ```
@@ -98,11 +98,12 @@ pub fn integer(text: &str) -> Result<i128, Error> {
 impl FromStr for Surd {
     type Err = Error;
 
-    /// Reads a number c·√r as it is printed: `7/3`, `sqrt(2)`, `-7/3*sqrt(2)`. The radicand may be any rational that
-    /// is not negative.
+    /// Parses a number c·√r in its printed form: `7/3`, `sqrt(2)`, `-7/3*sqrt(2)`. The radicand is any
+    /// rational that is zero or positive.
     ///
     /// # Errors
-    /// [`Error::Syntax`], and [`Error::NegativeRadicand`].
+    /// Returns [`Error::Syntax`] for an invalid text, and [`Error::NegativeRadicand`] for a negative
+    /// radicand.
     fn from_str(text: &str) -> Result<Self, Error> {
         let Some((coefficient, root)) = text.split_once("sqrt(") else {
             return rational(text).map(Self::from);
@@ -119,10 +120,12 @@ impl FromStr for Surd {
 }
 
 impl Surd {
-    /// Returns the number if it is printed as one that is read: what is brought together may be longer than its parts.
+    /// Returns the number if its printed form can be parsed again.
+    ///
+    /// The normal form of `text` can have more digits than its parts: √(a/b) is stored as √(ab)/b.
     ///
     /// # Errors
-    /// [`Error::Syntax`], which quotes what was read.
+    /// Returns [`Error::Syntax`], which quotes `text`, if a part has more than [`MOST_DIGITS`] digits.
     #[doc(hidden)]
     pub fn if_short(self, text: &str) -> Result<Self, Error> {
         let coefficient = self.coefficient();
@@ -135,9 +138,9 @@ impl Surd {
     }
 }
 
-/// Whether an integer has no more than [`MOST_DIGITS`].
+/// Returns whether an integer has at most [`MOST_DIGITS`] digits.
 fn is_short(n: &BigUint) -> bool {
-    // A digit has more than three bits.
+    // One decimal digit is more than three bits, so this cheap test suffices for most numbers.
     n.bits() <= 3 * MOST_DIGITS as u64 || *n < Pow::pow(BigUint::from(10_u32), MOST_DIGITS)
 }
 
@@ -154,7 +157,7 @@ fn decimal(text: &str) -> Result<BigRational, Expected> {
     let (negative, mantissa) = sign(mantissa);
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     if whole.len() + fraction.len() > MOST_DIGITS {
-        // Only what would be a number is too long a number.
+        // The error says "too many digits" only if the text is otherwise a number.
         let digits = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
         let number = digits(whole) && digits(fraction);
         return Err(if number { SHORTER } else { NUMBER });
@@ -179,14 +182,14 @@ fn decimal(text: &str) -> Result<BigRational, Expected> {
     })
 }
 
-/// Reads an integer with an optional sign.
+/// Parses an integer with an optional sign.
 fn signed(text: &str) -> Result<BigInt, Expected> {
     let (negative, rest) = sign(text);
     let unsigned = unsigned(rest)?;
     Ok(if negative { -unsigned } else { unsigned })
 }
 
-/// Returns whether there is a leading minus, and the text behind the sign.
+/// Returns whether the text begins with a minus sign, and the text after the sign.
 fn sign(text: &str) -> (bool, &str) {
     match text.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -194,7 +197,7 @@ fn sign(text: &str) -> (bool, &str) {
     }
 }
 
-/// Reads decimal digits and nothing else.
+/// Parses a non-empty sequence of decimal digits.
 fn unsigned(text: &str) -> Result<BigInt, Expected> {
     if text.is_empty() || !text.bytes().all(|b| b.is_ascii_digit()) {
         return Err(NUMBER);
@@ -213,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn there_is_one_limit_of_digits() {
+    fn all_parsers_share_digit_limit() {
         let nines = |n: usize| "9".repeat(n);
         let most = MOST_DIGITS;
         for read in [
@@ -226,7 +229,7 @@ mod tests {
             format!("{}e-10", nines(most)),
         ] {
             let value = rational(&read).unwrap();
-            // What is printed is read.
+            // The printed form can be parsed.
             assert_eq!(rational(&value.to_string()), Ok(value));
         }
         for refused in [
@@ -244,9 +247,10 @@ mod tests {
         }
     }
 
-    /// 10²⁹⁹⁹ + 9 and 10²⁹⁹⁹ + 7 share no factor, so that the radicand is their product.
+    /// 10^(n+1) + 9 and 10^(n+1) + 7 have no common factor, so the radicand of the normal form is their
+    /// product.
     #[test]
-    fn a_root_is_read_if_what_it_is_printed_as_is_read() {
+    fn root_is_accepted_if_its_printed_form_is() {
         let ends_in = |zeros: usize, digit: char| format!("1{}{digit}", "0".repeat(zeros));
         for (zeros, is_read) in [(2_498, true), (2_999, false)] {
             let [numer, denom] = ['9', '7'].map(|digit| ends_in(zeros, digit));
@@ -257,14 +261,14 @@ mod tests {
                 assert_eq!(read.to_string().parse(), Ok(read));
             }
         }
-        // A coefficient of 5000 digits, and the first of 5001.
+        // The first coefficient has 5000 digits, the second 5001.
         let times_ten = |digits: &str| format!("{digits}*sqrt(100)").parse::<Surd>();
         assert!(times_ten(&"9".repeat(MOST_DIGITS - 1)).is_ok());
         assert!(times_ten(&ends_in(MOST_DIGITS - 2, '0')).is_err());
     }
 
     #[test]
-    fn only_what_would_be_a_number_is_called_too_long() {
+    fn too_many_digits_is_reported_for_numbers_only() {
         let long = "9".repeat(MOST_DIGITS + 1);
         for text in [
             format!("x{long}"),
@@ -285,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn among_digits_is_nothing_else() {
+    fn characters_other_than_digits_are_rejected() {
         for text in [
             "", "-", "+", ".", "1_000", "--5", "+-5", "-+5", "1/-5", "1/+5", "1/", "/2", "1e--3",
             "1e1_0", "1._5", "1.-5", "0x10", " 1", "1 ",
@@ -296,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn integers_take_powers_of_ten() {
+    fn integers_accept_powers_of_ten() {
         for (text, value) in [("1e3", 1_000), ("2.5E+3", 2_500), ("-10e-1", -1), ("+7", 7)] {
             assert_eq!(integer(text), Ok(value), "{text}");
         }

@@ -5,8 +5,10 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Zero, pow};
 
-/// Returns the least common multiple of two positive integers. Most denominators of a pile divide each other, which is found
-/// sooner than a divisor.
+/// Returns the least common multiple of two positive integers.
+///
+/// In most calls one of the two divides the other. That test is cheaper than a greatest common divisor, so
+/// it comes first.
 #[must_use]
 pub fn common_multiple(a: BigInt, b: &BigInt) -> BigInt {
     if a.is_multiple_of(b) {
@@ -18,14 +20,14 @@ pub fn common_multiple(a: BigInt, b: &BigInt) -> BigInt {
     }
 }
 
-/// Returns the least denominator over which all the numbers are fractions.
+/// Returns the least common denominator of the numbers.
 #[must_use]
 pub fn common_denominator<'a>(numbers: impl IntoIterator<Item = &'a BigRational>) -> BigInt {
     let denominators = numbers.into_iter().map(BigRational::denom);
     denominators.fold(BigInt::one(), common_multiple)
 }
 
-/// Returns the sum of numbers, which is reduced once.
+/// Returns the sum of the numbers. The result is reduced once, at the end.
 #[must_use]
 pub fn sum_of(numbers: impl IntoIterator<Item = BigRational>) -> BigRational {
     let (mut numerator, mut denominator) = (BigInt::zero(), BigInt::one());
@@ -40,7 +42,7 @@ pub fn sum_of(numbers: impl IntoIterator<Item = BigRational>) -> BigRational {
     BigRational::new(numerator, denominator)
 }
 
-/// Returns the remainder of a division by a word that is not zero.
+/// Returns the remainder of the division by a word that is not zero.
 fn remainder(x: &BigUint, word: u64) -> u64 {
     let digits = x.iter_u64_digits().rev();
     let rest = digits.fold(0, |high, digit| {
@@ -51,23 +53,28 @@ fn remainder(x: &BigUint, word: u64) -> u64 {
     rest
 }
 
-/// Divides a number that is not zero by three as often as that leaves no rest, `most` times at most; returns how often, and what is left.
+/// Returns (t, x/3^t), where t is the exponent of 3 in `x`, limited to `most`. `x` must not be zero.
 ///
-/// The denominators of a pile are powers of three, one for each change of sign, times those of the loads. How many threes a number
-/// shares with them is seen in its remainder by 3⁴⁰, the greatest power in a machine word: forty in a pass over its words, where a divisor
-/// that is looked for takes a pass a bit.
+/// Denominators in a pile are powers of three, one factor for each sign change, times the denominators of
+/// the loads. The remainder modulo 3⁴⁰, the largest power of three in a machine word, reveals up to forty
+/// factors in one pass over the words of `x`. A general greatest common divisor needs about one pass for
+/// each bit.
 fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
     const A_WORD: usize = 40;
     let word = pow(3_u64, A_WORD);
-    // Only a `Ratio` that was put together wrongly has a denominator of zero: it panics here as in its own operators, which is said in
-    // the guarantees, and would else have no end.
-    assert!(!x.is_zero(), "zero has threes without end");
+    // A denominator of zero exists only in a `Ratio` that `Ratio::new_raw` made. The operators of `Ratio`
+    // panic for it as well, and the guarantees of the crate state this exception. Without the assertion the
+    // loop would not end.
+    assert!(
+        !x.is_zero(),
+        "the denominator of a rational must not be zero"
+    );
     let mut threes = 0;
     loop {
         let mut remainder = remainder(&x, word);
         let most_here = A_WORD.min(most - threes);
         let mut found = if remainder == 0 { most_here } else { 0 };
-        // The method of the trait: Rust 1.88 has none of words.
+        // The method of the trait is called because Rust 1.88 has no inherent `is_multiple_of`.
         while found < most_here && Integer::is_multiple_of(&remainder, &3) {
             remainder /= 3;
             found += 1;
@@ -82,7 +89,7 @@ fn without_threes(mut x: BigUint, most: usize) -> (usize, BigUint) {
     }
 }
 
-/// Returns n/d in lowest terms, for a denominator that is not zero.
+/// Returns n/d in lowest terms. d must not be zero.
 #[must_use]
 pub fn quotient(n: BigInt, d: &BigInt) -> BigRational {
     if n.is_zero() || d.is_one() {
@@ -93,8 +100,8 @@ pub fn quotient(n: BigInt, d: &BigInt) -> BigRational {
     let (shared, mut n) = without_threes(n.into_parts().1, threes);
     let mut d = d.magnitude() / pow(BigUint::from(3_u32), shared);
     if !rest.is_one() {
-        // One step of Euclid first: the divisor that is left works on numbers no longer than what loads brought into the
-        // denominator, however long n is.
+        // One step of Euclid's algorithm comes first. Then the greatest common divisor works on numbers no
+        // longer than the denominators of the loads, however long n is.
         let divisor = match u64::try_from(&rest) {
             Ok(rest) => remainder(&n, rest).gcd(&rest).into(),
             Err(_) => (&n % &rest).gcd(&rest),
@@ -105,7 +112,8 @@ pub fn quotient(n: BigInt, d: &BigInt) -> BigRational {
     BigRational::new_raw(BigInt::from_biguint(sign, n), d.into())
 }
 
-/// Returns a·b. `Ratio` looks for common factors of the products, which takes longer than all the rest.
+/// Returns a·b in lowest terms. The operator of `Ratio` computes general greatest common divisors, which
+/// dominate its cost.
 #[must_use]
 pub fn product(a: &BigRational, b: &BigRational) -> BigRational {
     quotient(a.numer() * b.numer(), &(a.denom() * b.denom()))
@@ -115,11 +123,11 @@ pub fn product(a: &BigRational, b: &BigRational) -> BigRational {
 mod tests {
     use super::*;
 
-    /// With as many threes on both sides as words hold, one less and one more, and with other divisors beside them.
+    /// The exponents of 3 lie around multiples of 40, on both sides; other factors are included as well.
     #[test]
     fn quotients_are_in_lowest_terms() {
         let power = |n: i64, k: usize| pow(BigInt::from(n), k);
-        // What is left of a denominator is one, a word, or longer.
+        // The denominator without its factors 3 is one, a single word, or longer.
         let others = [
             power(1, 1),
             power(-1, 1),
@@ -132,14 +140,14 @@ mod tests {
         let threes = [0, 1, 2, 39, 40, 41, 79, 80, 81, 200];
         let numbers = threes.map(|k| others.each_ref().map(|other| power(3, k) * other));
         let numbers = numbers.as_flattened();
-        // `==` does not tell lowest terms.
+        // `==` does not distinguish lowest terms from others.
         let parts = |x: &BigRational| (x.numer().clone(), x.denom().clone());
         for n in numbers.iter().chain([&BigInt::zero()]) {
             for d in numbers {
                 let divided = quotient(n.clone(), d);
                 let expected = BigRational::new(n.clone(), d.clone());
                 assert_eq!(parts(&divided), parts(&expected), "{n} / {d}");
-                // A factor may be in other terms.
+                // The factors of a product need not be in lowest terms.
                 let [a, b] = [[n, d], [d, n]].map(|[n, d]| {
                     let d = if d.is_zero() {
                         BigInt::one()
@@ -155,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn all_threes_are_found_and_no_more_than_are_asked_for() {
+    fn factors_of_three_are_found_up_to_limit() {
         for threes in [0, 1, 39, 40, 41, 80, 81, 200] {
             for other in [1_u32, 2, 70] {
                 let number = pow(BigUint::from(3_u32), threes) * other;
@@ -175,9 +183,9 @@ mod tests {
     }
 
     #[test]
-    fn sums_have_the_denominators_that_are_needed() {
+    fn sums_have_least_common_denominator() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-        // Wider, as wide, wider by a multiple, and beside each other; the sum is in lowest terms.
+        // The denominators are new, repeated, a multiple, and coprime in part. The sum is in lowest terms.
         let numbers = [
             ratio(1, 2),
             ratio(-3, 2),

@@ -1,22 +1,22 @@
-//! Long texts and numbers, short enough for a message of one line.
+//! Abbreviation of long texts and numbers for error messages of one line.
 
 use alloc::format;
 use alloc::string::String;
 
-/// The longest text or number shown whole, in characters.
+/// The longest text or number shown in full, in characters.
 const LONGEST: usize = 60;
 
-/// How many characters are shown of the beginning of a longer one, and of its end.
+/// The numbers of characters shown from the beginning and from the end of a longer text.
 const ENDS: [usize; 2] = [30, 12];
 
-/// Returns the text on one line, with its length in place of its middle if it is long.
+/// Returns the text escaped on one line. In a long text the middle is replaced by the length.
 #[must_use]
 pub fn quoted(text: &str) -> String {
     let escaped = |text: &str| text.chars().flat_map(char::escape_debug).collect();
     escaped(&shortened(text, "characters"))
 }
 
-/// Returns the message with the middle of every long number left out.
+/// Returns the message with the middle of every long number replaced by its length.
 #[must_use]
 pub fn numbers(message: &str) -> String {
     let digit = |c: char| c.is_ascii_digit();
@@ -31,7 +31,7 @@ pub fn numbers(message: &str) -> String {
     short + rest
 }
 
-/// `123…[5000 digits]…789`.
+/// Returns `123…[5000 digits]…789` for a long text, and `text` itself otherwise.
 fn shortened(text: &str, unit: &str) -> String {
     let length = text.chars().count();
     if length <= LONGEST {
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_texts_lose_their_middle_and_keep_their_length() {
+    fn long_texts_show_ends_and_length() {
         let text = "9".repeat(LONGEST);
         assert_eq!(quoted(&text), text);
         let long = format!("a{}z", "'\n ".repeat(50_000));

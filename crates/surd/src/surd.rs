@@ -1,4 +1,4 @@
-//! c·√r: the form of every exact physical quantity of a pile.
+//! Exact numbers c·√n.
 
 use alloc::format;
 use alloc::string::ToString;
@@ -18,14 +18,15 @@ use crate::{Error, NearestFloat};
 
 /// An exact number c·√n, with c rational and n a positive integer.
 ///
-/// A contact force is n·mg/(3 cosθ) with cos²θ rational; heights carry cosθ, horizontal positions
-/// sinθ and √3: all of them are surds. Two surds multiply to a surd and compare exactly,
-/// through their squares. They do not add to a surd, so this is a value and not a
-/// scalar.
+/// Example: a contact force is n·mg/(3 cosθ) with cos²θ rational. Heights contain the factor cosθ,
+/// horizontal positions sinθ and √3. All these numbers are surds.
 ///
-/// √(a/b) is kept as √(ab)/b, with the square factors taken out as far as they are found: in a and in b the squares of
-/// all primes below 1000, and what the other primes make up if it is a square as a whole. So the square of a spacing's
-/// denominator always comes out. Equality and order do not depend on that form.
+/// The product of two surds is a surd. Surds are compared exactly, through their squares. The sum of two
+/// surds is in general not a surd, so `Surd` is not a scalar type.
+///
+/// √(a/b) is stored as √(ab)/b, after extraction of square factors from a and from b: the squares of all
+/// primes below 1000, and the cofactor if it is a perfect square. In particular √(a/b²) always has the
+/// radicand of √a. Equality and order do not depend on the stored form.
 ///
 /// # Examples
 /// ```
@@ -36,7 +37,7 @@ use crate::{Error, NearestFloat};
 /// let x = Surd::new(ratio(7, 3), ratio(8, 17))?;
 /// assert_eq!(x.to_string(), "14/51*sqrt(34)");
 /// assert_eq!(x.square(), ratio(7 * 7 * 8, 3 * 3 * 17));
-/// // The float nearest to it; rounding after each operation gives the next one up.
+/// // The nearest float. Rounding after each operation gives the next float above it.
 /// assert_eq!(x.nearest::<f64>(), Some(1.6006534613300825));
 /// assert_eq!(7.0 / 3.0 * (8.0 / 17.0_f64).sqrt(), 1.6006534613300827);
 /// # Ok::<(), exact_surd::Error>(())
@@ -44,7 +45,7 @@ use crate::{Error, NearestFloat};
 #[derive(Clone, Debug)]
 pub struct Surd {
     coefficient: BigRational,
-    /// Positive; 1 if the value is rational, so that any other root is irrational.
+    /// Positive. It is 1 if the value is rational; any other stored root is irrational.
     radicand: BigUint,
 }
 
@@ -52,7 +53,7 @@ impl Surd {
     /// Returns the number `coefficient`·√`radicand`.
     ///
     /// # Errors
-    /// [`Error::NegativeRadicand`] if the radicand is negative: the root would not be real.
+    /// Returns [`Error::NegativeRadicand`] if the radicand is negative.
     ///
     /// # Examples
     /// ```
@@ -74,7 +75,7 @@ impl Surd {
         Ok(Self::of_valid(coefficient, radicand))
     }
 
-    /// Returns √`square` of a number that is known not to be negative.
+    /// Returns √`square`. The argument must not be negative.
     #[doc(hidden)]
     #[must_use]
     pub fn root_of(square: BigRational) -> Self {
@@ -83,7 +84,7 @@ impl Surd {
     }
 
     fn of_valid(coefficient: BigRational, radicand: BigRational) -> Self {
-        // They have no common factor, so that no square is lost when each is looked at for itself.
+        // Numerator and denominator are coprime, so their square factors can be extracted separately.
         let (numer, denom) = radicand.into_raw();
         let [(p, a), (q, b)] = [numer, denom].map(|n| extract_squares(n.into_parts().1));
         // √(p²a/q²b) = p/(qb)·√(ab)
@@ -94,7 +95,7 @@ impl Surd {
     /// Returns √`radicand`.
     ///
     /// # Errors
-    /// [`Error::NegativeRadicand`] if the radicand is negative.
+    /// Returns [`Error::NegativeRadicand`] if the radicand is negative.
     ///
     /// # Examples
     /// ```
@@ -103,7 +104,7 @@ impl Surd {
     ///
     /// let root = Surd::sqrt(BigRational::new(4.into(), 9.into()))?;
     /// assert_eq!(root.to_rational().unwrap().to_string(), "2/3");
-    /// // The square of a denominator comes out whatever its primes are.
+    /// // The square of a denominator is extracted, whatever its prime factors are.
     /// let root = Surd::sqrt(BigRational::new(2.into(), (1_000_003_i64 * 1_000_003).into()))?;
     /// assert_eq!(root.to_string(), "1/1000003*sqrt(2)");
     /// assert!(Surd::sqrt(BigRational::from_integer((-1).into())).is_err());
@@ -113,7 +114,7 @@ impl Surd {
         Self::new(BigRational::one(), radicand)
     }
 
-    /// Returns the number zero.
+    /// Returns zero.
     ///
     /// # Examples
     /// ```
@@ -130,7 +131,7 @@ impl Surd {
         BigRational::zero().into()
     }
 
-    /// Returns `coefficient`·√`radicand`, with one form for zero.
+    /// Returns `coefficient`·√`radicand`; zero has the unique form 0·√1.
     fn normal(coefficient: BigRational, radicand: BigUint) -> Self {
         if coefficient.is_zero() || radicand.is_zero() {
             return Self {
@@ -169,7 +170,7 @@ impl Surd {
     ///
     /// let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
     /// assert_eq!(Surd::sqrt(ratio(8, 9))?.radicand().to_string(), "2");
-    /// // Of a rational it is 1.
+    /// // The radicand of a rational is 1.
     /// assert_eq!(Surd::sqrt(ratio(4, 9))?.radicand().to_string(), "1");
     /// # Ok::<(), exact_surd::Error>(())
     /// ```
@@ -178,7 +179,7 @@ impl Surd {
         &self.radicand
     }
 
-    /// Returns the square c²n, always rational.
+    /// Returns the square c²·n, which is always rational.
     ///
     /// # Examples
     /// ```
@@ -193,12 +194,12 @@ impl Surd {
     pub fn square(&self) -> BigRational {
         let (p, q) = (self.coefficient.numer(), self.coefficient.denom());
         let (n, denom) = (BigInt::from(self.radicand.clone()), q * q);
-        // p and q have no common factor, and n is short, mostly.
+        // p and q are coprime, and n is short in most cases.
         let common = (&denom % &n).gcd(&n);
         BigRational::new_raw(p * p * (n / &common), denom / common)
     }
 
-    /// Returns the sign, always known.
+    /// Returns the sign.
     ///
     /// # Examples
     /// ```
@@ -217,7 +218,7 @@ impl Surd {
         self.coefficient.numer().sign()
     }
 
-    /// Returns the value itself where it is rational, or `None`.
+    /// Returns the value as a rational, or `None` if it is irrational.
     ///
     /// # Examples
     /// ```
@@ -234,7 +235,7 @@ impl Surd {
         self.radicand.is_one().then(|| self.coefficient.clone())
     }
 
-    /// Returns this number times a rational, exactly; the root is not touched.
+    /// Returns the product with a rational, exactly. The radicand does not change.
     ///
     /// # Examples
     /// ```
@@ -250,8 +251,10 @@ impl Surd {
         Self::normal(product(&self.coefficient, factor), self.radicand.clone())
     }
 
-    /// Returns the sum, if the two are multiples of one root, or one of them is zero; `None` otherwise, since it
-    /// is then no surd (or its common root was not found).
+    /// Returns the sum, or `None` if it is not a surd.
+    ///
+    /// The sum is a surd if both numbers are multiples of the same root, or if one is zero. `None` also
+    /// results if the stored radicands differ because a common square factor was not found.
     ///
     /// # Examples
     /// ```
@@ -299,7 +302,7 @@ impl Surd {
         })
     }
 
-    /// Returns the nearest `f64`, and an infinity beyond the greatest.
+    /// Returns the nearest `f64`, ties to even, or an infinity if the value overflows.
     ///
     /// # Examples
     /// ```
@@ -312,7 +315,7 @@ impl Surd {
     /// ```
     #[must_use]
     pub fn to_f64(&self) -> f64 {
-        // Not a default: a number without a nearest float is beyond the greatest.
+        // A number without a nearest float has overflowed, so an infinity of its sign is the answer.
         self.nearest().unwrap_or(if self.coefficient.is_negative() {
             f64::NEG_INFINITY
         } else {
@@ -320,9 +323,10 @@ impl Surd {
         })
     }
 
-    /// Returns the float nearest to the value, ties to even, subnormals included; `None` when it would be infinite.
-    /// Decided, never guessed: by an enclosure in double-doubles, or, where that holds more than one float, by one integer
-    /// square root and a sticky bit.
+    /// Returns the nearest float, ties to even, also among the subnormals; `None` if the value overflows.
+    ///
+    /// The rounding is always correct. A double-double enclosure decides most cases. If the enclosure
+    /// contains more than one candidate, one integer square root and a sticky bit decide.
     ///
     /// # Examples
     /// ```
@@ -339,25 +343,26 @@ impl Surd {
         let (negative, [n, d], root) = self.parts();
         self.screened().or_else(|| match root {
             None => nearest_ratio(negative, n, d),
-            // Not reduced: a common factor costs more to find than to carry.
+            // The fraction is not reduced: finding the common factor costs more than carrying it.
             Some(radicand) => nearest_root(negative, &(n * n * radicand), &(d * d)),
         })
     }
 
-    /// Returns the nearest float, where the enclosure decides it.
+    /// Returns the nearest float if the double-double enclosure decides it.
     fn screened<F: NearestFloat>(&self) -> Option<F> {
         let (negative, [n, d], root) = self.parts();
         screened(negative, n, d, root)
     }
 
-    /// Returns the sign, the magnitudes of numerator and denominator, and what stands under a root.
+    /// Returns the sign, the magnitudes of numerator and denominator, and the radicand of an irrational
+    /// number.
     fn parts(&self) -> (bool, [&BigUint; 2], Option<&BigUint>) {
         let (n, d) = (self.coefficient.numer(), self.coefficient.denom());
         let root = Some(&self.radicand).filter(|radicand| !radicand.is_one());
         (n.is_negative(), [n.magnitude(), d.magnitude()], root)
     }
 
-    /// Returns the square with the sign of the number, which orders surds as the numbers are ordered.
+    /// Returns the square times the sign of the number. The map is monotone, so it orders surds.
     fn signed_square(&self) -> BigRational {
         if self.coefficient.is_negative() {
             -self.square()
@@ -367,8 +372,8 @@ impl Surd {
     }
 }
 
-/// Returns (root, rest) with `n` = root²·rest: the squares of small primes are in the root, and what the others make up if
-/// it is a square.
+/// Returns (root, rest) with `n` = root²·rest. All squares of primes below 1000 are in `root²`, and so is
+/// the remaining cofactor if it is a perfect square.
 fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
     let (mut root, mut rest) = (BigUint::one(), BigUint::one());
     if n.is_zero() {
@@ -394,7 +399,7 @@ fn extract_squares(mut n: BigUint) -> (BigUint, BigUint) {
     (root * others, rest * n)
 }
 
-/// Returns (√n, 1) for a square, (1, n) otherwise.
+/// Returns (√n, 1) for a perfect square, (1, n) otherwise.
 fn whole_square(n: BigUint) -> (BigUint, BigUint) {
     let root = n.sqrt();
     if &root * &root == n {
@@ -428,10 +433,11 @@ impl Mul<&Self> for Surd {
     type Output = Self;
 
     fn mul(self, rhs: &Self) -> Self {
-        // √(ga)·√(gb) = g·√(ab): factors the two radicands share come out.
+        // √(g·a)·√(g·b) = g·√(a·b): the common factor g of the radicands is extracted.
         let g = self.radicand.gcd(&rhs.radicand);
         let radicand = (&self.radicand / &g) * (&rhs.radicand / &g);
-        // Of squares too great to be found in the factors the product may be one as a whole.
+        // Two radicands can contain large squares that were not found. Their product can still be a perfect
+        // square.
         let (root, radicand) = whole_square(radicand);
         let factor = BigRational::from_integer((g * root).into());
         Self::normal(self.coefficient * &rhs.coefficient * factor, radicand)
@@ -447,7 +453,7 @@ impl Mul for Surd {
 }
 
 impl Hash for Surd {
-    /// Equal numbers hash alike, also two with squares in their radicands that were not found.
+    /// Equal numbers have equal hashes, also if their stored radicands differ.
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.signed_square().hash(state);
     }
@@ -478,14 +484,14 @@ impl Ord for Surd {
 
 macro_rules! compare_with_float {
     ($($float:ident)*) => {$(
-        /// Exact: the float is taken as the rational it is.
+        /// Compares exactly, with the rational value of the float.
         impl PartialEq<$float> for Surd {
             fn eq(&self, other: &$float) -> bool {
                 self.partial_cmp(other).is_some_and(Ordering::is_eq)
             }
         }
 
-        /// Exact: the float is taken as the rational it is; `None` for not-a-number.
+        /// Compares exactly, with the rational value of the float; `None` for not-a-number.
         impl PartialOrd<$float> for Surd {
             fn partial_cmp(&self, other: &$float) -> Option<Ordering> {
                 match BigRational::from_float(*other) {
@@ -502,7 +508,7 @@ macro_rules! compare_with_float {
 compare_with_float!(f32 f64);
 
 impl fmt::Display for Surd {
-    /// Writes `7/3*sqrt(2)`, with the width, the fill, the alignment and the sign that are asked for.
+    /// Writes `7/3*sqrt(2)`, with the width, fill, alignment and sign of the formatter.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let magnitude = self.coefficient.abs();
         let text = if self.radicand.is_one() {
@@ -526,13 +532,14 @@ mod tests {
         BigRational::from_integer(BigInt::from(1) << power)
     }
 
-    /// Yields (2^p + 1)·(1 ± a hair)·2^e, near the middle between two floats of p bits: no double-double is near enough.
+    /// Yields (2^p + 1)·(1 ± ε)·2^e for small ε, near the midpoint of two floats of p bits. A double-double
+    /// cannot decide the rounding of these numbers.
     fn near_ties(bits: u32) -> impl Iterator<Item = Surd> {
         let middle = two_to(bits) + BigRational::one();
-        let hairs = [100, 150, 200, 1000].map(|k| two_to(k).recip());
-        let factors = hairs
+        let offsets = [100, 150, 200, 1000].map(|k| two_to(k).recip());
+        let factors = offsets
             .into_iter()
-            .flat_map(|hair| [BigRational::one() - &hair, BigRational::one() + hair]);
+            .flat_map(|offset| [BigRational::one() - &offset, BigRational::one() + offset]);
         let roots = factors.map(move |factor| Surd::sqrt(&middle * &middle * factor).unwrap());
         let scales = [two_to(80).recip(), two_to(1).recip(), two_to(0), two_to(60)];
         roots.flat_map(move |root| scales.clone().map(|scale| root.scaled(&scale)))
@@ -540,7 +547,7 @@ mod tests {
 
     #[cfg(feature = "std")]
     #[test]
-    fn the_screen_decides_what_is_near_no_tie() {
+    fn enclosure_decides_away_from_ties() {
         let long = BigRational::new(two_to(300).to_integer() + 1, two_to(200).to_integer() + 7);
         for value in [Surd::from(long.clone()), Surd::sqrt(long).unwrap()] {
             assert!(value.screened::<f64>().is_some() && value.screened::<f32>().is_some());
@@ -549,15 +556,15 @@ mod tests {
     }
 
     #[test]
-    fn integers_decide_near_ties_and_the_screen_the_rest() {
-        // Without `std` there is no screen for roots.
+    fn integers_decide_near_ties_only() {
+        // Without `std` roots have no double-double enclosure.
         let with_screen = cfg!(feature = "std");
         for (double, single) in near_ties(53).zip(near_ties(24)) {
             assert!(double.screened::<f64>().is_none() && single.screened::<f32>().is_none());
             assert_eq!(double.screened::<f32>().is_some(), with_screen);
             assert_eq!(single.screened::<f64>().is_some(), with_screen);
         }
-        // Not one in a hundred thousand is near a tie by chance.
+        // The probability of a near tie is below one in a hundred thousand.
         for n in (2..5000).filter(|n: &i32| n.isqrt().pow(2) != *n) {
             let root = Surd::sqrt(BigRational::from_integer(n.into())).unwrap();
             assert_eq!(root.screened::<f64>().is_some(), with_screen);

@@ -1,4 +1,4 @@
-//! Numbers through [serde](https://serde.rs), as strings.
+//! Serialisation of numbers as strings, with [serde](https://serde.rs).
 
 use alloc::format;
 use alloc::string::String;
@@ -10,10 +10,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::{DoubleDouble, Error, Surd};
 
-/// Reads a string by a parser.
+/// Deserialises a string and parses it.
 ///
 /// # Errors
-/// Those of the deserializer and of the parser.
+/// Returns the errors of the deserialiser and of the parser.
 pub fn read_text<'de, T, E: fmt::Display, D: Deserializer<'de>>(
     deserializer: D,
     parser: fn(&str) -> Result<T, E>,
@@ -47,7 +47,8 @@ impl<'de> Deserialize<'de> for Surd {
     }
 }
 
-/// A float as its shortest decimal that reads back the same: many readers of JSON change the last digit of a number.
+/// A float, written as its shortest decimal that parses to the same float. It is a string because many JSON
+/// readers change the last digit of a number.
 #[derive(Clone, Copy, Debug)]
 pub struct Float(pub f64);
 
@@ -86,7 +87,7 @@ impl<'de> Deserialize<'de> for DoubleDouble {
         let Parts { high, low } = Parts::deserialize(deserializer)?;
         Self::from_parts(high.0, low.0).ok_or_else(|| {
             D::Error::custom(format!(
-                "{:?} is too great a low part for {:?}: at most half a unit in the last place",
+                "{:?} is too large as the low part of {:?}; it may be at most half a unit in the last place",
                 low.0, high.0
             ))
         })

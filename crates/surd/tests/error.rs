@@ -1,17 +1,20 @@
-//! Every error says in one line what was given and what would do.
+//! Every error message is one line that states the given value and the remedy.
 
 use exact_surd::{Error, Surd, parse};
 use num_rational::BigRational;
 
-/// The message is one plain line that holds all of `parts`.
-fn says(error: &Error, parts: &[&str]) {
+/// Asserts that the message is one plain line that contains all of `parts`.
+fn assert_message(error: &Error, parts: &[&str]) {
     let message = error.to_string();
     assert!(
         !message.chars().any(char::is_control),
-        "{message:?} is more than a line"
+        "{message:?} is longer than one line"
     );
     for part in parts {
-        assert!(message.contains(part), "{message:?} does not say {part:?}");
+        assert!(
+            message.contains(part),
+            "{message:?} does not contain {part:?}"
+        );
     }
 }
 
@@ -20,7 +23,7 @@ fn negative_radicand() {
     let negative = BigRational::new((-7).into(), 3.into());
     let error = Surd::sqrt(negative.clone()).unwrap_err();
     assert!(matches!(&error, Error::NegativeRadicand { given, .. } if *given == negative));
-    says(&error, &["-7/3", "must not be negative"]);
+    assert_message(&error, &["-7/3", "must not be negative"]);
 }
 
 #[test]
@@ -41,10 +44,10 @@ fn syntax() {
     ];
     for (error, given, remedy) in refused {
         assert!(matches!(error, Error::Syntax { .. }));
-        says(&error, &[given, remedy]);
+        assert_message(&error, &[given, remedy]);
     }
     let long = "9".repeat(20_000);
     let error = parse::rational(&long).unwrap_err();
-    says(&error, &["999…", "5000 digits"]);
+    assert_message(&error, &["999…", "5000 digits"]);
     assert!(error.to_string().len() < 200);
 }

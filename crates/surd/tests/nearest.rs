@@ -1,4 +1,5 @@
-//! The float nearest to a root, checked without taking one: by the squares of the midpoints between floats.
+//! Correct rounding of roots, checked without a square root: by the squares of the midpoints between
+//! floats.
 
 use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::judge::{Float, Value, beyond_greatest, exact, is_nearest, midpoint};
@@ -7,12 +8,13 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow};
 
-/// 2^exponent.
+/// Returns 2^`exponent`.
 fn power(exponent: i32) -> BigRational {
     BigRational::from_integer(2.into()).pow(exponent)
 }
 
-/// The library's nearest float passes the check, and no neighbour of it does.
+/// Returns the float that the library gives, after a check that it passes as the nearest and its neighbours
+/// do not.
 fn rounds_correctly<F: Float>(c: &BigRational, r: &BigRational) -> Option<F> {
     let float = Surd::new(c.clone(), r.clone()).unwrap().nearest::<F>();
     let value = Value::root(c, r);
@@ -29,7 +31,7 @@ fn rounds_correctly<F: Float>(c: &BigRational, r: &BigRational) -> Option<F> {
     float
 }
 
-/// Knuth's multiplier; the upper halves are random enough.
+/// Knuth's linear congruential generator. The upper half of each value is random enough.
 fn random(state: &mut u64) -> u64 {
     *state = state
         .wrapping_mul(6_364_136_223_846_793_005)
@@ -37,7 +39,8 @@ fn random(state: &mut u64) -> u64 {
     *state >> 33
 }
 
-/// Thousands of coefficients and radicands, from below the least subnormal to above the greatest float.
+/// Checks thousands of coefficients and radicands, from below the smallest subnormal to above the largest
+/// float.
 fn random_numbers<F: Float>(exponents: core::ops::Range<i32>, step: usize) -> usize {
     let mut state = 1998;
     let mut finite = 0;
@@ -48,7 +51,7 @@ fn random_numbers<F: Float>(exponents: core::ops::Range<i32>, step: usize) -> us
             let c = BigRational::new(odd() * odd() * sign, odd() * odd()) * power(exponent);
             let r = BigRational::new(odd(), odd());
             finite += usize::from(rounds_correctly::<F>(&c, &r).is_some());
-            // And a rational, which takes another path.
+            // A rational takes another path of the code.
             finite += usize::from(rounds_correctly::<F>(&c, &BigRational::one()).is_some());
         }
     }
@@ -61,10 +64,11 @@ fn nearest_of_random_numbers() {
     assert!(random_numbers::<f32>(-170..140, 1) > 2000);
 }
 
-/// √(m²), by way of factors whose squares are too great to be found one by one: a product is rational where
-/// its value is.
+/// Returns √(m²) as a product of roots whose square factors are too large to be found. A product is stored
+/// as a rational if its value is rational.
 fn root_of_square(m: &BigRational) -> Surd {
-    // 1009 is the first prime whose square is not looked for, and no square is what it leaves here.
+    // 1009 is the smallest prime whose square is not searched for, and the cofactor here is not a perfect
+    // square.
     let hidden = Surd::sqrt(ratio(1009 * 1009 * 2 * 1013, 1)).unwrap();
     let product = hidden * &Surd::sqrt(ratio(2 * 1013, 1)).unwrap();
     let product = product.scaled(&ratio(1, 1013));
@@ -72,8 +76,8 @@ fn root_of_square(m: &BigRational) -> Surd {
     product.scaled(&(m * ratio(1, 2 * 1009)))
 }
 
-/// Halfway between two floats the even one is right: up, down, and across powers of two; the least
-/// subnormals, and the step to infinity.
+/// Checks that a midpoint between two floats rounds to the even one: upwards, downwards and across powers
+/// of two, among the smallest subnormals, and at the overflow threshold.
 fn ties<F: Float>(places: &[F]) {
     for x in places {
         let above = if *x == F::max_value() {
@@ -97,13 +101,16 @@ fn ties<F: Float>(places: &[F]) {
                 is_nearest(even, &Value::root(&middle, &BigRational::one())),
                 Ok(())
             );
-            // Just beside the tie, the nearer one.
-            let hair = BigRational::one() + power(-300);
-            for (beside, nearer) in [(&square / &hair, Some(*x)), (&square * &hair, Some(x.up()))] {
+            // Slightly off the midpoint, the nearer float is correct.
+            let above_one = BigRational::one() + power(-300);
+            for (near_tie, nearer) in [
+                (&square / &above_one, Some(*x)),
+                (&square * &above_one, Some(x.up())),
+            ] {
                 let sign = ratio(if negative { -1 } else { 1 }, 1);
                 let nearer = nearer.filter(|x| x.is_finite());
                 let nearer = if negative { nearer.map(|x| -x) } else { nearer };
-                assert_eq!(rounds_correctly::<F>(&sign, &beside), nearer);
+                assert_eq!(rounds_correctly::<F>(&sign, &near_tie), nearer);
             }
         }
     }
@@ -141,7 +148,8 @@ fn ties_go_to_the_even_float() {
     ]);
 }
 
-/// √((2^p + 1)² ± 1) lies beside the middle of two floats by less than a part in 2^(2p), at any scale.
+/// √((2^p + 1)² ± 1) differs from the midpoint of two floats by a relative distance below 2^(−2p), at any
+/// scale.
 fn near_ties<F: Float>(exponents: core::ops::Range<i32>) {
     let p = i32::try_from(F::PRECISION).unwrap();
     let middle = power(p) + BigRational::one();
@@ -161,17 +169,18 @@ fn near_ties_are_decided() {
     near_ties::<f32>(-126..103);
 }
 
-/// By way of f64, a number just beside the middle of two f32 falls onto it and then to the even one.
+/// A number slightly off the midpoint of two `f32` rounds to the midpoint in `f64`, and then to the even
+/// `f32`.
 #[test]
-fn rounding_to_f32_takes_no_way_round() {
+fn f32_is_not_rounded_through_f64() {
     let traps = [
-        // Above the middle of 1 and its successor, below that of 1 + 2^−23 and its successor.
+        // Above the midpoint of 1 and its successor, and below that of 1 + 2^−23 and its successor.
         (ratio(1, 1) + power(-24) + power(-60), 1_f32.next_up()),
         (
             ratio(1, 1) + power(-23) + power(-24) - power(-60),
             1_f32.next_up(),
         ),
-        // Beside the middle of the two least subnormals and of the two greatest floats.
+        // Near the midpoint of the two smallest subnormals, and of the two largest floats.
         (power(-150) + power(-210), f32::from_bits(1)),
         (exact(f32::MAX) - power(103) + power(40), f32::MAX),
     ];
@@ -182,18 +191,22 @@ fn rounding_to_f32_takes_no_way_round() {
         assert_eq!(f32::nearest_to_rational(&value), Some(nearest));
         let exactly = Value::with_square(false, &square);
         assert_eq!(is_nearest(Some(nearest), &exactly), Ok(()));
-        #[expect(clippy::cast_possible_truncation, reason = "this is the trap")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "double rounding is the error under test"
+        )]
         let twice_rounded = root.nearest::<f64>().unwrap() as f32;
         assert_ne!(twice_rounded.to_bits(), nearest.to_bits());
         assert!(is_nearest(Some(twice_rounded), &exactly).is_err());
     }
 }
 
-/// By less than a double-double tells: the leading bits alone come to more than the middle.
+/// The distance to the midpoint is below the precision of a double-double: the leading bits alone exceed
+/// the midpoint.
 #[test]
 fn just_below_a_middle_is_rounded_down() {
     let two = |power: u32| BigInt::from(1) << power;
-    // 1 + m/2^24 is halfway between two floats, for odd m.
+    // 1 + m/2^24 is the midpoint of two floats, for odd m.
     for (k, m, below) in [
         (two(107) + 0x3ff_f08a, 1, 1.0),
         (two(107) + 0xc6aa_9e22_i64, 3, 1.0_f32.next_up()),
@@ -205,9 +218,9 @@ fn just_below_a_middle_is_rounded_down() {
     }
 }
 
-/// Far below the least float: no −0.
+/// The values are far below the smallest float. A positive value gives +0, a negative one −0.
 #[test]
-fn what_underflows_keeps_its_sign() {
+fn underflow_keeps_sign() {
     for value in [power(-300), power(-900) * ratio(5, 3)] {
         let nearest = |value| f32::nearest_to_rational(value).map(f32::to_bits);
         assert_eq!(nearest(&value), Some(0.0_f32.to_bits()));
@@ -216,7 +229,7 @@ fn what_underflows_keeps_its_sign() {
 }
 
 #[test]
-fn too_large_is_none() {
+fn overflow_is_none() {
     let limit = midpoint(&exact(f64::MAX), &beyond_greatest::<f64>());
     for (value, nearest) in [
         (limit.clone(), None),
@@ -236,9 +249,9 @@ fn too_large_is_none() {
     assert_eq!(Surd::zero().nearest::<f32>(), Some(0.0));
 }
 
-/// The judge of roundings refuses floats that are next to the nearest one.
+/// The checker rejects the neighbours of the nearest float.
 #[test]
-fn wrong_roundings_are_refused() {
+fn checker_rejects_wrong_roundings() {
     let squared = |square: &BigRational| Value::with_square(false, square);
     let two = squared(&ratio(2, 1));
     let root = 2_f64.sqrt();
@@ -248,7 +261,7 @@ fn wrong_roundings_are_refused() {
     }
     assert!(is_nearest(Some(root), &Value::with_square(true, &ratio(2, 1))).is_err());
     assert!(is_nearest::<f64>(None, &two).is_err());
-    // Half way, the odd float; and the greatest one instead of an infinity.
+    // At a midpoint it rejects the odd float, and at the overflow threshold the largest float.
     let tie = midpoint(&exact(1_f64), &exact(1_f64.next_up()));
     assert_eq!(is_nearest(Some(1_f64), &squared(&(&tie * &tie))), Ok(()));
     assert!(is_nearest(Some(1_f64.next_up()), &squared(&(&tie * &tie))).is_err());
@@ -258,29 +271,30 @@ fn wrong_roundings_are_refused() {
         Ok(())
     );
     assert!(is_nearest(Some(f32::MAX), &squared(&(&limit * &limit))).is_err());
-    // Nothing, where the least subnormal is nearer.
+    // It rejects zero if the smallest subnormal is nearer.
     let least = exact(f32::from_bits(1));
     assert!(is_nearest(Some(0_f32), &squared(&(&least * &least))).is_err());
 }
 
-/// (d(2⁵³ + 1) + 1)/d is 1/d beyond the middle between two floats; the last of its 129 bits tell.
+/// (d(2⁵³ + 1) ± 1)/d differs from the midpoint of two floats by 1/d. Only the last of its 129 bits show
+/// it.
 #[test]
-fn no_digit_of_a_long_number_is_left_out() {
+fn all_digits_of_long_numbers_count() {
     let d: BigInt = (BigInt::one() << 75) + (BigInt::one() << 63) + 1;
     let middle = (BigInt::one() << 53) + 1;
-    let [above, below] = [1, -1].map(|hair| BigRational::new(&d * &middle + hair, d.clone()));
+    let [above, below] = [1, -1].map(|offset| BigRational::new(&d * &middle + offset, d.clone()));
     assert_eq!(above.numer().bits(), 129);
     assert_eq!(f64::nearest_to_rational(&above), Some(2_f64.powi(53) + 2.0));
     assert_eq!(f64::nearest_to_rational(&below), Some(2_f64.powi(53)));
 }
 
-/// Of 55 and 56 bits, whole numbers times a power of two: rounded up, down, and at the middle to the even one. The greater
-/// ones are beyond what a screen takes.
+/// Integers of 55 and 56 bits, times a power of two, are rounded up, down, and at a midpoint to the even
+/// float. The largest ones lie outside the range of the double-double enclosure.
 #[test]
-fn whole_numbers_are_rounded_by_the_bits_behind_the_float() {
+fn integers_are_rounded_by_dropped_bits() {
     let power = |e: u32| BigInt::one() << e;
     for scale in [0, 3, 40, 940, 960] {
-        for (behind, rounded) in [
+        for (dropped, rounded) in [
             (0, 0),
             (1, 0),
             (2, 0),
@@ -292,10 +306,10 @@ fn whole_numbers_are_rounded_by_the_bits_behind_the_float() {
             (10, 8),
             (11, 12),
         ] {
-            let [value, wanted] = [behind, rounded]
+            let [value, wanted] = [dropped, rounded]
                 .map(|n: i32| BigRational::from_integer((power(54) + n) * power(scale)));
             let float = f64::nearest_to_rational(&value).unwrap();
-            assert_eq!(exact(float), wanted, "(2^54 + {behind})*2^{scale}");
+            assert_eq!(exact(float), wanted, "(2^54 + {dropped})*2^{scale}");
             assert_eq!(f64::nearest_to_rational(&-value), Some(-float));
         }
     }

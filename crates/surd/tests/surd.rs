@@ -13,7 +13,7 @@ fn surd(c: (i64, i64), r: (i64, i64)) -> Surd {
     Surd::new(ratio(c.0, c.1), ratio(r.0, r.1)).unwrap()
 }
 
-/// A number by its sign and its square, in pairs that do not know of each other.
+/// Returns surds, each with its sign and its square computed independently.
 fn samples() -> Vec<(Surd, i32, BigRational)> {
     let coefficients = [
         (0, 1),
@@ -48,7 +48,7 @@ fn samples() -> Vec<(Surd, i32, BigRational)> {
 }
 
 #[test]
-fn order_is_that_of_the_signed_squares() {
+fn order_matches_signed_squares() {
     for (a, a_sign, a_square) in samples() {
         for (b, b_sign, b_square) in samples() {
             let order = match (a_sign, b_sign) {
@@ -75,7 +75,7 @@ fn sign_square_and_negation() {
         assert_eq!(a.square(), square, "{a}");
         assert_eq!((-a.clone()).cmp(&a), 0.cmp(&sign), "{a}");
         assert_eq!(-(-a.clone()), a);
-        // A root is rational just where its square is one.
+        // A root is rational if and only if its square is the square of a rational.
         if let Some(rational) = a.to_rational() {
             assert_eq!(Surd::from(rational.clone()), a);
             assert_eq!(&rational * &rational, square);
@@ -142,7 +142,8 @@ fn comparison_with_floats() {
         for zero in [0.0, -0.0] {
             assert_eq!(a.partial_cmp(&zero), Some(sign.cmp(&0)), "{a}");
         }
-        // The nearest float, its neighbours and the extremes, through exact squares.
+        // The comparison partners are the nearest float, its neighbours and the extremes. The expected
+        // order comes from exact squares.
         let near = a.nearest::<f64>().unwrap();
         for float in [
             near.next_down(),
@@ -170,9 +171,9 @@ fn comparison_with_floats() {
     }
 }
 
-/// 10007 is the least prime beyond 10000.
+/// 10007 is the smallest prime above 10000.
 #[test]
-fn squares_of_small_primes_are_in_front_of_the_root() {
+fn squares_of_small_primes_are_extracted() {
     for p in [2, 3, 5, 7, 11, 31, 101, 499, 991, 997] {
         for (square, front, under) in [
             (p * p * 10_007, p, 10_007),
