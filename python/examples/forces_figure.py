@@ -1,9 +1,9 @@
-"""A figure in matplotlib, of arrays: what the floor bears under three stackings, and the contacts of a slice through one.
+"""A matplotlib figure from arrays: base normal forces of three stackings, and the contacts of a slice through each.
 
     pip install ./python matplotlib
     python forces_figure.py [FILE]
 
-writes FILE, or forces.png.
+The figure is written to FILE, by default forces.png.
 """
 
 import sys
@@ -18,11 +18,11 @@ from cannonpile import Pile
 
 LAYERS, TOP, SPACING = 7, "hexagon:4", "11/10"
 STACKINGS = ["fcc", "dhcp", "hcp"]
-PUSH, PULL = "tab:blue", "tab:red"
+COMPRESSIVE, TENSILE = "tab:blue", "tab:red"
 
 
 def floor(axes, pile, scale):
-    """The normal force under each bottom sphere, as the colour of its disc."""
+    """Draw each bottom sphere as a disc coloured by its normal force."""
     places = pile.positions()[-pile.base_count :, :2]
     normal = pile.base("pile")[:, 0]
     axes.set_aspect("equal")
@@ -35,17 +35,17 @@ def floor(axes, pile, scale):
 
 
 def slice_of(axes, pile):
-    """The contacts between spheres near the plane y = 0: wide lines bear much, red ones would have to pull."""
+    """Draw the contacts near the plane y = 0. The line width shows the force; red contacts are tensile."""
     places, pairs, forces = pile.positions(), pile.contact_ids() - 1, pile.forces("pile")
     near = np.abs(places[pairs][:, :, 1]).max(axis=1) < 1.2
     lines = places[pairs[near]][:, :, [0, 2]]
-    # None too thin to be seen.
+    # A minimum width keeps all lines visible.
     widths = 0.5 + 4 * np.abs(forces[near]) / np.abs(forces).max()
-    colours = np.where(forces[near] < 0, PULL, PUSH)
+    colours = np.where(forces[near] < 0, TENSILE, COMPRESSIVE)
     axes.add_collection(LineCollection(lines, linewidths=widths, colors=colours, capstyle="round"))
     axes.set_aspect("equal")
     axes.autoscale()
-    stands = "stands" if pile.stands else "cannot stand: red ones must pull"
+    stands = "is stable" if pile.stands else "is unstable: red contacts are tensile"
     axes.set(title=f"{pile.stacking} {stands}", xlabel="x / R", ylabel="z / R")
 
 
@@ -56,7 +56,7 @@ figure, (above, below) = plt.subplots(2, len(piles), figsize=(12, 7), height_rat
 for top, bottom, pile in zip(above, below, piles, strict=True):
     shown = floor(top, pile, scale)
     slice_of(bottom, pile)
-    # What is drawn is true: all weight arrives.
+    # The base carries the whole weight.
     assert np.isclose(pile.base("pile")[:, 0].sum(), float(pile.weight), rtol=1e-12)
 figure.colorbar(shown, ax=above, label="normal force on the floor / mg")
 path = sys.argv[1] if len(sys.argv) > 1 else "forces.png"

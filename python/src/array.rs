@@ -1,4 +1,4 @@
-//! Arrays of NumPy, written in place.
+//! NumPy arrays, filled in place.
 
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -7,9 +7,9 @@ use pyo3::sync::PyOnceLock;
 use crate::exception::Raised;
 use crate::work::work;
 
-/// A number that arrays are of.
+/// A number type of NumPy arrays.
 pub(crate) trait Number: Element + Send {
-    /// Its name in NumPy.
+    /// The name of the type in NumPy.
     const NAME: &'static str;
 }
 
@@ -21,7 +21,7 @@ impl Number for i64 {
     const NAME: &'static str = "int64";
 }
 
-/// Memory of NumPy: its own MemoryError where there is too little.
+/// Allocates a NumPy array. NumPy raises MemoryError if the memory is too small.
 fn zeros<'py>(
     py: Python<'py>,
     shape: impl IntoPyObject<'py>,
@@ -31,7 +31,7 @@ fn zeros<'py>(
     ZEROS.import(py, "numpy", "zeros")?.call1((shape, name))
 }
 
-/// An array of numbers, filled while the interpreter is free.
+/// Creates a one-dimensional array and fills it with the interpreter lock released.
 pub(crate) fn column<V: Number, E: From<cannonpile::Error> + Into<Raised> + Send>(
     py: Python<'_>,
     length: usize,
@@ -46,7 +46,7 @@ pub(crate) fn column<V: Number, E: From<cannonpile::Error> + Into<Raised> + Send
     Ok(array)
 }
 
-/// An array of rows of so many numbers.
+/// Creates an array of rows with a given number of columns.
 pub(crate) fn rows<V: Number, E: From<cannonpile::Error> + Into<Raised> + Send, const N: usize>(
     py: Python<'_>,
     length: usize,

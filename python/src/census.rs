@@ -1,4 +1,4 @@
-//! Which stackings stand.
+//! The census of stable stackings.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,13 +14,14 @@ use crate::exception::Raised;
 use crate::input::read;
 use crate::work::work;
 
-/// What there is to say of a stacking.
+/// The result for one stacking.
 struct Entry {
     pile: cannonpile::Pile,
     stands: bool,
 }
 
-/// An entry: stacking, layers, whether it stands, its least force, and the least and the greatest normal force of its base.
+/// An entry: stacking, layers, stability, smallest contact force, and the smallest and largest normal force of its
+/// base.
 type Row = (
     String,
     BigInt,
@@ -30,10 +31,10 @@ type Row = (
     Option<BigRational>,
 );
 
-/// Of taller piles that change their sign the base is not looked through.
+/// The base of taller piles with sign changes is not searched.
 const MOST_LAYERS: i128 = 100_000;
 
-/// Stackings, one after the other.
+/// An iterator over stackings.
 #[pyclass(frozen, module = "cannonpile._cannonpile")]
 pub(crate) struct Census {
     entries: Mutex<Box<dyn Iterator<Item = Result<Entry, Error>> + Send>>,
@@ -48,7 +49,7 @@ impl Census {
 
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Row>> {
         work(py, || {
-            // What was not said before a panic is still to come.
+            // Entries that were not returned before a panic remain to be returned.
             let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
             for entry in entries.by_ref() {
                 let entry = entry?;
@@ -100,8 +101,10 @@ fn unless_too_large<T>(answer: Result<T, cannonpile::Error>) -> Result<Option<T>
     }
 }
 
-/// Return the stackings of so many layers under one sphere, or on a base, with those that fail unless only the `standing` are
-/// asked for; with horizontal contacts or without.
+/// Return the stackings of a given number of layers under one sphere, or on a base, with or without horizontal
+/// contacts.
+///
+/// Unless only the `standing` ones are requested, the shortest unstable prefixes are included.
 #[pyfunction]
 pub(crate) fn census(
     layers: &str,

@@ -1,4 +1,4 @@
-//! Measured forces, held against the exact ones.
+//! Comparison of measured forces with the exact ones.
 
 use cannonpile::Packing;
 use cannonpile::lattice::Site;
@@ -11,21 +11,21 @@ use pyo3::prelude::*;
 
 use crate::exception::Raised;
 
-/// What was measured: where, and how much.
+/// Measured contacts: their identification and their forces.
 pub(crate) struct Measurement {
     places: Places,
     forces: Option<Vec<f64>>,
     vectors: Option<Vec<[f64; 3]>>,
 }
 
-/// How contacts are known.
+/// The identification of contacts.
 enum Places {
     Ids(Vec<[u64; 2]>),
     Points(Vec<[f64; 3]>),
     Centres(Vec<[[f64; 3]; 2]>),
 }
 
-/// A copy of an array, which others may write to meanwhile, as rows of so many numbers.
+/// Copies an array as rows of a given length. Other threads may write to the array meanwhile.
 fn rows<V: Element + Copy, const N: usize>(
     array: &PyReadonlyArray1<'_, V>,
 ) -> PyResult<Vec<[V; N]>> {
@@ -33,7 +33,7 @@ fn rows<V: Element + Copy, const N: usize>(
 }
 
 impl Measurement {
-    /// What arrays hold, each contiguous and as long as the others.
+    /// Reads the measurement from arrays, which must be contiguous and of equal length.
     pub(crate) fn new(
         ids: Option<&PyReadonlyArray1<'_, i64>>,
         [points, centres]: [Option<&PyReadonlyArray1<'_, f64>>; 2],
@@ -58,13 +58,13 @@ impl Measurement {
             }
             _ => {
                 return Err(PyValueError::new_err(
-                    "give one of ids, points and centres: which spheres the contacts are between",
+                    "give exactly one of ids, points and centres, to identify the contacts",
                 ));
             }
         };
         if forces.is_none() && vectors.is_none() {
             return Err(PyValueError::new_err(
-                "give forces, or vectors, or both: what was measured",
+                "give forces, vectors or both, the measured values",
             ));
         }
         Ok(Self {
@@ -76,7 +76,7 @@ impl Measurement {
         })
     }
 
-    /// Compares it with the exact forces.
+    /// Compares the measurement with the exact forces.
     pub(crate) fn compare(
         &self,
         packing: &Packing<'_>,
@@ -131,13 +131,13 @@ impl Measurement {
             (Some(force), Some(vector)) => Force::Both(*force, *vector),
             (None, Some(vector)) => Force::Vector(*vector),
             (Some(force), None) => Force::Along(*force),
-            // The library says that it is not finite.
+            // The library reports values that are not finite.
             (None, None) => Force::Along(f64::NAN),
         }
     }
 }
 
-/// The numbers of an entry, if spheres can have them.
+/// Returns the ids of an entry if they are valid.
 fn numbered((entry, ids): (u64, [i64; 2])) -> PyResult<[u64; 2]> {
     let [one, other] = ids.map(|id| {
         u64::try_from(id).map_err(|_| {
@@ -149,7 +149,7 @@ fn numbered((entry, ids): (u64, [i64; 2])) -> PyResult<[u64; 2]> {
     Ok([one?, other?])
 }
 
-/// A contact: ids, k, i, j, direction, exact force, measured force, relative error, and all of it in words.
+/// A contact: ids, k, i, j, direction, exact force, measured force, relative error, and a description in words.
 type Row = (
     (u64, u64),
     BigInt,
@@ -177,7 +177,7 @@ fn row(difference: &verify::Difference) -> Row {
     )
 }
 
-/// Measured forces, held against the exact ones.
+/// The comparison of measured forces with the exact ones.
 #[pyclass(frozen, module = "cannonpile._cannonpile")]
 pub(crate) struct Comparison(verify::Comparison);
 
@@ -189,25 +189,25 @@ impl Comparison {
 
 #[pymethods]
 impl Comparison {
-    /// How many contacts the pile has.
+    /// The number of contacts of the pile.
     #[getter]
     fn contacts(&self) -> u64 {
         self.0.contacts()
     }
 
-    /// How many were measured.
+    /// The number of measured contacts.
     #[getter]
     fn matched(&self) -> u64 {
         self.0.matched()
     }
 
-    /// How many have a force and were not measured.
+    /// The number of contacts with a force that were not measured.
     #[getter]
     fn missing(&self) -> u64 {
         self.0.missing()
     }
 
-    /// How many pairs of bottom spheres were left out.
+    /// The number of ignored pairs of bottom spheres.
     #[getter]
     fn fixed(&self) -> u64 {
         self.0.fixed()
@@ -225,7 +225,7 @@ impl Comparison {
         self.0.largest_error()
     }
 
-    /// The root of the mean square of the relative errors.
+    /// The root mean square of the relative errors.
     #[getter]
     fn rms_error(&self) -> f64 {
         self.0.rms_error()
@@ -237,32 +237,32 @@ impl Comparison {
         self.0.worst().map(row)
     }
 
-    /// The first of the missing contacts.
+    /// The first missing contacts.
     fn missing_contacts(&self) -> Vec<Row> {
         self.0.missing_contacts().iter().map(row).collect()
     }
 
-    /// How many pairs carry a force without being contacts.
+    /// The number of pairs with a force that are not contacts.
     fn extra(&self, rtol: f64) -> u64 {
         self.0.extra(rtol)
     }
 
-    /// The first pair that does, in words.
+    /// The first such pair, in words.
     fn worst_extra(&self) -> Option<String> {
         self.0.extra_pairs().first().map(ToString::to_string)
     }
 
-    /// How many have a larger error.
+    /// The number of measured contacts with a larger error.
     fn beyond(&self, rtol: f64) -> u64 {
         self.0.beyond(rtol)
     }
 
-    /// Whether nothing is missing, extra or wrong.
+    /// True if no contact is missing, extra or wrong.
     fn accepted(&self, rtol: f64) -> bool {
         self.0.accepted(rtol)
     }
 
-    /// What the differences have in common.
+    /// Explanations of the differences.
     fn findings(&self, rtol: f64) -> Vec<String> {
         self.0
             .findings(rtol)
@@ -271,7 +271,7 @@ impl Comparison {
             .collect()
     }
 
-    /// One line.
+    /// A summary of one line.
     fn __str__(&self) -> String {
         self.0.to_string()
     }

@@ -1,12 +1,12 @@
-//! The error of any crate, and the argument to change.
+//! A common error type for all crates, and the argument to change.
 
 use core::fmt;
 
 use cannonpile_dem::Key;
 
-/// Why a crate refused a question.
+/// The error of any crate.
 ///
-/// An error that another crate wraps is taken out of it, so that there is one way to match each.
+/// An error that wraps the error of another crate is unwrapped, so that each error has one form.
 #[derive(Clone, Debug)]
 pub(crate) enum Error {
     Core(cannonpile::Error),
@@ -75,8 +75,8 @@ impl From<cannonpile_figure::Error> for Error {
 }
 
 impl Error {
-    /// Returns the argument to change, if it is known. The text of an error already names a sphere; a number, a method and a
-    /// file are no arguments.
+    /// Returns the name of the argument to change, if there is one. Messages about spheres already name the sphere.
+    /// Numbers, methods and files are not arguments.
     pub(crate) fn argument(&self) -> Option<&'static str> {
         match self {
             Self::Core(error) => of_core(error),
@@ -147,7 +147,7 @@ fn of_dem(error: &cannonpile_dem::Error) -> Option<&'static str> {
     match error {
         Error::SinPhiOfDiscs => Some("sin_phi"),
         Error::Excluded { given, .. } => of_key(*given),
-        // The text of an error in a file names its line and key.
+        // The message about a file gives the line and the key.
         _ => None,
     }
 }

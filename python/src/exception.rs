@@ -1,4 +1,4 @@
-//! What the library refuses, as Python's exceptions.
+//! Conversion of errors to Python exceptions.
 
 use cannonpile_dem::table::WriteError;
 use cannonpile_dem::verify::Refusal;
@@ -7,18 +7,18 @@ use pyo3::exceptions::{PyMemoryError, PyOSError, PyOverflowError, PyRuntimeError
 
 use crate::error::Error;
 
-/// Why something was refused. What is large is boxed, because every answer has room for it.
+/// The reason for an exception. Large variants are boxed to keep `Result` small.
 pub(crate) enum Raised {
     Error(Box<Error>),
-    /// An argument, and why it was refused.
+    /// An invalid argument and its error.
     Named(&'static str, Box<Error>),
     Refusal(Box<Refusal>),
     Write(WriteError),
-    /// What was measured, by an argument.
+    /// An invalid measurement and its argument.
     Argument(&'static str, Box<Refusal>),
 }
 
-/// Lets the errors of all crates be raised.
+/// Implements the conversion from the errors of all crates.
 macro_rules! raise {
     ($($error:ty),*) => {$(
         impl From<$error> for Raised {
@@ -57,7 +57,7 @@ impl From<WriteError> for Raised {
 }
 
 impl Raised {
-    /// The exception, with the library's text.
+    /// Returns the exception with the message of the library.
     pub(crate) fn into_exception(self) -> PyErr {
         match self {
             Self::Error(error) => of(None, &error),
@@ -73,7 +73,7 @@ impl Raised {
     }
 }
 
-/// The exception for what an argument was refused with.
+/// Returns the exception for an invalid argument.
 pub(crate) fn of_argument(name: &str, error: &Error) -> PyErr {
     of(Some(name), error)
 }

@@ -1,4 +1,4 @@
-//! Kinds of figures.
+//! The kinds of figures.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
@@ -20,7 +20,7 @@ pub(crate) enum Kind {
     Response,
 }
 
-/// The layer whose indices are shown, as in the paper.
+/// The layer of the index figure, as in the paper.
 const INDEXED: i128 = 3;
 
 impl Kind {
@@ -42,7 +42,7 @@ impl Kind {
         })
     }
 
-    /// Draws it, of a layer or a sphere where the kind has one.
+    /// Draws the figure, for a layer or a sphere if the kind has one.
     pub(crate) fn draw(
         self,
         (subject, pile): (&Subject<'_>, &Pile),

@@ -1,4 +1,4 @@
-//! What Python gives, as the library takes it.
+//! Conversion of Python arguments to the types of the library.
 
 use cannonpile::lattice::Site;
 use num_bigint::BigInt;
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::error::Error;
 use crate::exception::of_argument;
 
-/// Reads an option's text by the library's own parser.
+/// Parses the text of an option with the parser of the library.
 pub(crate) fn read<T, E: Into<Error>>(
     name: &str,
     text: &str,
@@ -17,16 +17,16 @@ pub(crate) fn read<T, E: Into<Error>>(
     parse(text).map_err(|error| of_argument(name, &error.into()))
 }
 
-/// A coordinate of a sphere, or a layer.
+/// Returns a coordinate of a sphere or the number of a layer.
 pub(crate) fn coordinate(name: &str, number: &BigInt) -> PyResult<i128> {
     i128::try_from(number).map_err(|_| {
         PyValueError::new_err(format!(
-            "{name}: {number} is no place in a pile: all lie within ±10^36"
+            "{name}: {number} is outside every pile; coordinates lie within ±10^36"
         ))
     })
 }
 
-/// A sphere.
+/// Returns the site of a sphere.
 pub(crate) fn site(k: &BigInt, i: &BigInt, j: &BigInt) -> PyResult<Site> {
     Ok(Site {
         i: coordinate("i", i)?,

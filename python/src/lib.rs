@@ -1,7 +1,7 @@
-//! The compiled part of the Python package `cannonpile`: its class and functions, in the library's own words.
+//! The compiled part of the Python package `cannonpile`: its class and functions.
 //!
-//! It holds no mathematics, only the library's answers as Python's integers and fractions and as NumPy's arrays. The module
-//! `cannonpile`, in Python, is what users see.
+//! It contains no mathematics. It converts the results of the library to Python integers and fractions and to NumPy
+//! arrays. Users see the Python module `cannonpile`.
 
 mod array;
 mod census;
@@ -22,7 +22,7 @@ use pyo3::prelude::*;
 mod _cannonpile {
     /// The version of the package and of the library.
     #[pymodule_export]
-    #[expect(non_upper_case_globals, reason = "so it is called in Python")]
+    #[expect(non_upper_case_globals, reason = "the name that Python requires")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]

@@ -11,10 +11,10 @@ use crate::exception::Raised;
 use crate::input::read;
 use crate::work::work;
 
-/// What a place bears: a, b, probability, normal, shear along x and along y.
+/// The mean at a position: a, b, probability, normal force, shear along x and along y.
 type Row = (BigInt, BigInt, [BigRational; 4]);
 
-/// Return the means over random stackings at every place of the base.
+/// Return the means over random stackings at every position of the base.
 #[pyfunction]
 pub(crate) fn mean(
     py: Python<'_>,

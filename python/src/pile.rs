@@ -1,4 +1,4 @@
-//! The class `Pile`: a scene, and its pile.
+//! The class `Pile`: a scene and its pile.
 
 pub(crate) mod answers;
 pub(crate) mod arrays;
@@ -23,23 +23,23 @@ use crate::exception::Raised;
 use crate::input::read;
 use crate::work::{work, work_of_long_steps};
 
-/// A pile and its sizes, as the library has them; the class `cannonpile.Pile` is made of one.
+/// A pile and its sizes. The class `cannonpile.Pile` wraps it.
 #[pyclass(frozen, module = "cannonpile._cannonpile")]
 pub(crate) struct Pile {
     scene: Scene,
-    /// In the state that is meant.
+    /// The pile in the equilibrium state of the scene.
     exact: cannonpile::Pile,
     stands: OnceLock<Option<Verdict>>,
 }
 
 impl Pile {
-    /// The pile of a scene, checked.
+    /// Returns the pile of a scene, after validation.
     fn of(py: Python<'_>, scene: Scene) -> PyResult<Self> {
         let wanted = scene.clone();
         let exact = work_of_long_steps(py, move || {
             let scene = wanted;
             scene.check_sizes()?;
-            // Of a scene no other sites are asked for than those of loads.
+            // The only sites in a scene are those of loads.
             let pile = scene.pile().map_err(|error| match error.into() {
                 error @ Error::Core(cannonpile::Error::SiteOutside { .. }) => {
                     Raised::Named("loads", Box::new(error))
@@ -71,7 +71,7 @@ impl Pile {
 
 #[pymethods]
 impl Pile {
-    /// Make the pile of these options, by the names of scene files, and of loads, each with its place and its weight.
+    /// Make a pile from options, named as in scene files, and from loads with their sites and weights.
     #[new]
     fn new(
         py: Python<'_>,
@@ -133,7 +133,7 @@ impl Pile {
         self.exact.dimension().number()
     }
 
-    /// Which forces are meant.
+    /// The equilibrium state.
     #[getter]
     fn state(&self) -> &'static str {
         self.scene.state.name()
@@ -157,14 +157,14 @@ impl Pile {
         self.scene.gravity.clone()
     }
 
-    /// Half the distance of neighbours of a layer over the radius.
+    /// Half the distance of neighbours in a layer divided by the radius.
     #[getter]
     fn spacing(&self) -> PyResult<BigRational> {
         let spacing = self
             .scene
             .spacing()
             .map_err(|error| Raised::from(error).into_exception())?;
-        // Of a scene it is a rational: its root is of 1.
+        // The spacing of a scene is rational, so its radicand is 1.
         Ok(spacing.ratio().coefficient().clone())
     }
 
@@ -180,7 +180,7 @@ impl Pile {
         self.exact.contact_count() + self.exact.horizontal_forces().len()
     }
 
-    /// The number of spheres on the floor.
+    /// The number of bottom spheres.
     #[getter]
     fn base_count(&self) -> BigUint {
         self.exact.base_sphere_count()
@@ -192,7 +192,7 @@ impl Pile {
         self.exact.weight()
     }
 
-    /// Whether the pile stands; None where that is open, or not asked.
+    /// True if the pile is stable, None if this is open.
     #[getter]
     fn stands(&self, py: Python<'_>) -> PyResult<Option<bool>> {
         Ok(match work(py, || self.verdict())? {
@@ -213,7 +213,7 @@ impl Pile {
         unit.map_err(|error| Raised::from(error).into_exception())
     }
 
-    /// Whether two are the same pile with the same sizes.
+    /// True if the other pile has the same spheres and sizes.
     fn equals(&self, other: &Self) -> bool {
         let spacing = |pile: &Self| {
             pile.scene
@@ -234,13 +234,13 @@ impl Pile {
         self.exact == other.exact && sizes(self) == sizes(other) && spacing(self) == spacing(other)
     }
 
-    /// The call that makes this pile.
+    /// The Python call that makes this pile.
     fn __repr__(&self) -> String {
         options::call(&self.scene)
     }
 }
 
-/// A benchmark case: name, pile, title, purpose, and whether it stands.
+/// A benchmark case: name, pile, title, purpose and stability.
 type Case = (&'static str, Pile, &'static str, &'static str, Option<bool>);
 
 /// Return the benchmark cases.

@@ -1,4 +1,4 @@
-//! The theorems, and their proofs run.
+//! Theorems and their proofs.
 
 use cannonpile::Error;
 use cannonpile_proof::Theorem;
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::work::work;
 
-/// A theorem: name, statement, hypotheses, symbols, how it is proved, whether the proof holds.
+/// A theorem: name, statement, hypotheses, symbols, method, and the result of the proof.
 type Row = (
     &'static str,
     &'static str,
@@ -17,7 +17,7 @@ type Row = (
     bool,
 );
 
-/// Run the proofs of all theorems, or of the one with this name.
+/// Run the proofs of all theorems, or of the theorem with a given name.
 #[pyfunction]
 pub(crate) fn prove(py: Python<'_>, name: Option<&str>) -> PyResult<Vec<Row>> {
     let wanted = |theorem: &Theorem| name.is_none_or(|name| theorem.name == name);
@@ -27,7 +27,7 @@ pub(crate) fn prove(py: Python<'_>, name: Option<&str>) -> PyResult<Vec<Row>> {
             .map(|theorem| theorem.name)
             .collect();
         return Err(PyValueError::new_err(format!(
-            "name: there is no such theorem; there are {}",
+            "name: unknown theorem; the theorems are {}",
             names.join(", ")
         )));
     }

@@ -1,4 +1,4 @@
-//! Work of the library: the interpreter is free meanwhile, and Ctrl-C ends it.
+//! Long computations, with the interpreter lock released and cancellation by Ctrl-C.
 
 use std::io;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -11,10 +11,10 @@ use pyo3::prelude::*;
 
 use crate::exception::Raised;
 
-/// How often signals are looked at.
+/// The interval between checks for signals.
 const TICK: Duration = Duration::from_millis(50);
 
-/// Does what is known to take no time.
+/// Runs a computation that is known to be short.
 pub(crate) fn quickly<T, E>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, E> + Send,
@@ -27,10 +27,10 @@ where
         .map_err(|error| error.into().into_exception())
 }
 
-/// Does what may take long: in a thread, while this one waits for it and for signals.
+/// Runs a computation that may be long in another thread. The calling thread waits for it and checks for signals.
 ///
-/// When a signal's handler raises, as that of Ctrl-C does, the work is asked to end, is waited for, and what the handler raised
-/// is raised: no thread goes on computing, and nobody writes to an array any more.
+/// If a signal handler raises, as that of Ctrl-C does, the computation is cancelled and awaited, and the exception
+/// is raised. So no thread continues to compute or to write into an array.
 pub(crate) fn work<T, E>(py: Python<'_>, work: impl FnOnce() -> Result<T, E> + Send) -> PyResult<T>
 where
     T: Send,
@@ -41,7 +41,7 @@ where
         let (sender, receiver) = mpsc::channel();
         thread::scope(|scope| {
             let worker = || {
-                // Nobody waits no more only if this thread has panicked.
+                // The receiver is missing only if the waiting thread has panicked.
                 let _ = sender.send(interrupt.during(work));
             };
             let spawned = thread::Builder::new().spawn_scoped(scope, worker);
@@ -52,8 +52,11 @@ where
     done.map_err(|error| error.into().into_exception())
 }
 
-/// As [`work`], of what has steps that cannot be cut short, the factorizations of an interior point. After Ctrl-C the step is
-/// given a second; then it goes on in its thread, which ends with it, and the exception has a note that says so.
+/// Runs a computation with steps that cannot be interrupted, such as the factorisations of an interior-point
+/// method.
+///
+/// After Ctrl-C the thread waits one second for the current step. Then the step continues in its thread, which ends
+/// after it, and the exception has a note about this.
 pub(crate) fn work_of_long_steps<T, E>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, E> + Send + 'static,
@@ -67,7 +70,7 @@ where
         let (sender, receiver) = mpsc::channel();
         let of_worker = interrupt.clone();
         let worker = move || {
-            // Nobody waits any more where a step was too long.
+            // The receiver is missing if a step was too long to wait for.
             let _ = sender.send(of_worker.during(work));
         };
         let spawned = thread::Builder::new().spawn(worker);
@@ -77,14 +80,14 @@ where
     done.map_err(|error| error.into().into_exception())
 }
 
-/// How long a step is waited for.
+/// The waiting time for a step.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 fn no_thread(error: &io::Error) -> PyErr {
-    PyRuntimeError::new_err(format!("no thread to work in: {error}"))
+    PyRuntimeError::new_err(format!("cannot start a thread: {error}"))
 }
 
-/// Waits for what is done in another thread, and for signals: after one for so long.
+/// Waits for another thread and checks for signals. After a signal it waits for `patience` at most.
 fn wait<T>(
     receiver: &Receiver<T>,
     interrupt: &Interrupt,
@@ -102,7 +105,7 @@ fn wait<T>(
                 }
                 #[expect(
                     clippy::redundant_closure_for_method_calls,
-                    reason = "only a closure takes an interpreter of any lifetime"
+                    reason = "only a closure accepts an interpreter of any lifetime"
                 )]
                 let signal = Python::attach(|py| py.check_signals());
                 if let Err(signal) = signal {
@@ -112,16 +115,16 @@ fn wait<T>(
             }
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err(
-                    "the work has ended without an answer",
+                    "the computation ended without a result",
                 ));
             }
         }
     }
 }
 
-/// Says that a thread goes on; Python 3.10 knows no notes.
+/// Adds a note that the thread continues. Python 3.10 has no notes.
 fn add_note(py: Python<'_>, signal: &PyErr) {
     let note =
-        "cannonpile: a step that cannot be cut short goes on in a thread, which ends after it";
+        "cannonpile: a step that cannot be interrupted continues in a thread, which ends after it";
     let _ = signal.value(py).call_method1("add_note", (note,));
 }

@@ -1,4 +1,4 @@
-"""What the tests share: piles, and the command line."""
+"""Fixtures: piles and the command line."""
 
 import csv
 import io
@@ -12,7 +12,7 @@ import cannonpile
 
 from piles import ALL, STACKED, command_line
 
-# No test depends on time; nothing is left in the folder; in CI the same piles each time.
+# No deadline, no example database, and deterministic examples in CI.
 settings.register_profile("here", deadline=None, database=None, print_blob=True, derandomize="CI" in os.environ)
 settings.load_profile("here")
 
@@ -31,21 +31,21 @@ def pile(options):
 
 @pytest.fixture(params=STACKED, ids=str)
 def stacked(request):
-    """The arguments of a pile that the recursion knows."""
+    """The arguments of a pile that the recursion supports."""
     return STACKED[request.param]
 
 
 @pytest.fixture(scope="session")
 def table():
-    """A function that runs a command of the binary CANNONPILE on a pile, and returns the rows of its table."""
+    """Return a function that runs a command of the binary CANNONPILE on a pile and returns the rows of its table."""
     binary = os.environ.get("CANNONPILE")
     if not binary:
-        pytest.skip("CANNONPILE names no binary: the command line is not compared")
+        pytest.skip("CANNONPILE is not set to a binary: the command line is not compared")
 
     def rows(command, options, *words):
         call = [binary, command, *command_line(options), *words, "--format=csv"]
         run = subprocess.run(call, capture_output=True, text=True, check=False)
-        # 1: the answer is no.
+        # Exit status 1 means a negative answer.
         assert run.returncode in (0, 1), run.stderr
         return list(csv.DictReader(io.StringIO(run.stdout)))
 
@@ -53,6 +53,6 @@ def table():
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Nobody overlooks what was left out."""
+    """List the skipped tests at the end of the output."""
     for skipped in terminalreporter.stats.get("skipped", []):
         terminalreporter.write_line(f"*** NOT CHECKED: {skipped.nodeid}: {skipped.longrepr[2]}")

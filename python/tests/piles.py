@@ -1,4 +1,4 @@
-"""Piles that many tests look at: the arguments of `cannonpile.Pile`, and the same for the command line."""
+"""Piles for many tests: the arguments of `cannonpile.Pile`, and the same for the command line."""
 
 from fractions import Fraction
 
@@ -6,13 +6,13 @@ import numpy as np
 
 from recursion import Recursion
 
-# Of each kind one: straight, alternating, mixed; grown down from wide tops and up from bases; loads, sizes, weightless.
+# One of each kind: straight, alternating and mixed; built from wide tops and from bases; loads, sizes, weightless.
 STACKED = {
     "one sphere": {"layers": 1},
     "straight": {"layers": 6},
     "sizes": {"layers": 5, "radius": "1e-3", "mass": "1e-5", "gravity": "9.81", "spacing": "1.3"},
     "hcp": {"layers": 5, "stacking": "hcp"},
-    "hcp that falls": {"layers": 8, "stacking": "hcp"},
+    "unstable hcp": {"layers": 8, "stacking": "hcp"},
     "dhcp": {"layers": 7, "stacking": "dhcp"},
     "spelled out": {"layers": 6, "stacking": "++-+-"},
     "hexagon": {"layers": 4, "stacking": "hcp", "top": "hexagon:3,2"},
@@ -24,7 +24,7 @@ STACKED = {
     "loads on hcp": {"layers": 5, "stacking": "hcp", "top": "hexagon:2", "loads": {(1, 0, 0): "0.75"}},
     "response": {"layers": 6, "stacking": "+-+-+", "weightless": True, "loads": {(0, 0, 0): 1}},
 }
-# Of these the recursion knows nothing.
+# The recursion does not support these.
 OTHERS = {
     "isosceles": {"layers": 5, "sin_phi": "2/5"},
     "discs": {"layers": 6, "dimension": 2},
@@ -42,13 +42,13 @@ ALL = STACKED | OTHERS
 
 
 def recursion(options):
-    """What the recursion says of a pile of STACKED."""
+    """Return the recursion for a pile of STACKED."""
     known = ("layers", "stacking", "top", "base", "loads", "weightless")
     return Recursion(**{name: value for name, value in options.items() if name in known})
 
 
 def command_line(options):
-    """The options of the command line for the same pile."""
+    """Return the options of the command line for the same pile."""
     words = []
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
@@ -62,7 +62,7 @@ def command_line(options):
 
 
 def down(pile, options):
-    """What pulls each sphere down, its weight and its loads, in N."""
+    """Return weight plus load of each sphere, in N."""
     pulls = np.zeros(pile.sphere_count) if options.get("weightless") else np.ones(pile.sphere_count)
     for place, weight in options.get("loads", {}).items():
         on_base = len(place) < pile.dimension

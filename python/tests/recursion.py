@@ -1,10 +1,10 @@
-"""The forces of a pile from Newton's laws, sphere by sphere from the top, in fractions.
+"""An oracle: the forces of a pile from the balance of each sphere, from the top, in fractions.
 
-Written for these tests from the equations of equilibrium alone, slow and plain. Nothing here imports cannonpile.
+It follows from the equilibrium equations alone, is slow, and does not import cannonpile.
 
-A layer is a set of sites (i, j) of the triangular lattice. Across a step of the sign s the sphere (i, j) rests on
-(i, j), (i + s, j), (i, j + s): its supports alpha, beta, gamma. The horizontal parts of the three contacts are
-s u_alpha, s u_beta, s u_gamma, seen from the upper sphere, with u_alpha + u_beta + u_gamma = 0.
+A layer is a set of sites (i, j) of the triangular lattice. Below a step of sign s sphere (i, j) is supported by
+(i, j), (i + s, j), (i, j + s): its supports alpha, beta, gamma. From the upper sphere the horizontal parts of the three
+contacts are s u_alpha, s u_beta, s u_gamma, with u_alpha + u_beta + u_gamma = 0.
 """
 
 from fractions import Fraction
@@ -17,7 +17,7 @@ ONE_SPHERE = ((0, 0), (0, 0), (0, 0))
 
 
 def signs(stacking, steps):
-    """The steps from layer to layer, +1 or -1, of a name or of Hägg signs."""
+    """Return the signs of the steps, +1 or -1, from a name or from Hägg signs."""
     text = stacking
     if stacking in NAMED:
         text = (NAMED[stacking] * (steps + 1))[:steps]
@@ -26,7 +26,7 @@ def signs(stacking, steps):
 
 
 def region(text):
-    """The bounds of i, of j and of i + j: "hexagon:3,2", "triangle:4", "region:x0..x1,y0..y1,s0..s1"."""
+    """Return the bounds of i, j and i + j: "hexagon:3,2", "triangle:4", "region:x0..x1,y0..y1,s0..s1"."""
     if text is None:
         return ONE_SPHERE
     shape, sizes = text.split(":")
@@ -38,31 +38,31 @@ def region(text):
 
 
 def sites_within(bounds):
-    """The sites within these bounds."""
+    """Return the sites within these bounds."""
     (x0, x1), (y0, y1), (s0, s1) = bounds
     return {(i, j) for i in range(x0, x1 + 1) for j in range(y0, y1 + 1) if s0 <= i + j <= s1}
 
 
 def supports(site, sign):
-    """The three sites of the layer below that a sphere rests on."""
+    """Return the three supports of a sphere in the layer below."""
     return [(site[0] + sign * i, site[1] + sign * j) for i, j in OFFSETS]
 
 
 def sum_and_differences(forces):
-    """Of the forces of three contacts: the vertical part, and the horizontal ones along u_beta and u_gamma."""
+    """Return the vertical part of three contact forces, and the horizontal parts along u_beta and u_gamma."""
     alpha, beta, gamma = forces
     return alpha + beta + gamma, beta - alpha, gamma - alpha
 
 
 class Recursion:
-    """The forces of a pile of spheres whose layers do not touch within themselves.
+    """The forces of a pile of spheres without contacts within layers.
 
     `forces` maps (k, i, j, direction) to fractions, in the order of the table of contacts; the unit is mg/(3 cos theta).
     `floor` maps (i, j) to normal force, shear along x and shear along y, in mg, mg tan theta and sqrt(3) mg tan theta.
     """
 
     def __init__(self, layers, stacking="fcc", *, top=None, base=None, loads=None, weightless=False):
-        # Of a stacking with a base the signs are read from the base up.
+        # With a base the signs are read from the base upwards.
         steps = signs(stacking, layers - 1)
         self.signs = steps[::-1] if base else steps
         self.layers = self._grown_up(base) if base else self._grown_down(top)
@@ -103,7 +103,7 @@ class Recursion:
                     gamma = along_gamma - along_beta / 2
                     self.floor[site] = (vertical / 3 + weight, sign * gamma / 3, sign * along_beta / 6)
                     continue
-                # Three contacts below carry what three above bring and three times the weight, and balance their thrust.
+                # The three lower contacts carry the load of the upper ones and three times the weight, and balance their thrust.
                 carried, beta, gamma = vertical + 3 * weight, *(x * sign * next_sign for x in (along_beta, along_gamma))
                 alpha = (carried - beta - gamma) / 3
                 for index, force in enumerate((alpha, alpha + beta, alpha + gamma)):
@@ -112,11 +112,11 @@ class Recursion:
             above, sign = below, next_sign
 
     def sites(self):
-        """(k, i, j) of all spheres, in the order of their numbers."""
+        """Return (k, i, j) of all spheres, in the order of their ids."""
         return [(k, *site) for k, layer in enumerate(self.layers) for site in in_order(layer)]
 
     def contact_ids(self):
-        """The numbers of both spheres of every contact, the upper one first."""
+        """Return the ids of both spheres of every contact, the upper one first."""
         number = {site: 1 + index for index, site in enumerate(self.sites())}
         pairs = []
         for k, i, j, direction in self.forces:
@@ -125,9 +125,9 @@ class Recursion:
         return pairs
 
     def positions(self, spacing, radius=1):
-        """The centres, in floats: z up from the bottom layer, the site (0, 0) of the top (or of the base) at x = y = 0."""
+        """Return the centres as floats: z up from the bottom layer, site (0, 0) of the top (or of the base) at x = y = 0."""
         ratio, radius = float(Fraction(spacing)), float(Fraction(radius))
-        # sin(theta) = a/(sqrt(3) R) of contacts of the length 2R.
+        # sin(theta) = a/(sqrt(3) R) for contacts of length 2R.
         across = 2 * radius * ratio / sqrt(3)
         up = 2 * radius * sqrt(1 - ratio**2 / 3)
         alpha, beta, gamma = [(-across / 2, -across * sqrt(3) / 2), (-across / 2, across * sqrt(3) / 2), (across, 0.0)]
@@ -144,17 +144,17 @@ class Recursion:
         ]
 
     def stands(self):
-        """Whether no contact would have to pull."""
+        """Return whether no contact force is tensile."""
         return all(force >= 0 for force in self.forces.values())
 
 
 def in_order(layer):
-    """The sites of a layer, row after row."""
+    """Return the sites of a layer in row order."""
     return sorted(layer, key=lambda site: (site[1], site[0]))
 
 
 def isosceles(layers, sin_phi):
-    """The contact forces of the straight pile for any azimuth, in mg/(2 (1 + sin phi) cos theta), as the paper has them."""
+    """Return the contact forces of the straight pile for any azimuth, in mg/(2 (1 + sin phi) cos theta), as in the paper."""
     grow = (Fraction(1), Fraction(1), 2 * Fraction(sin_phi))
     return {
         (k, i, j, direction): (count + 1) * step
@@ -166,7 +166,7 @@ def isosceles(layers, sin_phi):
 
 
 def discs(layers):
-    """The contact forces of a pile of discs under one disc, in mg/(2 cos theta)."""
+    """Return the contact forces of a pile of discs under one disc, in mg/(2 cos theta)."""
     return {
         (k, i, 0, direction): Fraction(count + 1)
         for k in range(layers - 1)

@@ -1,4 +1,4 @@
-"""What the command line of the same library says, number by number: its tables, its files and its verdicts."""
+"""Comparison with the command line, number by number: tables, files and verdicts."""
 
 from fractions import Fraction
 
@@ -19,7 +19,7 @@ def site(row):
 
 
 def contacts(table, options, *words):
-    """The rows of the table of contacts, in the order of contacts.csv: sloping contacts first."""
+    """Return the rows of the table of contacts in the order of contacts.csv: sloping contacts first."""
     return sorted(table("contacts", options, *words), key=lambda row: "-" in row["direction"])
 
 
@@ -64,7 +64,7 @@ def test_base(table, options, pile):
 
 
 def test_summary(table, options, pile):
-    # It is of the isostatic state, or of both.
+    # The summary does not depend on the state.
     [row] = table("summary", {name: value for name, value in options.items() if name not in ("state", "stiffness_ratio")})
     assert (pile.layers, pile.sphere_count, pile.base_count) == tuple(
         int(row[name]) for name in ("layers", "spheres", "base_spheres")
@@ -89,7 +89,7 @@ def test_bounds(table, name):
 
 
 def test_exported_files(table, tmp_path, options, pile):
-    # The ids of contacts are those of the files, which simulations read.
+    # The ids of contacts match those in the files for simulations.
     names = pile.export(tmp_path, "csv", "lammps")
     assert {"spheres.csv", "contacts.csv", "pile.in", "scene.toml"} <= set(names) == {path.name for path in tmp_path.iterdir()}
     ids = np.genfromtxt(tmp_path / "contacts.csv", delimiter=",", names=True, dtype=None, encoding="utf-8", ndmin=1)
@@ -128,8 +128,8 @@ def test_cases(table):
     assert [str(case.pile.sphere_count) for case in cases] == [row["spheres"] for row in rows]
 
 
-def test_a_fault_is_seen(table):
-    # Other gravity, another row, another pile.
+def test_differences_are_detected(table):
+    # Wrong gravity, a wrong row, a wrong pile.
     rows = table("contacts", {"layers": 4, "gravity": "9.81"}, *NEAREST)
     assert [float(row["force"]) for row in rows] != Pile(4).forces().tolist()
     rows = table("spheres", {"layers": 4}, "--number=f64")

@@ -1,4 +1,4 @@
-"""Measured forces: by ids and by place, as forces and as vectors, right and wrong."""
+"""Comparison of measured forces: by ids and by position, as magnitudes and as vectors, correct and wrong."""
 
 import numpy as np
 import pytest
@@ -15,12 +15,12 @@ def pile(request):
 
 
 def centres(pile):
-    """The centres of both spheres of each contact."""
+    """Return the centres of both spheres of each contact."""
     return pile.positions()[pile.contact_ids() - 1]
 
 
 def ways(pile):
-    """The exact forces in all ways in which they can be given."""
+    """Yield the exact forces in all accepted forms."""
     ids, forces, vectors = pile.contact_ids(), pile.forces(), pile.vectors()
     for place in ({"ids": ids}, {"points": pile.contact_points()}, {"centres": centres(pile)}):
         yield place | {"forces": forces}
@@ -46,7 +46,7 @@ def test_ids_may_be_the_first_argument(pile):
     pile.assert_close(pile.contact_ids(), pile.forces())
     pile.assert_close(pile.contact_ids().tolist(), pile.forces().tolist())
     pile.assert_close(pile.contact_ids().astype(np.int32), pile.forces().astype(np.float64))
-    # As LAMMPS has them.
+    # The form of LAMMPS.
     pile.assert_close(np.asfortranarray(pile.contact_ids()), vectors=np.asfortranarray(pile.vectors()))
     pile.assert_close(pile.contact_ids()[::-1], pile.forces()[::-1])
     pile.assert_close(pile.contact_ids(), pile.forces().astype(np.float32), rtol=1e-6)
@@ -58,7 +58,7 @@ def test_arrays_of_any_kind(pile):
         pile.assert_close(ids.astype(kind), forces, rtol=TIGHT)
     pile.assert_close(ids, forces.astype(">f8"), vectors=vectors.astype(">f8"), rtol=TIGHT)
     pile.assert_close(ids, forces.astype(np.longdouble), rtol=TIGHT)
-    # Columns of a wider table, every other row of one, and memory that nobody may write to.
+    # Columns of a wider table, every other row, and read-only memory.
     table = np.zeros((2 * len(ids), 8))
     table[::2, 1:3], table[::2, 4], table[::2, 5:] = ids, forces, vectors
     table.setflags(write=False)
@@ -100,7 +100,7 @@ def test_the_worst_contact_is_named(pile, error):
         with pytest.raises(AssertionError) as failed:
             pile.assert_close(**measured, rtol=abs(error) / 2)
         said = str(failed.value)
-        # Both spheres, the site and the direction, both values, and what was allowed.
+        # Both spheres, the site and the direction, both values and the tolerance.
         for word in (str(first), str(second), f"k={worst.k}", f"i={worst.i}", f"j={worst.j}", worst.direction):
             assert word in said, (word, said)
         values = [(worst.exact, worst.measured)]
@@ -111,11 +111,11 @@ def test_the_worst_contact_is_named(pile, error):
 
 
 def without(at):
-    """Takes a contact out."""
+    """Return a function that removes a contact."""
     return lambda array: np.delete(array, at, axis=0)
 
 
-def test_a_missing_contact_is_found(pile):
+def test_missing_contact_is_detected(pile):
     at = int(np.argmax(pile.forces()))
     for measured in ways(pile):
         measured = {name: without(at)(array) for name, array in measured.items()}
@@ -129,10 +129,10 @@ def test_a_missing_contact_is_found(pile):
         assert str(missing.ids[0]) in str(failed.value)
 
 
-def test_a_contact_too_many_is_found():
+def test_extra_contact_is_detected():
     pile = Pile(5, spacing="6/5")
     ids, forces = pile.contact_ids(), pile.forces()
-    # Neighbours of a layer do not touch.
+    # The neighbours of a layer do not touch.
     ids, forces = np.vstack([ids, [[2, 3]]]), np.append(forces, 0.5)
     found = pile.compare(ids, forces)
     assert found.extra() == 1 and found.extra(10) == 0
@@ -140,13 +140,13 @@ def test_a_contact_too_many_is_found():
         pile.assert_close(ids, forces)
 
 
-def test_another_pile_is_refused(pile):
+def test_wrong_pile_is_rejected(pile):
     other = Pile(4, spacing="6/5")
     with pytest.raises((AssertionError, ValueError)):
         other.assert_close(pile.contact_ids(), pile.forces())
 
 
-def test_vectors_of_the_other_sphere_are_found(pile):
+def test_vectors_of_the_other_sphere_are_detected(pile):
     vectors = -pile.vectors()
     with pytest.raises(AssertionError) as failed:
         pile.assert_close(pile.contact_ids(), vectors=vectors)
@@ -154,13 +154,13 @@ def test_vectors_of_the_other_sphere_are_found(pile):
     assert found.findings() and all(finding in str(failed.value) for finding in found.findings()[:1])
 
 
-def test_one_factor_is_found(pile):
+def test_constant_factor_is_detected(pile):
     found = pile.compare(pile.contact_ids(), pile.forces() * 9.81)
     assert any("9.81" in finding for finding in found.findings())
 
 
-def test_another_frame(pile):
-    # A turn about the vertical and a shift: no finding, where contacts are known by both centres.
+def test_other_frames_are_accepted(pile):
+    # A rotation about the vertical and a translation give no finding if both centres are known.
     angle = 0.3
     turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
     shift = [3.0, -2.0, 10.0]
@@ -169,11 +169,11 @@ def test_another_frame(pile):
     pile.assert_close(points=pile.contact_points() @ turn.T + shift, forces=pile.forces(), rtol=1e-9)
 
 
-def test_how_far_off_a_place_may_be(pile):
+def test_position_tolerance(pile):
     pairs = centres(pile)
     pairs[5] += [0.05, 0, 0]
     assert pile.compare(centres=pairs, forces=pile.forces(), within=0.1).missing == 0
-    # Either refused as no place of the pile, or a contact that is missing and another that is too many.
+    # The position is rejected, or one contact is missing and another is extra.
     with pytest.raises((AssertionError, ValueError)):
         pile.assert_close(centres=pairs, forces=pile.forces(), within=0.01)
 
@@ -187,11 +187,11 @@ def test_text_is_one_line_with_the_worst_contact(pile):
     assert found.worst.text in str(found) or str(found.worst.ids[0]) in str(found)
 
 
-def test_tension_of_a_pile_that_falls():
+def test_unstable_pile_has_tension():
     pile = Pile(8, "hcp")
     assert pile.stands is False and pile.forces().min() < 0
     pile.assert_close(pile.contact_ids(), pile.forces(), rtol=TIGHT)
-    # A code without cohesion loses those contacts.
+    # A code without cohesion loses these contacts.
     kept = pile.forces() > 0
     found = pile.compare(pile.contact_ids()[kept], pile.forces()[kept])
     assert found.missing == np.count_nonzero(pile.forces() < 0)
@@ -214,6 +214,6 @@ def test_nothing_measured():
 
 
 @pytest.mark.parametrize(("name", "pile", "known"), cannonpile.cases())
-def test_cases_are_what_a_suite_of_simulations_takes(name, pile, known):
+def test_cases_parametrize_tests(name, pile, known):
     assert known.title, name
     pile.assert_close(pile.contact_ids(), pile.forces(), rtol=TIGHT)

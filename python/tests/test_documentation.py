@@ -1,4 +1,4 @@
-"""Nothing public is without its documentation, and what is documented is true: examples, stubs, README."""
+"""Public names are documented, and the documentation is correct: examples, stubs, README."""
 
 import doctest
 import importlib
@@ -21,13 +21,13 @@ PACKAGE = Path(cannonpile.__file__).parent
 
 
 def sections(text):
-    """The sections of a docstring in NumPy's style, by their names; what is before them by ''."""
+    """Return the sections of a NumPy docstring by name. The text before them has the name ''."""
     parts = re.split(r"^ *([A-Z][A-Za-z ]+)\n *-{3,} *$", inspect.cleandoc(text or ""), flags=re.MULTILINE)
     return {"": parts[0]} | dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
 def lacks(name, item):
-    """What the documentation of a function, a class or a property lacks."""
+    """Return the deficiencies in the documentation of a function, a class or a property."""
     text = item.__doc__
     if not text or not text.strip():
         return [f"{name}: no docstring"]
@@ -50,7 +50,7 @@ def lacks(name, item):
         need("Attributes", *item._fields)
         return missing
     if isinstance(item, property) or (inspect.isclass(item) and name not in MADE):
-        # What users never call.
+        # Users do not call these.
         return missing
     described = inspect.signature(item)
     parameters = [
@@ -65,13 +65,13 @@ def lacks(name, item):
     return missing
 
 
-# What returns nothing, and classes that users make themselves.
+# Functions without a result, and classes that users construct.
 NOTHING = {"Pile.assert_close", "Figure.save", "Page.save"}
 MADE = {"Pile"}
 
 
 def public(module):
-    """All that is public, by its name: functions and classes, and of classes all members without an underscore."""
+    """Yield all public names: functions, classes, and their members without an underscore."""
     for name, item in inspect.getmembers(module):
         if name.startswith("_") or inspect.ismodule(item) or not (callable(item) or inspect.isclass(item)):
             continue
@@ -88,14 +88,14 @@ def public(module):
                 yield f"{name}.{member}", inspect.getattr_static(item, member) if isinstance(value, property) else value
 
 
-def test_nothing_lacks_documentation():
+def test_public_names_are_documented():
     items = dict(public(cannonpile))
     assert {"Pile", "Pile.forces", "Pile.stands", "Comparison.worst", "Figure.save", "Multiples", "census"} <= items.keys()
     missing = [what for name, item in items.items() for what in lacks(name, item)]
     assert missing == [], "\n".join(missing)
 
 
-def test_lacking_documentation_is_found():
+def test_missing_documentation_is_detected():
     def bare(spacing): ...
 
     def half(spacing):
@@ -116,7 +116,7 @@ def test_lacking_documentation_is_found():
     ]
 
 
-def test_arrays_say_their_shapes_and_units():
+def test_arrays_document_shape_and_type():
     for name in ("positions", "sites", "contact_ids", "contact_points", "forces", "vectors", "base"):
         returned = sections(getattr(cannonpile.Pile, name).__doc__)["Returns"]
         assert re.search(r"\([NMB],( \d)?\)", returned), name
@@ -133,14 +133,14 @@ def test_names():
 
 
 def modules():
-    """The package and what is in it."""
+    """Return the package and its modules."""
     yield cannonpile
     for found in pkgutil.walk_packages(cannonpile.__path__, "cannonpile."):
         yield importlib.import_module(found.name)
 
 
 def examples():
-    """The doctests, each once."""
+    """Return the doctests, each once."""
     finder, seen = doctest.DocTestFinder(exclude_empty=True), set()
     for module in modules():
         for test in finder.find(module, module.__name__, extraglobs={"np": np}):
@@ -152,7 +152,7 @@ def examples():
 
 @pytest.mark.parametrize("example", list(examples()), ids=lambda test: test.name)
 def test_examples_of_the_documentation(example, tmp_path, monkeypatch):
-    # Files are written where nobody minds.
+    # Examples write their files into a temporary folder.
     monkeypatch.chdir(tmp_path)
     said = []
     result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(example, out=said.append)
@@ -160,7 +160,7 @@ def test_examples_of_the_documentation(example, tmp_path, monkeypatch):
     assert result.failed == 0, "".join(said)
 
 
-def test_examples_are_many_and_can_fail():
+def test_examples_exist_and_can_fail():
     found = list(examples())
     assert len(found) >= 20
     wrong = doctest.DocTestParser().get_doctest(">>> 1 + 1\n3\n", {}, "wrong", None, 0)
@@ -168,23 +168,23 @@ def test_examples_are_many_and_can_fail():
 
 
 def stubtest(folder, **environment):
-    """What mypy says of the stubs, from a folder for what it leaves."""
+    """Run mypy on the stubs, in a folder for its cache."""
     call = [sys.executable, "-m", "mypy.stubtest", "cannonpile"]
     return subprocess.run(call, capture_output=True, text=True, check=False, env=os.environ | environment, cwd=folder)
 
 
 def test_stubs(tmp_path):
-    pytest.importorskip("mypy", reason="mypy is not installed: stubs are not checked")
+    pytest.importorskip("mypy", reason="mypy is not installed: the stubs are not checked")
     run = stubtest(tmp_path)
     assert run.returncode == 0, run.stdout + run.stderr
-    # A fault, planted in a copy.
+    # An error in a copy is detected.
     copy = tmp_path / "copy"
     shutil.copytree(PACKAGE, copy / "cannonpile", ignore=shutil.ignore_patterns("*.so", "__pycache__"))
     stub = copy / "cannonpile" / "_cannonpile.pyi"
-    stub.write_text(stub.read_text(encoding="utf-8") + "\ndef unheard_of() -> None: ...\n", encoding="utf-8")
+    stub.write_text(stub.read_text(encoding="utf-8") + "\ndef not_at_runtime() -> None: ...\n", encoding="utf-8")
     run = stubtest(tmp_path, MYPYPATH=str(copy))
     assert run.returncode == 1
-    assert "unheard_of is not present at runtime" in run.stdout, run.stdout + run.stderr
+    assert "not_at_runtime is not present at runtime" in run.stdout, run.stdout + run.stderr
 
 
 def test_types_are_shipped():

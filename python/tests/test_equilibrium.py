@@ -1,4 +1,4 @@
-"""Newton's laws, from arrays alone: of pile.positions(), contact_ids(), vectors() and base()."""
+"""Equilibrium, from the arrays positions(), contact_ids(), vectors() and base() alone."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ ACCURACY = 1e-13
 
 
 class Measured:
-    """The arrays of a pile, of which copies may be altered."""
+    """The arrays of a pile, whose copies can be altered."""
 
     def __init__(self, options):
         pile = cannonpile.Pile(**options)
@@ -27,7 +27,7 @@ class Measured:
         self.base = pile.base()
 
     def net(self):
-        """What is left on each sphere: contacts, weight and loads, in units of all that pulls."""
+        """Return the residual force on each sphere, relative to the total weight and load."""
         total = np.zeros_like(self.positions)
         np.add.at(total, self.ids[:, 0] - 1, self.vectors)
         np.add.at(total, self.ids[:, 1] - 1, -self.vectors)
@@ -35,16 +35,16 @@ class Measured:
         return total / self.unit
 
     def imbalance(self):
-        """The greatest force that is left on a sphere above the floor."""
+        """Return the largest residual force on a sphere above the floor."""
         return np.abs(self.net()[: self.free]).max(initial=0)
 
     def torque(self):
-        """The greatest moment of a contact about either of its spheres: the force is central, or friction would turn them."""
+        """Return the largest moment of a contact force about the centres of its spheres. It is zero without friction."""
         arms = self.positions[self.ids[:, 0] - 1] - self.positions[self.ids[:, 1] - 1]
         return np.abs(np.cross(arms, self.vectors)).max(initial=0) / (self.unit * self.radius)
 
     def floor(self):
-        """By how much what arrives at the floor is off: normal downwards, shear along x and y."""
+        """Return the error of the base forces: normal downwards, shear along x and y."""
         arrives = self.net()[self.free :] * [1, 1, -1]
         return np.abs(arrives[:, [2, 0, 1]] - self.base / self.unit).max()
 
@@ -70,7 +70,7 @@ def test_shapes_and_types(pile):
         assert array.flags.c_contiguous and array.flags.writeable and array.flags.owndata
 
 
-def test_arrays_are_the_callers_own(pile):
+def test_arrays_are_independent_copies(pile):
     first = pile.positions()
     first[:] = np.nan
     assert np.isfinite(pile.positions()).all()
@@ -84,7 +84,7 @@ def test_forces_are_central(measured):
     assert measured.torque() <= ACCURACY
 
 
-def test_all_weight_arrives_at_the_floor(measured, pile):
+def test_base_carries_whole_weight(measured, pile):
     assert measured.floor() <= ACCURACY
     assert measured.base[:, 0].sum() == pytest.approx(float(pile.weight * pile.mass * pile.gravity), rel=ACCURACY)
     assert np.abs(measured.base[:, 1:].sum(axis=0)).max() <= ACCURACY * measured.unit
@@ -122,9 +122,9 @@ def test_the_floor_is_at_the_centres_of_the_bottom_layer(pile):
     assert (heights[: -pile.base_count] > 0).all()
 
 
-# Faults, planted in a copy of the arrays: each of the laws above can fail.
-@pytest.mark.parametrize("name", ["straight", "hcp that falls", "hexagon", "loads", "elastic"])
-def test_planted_faults_are_found(name):
+# Errors in a copy of the arrays: each of the laws above can fail.
+@pytest.mark.parametrize("name", ["straight", "unstable hcp", "hexagon", "loads", "elastic"])
+def test_errors_are_detected(name):
     def planted(fault):
         measured = Measured(ALL[name])
         assert max(measured.imbalance(), measured.floor(), measured.torque()) <= ACCURACY

@@ -1,4 +1,4 @@
-"""What is refused: by which exception, in which words. The Python argument is named."""
+"""Invalid input: the exception, its message, and the name of the Python argument."""
 
 from fractions import Fraction
 
@@ -49,18 +49,18 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("error", "argument", "options"), REFUSED, ids=lambda x: str(x)[:60])
-def test_piles_that_are_refused(error, argument, options):
+def test_invalid_piles(error, argument, options):
     with pytest.raises(error) as refused:
         Pile(**options)
     assert argument in str(refused.value)
-    # One line, in the names of Python: no option of the command line.
+    # One line, with Python names instead of command line options.
     assert "\n" not in str(refused.value)
     assert "--" not in str(refused.value)
-    # The class of the error, and no other that pytest would take for it.
+    # Exactly this class, not a subclass.
     assert type(refused.value) is error
 
 
-def test_numbers_and_remedies_are_in_the_text():
+def test_messages_contain_values_and_remedies():
     with pytest.raises(ValueError, match=r"17/10.*a/R must be at least 1 and at most 2/3\*sqrt\(6\) = 1\.632993"):
         Pile(10, spacing="17/10")
 
@@ -71,7 +71,7 @@ def test_unknown_arguments():
             call()
 
 
-def test_spheres_that_are_not_there():
+def test_missing_spheres():
     pile = Pile(4)
     for call in (
         lambda: pile.force(9, 0, 0),
@@ -105,8 +105,8 @@ def test_units():
             call(3)
 
 
-def test_what_no_float_holds():
-    # Beyond 10^308: a pile has exact forces, and no floats.
+def test_results_beyond_floats():
+    # Beyond 10^308 forces are exact, but not representable as floats.
     pile = Pile(4, gravity=10**400)
     for call in (pile.forces, pile.vectors, pile.base, lambda: pile.unit_force):
         with pytest.raises(OverflowError):
@@ -122,7 +122,7 @@ def test_what_no_float_holds():
         Pile(2, loads={(0, 0, 0): 10**400}).forces("pile")
 
 
-def test_what_no_memory_holds():
+def test_results_beyond_memory():
     pile = Pile(10**6)
     for call in (
         pile.positions,
@@ -135,10 +135,10 @@ def test_what_no_memory_holds():
     ):
         with pytest.raises(MemoryError):
             call()
-    # Its base has 5 10^11 spheres.
+    # The base has 5·10^11 spheres.
     with pytest.raises(MemoryError):
         pile.base()
-    # And beyond any size that a machine can name.
+    # The size exceeds the address space.
     with pytest.raises((MemoryError, ValueError)):
         Pile(10**30).forces()
 
@@ -176,7 +176,7 @@ def test_export(tmp_path):
         pile.export(tmp_path / "file" / "folder", "csv")
 
 
-def test_answers_that_are_refused():
+def test_invalid_requests():
     for error, argument, call in [
         (ValueError, "name", lambda: cannonpile.prove("flat earth")),
         (TypeError, "name", lambda: cannonpile.prove(3)),
@@ -194,7 +194,7 @@ def test_answers_that_are_refused():
             call()
 
 
-def test_piles_do_not_change():
+def test_piles_are_immutable():
     pile = Pile(4)
     for name in ("layers", "radius", "sphere_count", "anything"):
         with pytest.raises(AttributeError):
@@ -227,26 +227,26 @@ def test_piles_do_not_change():
     ],
     ids=lambda x: str(x)[:60],
 )
-def test_measurements_that_are_refused(argument, measured):
+def test_invalid_measurements(argument, measured):
     for call in (Pile(3).compare, Pile(3).assert_close):
         with pytest.raises((TypeError, ValueError), match=argument):
             call(**measured)
 
 
-def test_spheres_of_ids_that_are_not_there():
+def test_unknown_ids():
     for ids in ([[1, 99]], [[1, 1]]):
         with pytest.raises(ValueError):
             Pile(3).compare(ids, [1.0])
 
 
-def test_tolerances_that_are_refused():
+def test_invalid_tolerances():
     pile = Pile(3)
     for rtol in (-1.0, float("nan"), float("inf")):
         with pytest.raises(ValueError, match="rtol"):
             pile.assert_close(pile.contact_ids(), pile.forces(), rtol=rtol)
 
 
-def test_what_is_not_finite():
+def test_values_that_are_not_finite():
     pile = Pile(3)
     for number in (np.nan, np.inf):
         forces = pile.forces()

@@ -1,4 +1,4 @@
-"""Exact answers: those of the recursion, as fractions, and the nearest floats of them."""
+"""Exact results: fractions equal to those of the recursion, and correctly rounded floats."""
 
 from decimal import Decimal
 from fractions import Fraction
@@ -14,25 +14,25 @@ from recursion import discs, isosceles
 
 
 def fractions(multiples):
-    """All forces, from numerators and the denominator."""
+    """Return all forces from the numerators and the denominator."""
     return [Fraction(int(numerator), multiples.denominator) for numerator in multiples.numerators]
 
 
-def test_forces_are_those_of_the_recursion(stacked):
+def test_forces_match_recursion(stacked):
     pile, expected = Pile(**stacked), recursion(stacked)
     assert fractions(pile.multiples()) == list(expected.forces.values())
     assert {at: pile.force(*at) for at in expected.forces} == expected.forces
     assert all(type(pile.force(*at)) is Fraction for at in list(expected.forces)[:1])
 
 
-def test_floor_is_that_of_the_recursion(stacked):
+def test_base_forces_match_recursion(stacked):
     pile, expected = Pile(**stacked), recursion(stacked)
     assert {at: tuple(pile.on_floor(*at)) for at in expected.floor} == expected.floor
     assert pile.base("pile").tolist() == [[float(x) for x in force] for force in expected.floor.values()]
     assert pile.weight == expected.weight
 
 
-def test_spheres_and_contacts_are_those_of_the_recursion(stacked):
+def test_spheres_and_contacts_match_recursion(stacked):
     pile, expected = Pile(**stacked), recursion(stacked)
     assert [tuple(site) for site in pile.sites().tolist()] == expected.sites()
     assert [tuple(pair) for pair in pile.contact_ids().tolist()] == expected.contact_ids()
@@ -43,7 +43,7 @@ def test_spheres_and_contacts_are_those_of_the_recursion(stacked):
         assert pile.sphere_id(*site) == number
 
 
-def test_stands_as_the_recursion_says(stacked):
+def test_stability_matches_recursion(stacked):
     if stacked.get("weightless"):
         assert Pile(**stacked).stands is None
     else:
@@ -70,8 +70,8 @@ def test_isosceles_bases_and_discs():
     assert all(pile.force(k, i, direction=direction) == force for (k, i, _, direction), force in closed.items())
 
 
-# The recursion is held against the paper's closed form, and a fault of it is seen.
-def test_the_recursion_itself():
+# The recursion matches the closed form of the paper, and an error in it is detected.
+def test_recursion_matches_closed_form():
     straight = recursion({"layers": 6})
     assert straight.forces == isosceles(6, Fraction(1, 2))
     assert set(straight.floor.values()) >= {(Fraction(8, 3), Fraction(-5, 6), Fraction(-5, 6))}
@@ -79,13 +79,13 @@ def test_the_recursion_itself():
     assert fractions(Pile(6).multiples()) != list(wrong.forces.values())
 
 
-def test_floats_are_the_nearest(pile):
+def test_floats_are_correctly_rounded(pile):
     exact = fractions(pile.multiples())
     assert pile.forces("pile").tolist() == [float(force) for force in exact]
 
 
-def test_si_forces_are_the_nearest():
-    # f0 = mg/(3 cos theta) with cos^2 theta = 1 - (a/R)^2/3: squares are rational, so that rounding can be judged.
+def test_si_forces_are_correctly_rounded():
+    # f0 = mg/(3 cos theta) with cos^2 theta = 1 - (a/R)^2/3. The squares are rational, which decides the rounding.
     pile = Pile(5, "hcp", spacing="6/5", gravity="9.81", mass="0.013")
     unit_squared = (Fraction("9.81") * Fraction("0.013") / 3) ** 2 / (1 - Fraction(36, 25) / 3)
     for force, exact in zip(pile.forces().tolist(), fractions(pile.multiples()), strict=True):
@@ -123,7 +123,7 @@ def test_layers_of_numpy(layers):
 
 
 def test_decimals_are_exact():
-    # Neither is a float.
+    # None of these is a float.
     assert Pile(4, mass=Decimal("0.1")).mass == Fraction(1, 10)
     assert Pile(4, mass="0.1").mass == Fraction(1, 10)
     long = "1." + "0" * 60 + "1"
@@ -137,16 +137,16 @@ WANTED = ["spacing", "radius", "mass", "gravity", "sin_phi", "stiffness_ratio"]
 
 @pytest.mark.parametrize("name", WANTED)
 @pytest.mark.parametrize("number", FLOATS, ids=repr)
-def test_floats_are_refused(name, number):
+def test_floats_are_rejected(name, number):
     with pytest.raises(TypeError, match=name) as refused:
         Pile(4, **{name: number})
-    # It says why, and what to write instead.
+    # The message states the reason and the remedy.
     assert "float" in str(refused.value) and "Fraction" in str(refused.value)
     if number == 1.5:
         assert "'1.5'" in str(refused.value)
 
 
-def test_floats_are_refused_as_loads_and_elsewhere():
+def test_floats_are_rejected_as_loads_and_elsewhere():
     for loads in ({(0, 0, 0): 0.5}, {(0.0, 0, 0): 1}):
         with pytest.raises(TypeError, match="loads"):
             Pile(4, loads=loads)
@@ -158,15 +158,15 @@ def test_floats_are_refused_as_loads_and_elsewhere():
         cannonpile.mean(4, fault_probability=0.5)
 
 
-# What numbers are not, booleans are not either.
+# Booleans are not numbers here.
 @pytest.mark.parametrize("number", [None, True, [], "seven", "", "1/0", 1j, Decimal("nan"), Decimal("inf")], ids=repr)
-def test_what_is_no_number_is_refused(number):
+def test_invalid_numbers_are_rejected(number):
     with pytest.raises((TypeError, ValueError), match="mass"):
         Pile(4, mass=number)
 
 
 def test_multiples_never_overflow():
-    # Denominators are 3^d: beyond 40 changes of sign no int64 holds the numerators.
+    # Denominators are 3^d, so numerators exceed int64 above 40 sign changes.
     narrow = Pile(12, "hcp").multiples()
     assert narrow.numerators.dtype == np.int64
     assert 3**10 % narrow.denominator == 0
@@ -178,8 +178,8 @@ def test_multiples_never_overflow():
     assert fractions(wide) == list(expected.forces.values())
 
 
-def test_multiples_at_the_edge_of_int64():
-    # On both sides of the edge, wherever it lies.
+def test_multiples_near_int64_limit():
+    # Test both sides of the limit.
     kinds = set()
     for changes in range(30, 44):
         multiples = Pile(changes + 2, "hcp").multiples()
@@ -197,7 +197,7 @@ def test_loads_with_large_numbers():
 
 
 def test_a_pile_of_any_height():
-    # Nothing is stored: a contact of 10^36 layers is exact.
+    # Nothing is stored, so a contact in 10^36 layers is exact.
     pile = Pile(10**36)
     k = 10**35
     assert pile.force(k, 3, 4, "gamma") == 5
@@ -219,7 +219,7 @@ def test_bounds_enclose_the_elastic_state():
 
 
 def test_elastic_state_of_straight_piles_is_the_isostatic_one():
-    # A theorem: horizontal contacts of straight piles open.
+    # By a theorem the horizontal contacts of straight piles open.
     pile = Pile(6, spacing=1)
     assert (pile.elastic().multiples().numerators == pile.multiples().numerators).all()
     assert pile.elastic() != pile
@@ -234,7 +234,7 @@ def test_elastic_state_has_horizontal_contacts():
     assert (pile.forces()[horizontal] > 0).all()
 
 
-def test_means_are_those_over_all_stackings():
+def test_means_match_enumeration():
     layers, probability = 5, Fraction(1, 3)
     sums = {}
     for number in range(2 ** (layers - 2)):
@@ -251,7 +251,7 @@ def test_means_are_those_over_all_stackings():
     assert {(mean.a, mean.b): [mean.probability, *mean[3:]] for mean in means} == sums
 
 
-def test_census_says_what_the_recursion_says():
+def test_census_matches_recursion():
     entries = {entry.stacking: entry for entry in cannonpile.census(5)}
     assert entries
     for stacking, entry in entries.items():
@@ -260,7 +260,7 @@ def test_census_says_what_the_recursion_says():
         assert entry.stands is known.stands()
         assert entry.least_force == min(known.forces.values())
     standing = [entry.stacking for entry in cannonpile.census(7, standing=True)]
-    # Every stacking that begins with +, one of each mirror pair.
+    # Every stacking that begins with +: one of each mirror pair.
     words = ["+" + "".join("+-"[number >> bit & 1] for bit in range(5)) for number in range(32)]
     assert sorted(standing) == sorted(word for word in words if recursion({"layers": 7, "stacking": word}).stands())
 

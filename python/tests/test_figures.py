@@ -42,7 +42,7 @@ def test_at_and_layer():
     assert pile.plot("network", layer=1).svg != pile.plot("network", layer=2).svg
 
 
-def test_note_says_that_a_pile_cannot_stand():
+def test_note_warns_of_unstable_pile():
     assert Pile(4).plot("network").note is None
     note = Pile(8, "hcp").plot("network").note
     assert note and "\n" not in note
@@ -58,7 +58,7 @@ def test_save(tmp_path):
         figure.save(tmp_path / "nowhere" / "base.svg")
 
 
-def test_save_leaves_the_old_file_or_the_new_one(tmp_path, monkeypatch):
+def test_save_is_atomic(tmp_path, monkeypatch):
     figure, old = Pile(6).plot("base"), tmp_path / "base.svg"
     old.write_text("old")
     link = tmp_path / "link.svg"
@@ -85,5 +85,5 @@ def test_export(tmp_path):
     assert set(names) == {path.name for path in (tmp_path / "pile").iterdir()}
     assert {"contacts.csv", "pile.in", "pile.py", "card.md", "scene.toml"} <= set(names)
     assert all((tmp_path / "pile" / name).stat().st_size for name in names)
-    # Tables, where nothing else is asked for.
+    # The default format is csv.
     assert "contacts.csv" in Pile(4).export(str(tmp_path / "tables"))

@@ -1,4 +1,4 @@
-"""Large arrays take the memory that they are, and no copy of it."""
+"""Large arrays are built without a second copy in memory."""
 
 import subprocess
 import sys
@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the peak of memory is read from /proc")
+pytestmark = pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the memory peak is read from /proc")
 
-# The peak of the process since it began, not that of the one that started it.
+# The peak of this process, without that of its parent.
 PROGRAM = """
 from pathlib import Path
 from cannonpile import Pile
@@ -26,7 +26,7 @@ print((peak() - before) / array.nbytes)
 
 
 def share(expression):
-    """The memory that a process takes for an array, over the array's own."""
+    """Return the memory that a process needs for an array, divided by the size of the array."""
     program = PROGRAM.replace("array = {}", f"array = {expression}")
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     return float(run.stdout)
@@ -42,9 +42,9 @@ def share(expression):
         "Pile(130, 'hcp').forces()",
     ],
 )
-def test_memory_is_that_of_the_array(expression):
+def test_arrays_are_built_without_copies(expression):
     assert 0.9 < share(expression) < 1.3
 
 
-def test_a_copy_is_seen():
+def test_copy_is_detected():
     assert share("Pile(200).vectors().copy()") > 1.8

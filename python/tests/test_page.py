@@ -1,4 +1,4 @@
-"""The page to look into a pile. What a browser makes of it is tested elsewhere."""
+"""The interactive page of a pile. Browser tests are separate."""
 
 import html
 import re
@@ -10,7 +10,7 @@ from cannonpile import Pile
 
 
 class Elements(HTMLParser):
-    """The elements of a page, and what they load."""
+    """The elements of a page and the resources that they load."""
 
     def __init__(self, text):
         super().__init__()
@@ -30,7 +30,7 @@ def test_page_is_one_document():
     elements = Elements(page.html)
     assert page.html.startswith("<!doctype html>") and elements.names.count("html") == 1
     assert {"canvas", "script", "style", "title"} <= set(elements.names)
-    # It loads nothing from anywhere.
+    # It loads no external resources.
     assert elements.loaded == []
     assert not re.search(r"https?://", page.html)
     assert str(page) == page.html
@@ -53,7 +53,7 @@ def test_page_as_a_file(tmp_path):
     pile = Pile(5, "hcp", loads={(0, 0, 0): "5/2"})
     pile.show().save(tmp_path / "page.html")
     assert (tmp_path / "page.html").read_text(encoding="utf-8") == pile.show().html
-    # As export writes it.
+    # The file of export is the same.
     names = pile.export(tmp_path / "pile", "html")
     [name] = [name for name in names if name.endswith(".html")]
     assert (tmp_path / "pile" / name).read_text(encoding="utf-8") == pile.show().html

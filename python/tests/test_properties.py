@@ -18,7 +18,7 @@ exact = st.fractions(min_value=Fraction(1, 997), max_value=1000, max_denominator
 
 @st.composite
 def tops(draw):
-    """The text of a top layer, none for one sphere."""
+    """Draw the text of a top layer, or None for one sphere."""
     kind = draw(st.sampled_from(["one", "hexagon", "triangle", "region"]))
     if kind == "one":
         return None
@@ -29,7 +29,7 @@ def tops(draw):
         return f"triangle:{draw(size)}"
     x0, y0 = draw(st.integers(-3, 3)), draw(st.integers(-3, 3))
     x, y = draw(st.integers(0, 2)), draw(st.integers(0, 2))
-    # Between the corners of the parallelogram, so that sites are left.
+    # Cut between the corners of the parallelogram, so that sites remain.
     cut = draw(st.integers(0, x + y))
     more = draw(st.integers(0, x + y - cut))
     return f"region:{x0}..{x0 + x},{y0}..{y0 + y},{x0 + y0 + cut}..{x0 + y0 + cut + more}"
@@ -37,7 +37,7 @@ def tops(draw):
 
 @st.composite
 def scenes(draw):
-    """The arguments of a pile of any stacking on any top, loaded somewhere."""
+    """Draw the arguments of a pile with any stacking, any top and some loads."""
     layers = draw(st.integers(1, 6))
     options = {"layers": layers}
     if layers > 1:
@@ -53,7 +53,7 @@ def scenes(draw):
 
 
 @given(scenes())
-def test_forces_are_those_of_the_recursion(options):
+def test_forces_match_recursion(options):
     pile, expected = Pile(**options), Recursion(**options)
     multiples = pile.multiples()
     assert [Fraction(int(n), multiples.denominator) for n in multiples.numerators] == list(expected.forces.values())
@@ -82,7 +82,7 @@ def test_equilibrium(options, spacing, radius, mass, gravity):
 
 
 @given(scenes(), exact)
-def test_comes_back(options, mass):
+def test_round_trip(options, mass):
     pile = Pile(**options, mass=mass)
     assert Pile.from_toml(pile.to_toml()) == pile
     assert eval(repr(pile), {"Pile": Pile}) == pile
@@ -91,7 +91,7 @@ def test_comes_back(options, mass):
 
 
 @given(scenes(), st.randoms(use_true_random=False), st.floats(1e-7, 1e-2))
-def test_exact_forces_are_accepted_and_a_wrong_one_is_not(options, random, error):
+def test_only_exact_forces_are_accepted(options, random, error):
     pile = Pile(**options, spacing="6/5")
     ids, forces = pile.contact_ids(), pile.forces()
     if not (forces != 0).any():
@@ -100,7 +100,7 @@ def test_exact_forces_are_accepted_and_a_wrong_one_is_not(options, random, error
     pile.assert_close(ids[order], forces[order], rtol=1e-14)
     pile.assert_close(points=pile.contact_points()[order], forces=forces[order], rtol=1e-12)
     if (forces >= 0).all():
-        # Of a point alone nobody knows whose force it is: a push is taken.
+        # A point alone does not identify the first sphere, so the force is read as compression.
         pile.assert_close(points=pile.contact_points()[order], vectors=pile.vectors()[order], rtol=1e-12)
     at = random.choice(np.flatnonzero(forces).tolist())
     forces[at] *= 1 + error
@@ -132,7 +132,7 @@ numbers = st.one_of(
 )
 
 
-# Whatever is given is taken, or refused by one of three exceptions that names it.
+# Every input is accepted, or rejected by one of three exceptions that names the argument.
 @given(st.sampled_from(["spacing", "radius", "mass", "gravity", "sin_phi", "stiffness_ratio"]), numbers)
 @settings(max_examples=300)
 def test_anything_for_a_number(name, number):

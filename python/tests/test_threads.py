@@ -1,4 +1,4 @@
-"""Long work leaves the interpreter to other threads, and answers Ctrl-C."""
+"""Long computations release the interpreter lock and can be cancelled with Ctrl-C."""
 
 import os
 import re
@@ -19,7 +19,7 @@ ENOUGH = 4
 
 
 def ticks_during(work):
-    """How often another thread could tick while this was done, and the seconds that it took."""
+    """Return the number of ticks of another thread during the work, and the duration in seconds."""
     ticks, running = [], True
 
     def tick():
@@ -41,7 +41,7 @@ def ticks_during(work):
     return sum(began < at < ended for at in ticks), ended - began
 
 
-# Work in growing sizes: the first that is long enough on this machine tells.
+# Work of increasing size. The first size that takes long enough on this machine is used.
 LONG = {
     "forces": lambda n: Pile(20 * n, "hcp").forces(),
     "forces of a straight pile": lambda n: Pile(60 * n).forces(),
@@ -77,8 +77,8 @@ def test_another_thread_ticks(name):
     assert ticks >= ENOUGH
 
 
-def test_a_held_interpreter_is_seen():
-    # What holds the interpreter for long lets nobody tick.
+def test_held_interpreter_lock_is_detected():
+    # Work that holds the interpreter lock prevents ticks.
     ticks, seconds = ticks_during(lambda: sum(range(3 * 10**7)))
     assert seconds > 50 * BREATH
     assert ticks < ENOUGH
@@ -94,7 +94,7 @@ def test_threads_share_a_pile():
     assert len(found) == 8 and len(set(found)) == 1
 
 
-# Each would take minutes.
+# Each takes minutes.
 ENDLESS = {
     "forces": "[Pile(150, 'hcp').forces() for _ in range(1000)]",
     "multiples": "Pile(300, 'hcp').multiples()",
@@ -106,11 +106,11 @@ ENDLESS = {
 }
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
+@pytest.mark.skipif(os.name != "posix", reason="the test needs POSIX signals")
 @pytest.mark.parametrize("name", ENDLESS)
 def test_ctrl_c(name):
     program = f"import cannonpile\nfrom cannonpile import Pile\nprint('begun', flush=True)\n{ENDLESS[name]}\nprint('ended')"
-    # Of a script that a shell started in the background Ctrl-C would be ignored.
+    # A script in the background of a shell ignores Ctrl-C by default.
     program = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n" + program
     with subprocess.Popen(
         [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -118,7 +118,7 @@ def test_ctrl_c(name):
         try:
             assert process.stdout.readline() == "begun\n"
             time.sleep(0.7)
-            assert process.poll() is None, "it did not take long"
+            assert process.poll() is None, "the computation ended too early"
             process.send_signal(signal.SIGINT)
             sent = time.perf_counter()
             output, errors = process.communicate(timeout=20)

@@ -1,11 +1,11 @@
-"""What a type checker says of those who use the package: nothing of what is right, and something of each mistake."""
+"""A type checker accepts correct use of the package and reports each mistake."""
 
 import subprocess
 import sys
 
 import pytest
 
-pytest.importorskip("mypy", reason="mypy is not installed: types are not checked")
+pytest.importorskip("mypy", reason="mypy is not installed: the types are not checked")
 
 RIGHT = """\
 from decimal import Decimal
@@ -53,5 +53,5 @@ def test_types(tmp_path):
     run = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, check=False)
     lines = {line.split(":")[1] for line in run.stdout.splitlines() if ": error:" in line}
     assert "right.py" not in run.stdout, run.stdout
-    # Each line but the import, and the empty one.
+    # Each line except the import and the empty line.
     assert lines == {str(number) for number in range(3, len(WRONG.splitlines()) + 1)}, run.stdout

@@ -1,8 +1,8 @@
-"""Exact contact forces in regular piles of spheres, and whether a simulation got them right.
+"""Exact contact forces in regular sphere piles, and verification of simulations against them.
 
 G. Oron and H. J. Herrmann ("Contact forces in regular 3D granular pile", 1998) solved the stack of cannonballs: identical,
-stiff, frictionless spheres piled on a triangle. This package gives their forces, and those of any stacking, on any six-sided
-layer, under loads: as arrays of the nearest floats, and as exact fractions.
+rigid, frictionless spheres piled on a triangle. This package computes the forces of this pile, and of any stacking on any
+six-sided layer under loads. It returns them as arrays of correctly rounded floats and as exact fractions.
 
 >>> import cannonpile
 >>> pile = cannonpile.Pile(layers=4, stacking="hcp", top="hexagon:3", gravity="9.81")
@@ -13,26 +13,27 @@ True
 >>> pile.force(2, 1, -3, "gamma")
 Fraction(2, 9)
 
-A simulation is tested in one line: ``pile.assert_close(ids, forces, rtol=1e-6)``.
+One line tests a simulation: ``pile.assert_close(ids, forces, rtol=1e-6)``.
 
 Exact inputs
     Lengths, masses, loads and ratios are exact: a str such as ``"6/5"``, ``"1.2"`` or ``"1e-3"``, an int, a ``Fraction`` or
-    a ``Decimal``. A float is refused: 1.2 is not 6/5, but 5404319552844595/4503599627370496.
+    a ``Decimal``. A float is an error: the float 1.2 is not 6/5, but 5404319552844595/4503599627370496.
 
 Order
-    Spheres are numbered from 1, in row order from the top. Contacts come by their upper sphere, along alpha, beta and gamma,
-    and after them the horizontal ones with a force. So it is in all files that ``cannonpile export`` writes.
+    Spheres are numbered from 1, in row order from the top. Contacts are sorted by their upper sphere and then by direction:
+    alpha, beta, gamma. Horizontal contacts with a force follow at the end. The files of ``cannonpile export`` have the same
+    order.
 
 Units
-    SI: m, kg, N; or pile units: contact forces in f0 = mg/(3 cos theta), the unit in which all are rational, and forces on
-    the floor in mg, mg tan theta and sqrt(3) mg tan theta. (f0 is mg/(2 (1 + sin phi) cos theta) on an isosceles base.)
+    SI units are m, kg and N. In pile units all forces are rational: contact forces in f0 = mg/(3 cos theta), base forces in
+    mg, mg tan theta and sqrt(3) mg tan theta. (On an isosceles base f0 is mg/(2 (1 + sin phi) cos theta).)
 
 Errors
-    ``ValueError`` says what is wrong with an argument and what would be accepted, ``TypeError`` that it is a float,
-    ``OverflowError`` that a float64 cannot hold an answer, ``MemoryError`` that there is no room for it.
+    ``ValueError``: an argument is invalid; the message states the value and the remedy. ``TypeError``: an argument has the
+    wrong type, for instance float. ``OverflowError``: a result exceeds float64. ``MemoryError``: a result exceeds the memory.
 
 Threads
-    What takes long runs on all cores and leaves the interpreter to other threads; Ctrl-C ends it.
+    Long computations use all cores and release the interpreter lock. Ctrl-C cancels them.
 """
 
 from ._cannonpile import __version__

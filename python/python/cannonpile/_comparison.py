@@ -1,4 +1,4 @@
-"""Measured forces, held against the exact ones."""
+"""Comparison of measured forces with the exact ones."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 
 
 class Comparison:
-    """What was measured, compared with the exact forces of a pile; made by `Pile.compare`.
+    """The result of `Pile.compare`: measured contact forces compared with the exact ones.
 
-    The exact force is rounded once, to the nearest float64. The error of a contact is |f - f0| / |f0|, with a vector the greater
-    of that and |F - F0| / |f0|. A contact whose exact force is 0 may be measured or not; the error there is relative to the
-    largest exact force. Contacts between two bottom spheres, which are fixed, are not judged.
+    Exact forces are correctly rounded to float64. The error of a contact is |f - f0| / |f0|. For vectors it is the larger one
+    of this and |F - F0| / |f0|. A contact with exact force 0 may be absent; its error is relative to the largest exact force.
+    Contacts between two bottom spheres, which are fixed, are ignored.
 
     Examples
     --------
@@ -34,7 +34,7 @@ class Comparison:
 
     @property
     def contacts(self) -> int:
-        """How many contacts the pile has.
+        """The number of contacts of the pile.
 
         Examples
         --------
@@ -46,7 +46,7 @@ class Comparison:
 
     @property
     def matched(self) -> int:
-        """How many of them were measured.
+        """The number of contacts of the pile that were measured.
 
         Examples
         --------
@@ -58,7 +58,7 @@ class Comparison:
 
     @property
     def missing(self) -> int:
-        """How many of them have a force and were not measured.
+        """The number of contacts with a force that were not measured.
 
         Examples
         --------
@@ -70,7 +70,7 @@ class Comparison:
 
     @property
     def fixed(self) -> int:
-        """How many pairs of bottom spheres, which are fixed, were left out.
+        """The number of measured pairs of bottom spheres. These spheres are fixed, so the pairs are ignored.
 
         Examples
         --------
@@ -94,7 +94,7 @@ class Comparison:
 
     @property
     def largest_error(self) -> float:
-        """The largest relative error of a contact that was measured; infinite for a force where the whole pile has none.
+        """The largest relative error of a measured contact. Infinite if a force is measured but all exact forces are zero.
 
         Examples
         --------
@@ -106,7 +106,7 @@ class Comparison:
 
     @property
     def rms_error(self) -> float:
-        """The root of the mean square of the relative errors of the contacts that were measured, to some 1e-8 of itself.
+        """The root mean square of the relative errors of the measured contacts, accurate to about 1e-8.
 
         Examples
         --------
@@ -119,7 +119,7 @@ class Comparison:
 
     @property
     def worst(self) -> Difference | None:
-        """The contact with the largest relative error, the first of several; None if there was no contact measured.
+        """The contact with the largest relative error, the first one if there are several. None without measured contacts.
 
         Examples
         --------
@@ -147,22 +147,22 @@ class Comparison:
         return [Difference(*contact) for contact in self._native.missing_contacts()]
 
     def extra(self, rtol: float = 1e-6) -> int:
-        """Return how many pairs that are no contacts carry more than `rtol` times the largest exact force.
+        """Return the number of measured pairs without a contact whose force exceeds `rtol` times the largest exact force.
 
         Parameters
         ----------
         rtol : float, default 1e-6
-            The share of the largest exact force below which a force is noise.
+            Forces below this fraction of the largest exact force are noise.
 
         Returns
         -------
         int
-            Pairs of bottom spheres not counted.
+            The number, without pairs of bottom spheres.
 
         Raises
         ------
         ValueError
-            For a tolerance that is negative, or no number.
+            If the tolerance is negative or not a number.
 
         Examples
         --------
@@ -173,7 +173,7 @@ class Comparison:
         return self._native.extra(_tolerance(rtol))
 
     def beyond(self, rtol: float = 1e-6) -> int:
-        """Return how many of the contacts that were measured have a relative error over `rtol`.
+        """Return the number of measured contacts with a relative error above `rtol`.
 
         Parameters
         ----------
@@ -183,12 +183,12 @@ class Comparison:
         Returns
         -------
         int
-            Of `matched`.
+            At most `matched`.
 
         Raises
         ------
         ValueError
-            For a tolerance that is negative, or no number.
+            If the tolerance is negative or not a number.
 
         Examples
         --------
@@ -200,12 +200,12 @@ class Comparison:
         return self._native.beyond(_tolerance(rtol))
 
     def accepted(self, rtol: float = 1e-6) -> bool:
-        """Return whether nothing is missing, nothing extra, and no relative error over `rtol`.
+        """Return whether no contact is missing, no pair is extra, and no relative error exceeds `rtol`.
 
         Parameters
         ----------
         rtol : float, default 1e-6
-            The relative error that is accepted.
+            The maximum relative error.
 
         Returns
         -------
@@ -215,7 +215,7 @@ class Comparison:
         Raises
         ------
         ValueError
-            For a tolerance that is negative, or no number.
+            If the tolerance is negative or not a number.
 
         Examples
         --------
@@ -227,22 +227,22 @@ class Comparison:
         return self._native.accepted(_tolerance(rtol))
 
     def findings(self, rtol: float = 1e-6) -> list[str]:
-        """Return what the differences have in common, where the numbers show it; nothing if all is accepted.
+        """Return explanations of the differences, as far as the data show them. The list is empty if all is accepted.
 
         Parameters
         ----------
         rtol : float, default 1e-6
-            The relative error that is accepted.
+            The maximum relative error.
 
         Returns
         -------
         list of str
-            A line each: one factor for all forces, vectors of the other sphere, axes exchanged, a layer that is missing, ....
+            One line for each finding: a constant factor, vectors on the other sphere, exchanged axes, a missing layer, ….
 
         Raises
         ------
         ValueError
-            For a tolerance that is negative, or no number.
+            If the tolerance is negative or not a number.
 
         Examples
         --------
@@ -260,7 +260,7 @@ class Comparison:
         return f"<Comparison: {self}>"
 
     def _assert_accepted(self, rtol: float) -> None:
-        """Raise an AssertionError that names the worst contact, unless all is accepted."""
+        """Raise an AssertionError with the worst contact unless the comparison is accepted."""
         if self.accepted(rtol):
             return
         lines = [
@@ -281,5 +281,5 @@ class Comparison:
 
 def _tolerance(rtol: float) -> float:
     if not 0 <= rtol < math.inf:
-        raise ValueError(f"rtol: {rtol} is no tolerance: 0 or more, 1e-6 is usual")
+        raise ValueError(f"rtol: {rtol} is not a finite number of at least 0: use 1e-6")
     return rtol

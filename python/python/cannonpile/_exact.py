@@ -1,4 +1,4 @@
-"""Exact inputs, as the texts that the library reads."""
+"""Conversion of exact inputs to the texts that the library parses."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ if TYPE_CHECKING:
     from decimal import Decimal
     from fractions import Fraction
 
-#: A number that is meant exactly.
+#: An exact number.
 Exact: TypeAlias = Union[str, int, "Fraction", "Decimal"]
 
 
 def number(name: str, value: Exact) -> str:
-    """Return a number as the text ``6/5`` that the library reads.
+    """Return an exact number as text, for example ``6/5``.
 
     Raises
     ------
     TypeError
-        For a float, and for what is no number.
+        If the value is a float or not a number.
 
     Examples
     --------
@@ -31,17 +31,17 @@ def number(name: str, value: Exact) -> str:
     >>> number("spacing", 1.2)
     Traceback (most recent call last):
         ...
-    TypeError: spacing: 1.2 is a float, and no float is 1.2 exactly: this one is 5404319552844595/4503599627370496; write \
-'1.2', or a Fraction or a Decimal
+    TypeError: spacing: 1.2 is a float, which is not exact (its value is 5404319552844595/4503599627370496): write '1.2', a \
+Fraction or a Decimal
     """
     if isinstance(value, str):
         return value
     if isinstance(value, (float, np.floating)):
-        raise TypeError(_why_no_float(name, value))
+        raise TypeError(_float_message(name, value))
     if isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name}: {value} is no number: write an int, a str such as '6/5', a Fraction or a Decimal")
+        raise TypeError(f"{name}: {value} is a bool: write an int, a str such as '6/5', a Fraction or a Decimal")
     try:
-        # An int, a Fraction, an integer of NumPy.
+        # An int, a Fraction or a NumPy integer.
         numerator, denominator = value.numerator, value.denominator  # type: ignore[union-attr]
     except AttributeError:
         try:
@@ -49,22 +49,22 @@ def number(name: str, value: Exact) -> str:
             numerator, denominator = value.as_integer_ratio()
         except (AttributeError, OverflowError, ValueError):
             raise TypeError(
-                f"{name}: {value!r} is no exact number: write an int, a str such as '6/5', a Fraction or a Decimal"
+                f"{name}: {value!r} is not an exact number: write an int, a str such as '6/5', a Fraction or a Decimal"
             ) from None
     return f"{int(numerator)}" if denominator == 1 else f"{int(numerator)}/{int(denominator)}"
 
 
-def _why_no_float(name: str, value: Any) -> str:
+def _float_message(name: str, value: Any) -> str:
     value = float(value)
     try:
         numerator, denominator = value.as_integer_ratio()
     except (OverflowError, ValueError):
-        return f"{name}: {value} is a float and no number: write an int, a str such as '6/5', a Fraction or a Decimal"
+        return f"{name}: {value} is a float and not a number: write an int, a str such as '6/5', a Fraction or a Decimal"
     if denominator == 1:
-        return f"{name}: {value} is a float, and exact numbers are asked for: write {numerator}"
+        return f"{name}: {value} is a float, but the number must be exact: write {numerator}"
     return (
-        f"{name}: {value} is a float, and no float is {value} exactly: this one is {numerator}/{denominator}; "
-        f"write '{value}', or a Fraction or a Decimal"
+        f"{name}: {value} is a float, which is not exact (its value is {numerator}/{denominator}): write '{value}', a "
+        "Fraction or a Decimal"
     )
 
 
@@ -74,7 +74,7 @@ def integer(name: str, value: Any) -> int:
     Raises
     ------
     TypeError
-        For what is none, a float such as 2.0 included.
+        If the value is not an integer. A float such as 2.0 is an error too.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def text(name: str, value: Any) -> str:
     Raises
     ------
     TypeError
-        For what is none.
+        If the value is not a str.
 
     Examples
     --------
@@ -109,12 +109,12 @@ def text(name: str, value: Any) -> str:
 
 
 def place(name: str, value: Any) -> str:
-    """Return the place of a sphere as the text ``K,I,J``.
+    """Return a site as the text ``K,I,J``.
 
     Raises
     ------
     TypeError
-        For what is no tuple of integers.
+        If the value is not a tuple of integers.
 
     Examples
     --------
@@ -122,17 +122,17 @@ def place(name: str, value: Any) -> str:
     '0,0,0'
     """
     if isinstance(value, str) or not hasattr(value, "__iter__"):
-        raise TypeError(f"{name}: {value!r} is no place; write (k, i, j), or (i, j) on the base")
+        raise TypeError(f"{name}: {value!r} is not a site; write (k, i, j), or (i, j) on the base")
     return ",".join(str(integer(name, n)) for n in value)
 
 
 def loads(value: Mapping[tuple[int, ...], Exact] | None) -> list[tuple[str, str]]:
-    """Return loads as pairs of texts, the place and the weight.
+    """Return loads as pairs of texts: site and weight.
 
     Raises
     ------
     TypeError
-        For what is no mapping from places to exact numbers.
+        If the value is not a mapping from sites to exact numbers.
 
     Examples
     --------
@@ -142,5 +142,5 @@ def loads(value: Mapping[tuple[int, ...], Exact] | None) -> list[tuple[str, str]
     if value is None:
         return []
     if not isinstance(value, Mapping):
-        raise TypeError("loads: write a dict such as {(0, 0, 0): '5/2'}")
+        raise TypeError(f"loads: {value!r} is not a dict; write one such as {{(0, 0, 0): '5/2'}}")
     return [(place("loads", at), number("loads", weight)) for at, weight in value.items()]

@@ -8,14 +8,14 @@ from ._file import write
 
 
 class Figure:
-    """A figure as SVG, which Jupyter shows.
+    """A figure as SVG. Jupyter displays it.
 
     Parameters
     ----------
     svg : str
-        The document.
+        The SVG document.
     note : str, optional
-        What has to be said of it.
+        A warning about the pile.
 
     Examples
     --------
@@ -33,7 +33,7 @@ class Figure:
 
     @property
     def svg(self) -> str:
-        """The document.
+        """The SVG document.
 
         Examples
         --------
@@ -45,7 +45,7 @@ class Figure:
 
     @property
     def note(self) -> str | None:
-        """What has to be said of the pile: that it cannot stand, or that this is not known.
+        """A warning that the pile is unstable, or that its stability is unknown. None without a warning.
 
         Examples
         --------
@@ -63,7 +63,7 @@ class Figure:
         Parameters
         ----------
         path : str or path
-            Where to; an older file there is replaced.
+            The file. An existing file is replaced.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Files that are the old one or the new one, whole."""
+"""Atomic writing of files."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ import os
 
 
 def write(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text aside, then rename it: an older file there is replaced at once, or left as it was."""
-    # What a link leads to is replaced, not the link.
+    """Write a text atomically: to a temporary file, which then replaces an existing file."""
+    # A symbolic link stays; its target is replaced.
     target = os.path.realpath(path)
     if os.path.exists(target) and not os.path.isfile(target):
-        # A device or a pipe cannot be replaced; a folder is refused.
+        # A device or a pipe is written directly; opening a folder raises an error.
         with open(target, "w", encoding="utf-8") as file:
             file.write(text)
         return
-    aside = f"{target}.{os.urandom(4).hex()}"
+    temporary = f"{target}.{os.urandom(4).hex()}"
     try:
-        with open(aside, "x", encoding="utf-8") as file:
+        with open(temporary, "x", encoding="utf-8") as file:
             file.write(text)
-        os.replace(aside, target)
+        os.replace(temporary, target)
     except BaseException:
-        if os.path.exists(aside):
-            os.remove(aside)
+        if os.path.exists(temporary):
+            os.remove(temporary)
         raise

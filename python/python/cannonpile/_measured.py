@@ -1,4 +1,4 @@
-"""What a simulation measured, as the arrays that the library compares."""
+"""Conversion of measured data to the arrays that the library compares."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ def arrays(
     centres: ArrayLike | None,
     vectors: ArrayLike | None,
 ) -> dict[str, NDArray[Any] | None]:
-    """Return flat, contiguous arrays of int64 and float64, checked to be of as many contacts each.
+    """Return flat, contiguous arrays of int64 and float64, after a check that all have the same number of contacts.
 
     Raises
     ------
     ValueError
-        For arrays of another shape, or not of one length.
+        If an array has the wrong shape, or the lengths differ.
     TypeError
-        For ids that are no integers.
+        If ids are not integers.
 
     Examples
     --------
@@ -41,7 +41,7 @@ def arrays(
     lengths = {name: len(array) for name, array in given.items() if array is not None}
     if len(set(lengths.values())) > 1:
         found = ", ".join(f"{length} {name}" for name, length in lengths.items())
-        raise ValueError(f"{found}: give one of each for every contact")
+        raise ValueError(f"{found}: the lengths must be equal, one entry for each contact")
     return {name: None if array is None else array.ravel() for name, array in given.items()}
 
 
@@ -53,11 +53,13 @@ def _ids(ids: ArrayLike | None) -> NDArray[np.int64] | None:
         array = array.reshape(-1, 2)
     _check_shape("ids", array, (2,))
     if array.dtype.kind == "f" and not np.array_equal(array, np.floor(array)):
-        raise TypeError("ids: the numbers of spheres are integers; these have fractions")
+        raise TypeError("ids: the ids of spheres are integers, but some of these have fractions")
     if array.dtype.kind not in "iuf" and array.size > 0:
-        raise TypeError(f"ids: the numbers of spheres are integers, not {array.dtype}")
+        raise TypeError(f"ids: the ids of spheres are integers, not {array.dtype}")
     if array.size > 0 and not (1 <= array.min() and array.max() <= 2**53):
-        raise ValueError("ids: spheres are numbered from 1, from the top; there is none below, and none beyond 2**53")
+        raise ValueError(
+            f"ids: spheres are numbered from 1 at the top to at most 2**53, but the ids go from {array.min()} to {array.max()}"
+        )
     return np.ascontiguousarray(array, dtype=np.int64)
 
 
@@ -80,4 +82,4 @@ def _check_shape(name: str, array: NDArray[Any], row: tuple[int, ...]) -> None:
     if array.ndim == 1 + len(row) and array.shape[1:] == row:
         return
     expected = ", ".join(["M", *map(str, row)]) + ("," if not row else "")
-    raise ValueError(f"{name}: an array of the shape ({expected}) is needed, not {array.shape}")
+    raise ValueError(f"{name}: the array must have the shape ({expected}), not {array.shape}")

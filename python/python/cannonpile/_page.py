@@ -1,4 +1,4 @@
-"""Pages to look into a pile."""
+"""Interactive pages of a pile."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ._file import write
 
 
 class Page:
-    """A page to look into a pile, which Jupyter shows; made by `Pile.show`.
+    """An interactive page of a pile, from `Pile.show`. Jupyter displays it.
 
-    It is one HTML document with all that it needs, and opens in a browser without a network.
+    The page is one self-contained HTML document, which opens in a browser without network access.
 
     Parameters
     ----------
     html : str
-        The document.
+        The HTML document.
 
     Examples
     --------
@@ -26,7 +26,7 @@ class Page:
 
     __slots__ = ("_html",)
 
-    # Of the frame in Jupyter, in pixels.
+    # The height of the frame in Jupyter, in pixels.
     _HEIGHT = 640
 
     def __init__(self, html: str) -> None:
@@ -34,7 +34,7 @@ class Page:
 
     @property
     def html(self) -> str:
-        """The document.
+        """The HTML document.
 
         Examples
         --------
@@ -45,12 +45,12 @@ class Page:
         return self._html
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the document to a file, to be opened in a browser.
+        """Write the document to a file, which a browser can open.
 
         Parameters
         ----------
         path : str or path
-            Where to; an older file there is replaced.
+            The file. An existing file is replaced.
 
         Raises
         ------
@@ -70,7 +70,7 @@ class Page:
         write(path, self._html)
 
     def _repr_html_(self) -> str:
-        # A frame of its own: its styles and scripts are not the notebook's.
+        # A frame separates the styles and scripts of the page from those of the notebook.
         document = self._html.replace("&", "&amp;").replace('"', "&quot;")
         style = f"width: 100%; height: {self._HEIGHT}px; border: 0"
         return f'<iframe title="A pile of spheres" sandbox="allow-scripts" style="{style}" srcdoc="{document}"></iframe>'

@@ -1,4 +1,4 @@
-"""A pile, and all that can be asked of it."""
+"""The class of a pile."""
 
 from __future__ import annotations
 
@@ -25,44 +25,45 @@ if TYPE_CHECKING:
 class Pile:
     """A pile of equal spheres.
 
-    A pile does not change, is equal to another with the same spheres, sizes and state, and can be hashed, copied and pickled.
+    A pile is immutable. Two piles are equal if they have the same spheres, sizes and state. Piles can be hashed, copied and
+    pickled.
 
     Parameters
     ----------
     layers : int, optional
-        The number of layers, up to 10**36: by default 10, those of a stacking that is spelled out, or as many as a base carries.
+        The number of layers, up to 10**36. The default is 10, or the number that an explicit stacking or a base determines.
     stacking : str, optional
-        ``"fcc"``, ``"hcp"``, ``"dhcp"``, or spelled out: as signs ``"++-+"``, as letters ``"ABAC"``, ``"hhc"`` or ``"(2,1,3)"``;
-        from the top, with `base` from the base up. Straight (fcc) by default.
+        ``"fcc"`` (default), ``"hcp"``, ``"dhcp"``, or an explicit stacking: signs ``"++-+"``, letters ``"ABAC"``, ``"hhc"`` or
+        ``"(2,1,3)"``. It is read from the top, or from the base upwards if `base` is given.
     top : str, optional
-        The layer from which the pile grows down: ``"hexagon:3"``, ``"hexagon:3,2"``, ``"triangle:4"`` or
-        ``"region:x0..x1,y0..y1,s0..s1"``, the bounds of i, j and i + j. One sphere by default.
+        The top layer, from which the pile is built downwards: ``"hexagon:3"``, ``"hexagon:3,2"``, ``"triangle:4"`` or
+        ``"region:x0..x1,y0..y1,s0..s1"``, with bounds of i, j and i + j. The default is one sphere.
     base : str, optional
-        Instead, the layer from which it grows up.
+        Instead of `top`: the bottom layer, from which the pile is built upwards.
     dimension : {3, 2}
-        Spheres, or discs in a plane.
+        3 for spheres, 2 for discs in a plane.
     sin_phi : exact number, optional
-        The sine of the azimuth phi of an isosceles base; 1/2 by default.
+        The sine of the azimuth phi of an isosceles base. The default is 1/2.
     loads : dict, optional
-        Vertical loads in mg by the place of a sphere: ``{(k, i, j): W}``, or ``(i, j)`` on the base; discs ``(k, i)``, ``(i,)``.
+        Vertical loads in mg by sphere: ``{(k, i, j): W}``, or ``(i, j)`` on the base. For discs ``(k, i)`` or ``(i,)``.
     weightless : bool, default False
-        Whether the spheres weigh nothing, so that only the loads act.
+        If true, the spheres have no weight and only the loads act.
     spacing : exact number, optional
-        a/R, half the distance of neighbours of a layer over the radius: 6/5 by default, and 1 in the elastic state.
+        a/R, half the distance of neighbours in a layer divided by the radius. The default is 6/5, and 1 in the elastic state.
     radius, mass, gravity : exact number, default 1
-        R in m, m in kg and g in m/s².
+        The radius R in m, the mass m in kg and the gravity g in m/s².
     state : {"isostatic", "elastic"}
-        Which forces are meant where neighbours of a layer touch, a = R: those without horizontal contacts, the paper's, or those
-        of springs that only push.
+        The equilibrium state at a = R, where the neighbours of a layer touch: isostatic (no horizontal contacts, as in the
+        paper) or elastic (unilateral springs).
     stiffness_ratio : exact number, default 1
-        The stiffness of horizontal contacts over that of sloping ones, of the elastic state.
+        The stiffness of horizontal contacts divided by that of sloping contacts, in the elastic state.
 
     Raises
     ------
     ValueError
-        For values that are none, and for options that exclude each other. The message names the argument and what is accepted.
+        If a value is invalid, or options exclude each other. The message names the argument and the remedy.
     TypeError
-        For floats: see `cannonpile`.
+        If an exact number is a float: see `cannonpile`.
 
     Examples
     --------
@@ -98,7 +99,7 @@ class Pile:
         stiffness_ratio: Exact = 1,
     ) -> None:
         if top is not None and base is not None:
-            raise ValueError("top has no meaning with base: leave one of the two out")
+            raise ValueError("top and base exclude each other: remove one of the two")
         options: list[tuple[str, str]] = []
         if layers is not None:
             options.append(("layers", str(_exact.integer("layers", layers))))
@@ -115,7 +116,7 @@ class Pile:
         try:
             pile = native.Pile(options, _exact.loads(loads))
         except ValueError as error:
-            # The only spheres that are named here are loaded ones.
+            # Only loads name spheres, so the error is about `loads`.
             if str(error).startswith("no sphere at "):
                 raise ValueError(f"loads: {error}") from None
             raise
@@ -129,22 +130,22 @@ class Pile:
 
     @classmethod
     def from_toml(cls, text: str) -> Pile:
-        """Return the pile that a scene file describes: the options of the command line as keys of the same names.
+        """Return the pile of a scene file, whose keys are the options of the command line.
 
         Parameters
         ----------
         text : str
-            The text of the file, as ``cannonpile export`` and `to_toml` write it.
+            The text of the file, in the format of ``cannonpile export`` and `to_toml`.
 
         Returns
         -------
         Pile
-            Equal to the one that the file was written of.
+            The pile. It equals the one that `to_toml` wrote.
 
         Raises
         ------
         ValueError
-            With the line of the file.
+            If the text is invalid. The message gives the line.
 
         Examples
         --------
@@ -159,7 +160,7 @@ class Pile:
         return cls._of(native.Pile.from_toml(_exact.text("text", text)))
 
     def to_toml(self) -> str:
-        """Return the scene file of the pile, from which the command line and `from_toml` make the same one.
+        """Return the scene file of the pile. The command line and `from_toml` build the same pile from it.
 
         Returns
         -------
@@ -213,7 +214,7 @@ class Pile:
 
     @property
     def state(self) -> str:
-        """Which forces are meant: ``"isostatic"``, or ``"elastic"``.
+        """The equilibrium state: ``"isostatic"`` or ``"elastic"``.
 
         Examples
         --------
@@ -261,7 +262,7 @@ class Pile:
 
     @property
     def spacing(self) -> Fraction:
-        """a/R, half the distance of neighbours of a layer over the radius.
+        """a/R, half the distance of neighbours in a layer divided by the radius.
 
         Examples
         --------
@@ -285,7 +286,7 @@ class Pile:
 
     @property
     def contact_count(self) -> int:
-        """The number M of contacts: all sloping ones, and horizontal ones with a force. The floor is none.
+        """The number M of contacts: all sloping ones, and horizontal ones with a force. Contacts with the floor do not count.
 
         Examples
         --------
@@ -297,7 +298,7 @@ class Pile:
 
     @property
     def base_count(self) -> int:
-        """The number B of spheres on the floor; they are the last B.
+        """The number B of bottom spheres. They have the last B ids.
 
         Examples
         --------
@@ -309,7 +310,7 @@ class Pile:
 
     @property
     def weight(self) -> Fraction:
-        """The weight of all spheres and the loads on them, in mg: what the floor carries.
+        """The weight of all spheres and loads, in mg. It equals the total reaction at the base.
 
         Examples
         --------
@@ -321,10 +322,10 @@ class Pile:
 
     @property
     def stands(self) -> bool | None:
-        """Whether all contacts only push.
+        """Whether the pile is stable: no contact force is tensile.
 
-        None where spheres touch besides, which may hold the pile, and where the spheres weigh nothing and it is not asked. At
-        a = R, ``spacing=1``, it is whether the pile is held with its horizontal contacts.
+        None if the answer is open: spheres have further contacts that may stabilise the pile, or weigh nothing. At a = R
+        (``spacing=1``) horizontal contacts are included.
 
         Examples
         --------
@@ -336,14 +337,14 @@ class Pile:
 
     @property
     def unit_force(self) -> float:
-        """f0 in N, the unit in which all contact forces are rational: the nearest float.
+        """The unit f0 of contact forces in N, correctly rounded. All contact forces are rational multiples of f0.
 
         Raises
         ------
         ValueError
-            For a spacing that the pile cannot have.
+            If the spacing is impossible for this stacking.
         OverflowError
-            If no float is near to it.
+            If it exceeds float64.
 
         Examples
         --------
@@ -354,10 +355,10 @@ class Pile:
         return self._native.unit_force
 
     def positions(self) -> NDArray[np.float64]:
-        """Return the centres of all spheres, each coordinate the nearest float.
+        """Return the centres of all spheres, correctly rounded.
 
-        z points up, and is 0 at the centres of the bottom layer; x = y = 0 at the site (0, 0) of the top layer, or of the base
-        where the pile was grown from it.
+        z points up and is 0 at the centres of the bottom layer. x = y = 0 at site (0, 0) of the top layer, or of the base if
+        the pile was built from a base.
 
         Returns
         -------
@@ -367,9 +368,9 @@ class Pile:
         Raises
         ------
         ValueError
-            For a spacing that the pile cannot have.
+            If the spacing is impossible for this stacking.
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -382,7 +383,7 @@ class Pile:
         return native.positions(self._native)
 
     def sites(self) -> NDArray[np.int64]:
-        """Return the sites of all spheres: the layer k, counted from 0 at the top, and the place (i, j) in it.
+        """Return the sites of all spheres: layer k, counted from 0 at the top, and position (i, j) in it.
 
         Returns
         -------
@@ -392,9 +393,9 @@ class Pile:
         Raises
         ------
         OverflowError
-            For a coordinate beyond int64.
+            If a coordinate exceeds int64.
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -405,17 +406,17 @@ class Pile:
         return native.sites(self._native)
 
     def contact_ids(self) -> NDArray[np.int64]:
-        """Return the numbers of the two spheres of all contacts, in the order of ``contacts.csv``.
+        """Return the ids of the two spheres of each contact, in the order of ``contacts.csv``.
 
         Returns
         -------
         numpy.ndarray
-            int64 of shape (M, 2), from 1; that of the upper sphere first.
+            int64 of shape (M, 2), counted from 1, with the upper sphere first.
 
         Raises
         ------
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -426,7 +427,7 @@ class Pile:
         return native.contact_ids(self._native)
 
     def contact_points(self) -> NDArray[np.float64]:
-        """Return where the spheres touch, each coordinate the nearest float.
+        """Return the contact points, correctly rounded.
 
         Returns
         -------
@@ -436,9 +437,9 @@ class Pile:
         Raises
         ------
         ValueError
-            For a spacing that the pile cannot have.
+            If the spacing is impossible for this stacking.
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -450,12 +451,12 @@ class Pile:
         return native.contact_points(self._native)
 
     def forces(self, units: Literal["si", "pile"] = "si") -> NDArray[np.float64]:
-        """Return the forces of all contacts, each the nearest float to the exact one. Positive is push.
+        """Return the forces of all contacts, correctly rounded. Compression is positive.
 
         Parameters
         ----------
         units : {"si", "pile"}
-            In N, or in f0.
+            ``"si"`` for N, ``"pile"`` for f0.
 
         Returns
         -------
@@ -465,11 +466,11 @@ class Pile:
         Raises
         ------
         ValueError
-            For other units; in N, for a spacing that the pile cannot have.
+            If the units are unknown, or in N if the spacing is impossible for this stacking.
         OverflowError
-            For a force beyond float64.
+            If a force exceeds float64.
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -482,7 +483,7 @@ class Pile:
         return native.forces(self._native, _is_si(units))
 
     def vectors(self) -> NDArray[np.float64]:
-        """Return the force on the first sphere of all contacts, each component the nearest float.
+        """Return the force vector on the first sphere of each contact, correctly rounded.
 
         Returns
         -------
@@ -492,11 +493,11 @@ class Pile:
         Raises
         ------
         ValueError
-            For a spacing that the pile cannot have.
+            If the spacing is impossible for this stacking.
         OverflowError
-            For a force beyond float64.
+            If a force exceeds float64.
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -513,12 +514,13 @@ class Pile:
         Returns
         -------
         Multiples
-            ``numerators``, an int64 array of shape (M,) where all fit, else a list of M ints; and their ``denominator``, an int.
+            ``numerators``, an int64 array of shape (M,), or a list of M ints if some exceed int64; and their ``denominator``, an
+            int.
 
         Raises
         ------
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -531,26 +533,26 @@ class Pile:
         return Multiples(*native.multiples(self._native))
 
     def base(self, units: Literal["si", "pile"] = "si") -> NDArray[np.float64]:
-        """Return the forces of all bottom spheres on the floor, each number the nearest float.
+        """Return the forces of all bottom spheres on the floor, correctly rounded.
 
         Parameters
         ----------
         units : {"si", "pile"}
-            In N; or in mg, mg tan theta and 2 cos phi mg tan theta.
+            ``"si"`` for N, ``"pile"`` for mg, mg tan theta and 2 cos phi mg tan theta.
 
         Returns
         -------
         numpy.ndarray
-            float64 of shape (B, 3): normal, shear along x, shear along y; of the last B spheres, in their order.
+            float64 of shape (B, 3): normal, shear along x, shear along y, for the last B spheres in their order.
 
         Raises
         ------
         ValueError
-            For other units; in N, for a spacing that the pile cannot have.
+            If the units are unknown, or in N if the spacing is impossible for this stacking.
         OverflowError
-            For a force beyond float64.
+            If a force exceeds float64.
         MemoryError
-            If there is no room for them.
+            If the array does not fit into memory.
 
         Examples
         --------
@@ -567,24 +569,24 @@ class Pile:
         j: int = 0,
         direction: Literal["alpha", "beta", "gamma", "alpha-beta", "alpha-gamma", "gamma-beta"] = "alpha",
     ) -> Fraction:
-        """Return the exact force of one contact, in f0; of piles of up to 10**36 layers.
+        """Return the exact force of one contact, in f0, for piles of up to 10**36 layers.
 
         Parameters
         ----------
         k, i, j : int
-            The upper sphere: its layer, counted from 0 at the top, and its place there. Discs have no j.
+            The upper sphere: its layer, counted from 0 at the top, and its position there. Discs have no j.
         direction : {"alpha", "beta", "gamma", "alpha-beta", "alpha-gamma", "gamma-beta"}
-            Where the other sphere lies: below, or beside, at (i+1, j), (i, j+1) or (i+1, j-1).
+            The direction of the other sphere: below, or in the same layer at (i+1, j), (i, j+1) or (i+1, j-1).
 
         Returns
         -------
         fractions.Fraction
-            In f0; positive is push.
+            The force in f0. Compression is positive.
 
         Raises
         ------
         ValueError
-            If there is no such sphere or direction, or it stands on the floor.
+            If the sphere or direction does not exist, or the sphere is on the floor.
 
         Examples
         --------
@@ -606,7 +608,7 @@ class Pile:
         Parameters
         ----------
         i, j : int
-            Its place in the bottom layer. Discs have no j.
+            The position in the bottom layer. Discs have no j.
 
         Returns
         -------
@@ -616,7 +618,7 @@ class Pile:
         Raises
         ------
         ValueError
-            If there is no such sphere.
+            If the sphere does not exist.
 
         Examples
         --------
@@ -627,22 +629,22 @@ class Pile:
         return FloorForce(*native.on_floor(self._native, i, j))
 
     def sphere_id(self, k: int, i: int, j: int = 0) -> int:
-        """Return the number of a sphere, from 1.
+        """Return the id of a sphere, counted from 1.
 
         Parameters
         ----------
         k, i, j : int
-            Its layer, counted from 0 at the top, and its place there. Discs have no j.
+            The layer, counted from 0 at the top, and the position in it. Discs have no j.
 
         Returns
         -------
         int
-            Its number.
+            The id.
 
         Raises
         ------
         ValueError
-            If there is no such sphere.
+            If the sphere does not exist.
 
         Examples
         --------
@@ -653,22 +655,22 @@ class Pile:
         return native.sphere_id(self._native, k, i, j)
 
     def site(self, sphere_id: int) -> tuple[int, int, int]:
-        """Return the sphere of a number: its layer k, and its place (i, j) there.
+        """Return the site of the sphere with a given id: layer k and position (i, j) in it.
 
         Parameters
         ----------
         sphere_id : int
-            Its number, from 1.
+            The id, counted from 1.
 
         Returns
         -------
         tuple of int
-            (k, i, j); of discs j is 0.
+            (k, i, j). For discs j is 0.
 
         Raises
         ------
         ValueError
-            If there is no such sphere.
+            If the sphere does not exist.
 
         Examples
         --------
@@ -685,17 +687,17 @@ class Pile:
         return k, i, j
 
     def weakest(self) -> Contact | None:
-        """Return the sloping contact with the least force, the first of several.
+        """Return the sloping contact with the smallest force, the first one if there are several.
 
         Returns
         -------
         Contact or None
-            None of a single layer, and where a pile fails near the top and too many contacts would have to be looked at below.
+            None for a single layer, and for an unstable pile with too many contacts to search below its first failure.
 
         Raises
         ------
         MemoryError
-            For a pile that is too large to be looked through.
+            If the pile is too large for a search.
 
         Examples
         --------
@@ -707,24 +709,24 @@ class Pile:
         return None if contact is None else Contact(*contact)
 
     def bounds(self, i: int, j: int = 0) -> Bounds:
-        """Return what a bottom sphere bears at least and at most at a = R, whatever forces its horizontal contacts have.
+        """Return bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.
 
         Parameters
         ----------
         i, j : int
-            Its place in the bottom layer.
+            The position in the bottom layer.
 
         Returns
         -------
         Bounds
-            Fractions ``least`` and ``greatest``, in mg, certified; and ``proved``, whether both are attained.
+            Certified fractions ``least`` and ``greatest`` in mg, and ``proved``, true if both are attained.
 
         Raises
         ------
         ValueError
-            If there is no such sphere; if neighbours of a layer do not touch; if no forces balance the pile that only push.
+            If the sphere does not exist, the neighbours of a layer do not touch, or no compressive forces balance the pile.
         MemoryError
-            For a pile that is too large.
+            If the pile is too large.
 
         Examples
         --------
@@ -735,24 +737,24 @@ class Pile:
         return Bounds(*native.bounds(self._native, i, j))
 
     def elastic(self, stiffness_ratio: Exact = 1) -> Pile:
-        """Return the same pile in its elastic state, at a = R: the forces of springs that only push, exact.
+        """Return the same pile in its elastic state at a = R: the exact forces of unilateral springs.
 
         Parameters
         ----------
         stiffness_ratio : exact number, default 1
-            The stiffness of horizontal contacts over that of sloping ones.
+            The stiffness of horizontal contacts divided by that of sloping contacts.
 
         Returns
         -------
         Pile
-            Of which all can be asked; its horizontal contacts with a force come last in arrays.
+            The pile with its horizontal forces. Horizontal contacts with a force are the last ones in arrays.
 
         Raises
         ------
         ValueError
-            If neighbours of a layer do not touch; if the pile cannot stand.
+            If the neighbours of a layer do not touch, or the pile is unstable.
         MemoryError
-            For a pile that is too large.
+            If the pile is too large.
 
         Examples
         --------
@@ -773,39 +775,40 @@ class Pile:
         vectors: ArrayLike | None = None,
         within: float = 0.1,
     ) -> Comparison:
-        """Hold measured contact forces against the exact ones, contact by contact.
+        """Compare measured contact forces with the exact ones, contact by contact.
 
-        Contacts are known by the numbers of their spheres, or by where they are, in whatever frame: then axes that are
-        exchanged, a turn about the vertical and a shift are found. Their order does not matter, nor which sphere is named first.
+        Contacts are identified by the ids of their spheres or by position. Positions may be in any frame: exchanged axes, a
+        rotation about the vertical and a translation are detected. The order of the contacts, and of the two spheres of each,
+        does not matter.
 
         Parameters
         ----------
         ids : array_like of int, shape (M, 2)
-            The numbers of the two spheres, from 1.
+            The ids of the two spheres, counted from 1.
         forces : array_like of float, shape (M,)
-            The magnitudes, in N; positive is push.
+            The magnitudes in N. Compression is positive.
         points : array_like of float, shape (M, 3)
-            Instead of `ids`: where the spheres touch, in m.
+            Instead of `ids`: the contact points, in m.
         centres : array_like of float, shape (M, 2, 3)
             Instead of `ids`: the centres of the two spheres, in m.
         vectors : array_like of float, shape (M, 3)
-            The forces on the first of the two spheres, in N; with `forces` or in place of them. A point does not tell which
-            sphere is the first: with `points` alone a vector is taken for a push.
+            The forces on the first of the two spheres, in N, in addition to `forces` or instead. A contact point does not
+            identify the first sphere: with `points` alone a vector is interpreted as compression.
         within : float, default 0.1
-            How far a sphere may be from its place, in radii, where contacts are known by it.
+            The position tolerance in radii, if contacts are identified by position.
 
         Returns
         -------
         Comparison
-            How many were matched, are missing, are extra; the errors, and the worst of them.
+            The numbers of matched, missing and extra contacts, and the errors.
 
         Raises
         ------
         ValueError
-            For arrays that do not fit each other, spheres that are not there, pairs that are there twice, and numbers that are
-            not finite. The message names the entry, counted from 1.
+            If array shapes do not match, a sphere does not exist, a pair occurs twice, or a number is not finite. The
+            message names the entry, counted from 1.
         OverflowError
-            For exact forces beyond float64.
+            If an exact force exceeds float64.
 
         Examples
         --------
@@ -818,7 +821,7 @@ class Pile:
         0.0
         """
         if not 0 < within < 0.5:
-            raise ValueError(f"within: {within} radii are no distance below half of one: 0.1 is usual")
+            raise ValueError(f"within: {within} is not between 0 and 0.5 radii: use 0.1")
         given: Any = _measured.arrays(ids, forces, points, centres, vectors)
         return Comparison(native.compare(self._native, **given, within=within))
 
@@ -833,21 +836,21 @@ class Pile:
         within: float = 0.1,
         rtol: float = 1e-6,
     ) -> None:
-        """Raise an AssertionError unless measured contact forces are the exact ones.
+        """Raise an AssertionError unless measured contact forces agree with the exact ones.
 
-        Nothing may be missing, no pair that is no contact may carry a force, and no relative error may be over `rtol`.
+        No contact may be missing, no other pair may carry a force, and no relative error may exceed `rtol`.
 
         Parameters
         ----------
         ids, forces, points, centres, vectors, within
-            What was measured: see `compare`.
+            The measurement: see `compare`.
         rtol : float, default 1e-6
-            The relative error that is accepted.
+            The maximum relative error.
 
         Raises
         ------
         AssertionError
-            With the worst contact, its two values, and what the differences have in common.
+            With the worst contact, its two values, and an explanation of the differences.
         ValueError, OverflowError
             As for `compare`.
 
@@ -882,30 +885,30 @@ relative error 8.167e-02
         Parameters
         ----------
         kind : str, default "network"
-            ``"network"``: the contact forces as lines, in a section through the middle, or of a `layer`; ``"base"`` and
-            ``"shear"``: the forces on the floor; ``"sphere"``: the forces on one; ``"response"``: what a `layer` feels of the
-            loads alone, or of 1 mg on the middle of the top; ``"bounds"``: what bottom spheres can bear at a = R; ``"pile"``: the
-            pile in perspective; ``"indexing"``: the indices of a `layer`.
+            ``"network"``: the contact forces as lines, in a section through the middle or in a `layer`. ``"base"`` and
+            ``"shear"``: the forces on the floor. ``"sphere"``: the forces on one sphere. ``"response"``: the forces in a
+            `layer` caused by the loads alone, or by 1 mg at the centre of the top. ``"bounds"``: bounds of the base forces at
+            a = R. ``"pile"``: the pile in perspective. ``"indexing"``: the indices of a `layer`.
         layer : int, optional
-            Counted from 0 at the top.
+            The layer, counted from 0 at the top.
         at : tuple of int, optional
-            The sphere of ``"sphere"``: (k, i, j), or (i, j) on the base.
+            The sphere for ``"sphere"``: (k, i, j), or (i, j) on the base.
         units : {"pile", "si"}
             The units of forces and lengths.
         width : int, default 800
-            In pixels.
+            The width in pixels.
         title : bool, default True
-            Whether there is one.
+            If true, the figure has a title.
 
         Returns
         -------
         Figure
-            With the SVG, which Jupyter shows.
+            The figure as SVG, which Jupyter displays.
 
         Raises
         ------
         ValueError
-            For a kind that is none, and for more spheres than can be told apart.
+            If the kind is unknown, or the spheres would be too small to distinguish.
 
         Examples
         --------
@@ -919,19 +922,19 @@ relative error 8.167e-02
         )
 
     def show(self) -> Page:
-        """Return a page to look into the pile: turned by hand, cut at a layer, each sphere and contact with its exact force.
+        """Return an interactive page: rotate the pile, cut it at a layer, select spheres and contacts to see their exact forces.
 
         Returns
         -------
         Page
-            With the HTML, which Jupyter shows.
+            The page as HTML, which Jupyter displays.
 
         Raises
         ------
         ValueError
-            For more than 100000 spheres, and for a spacing that the pile cannot have.
+            If the pile has more than 100000 spheres, or the spacing is impossible for this stacking.
         OverflowError
-            For a force beyond float64.
+            If a force exceeds float64.
 
         Examples
         --------
@@ -943,14 +946,15 @@ relative error 8.167e-02
         return Page(native.page(self._native))
 
     def export(self, folder: str | os.PathLike[str], *formats: str) -> list[str]:
-        """Write the pile as files, as ``cannonpile export`` does, and return their names.
+        """Write the files of ``cannonpile export`` and return their names.
 
         Parameters
         ----------
         folder : str or path
-            Where to; it is made if it is not there. Older files of these names are replaced.
+            The folder. It is created if necessary. Existing files of these names are replaced.
         *formats : str
-            Of ``"csv"``, ``"lammps"``, ``"vtp"``, ``"yade"``, ``"card"``, ``"html"``, ``"lammps-test"``, ``"yade-check"``; csv if there is none.
+            ``"csv"`` (default), ``"lammps"``, ``"vtp"``, ``"yade"``, ``"card"``, ``"html"``, ``"lammps-test"`` or
+            ``"yade-check"``.
 
         Returns
         -------
@@ -960,7 +964,7 @@ relative error 8.167e-02
         Raises
         ------
         ValueError
-            For a format that is none, and for a spacing that the pile cannot have.
+            If a format is unknown, or the spacing is impossible for this stacking.
         OSError
             If a file cannot be written.
 
@@ -1004,5 +1008,5 @@ def _is_si(units: str) -> bool:
 def _width(width: int) -> int:
     width = _exact.integer("width", width)
     if not 0 < width <= 100_000:
-        raise ValueError(f"width: {width} pixels are no width: 800 is usual, 1 to 100000 are accepted")
+        raise ValueError(f"width: {width} is not between 1 and 100000 pixels: use 800")
     return width

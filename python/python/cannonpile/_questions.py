@@ -1,4 +1,4 @@
-"""What is asked of no single pile."""
+"""Functions that do not belong to a single pile: cases, theorems, census, means."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 def cases() -> list[Case]:
-    """Return the benchmark cases, with names that others can quote.
+    """Return the benchmark cases, with citable names.
 
-    A case that was published is never altered, and none is taken away.
+    Published cases are frozen: none is altered or removed.
 
     Returns
     -------
     list of Case
-        Tuples ``(name, pile, known)``, as ``pytest.mark.parametrize`` takes them.
+        Tuples ``(name, pile, known)``, suitable for ``pytest.mark.parametrize``.
 
     Examples
     --------
@@ -30,7 +30,7 @@ def cases() -> list[Case]:
     >>> [name for name, pile, known in cases() if known.stands is False]
     ['C8']
 
-    A code tests itself on all of them::
+    To test a code on all of them::
 
         @pytest.mark.parametrize("name, pile, known", cannonpile.cases())
         def test_forces(name, pile, known):
@@ -44,22 +44,22 @@ def cases() -> list[Case]:
 
 
 def prove(name: str | None = None) -> list[Theorem]:
-    """Run the proofs of what holds for every pile, on the formulas that answer here, and return whether they hold.
+    """Run the proofs of the theorems about all piles, on the formulas of the library, and return the results.
 
     Parameters
     ----------
     name : str, optional
-        Of one theorem; by default all are proved.
+        The name of one theorem. By default all are proved.
 
     Returns
     -------
     list of Theorem
-        Each with its statement, and whether its proof holds.
+        The theorems, each with its statement and the result of its proof.
 
     Raises
     ------
     ValueError
-        For a name that no theorem has; the message lists them.
+        If no theorem has this name. The message lists the names.
 
     Examples
     --------
@@ -77,30 +77,30 @@ def census(
     standing: bool = False,
     horizontal: bool = False,
 ) -> Iterator[CensusEntry]:
-    """Return which stackings stand, one of each mirror pair, one after the other.
+    """Return an iterator over stackings and their stability, with one stacking of each mirror pair.
 
     Parameters
     ----------
     layers : int, optional
-        The stackings of so many layers under one sphere; 10 by default.
+        The number of layers, for stackings under one sphere. The default is 10.
     base : str, optional
-        Instead, every stacking of this base, carried as high as it goes.
+        Instead of `layers`: every stacking on this base, extended upwards as far as it goes.
     standing : bool, default False
-        Whether only those that stand are wanted; else the shortest beginnings that fail come too.
+        If true, only stable stackings are returned. Otherwise the shortest unstable prefixes are returned too.
     horizontal : bool, default False
-        Whether horizontal contacts are counted in, as at a = R.
+        If true, horizontal contacts are included, as at a = R.
 
     Returns
     -------
     iterator of CensusEntry
-        Each found when it is asked for.
+        The entries, computed on demand.
 
     Raises
     ------
     ValueError
-        For layers or a base that are none, or both given.
+        If layers or base are invalid, or both are given.
     MemoryError
-        For more entries than can be listed.
+        If there are too many entries.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def census(
     11
     """
     if layers is not None and base is not None:
-        raise ValueError("layers has no meaning with base: leave one of the two out")
+        raise ValueError("layers and base exclude each other: remove one of the two")
     height = str(_exact.integer("layers", 10 if layers is None else layers))
     shape = None if base is None else _exact.text("base", base)
     entries = native.census(height, shape, bool(standing), bool(horizontal))
@@ -127,41 +127,41 @@ def mean(
     first: Literal["+", "-", "random"] = "+",
     given_sphere: bool = False,
 ) -> list[MeanForce]:
-    """Return what each place of the floor bears in the mean over random stackings, exact.
+    """Return the exact mean base force at each position, over random stackings.
 
-    Each step from layer to layer but the first differs in sign from the one before with the fault probability, independently: 0 is
-    fcc, 1 is hcp, and at 1/2 all stackings are equally likely. The mean is over all of them, also those that cannot stand.
+    Each step after the first has the opposite sign of the previous step with the fault probability, independently. 0 is fcc,
+    1 is hcp, and at 1/2 all stackings are equally likely. The mean includes unstable stackings.
 
     Parameters
     ----------
     layers : int, default 10
         The number of layers.
     top : str, optional
-        The layer from which the piles grow down, or ``"plane"`` for layers without end, with `weightless` and `loads`.
+        The top layer of the piles, or ``"plane"`` for infinite layers, which need `weightless` and `loads`.
     base : str, optional
-        Instead, the layer from which they grow up; a stacking that it does not carry so high counts as one without spheres.
+        Instead of `top`: the bottom layer of the piles. A stacking that does not reach the height counts as one without spheres.
     loads : dict, optional
         Vertical loads in mg on spheres of the top layer: ``{(0, i, j): W}``.
     weightless : bool, default False
-        Whether only the loads act.
+        If true, the spheres have no weight and only the loads act.
     fault_probability : exact number, default 1/2
-        From 0 to 1.
+        The probability of a sign change, from 0 to 1.
     first : {"+", "-", "random"}
         The sign of the first step.
     given_sphere : bool, default False
-        Whether the means are over those stackings alone that have a sphere at the place.
+        If true, the means are over the stackings that have a sphere at the position.
 
     Returns
     -------
     list of MeanForce
-        A row for each place where some stacking has a sphere.
+        A row for each position where some stacking has a sphere.
 
     Raises
     ------
     ValueError
-        For options that are none, or exclude each other.
+        If an option is invalid, or options exclude each other.
     MemoryError
-        For piles that are too large.
+        If the piles are too large.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def mean(
     Fraction(1, 1)
     """
     if top is not None and base is not None:
-        raise ValueError("top has no meaning with base: leave one of the two out")
+        raise ValueError("top and base exclude each other: remove one of the two")
     rows = native.mean(
         str(_exact.integer("layers", layers)),
         None if top is None else _exact.text("top", top),

@@ -1,4 +1,4 @@
-"""Answers that have several parts: tuples with names, whose types are in the stub beside this file."""
+"""Results with several parts, as named tuples. The stub file declares their types."""
 
 from collections import namedtuple
 
@@ -11,9 +11,9 @@ class Multiples(namedtuple("Multiples", "numerators denominator")):
     Attributes
     ----------
     numerators : numpy.ndarray of int64 or list of int
-        An int64 array of shape (M,) where all numerators fit, else a list of M ints.
+        An int64 array of shape (M,), or a list of M ints if some numerators exceed int64.
     denominator : int
-        What they are all over.
+        The common denominator.
 
     Examples
     --------
@@ -27,7 +27,7 @@ class Multiples(namedtuple("Multiples", "numerators denominator")):
 
 
 class Contact(namedtuple("Contact", "k i j direction force")):
-    """A sloping contact of the sphere (k, i, j) with one below it, and its force in f0.
+    """A sloping contact of the sphere (k, i, j) with a sphere below it, and its force in f0.
 
     Attributes
     ----------
@@ -70,16 +70,16 @@ class FloorForce(namedtuple("FloorForce", "normal shear_x shear_y")):
 
 
 class Bounds(namedtuple("Bounds", "least greatest proved")):
-    """What a bottom sphere bears at least and at most at a = R, horizontal contacts included.
+    """Bounds of the normal force of a bottom sphere at a = R, over all admissible horizontal forces.
 
     Attributes
     ----------
     least : Fraction
-        In mg.
+        The lower bound, in mg.
     greatest : Fraction
-        In mg.
+        The upper bound, in mg.
     proved : bool
-        Whether some forces attain both; if not, no forces pass them, and how close they come is not known.
+        True if both bounds are attained. Otherwise they are valid, but may not be sharp.
 
     Examples
     --------
@@ -92,21 +92,21 @@ class Bounds(namedtuple("Bounds", "least greatest proved")):
 
 
 class Theorem(namedtuple("Theorem", "name statement hypotheses symbols method holds")):
-    """A statement about every pile, and whether its proof holds.
+    """A theorem about all piles, and the result of its proof.
 
     Attributes
     ----------
     name : str
     statement : str
-        What is proved, in words and formulas.
+        The statement, in words and formulas.
     hypotheses : str
-        For which values of the symbols it is meant.
+        The values of the symbols for which it holds.
     symbols : str
-        The symbols in it.
+        The symbols of the statement.
     method : str
-        How it is proved: identity, sum, induction, ....
+        The method of proof: identity, sum, induction, ….
     holds : bool
-        Whether both sides of every step are the same.
+        True if the two sides of every step are equal.
 
     Examples
     --------
@@ -119,20 +119,20 @@ class Theorem(namedtuple("Theorem", "name statement hypotheses symbols method ho
 
 
 class CensusEntry(namedtuple("CensusEntry", "stacking layers stands least_force normal_min normal_max")):
-    """A stacking, and whether it stands.
+    """A stacking and its stability.
 
     Attributes
     ----------
     stacking : str
-        Its steps, from the top; from the base up where it was grown from a base.
+        The steps from the top, or from the base upwards if the pile was built from a base.
     layers : int
     stands : bool
     least_force : Fraction or None
-        The least contact force in f0, without horizontal contacts; None of a single layer.
+        The smallest contact force in f0, without horizontal contacts. None for a single layer.
     normal_min : Fraction or None
-        The least normal force on the floor in mg; None of a pile that does not stand without horizontal contacts.
+        The smallest normal force on the floor in mg. None for a pile that is unstable without horizontal contacts.
     normal_max : Fraction or None
-        The greatest one.
+        The largest normal force on the floor in mg.
 
     Examples
     --------
@@ -145,19 +145,19 @@ class CensusEntry(namedtuple("CensusEntry", "stacking layers stands least_force 
 
 
 class MeanForce(namedtuple("MeanForce", "a b probability normal shear_x shear_y")):
-    """What a place of the floor bears in the mean over random stackings.
+    """The mean base force at a position, over random stackings.
 
-    The place is a u_beta + b u_gamma from that of the sphere (0, 0) of the top layer, or of the base where the piles are grown
-    from one; u_beta and u_gamma are the horizontal parts of the contacts beta and gamma below a + step.
+    The position is a u_beta + b u_gamma relative to sphere (0, 0) of the top layer, or of the base if the piles are built from
+    a base. u_beta and u_gamma are the horizontal parts of the contacts beta and gamma below a + step.
 
     Attributes
     ----------
     a : int
     b : int
     probability : Fraction
-        That a sphere is there.
+        The probability that a sphere is there.
     normal : Fraction
-        In mg; a stacking without a sphere there counts as 0.
+        The normal force in mg. A stacking without a sphere there counts as 0.
     shear_x : Fraction
         In mg tan theta.
     shear_y : Fraction
@@ -174,16 +174,16 @@ class MeanForce(namedtuple("MeanForce", "a b probability normal shear_x shear_y"
 
 
 class Known(namedtuple("Known", "title purpose stands")):
-    """What is known of a benchmark case.
+    """Known facts about a benchmark case.
 
     Attributes
     ----------
     title : str
-        What the pile is, in a few words.
+        A short description of the pile.
     purpose : str
-        What the case tests in a code of contact forces.
+        The feature of a contact force code that the case tests.
     stands : bool or None
-        Whether the pile stands; None of spheres without weight, of which it is not asked.
+        True if the pile is stable. None for weightless spheres.
 
     Examples
     --------
@@ -196,7 +196,7 @@ class Known(namedtuple("Known", "title purpose stands")):
 
 
 class Case(namedtuple("Case", "name pile known")):
-    """A benchmark case: a name that others can quote, its pile, and what is known of it.
+    """A benchmark case: a citable name, its pile, and known facts about it.
 
     Attributes
     ----------
@@ -216,24 +216,24 @@ class Case(namedtuple("Case", "name pile known")):
 
 
 class Difference(namedtuple("Difference", "ids k i j direction exact measured error text")):
-    """A contact of a pile, its exact force, and what was measured.
+    """A contact of a pile, with its exact and its measured force.
 
     Attributes
     ----------
     ids : tuple[int, int]
-        The numbers of the upper sphere and of the lower one.
+        The ids of the upper and the lower sphere.
     k : int
     i : int
     j : int
     direction : str
     exact : float
-        The nearest float to the exact force, in N; positive is push.
+        The exact force, correctly rounded, in N. Compression is positive.
     measured : float or None
-        The measured one; None of a contact that was not measured.
+        The measured force in N. None if the contact was not measured.
     error : float
-        The relative error; 1 of a contact that was not measured.
+        The relative error. 1 if the contact was not measured.
     text : str
-        All of it in words.
+        A description in words.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-//! Forces one by one, exact.
+//! Single exact forces.
 
 use cannonpile::lattice::{ContactKind, HorizontalContact, Site};
 use num_bigint::{BigInt, BigUint};
@@ -50,7 +50,7 @@ pub(crate) fn on_floor(
     Ok([force.normal, force.shear_x, force.shear_y])
 }
 
-/// The number of a sphere.
+/// The id of a sphere.
 #[pyfunction]
 pub(crate) fn sphere_id(pile: &Pile, k: BigInt, i: BigInt, j: BigInt) -> PyResult<BigUint> {
     let before = pile.exact.shape().before(input::site(&k, &i, &j)?);
@@ -58,7 +58,7 @@ pub(crate) fn sphere_id(pile: &Pile, k: BigInt, i: BigInt, j: BigInt) -> PyResul
     Ok(before + 1_u32)
 }
 
-/// The sphere of a number: k, i, j.
+/// The site of the sphere with a given id: k, i, j.
 #[pyfunction]
 pub(crate) fn site(
     pile: &Pile,
@@ -70,7 +70,7 @@ pub(crate) fn site(
     Ok(site.map(|Site { i, j, k }| [k.into(), i.into(), j.into()]))
 }
 
-/// The contact with the least force.
+/// The contact with the smallest force.
 #[pyfunction]
 pub(crate) fn weakest(pile: &Pile, py: Python<'_>) -> PyResult<Option<Weakest>> {
     let standing = work(py, || pile.exact.standing())?;
@@ -86,7 +86,7 @@ pub(crate) fn weakest(pile: &Pile, py: Python<'_>) -> PyResult<Option<Weakest>> 
     }))
 }
 
-/// What a bottom sphere bears at least and at most at a = R, and whether both are attained.
+/// Bounds of the normal force of a bottom sphere at a = R, and whether both are attained.
 #[pyfunction]
 pub(crate) fn bounds(
     pile: &Pile,
@@ -109,7 +109,7 @@ pub(crate) fn bounds(
 }
 
 impl Pile {
-    /// Asks for one force: at once in a straight pile, and else where Ctrl-C ends it.
+    /// Computes one force: directly in a straight pile, otherwise with cancellation by Ctrl-C.
     fn ask<T: Send>(
         &self,
         py: Python<'_>,
@@ -122,7 +122,7 @@ impl Pile {
         }
     }
 
-    /// A site of the bottom layer.
+    /// Returns a site of the bottom layer.
     fn bottom(&self, i: &BigInt, j: &BigInt) -> PyResult<Site> {
         let (i, j) = (coordinate("i", i)?, coordinate("j", j)?);
         let k = self.exact.layers() - 1;

@@ -1,4 +1,4 @@
-//! All spheres and contacts as arrays of NumPy.
+//! All spheres and contacts as NumPy arrays.
 
 use cannonpile_dem::PileArrays;
 use num_bigint::BigInt;
@@ -14,7 +14,7 @@ use crate::exception::Raised;
 use crate::work::work;
 
 impl Pile {
-    /// Of the pile, or in SI.
+    /// Pile units or SI units.
     fn numbers(&self, si: bool) -> PyResult<PileArrays<'_>> {
         let numbers = if si {
             self.packing()
@@ -25,7 +25,7 @@ impl Pile {
         numbers.map_err(|error| Raised::from(error).into_exception())
     }
 
-    /// How many spheres of the base there are places for.
+    /// Returns the number of bottom spheres, if arrays for them fit into memory.
     fn base_places(&self) -> PyResult<usize> {
         let count = self.exact.base_sphere_count();
         usize::try_from(&count).map_err(|_| {
@@ -56,7 +56,7 @@ pub(crate) fn sites<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, Py
     rows(py, numbers.spheres(), |sites| numbers.fill_sites(sites))
 }
 
-/// The numbers of the spheres of all contacts.
+/// The ids of the spheres of all contacts.
 #[pyfunction]
 pub(crate) fn contact_ids<'py>(
     pile: &Pile,
@@ -66,7 +66,7 @@ pub(crate) fn contact_ids<'py>(
     rows(py, numbers.contacts(), |ids| numbers.fill_ids(ids))
 }
 
-/// The points of all contacts.
+/// The contact points of all contacts.
 #[pyfunction]
 pub(crate) fn contact_points<'py>(
     pile: &Pile,
@@ -87,7 +87,7 @@ pub(crate) fn forces<'py>(
     column(py, numbers.contacts(), |forces| numbers.fill_forces(forces))
 }
 
-/// The forces on the first spheres of all contacts.
+/// The force vectors on the first spheres of all contacts.
 #[pyfunction]
 pub(crate) fn vectors<'py>(pile: &Pile, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let numbers = pile.numbers(true)?;
@@ -107,12 +107,12 @@ pub(crate) fn base<'py>(
     rows(py, pile.base_places()?, |base| numbers.fill_base(base))
 }
 
-/// So many zeros of any length: MemoryError where there is no room, as NumPy has it.
+/// Returns a vector of zeros of any length. It raises MemoryError if the memory is too small, like NumPy.
 fn zeros(contacts: usize) -> PyResult<Vec<BigInt>> {
     let mut zeros = Vec::new();
     zeros.try_reserve_exact(contacts).map_err(|_| {
         PyMemoryError::new_err(format!(
-            "no memory for {contacts} numerators: use fewer layers"
+            "not enough memory for {contacts} numerators; use fewer layers"
         ))
     })?;
     zeros.resize(contacts, BigInt::ZERO);

@@ -1,4 +1,4 @@
-//! The options of a scene, as Python gives them and as it writes them.
+//! Conversion between the options of a scene and Python arguments.
 
 use std::fmt::Display;
 
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use crate::exception::of_argument;
 use crate::input::read;
 
-/// Returns the scene of these options, each a text of the command line's.
+/// Returns the scene for options given as texts of the command line.
 pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) -> PyResult<Scene> {
     let mut scene = Scene::default();
     for (name, text) in options {
@@ -32,7 +32,7 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
             _ => {
                 return Err(of_argument(
                     name,
-                    &cannonpile::engine::bug("an option of Pile is one of scenes").into(),
+                    &cannonpile::engine::bug("every option of Pile is an option of scenes").into(),
                 ));
             }
         }
@@ -46,7 +46,7 @@ pub(super) fn scene(options: &[(String, String)], loads: &[(String, String)]) ->
     Ok(scene)
 }
 
-/// Returns the call that makes a scene's pile.
+/// Returns the Python call that makes the pile of a scene.
 pub(super) fn call(scene: &Scene) -> String {
     let mut given = Vec::new();
     let mut give = |name: &str, value: String| given.push(format!("{name}={value}"));
@@ -103,12 +103,12 @@ pub(super) fn call(scene: &Scene) -> String {
     format!("Pile({})", given.join(", "))
 }
 
-/// A text of Python; none of these has a character to escape.
+/// Returns a Python string literal. The texts contain no characters that need escapes.
 fn quoted(text: impl Display) -> String {
     format!("'{text}'")
 }
 
-/// An exact number of Python.
+/// Returns an exact number as a Python literal.
 fn number(number: &BigRational) -> String {
     if number.is_integer() {
         number.to_string()

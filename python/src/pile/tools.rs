@@ -1,4 +1,4 @@
-//! Files, figures, and measured forces.
+//! Files, figures and comparisons with measured forces.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ use crate::figure::Kind;
 use crate::input::{coordinate, read};
 use crate::work::work;
 
-/// A figure of the pile: its SVG, and what is to be said of it.
+/// A figure of the pile: its SVG and a warning about the pile.
 #[pyfunction]
 pub(crate) fn plot(
     pile: &Pile,
@@ -50,7 +50,7 @@ pub(crate) fn plot(
     })
 }
 
-/// A page to look into the pile.
+/// An interactive page of the pile.
 #[pyfunction]
 pub(crate) fn page(pile: &Pile, py: Python<'_>) -> PyResult<String> {
     work(py, || {
@@ -59,7 +59,7 @@ pub(crate) fn page(pile: &Pile, py: Python<'_>) -> PyResult<String> {
     })
 }
 
-/// Write files, and return their names.
+/// Write files and return their names.
 #[pyfunction]
 pub(crate) fn export(
     pile: &Pile,
@@ -100,7 +100,7 @@ pub(crate) fn export(
     })
 }
 
-/// Hold measured forces against the exact ones.
+/// Compare measured forces with the exact ones.
 #[pyfunction]
 pub(crate) fn compare(
     pile: &Pile,
@@ -125,7 +125,7 @@ pub(crate) fn compare(
 }
 
 impl Pile {
-    /// A figure of the pile in the state that is meant.
+    /// Draws a figure of the pile in its equilibrium state.
     fn figure(
         &self,
         kind: Kind,
@@ -161,7 +161,7 @@ impl Pile {
     }
 }
 
-/// What a pile is written for.
+/// A format of an export.
 enum Format {
     Files(PileFormat),
     Page,
