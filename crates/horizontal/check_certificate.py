@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Checks a certificate of what a pile of spheres bears at a = R: check_certificate.py FILE (- for stdin).
+"""Checks a certificate about the contact forces of a sphere pile at a = R: check_certificate.py FILE (- for stdin).
 
-Prints `accepted` (exit status 0) or `refused: ` and the equation that does not hold (1); 2, and a line on stderr, for what
-is no certificate. Python 3.9 or later, and nothing but its standard library.
+Prints `accepted` (exit status 0), or `refused: ` and the first condition that is violated (1). If the input is not a
+certificate, it prints one line on stderr (2). It needs Python 3.9 or later and the standard library only.
 
-What is trusted: this file, Python's integers and fractions, and the two pages of mathematics that it follows, in
-`src/paper.md` ("Stackings", "Regions", "Horizontal contacts") of the core and `src/certificate.rs` beside this file. It
-shares no line with the library. Where the library counts, this grows layers as sets of sites; where the library walks down
-from sphere to sphere, this hands forces on to the layer below.
+The trusted base is this file, Python's integers and fractions, and two pages of mathematics: `src/paper.md` of the core
+("Stackings", "Regions", "Horizontal contacts") and `src/certificate.rs` in this crate. No code is shared with the
+library, and the methods differ: this script builds layers as sets of sites and transfers forces to the layer below,
+where the library uses counting formulas and visits the spheres one by one.
 
-Forces are in f0 = mg/(n cos theta), n = 3 directions for spheres and 2 for discs. A sphere is (k, i, j), layer k from the
-top; under a step of sign s it rests on (k+1, i + s x, j + s y), (x, y) = (0, 0), (1, 0), (0, 1) for alpha, beta, gamma.
+Forces are in f0 = mg/(n cos theta), with n = 3 directions for spheres and 2 for discs. A sphere is (k, i, j), with layer
+k counted from the top. Below a step of sign s it is supported by (k+1, i + s x, j + s y), where (x, y) = (0, 0), (1, 0),
+(0, 1) for alpha, beta, gamma.
 """
 
 import json
@@ -25,25 +26,25 @@ MOST_DIGITS = 5_000
 
 
 class Unreadable(Exception):
-    """This is no certificate."""
+    """The input is not a valid certificate."""
 
 
 class Refused(Exception):
-    """An equation that does not hold."""
+    """A condition of the certificate is violated."""
 
 
-def need(holds, equation):
+def need(holds, condition):
     if not holds:
-        raise Refused(equation)
+        raise Refused(condition)
 
 
 # Reading
 
 
 def record(given, keys):
-    """The values of a JSON object that has these keys and no other."""
+    """Return the values of a JSON object with exactly these keys."""
     if not isinstance(given, dict) or sorted(given) != sorted(keys.split()):
-        raise Unreadable(f"an object with the keys {keys} is missing")
+        raise Unreadable(f"expected an object with the keys {keys}")
     return [given[key] for key in keys.split()]
 
 
@@ -61,7 +62,7 @@ def number(given):
 
 
 def integer(given):
-    """A JSON integer of at most 64 bits, or the digits of one as a string."""
+    """Return an integer from a JSON number of at most 64 bits, or from a string of digits."""
     if type(given) is int and -(2**63) <= given < 2**64:
         return given
     return int(matched(r"-?\d{1,38}", given, "an integer")[0])
@@ -73,20 +74,24 @@ def sphere(given):
 
 
 def listed(given, keys, entry):
-    """A list of records as a dictionary; what is there twice is refused."""
+    """Return a list of records as a dictionary. Duplicate keys are an error."""
     held = {}
     if not isinstance(given, list):
-        raise Unreadable("a list is missing")
+        raise Unreadable("expected a list")
     for one in given:
         key, value = entry(*record(one, keys))
         if key in held:
-            raise Unreadable(f"{key} is there twice")
+            raise Unreadable(f"{key} occurs twice")
         held[key] = value
     return held
 
 
 def signs_of(given):
-    """The steps from the top: Hagg signs, or lengths of runs, the first of +, of - after a minus sign; A is one layer."""
+    """Return the signs of the steps from the top.
+
+    The input is a sequence of Hagg signs, or the lengths of the runs in parentheses. The first run has sign +, or - after
+    a leading minus sign. The text A is a single layer.
+    """
     if given == "A":
         return []
     found = matched(r"([+-]+)|(-?)\((\d{1,9}(?:,\d{1,9})*)\)", given, "a stacking such as +-+ or (100,3,100)")
@@ -100,7 +105,7 @@ def signs_of(given):
 
 
 def region_of(given):
-    """The sites of a region: bounds of i, j and i + j."""
+    """Return the sites of a region, which is given by bounds of i, j and i + j."""
     between = r"-?\d{1,38}\.\.-?\d{1,38}"
     sides = r"(hexagon|triangle):\d{1,38}(,\d{1,38})?"
     found = matched(rf"{sides}|region:{between},{between},{between}", given, "a region")
@@ -119,28 +124,28 @@ def region_of(given):
 
 
 class Pile:
-    """Layers as sets of sites, signs of the steps between them, and weights with loads."""
+    """A pile: layers as sets of sites, signs of the steps between them, weights and loads."""
 
     def __init__(self, given):
-        # A pile may name forces of its own in horizontal contacts; that of a certificate has none.
+        # The pile of a certificate has no horizontal forces; an empty list of them is allowed.
         if isinstance(given, dict) and given.get("horizontal") == []:
             given = {key: value for key, value in given.items() if key != "horizontal"}
         dimension, sine, stacking, anchor, weightless, weights, loads = record(
             given, "dimension sin_phi stacking anchor weightless weights loads"
         )
         if dimension not in (2, 3) or isinstance(dimension, bool) or not isinstance(weightless, bool):
-            raise Unreadable("dimension is 2 or 3, and weightless true or false")
+            raise Unreadable("dimension must be 2 or 3, and weightless true or false")
         self.signs = signs_of(stacking)
         self.directions = ["alpha", "beta", "gamma"][:dimension]
         sine = number(sine)
         if not isinstance(anchor, dict) or len(anchor) != 1:
-            raise Unreadable("the anchor is a top or a base")
+            raise Unreadable("the anchor must be a top or a base")
         ((side, region),) = anchor.items()
         straight = side == "top" and region_of(region) == {(0, 0)} and -1 not in self.signs
         if dimension == 2 and not (straight and sine == 0):
-            raise Unreadable("discs are piled straight, under one, with sin_phi 0")
+            raise Unreadable("discs need a straight pile under one disc, with sin_phi 0")
         if dimension == 3 and not (sine == Fraction(1, 2) or straight and 0 < sine < 1):
-            raise Unreadable("sin_phi is 1/2, or between 0 and 1 in a straight pile under one sphere")
+            raise Unreadable("sin_phi must be 1/2, or between 0 and 1 in a straight pile under one sphere")
         self.sine = sine
         self.layers = self.grown(side, region_of(region))
         self.floor = len(self.layers) - 1
@@ -155,10 +160,10 @@ class Pile:
             self.loads[site] = self.loads.get(site, 0) + load
         for held in (self.own, self.loads):
             if any(site not in self or weight < 0 for site, weight in held.items()):
-                raise Unreadable("a weight is negative, or on no sphere")
+                raise Unreadable("a weight is negative, or its site is not in the pile")
 
     def grown(self, side, sites):
-        """Down from a top: every support. Up from a base: all sites whose supports are there."""
+        """Return the layers: every support below a top, or all sites above a base whose supports exist."""
         layers, count = [sites], len(sites)
         for sign in self.signs if side == "top" else reversed(self.signs):
             steps = [(sign * x, sign * y) for x, y in (OFFSETS[l] for l in self.directions)]
@@ -168,13 +173,13 @@ class Pile:
                 candidates = {(i - x, j - y) for i, j in sites for x, y in steps}
                 sites = {(i, j) for i, j in candidates if all((i + x, j + y) in sites for x, y in steps)}
             else:
-                raise Unreadable("the anchor is a top or a base")
+                raise Unreadable("the anchor must be a top or a base")
             layers.append(sites)
             count += len(sites)
             if count > MOST_SPHERES:
                 raise Unreadable("the pile is too large for this checker")
         if not all(layers):
-            raise Unreadable("there is a layer without a sphere")
+            raise Unreadable("a layer has no spheres")
         return layers if side == "top" else layers[::-1]
 
     def __contains__(self, site):
@@ -182,9 +187,9 @@ class Pile:
         return 0 <= k <= self.floor and (i, j) in self.layers[k]
 
     def above_floor(self):
-        """From the top, layer by layer."""
-        in_rows = lambda site: site[::-1]
-        return ((k, i, j) for k in range(self.floor) for i, j in sorted(self.layers[k], key=in_rows))
+        """Yield the spheres above the floor, layer by layer from the top."""
+        row_order = lambda site: site[::-1]
+        return ((k, i, j) for k in range(self.floor) for i, j in sorted(self.layers[k], key=row_order))
 
     def weight(self, site):
         return self.own.get(site, self.ordinary) + self.loads.get(site, 0)
@@ -194,19 +199,19 @@ class Pile:
         return k + 1, i + self.signs[k] * x, j + self.signs[k] * y
 
     def crossed(self, k, values):
-        """T of layer k: the half-turn 2/3 J - 1 where the sign changes, else the identity."""
+        """Apply T of layer k: the half-turn 2/3 J - 1 if the sign changes there, otherwise the identity."""
         if 0 < k < self.floor and self.signs[k - 1] != self.signs[k]:
             twice = Fraction(2, 3) * sum(values.values())
             return {direction: twice - value for direction, value in values.items()}
         return values
 
     def neighbour(self, site, axis):
-        """The other sphere of a horizontal contact: p + d_b - d_a."""
+        """Return the other sphere of a horizontal contact: p + d_b - d_a."""
         (k, i, j), (a, b) = site, (OFFSETS[end] for end in AXES[axis])
         return k, i + b[0] - a[0], j + b[1] - a[1]
 
     def contacts(self, site):
-        """The horizontal contacts that lead from a sphere."""
+        """Return the horizontal contacts that lead away from a sphere."""
         return [(site, axis) for axis in AXES if self.neighbour(site, axis) in self]
 
 
@@ -230,7 +235,7 @@ class Certificate:
         if kind in ("least", "greatest"):
             site, normal, attained = record(claimed, "site normal attained")
             if not isinstance(attained, bool):
-                raise Unreadable("attained is true or false")
+                raise Unreadable("attained must be true or false")
             proved = lambda: self.extreme(kind, sphere(site), number(normal), attained)
         elif kind == "elastic":
             (ratio,) = record(claimed, "stiffness_ratio")
@@ -238,7 +243,7 @@ class Certificate:
         elif kind in ("stands", "cannot-stand") and claimed is None:
             proved = self.forces if kind == "stands" else self.cannot_stand
         else:
-            raise Unreadable("the claim is not known")
+            raise Unreadable("the claim is unknown")
         self.well_posed()
         proved()
 
@@ -257,7 +262,7 @@ class Certificate:
         return {direction: self.phi.get(site, zero)[direction] for direction in self.pile.directions}
 
     def forces(self):
-        """What every sphere receives; by balance each passes on T g + w - sign H, and none may pull."""
+        """Return the forces on each sphere from above. A sphere transmits T g + w - sign H, which must not be negative."""
         pile = self.pile
         received, pushed = {}, {}
         for (site, axis), force in self.horizontal.items():
@@ -266,7 +271,7 @@ class Certificate:
                 at = pushed.setdefault(end, dict.fromkeys(OFFSETS, 0))
                 at[a] -= sign * force
                 at[b] += sign * force
-        self.passed_on = {}
+        self.transmitted = {}
         for site in pile.above_floor():
             g = received.setdefault(site, dict.fromkeys(pile.directions, 0))
             for direction, force in pile.crossed(site[0], g).items():
@@ -274,13 +279,13 @@ class Certificate:
                 if site in pushed:
                     force -= pile.signs[site[0]] * pushed[site][direction]
                 need(force >= 0, f"f = {force} >= 0 at (k,i,j) = {site}, {direction}")
-                self.passed_on[site, direction] = force
+                self.transmitted[site, direction] = force
                 support = received.setdefault(pile.support(site, direction), dict.fromkeys(pile.directions, 0))
                 support[direction] = force
         return received
 
     def drops(self):
-        """D of every sloping contact: phi above minus (T phi) below."""
+        """Yield D of every sloping contact: phi of the upper sphere minus (T phi) of the lower one."""
         for site in self.pile.above_floor():
             for direction, value in self.field(site).items():
                 support = self.pile.support(site, direction)
@@ -288,7 +293,7 @@ class Certificate:
                 yield site, direction, support, value - below
 
     def compressions(self):
-        """c of every horizontal contact above the floor."""
+        """Yield c of every horizontal contact above the floor."""
         for site in self.pile.above_floor():
             for contact in self.pile.contacts(site):
                 a, b = AXES[contact[1]]
@@ -296,11 +301,11 @@ class Certificate:
                 yield contact, self.pile.signs[site[0]] * (here[b] - here[a] - there[b] + there[a])
 
     def work(self):
-        """Sum of w phi, over spheres and directions."""
+        """Return the virtual work: the sum of w phi over spheres and directions."""
         return sum(self.pile.weight(site) * sum(self.field(site).values()) for site in self.phi)
 
     def one_sided(self, side, needed):
-        """Every D is at most (side 1) or at least (side -1) what its support needs, every c so of zero."""
+        """Check the sign conditions: D at most (side 1) or at least (side -1) `needed`, and c likewise with zero."""
         relation = "<=" if side > 0 else ">="
         for site, direction, support, drop in self.drops():
             bound = needed(support)
@@ -309,12 +314,12 @@ class Certificate:
             need(side * compression <= 0, f"c = {compression} {relation} 0 at (k,i,j) = {site}, {axis}")
 
     def cannot_stand(self):
-        """Then 0 >= sum f D + sum X c = sum w phi > 0 for all f and X that push."""
+        """Check a Farkas certificate: 0 >= sum f D + sum X c = sum w phi > 0 would hold for compressive f and X."""
         self.one_sided(1, lambda support: 0)
         need(self.work() > 0, f"sum of w phi = {self.work()} > 0")
 
     def extreme(self, kind, site, claimed, attained):
-        """Then the forces on the sphere sum to no less (no more) than the sum of w phi."""
+        """Check a bound: by virtual work the load on the sphere is at least (at most) the sum of w phi."""
         pile = self.pile
         need(site in pile and site[0] == pile.floor, f"no sphere at (k,i,j) = {site} on the floor")
         self.one_sided(1 if kind == "least" else -1, lambda support: int(support == site))
@@ -326,11 +331,14 @@ class Certificate:
             need(reached == claimed, f"N = {reached}, not {claimed}, is attained")
 
     def elastic(self, ratio):
-        """The conditions of least energy, sufficient since it is convex: D <= f and ratio c <= X, equal if positive."""
+        """Check the optimality conditions of least energy: D <= f and ratio c <= X, with equality where positive.
+
+        The energy is convex, so these conditions suffice.
+        """
         need(ratio > 0, f"stiffness ratio {ratio} > 0")
         self.forces()
         for site, direction, _, drop in self.drops():
-            force = self.passed_on[site, direction]
+            force = self.transmitted[site, direction]
             holds = drop == force if force > 0 else drop <= 0
             need(holds, f"D = {drop} to f = {force} at (k,i,j) = {site}, {direction}")
         for (site, axis), compression in self.compressions():
@@ -339,19 +347,19 @@ class Certificate:
             need(holds, f"stiffness ratio c = {ratio * compression} to X = {force} at (k,i,j) = {site}, {axis}")
 
 
-def once(pairs):
-    """A JSON object; a key that is there twice is refused."""
+def unique_keys(pairs):
+    """Return a JSON object as a dictionary. Duplicate keys are an error."""
     if len(dict(pairs)) < len(pairs):
-        raise Unreadable("a key is there twice")
+        raise Unreadable("a key occurs twice")
     return dict(pairs)
 
 
 def verdict(file, name="-"):
-    """The exit status of a file's certificates, one or an array of them, and the line that tells why."""
+    """Check a file with one certificate or an array of them. Return the exit status and the line to print."""
     try:
-        given = json.load(file, object_pairs_hook=once)
+        given = json.load(file, object_pairs_hook=unique_keys)
         if given == []:
-            raise Unreadable("an empty array certifies nothing")
+            raise Unreadable("the array of certificates is empty")
         for certificate in given if isinstance(given, list) else [given]:
             Certificate(certificate).check()
     except Refused as refusal:
@@ -362,7 +370,7 @@ def verdict(file, name="-"):
 
 
 def main(arguments):
-    # Numbers of 5000 digits are read; newer versions stop at 4300.
+    # Newer Python versions limit integers to 4300 digits; certificates can have 5000.
     getattr(sys, "set_int_max_str_digits", lambda _: None)(0)
     if len(arguments) != 1:
         print("usage: check_certificate.py FILE, or - for stdin", file=sys.stderr)
@@ -370,10 +378,10 @@ def main(arguments):
     (name,) = arguments
     try:
         with sys.stdin if name == "-" else open(name, encoding="utf-8") as file:
-            status, said = verdict(file, name)
+            status, message = verdict(file, name)
     except OSError as error:
-        status, said = 2, f"error: {name}: {error}"
-    print(said, file=sys.stderr if status == 2 else sys.stdout)
+        status, message = 2, f"error: {name}: {error}"
+    print(message, file=sys.stderr if status == 2 else sys.stdout)
     return status
 
 

@@ -1,4 +1,4 @@
-//! The bounds of many bottom spheres.
+//! Bounds for all bottom spheres of a part of the base.
 
 use std::collections::HashMap;
 
@@ -9,12 +9,12 @@ use cannonpile::shape::{Rows, Selection};
 
 use crate::Error;
 use crate::bounds::{NormalBound, NormalBounds, bounds};
-use crate::symmetry::SixFold;
+use crate::symmetry::AxisSymmetry;
 
-/// How far ahead a site is looked for that is none's image.
+/// The number of following sites that are searched for work for other threads.
 const AHEAD: usize = 1000;
 
-/// The bounds of bottom spheres one by one, from [`base_bounds`].
+/// An iterator over the bottom spheres of a part and their bounds, from [`base_bounds`].
 ///
 /// # Examples
 /// ```
@@ -32,21 +32,23 @@ const AHEAD: usize = 1000;
 pub struct BaseBounds<'p> {
     pile: &'p Pile,
     sites: core::iter::Flatten<Rows<'p>>,
-    /// Found ahead of their turn, with those that follow them on other threads.
+    /// Bounds that other threads computed before the iterator reached their sites.
     ahead: HashMap<Site, Result<NormalBounds, Error>>,
-    /// Where the symmetries of the pile map bottom spheres on each other: what is known, by their coordinates in order.
-    symmetric: Option<(SixFold<'p>, HashMap<[i128; 3], NormalBounds>)>,
+    /// The symmetry of the pile, and the bounds that are known for each orbit, by sorted coordinates. `None`
+    /// without symmetry.
+    symmetric: Option<(AxisSymmetry<'p>, HashMap<[i128; 3], NormalBounds>)>,
 }
 
-/// Returns the [bounds](crate::bounds()) of bottom spheres: of the base, or of one.
+/// Returns an iterator over bottom spheres with their [bounds](crate::bounds()), in mg. The part is the base or one
+/// sphere.
 ///
-/// Of a pile under one sphere, all spheres alike, six spheres of the base are images of each other; what is found
-/// for the first is said of the others, without its certificate. With the feature `rayon` as many spheres are asked at once
-/// as there are threads.
+/// In a pile under one sphere with equal spheres, up to six bottom spheres are images of each other. The first
+/// sphere of an orbit gets its bounds with certificates, its images get the same bounds without certificates. With
+/// the feature `rayon` each thread computes one sphere at a time.
 ///
 /// # Errors
-/// [`NotOnFloor`](cannonpile::Error::NotOnFloor), [`SiteOutside`](cannonpile::Error::SiteOutside),
-/// [`LayerOutside`](cannonpile::Error::LayerOutside) of a part that is not of the base; in an item, as for
+/// Returns [`NotOnFloor`](cannonpile::Error::NotOnFloor), [`SiteOutside`](cannonpile::Error::SiteOutside) or
+/// [`LayerOutside`](cannonpile::Error::LayerOutside) if the part is not on the base. Items contain the errors of
 /// [`bounds`](crate::bounds()).
 ///
 /// # Examples
@@ -57,7 +59,7 @@ pub fn base_bounds(pile: &Pile, part: Selection) -> Result<BaseBounds<'_>, Error
     if let Some(site) = rows.clone().flatten().next().filter(|site| site.k != floor) {
         return Err(cannonpile::Error::not_on_floor(site, floor).into());
     }
-    let symmetric = SixFold::of(pile).map(|six_fold| (six_fold, HashMap::new()));
+    let symmetric = AxisSymmetry::of(pile).map(|symmetry| (symmetry, HashMap::new()));
     Ok(BaseBounds {
         pile,
         sites: rows.flatten(),
@@ -67,21 +69,22 @@ pub fn base_bounds(pile: &Pile, part: Selection) -> Result<BaseBounds<'_>, Error
 }
 
 impl BaseBounds<'_> {
-    /// What the images of a site have in common, if it has any.
+    /// Returns the key of the orbit of a site, if the pile is symmetric.
     fn orbit(&self, site: Site) -> Option<[i128; 3]> {
-        let (six_fold, _) = self.symmetric.as_ref()?;
-        let mut orbit = six_fold.coordinates(site);
+        let (symmetry, _) = self.symmetric.as_ref()?;
+        let mut orbit = symmetry.coordinates(site);
         orbit.sort_unstable();
         Some(orbit)
     }
 
-    /// What is known of an image of a site.
+    /// Returns the bounds of an image of the site, if they are known.
     fn known(&self, site: Site) -> Option<&NormalBounds> {
         let (_, known) = self.symmetric.as_ref()?;
         known.get(&self.orbit(site)?)
     }
 
-    /// Finds the bounds of a site, and of as many that follow as there are threads: no two of them images, or known.
+    /// Computes the bounds of a site, and in parallel those of following sites in other orbits, one for each
+    /// further thread.
     fn find(&mut self, site: Site) {
         let mut sites = Vec::from([site]);
         for next in self.sites.clone().take(AHEAD) {
@@ -97,7 +100,7 @@ impl BaseBounds<'_> {
         }
         let pile = self.pile;
         let found = map(sites, |site| (site, bounds(pile, site)));
-        // What is refused ahead of its turn, or interrupted, is asked again then.
+        // Errors of later sites are dropped here. The iterator computes such a site again when it is reached.
         let found = found
             .into_iter()
             .filter(|(found, bounds)| *found == site || bounds.is_ok());
@@ -125,8 +128,9 @@ impl Iterator for BaseBounds<'_> {
             self.find(site);
         }
         let found = self.ahead.remove(&site);
-        let found =
-            found.unwrap_or_else(|| Err(bug("the bounds of a site are found with it").into()));
+        let found = found.unwrap_or_else(|| {
+            Err(bug("the bounds of a site are computed before they are returned").into())
+        });
         Some(found.map(|bounds| (site, bounds)))
     }
 
@@ -136,7 +140,8 @@ impl Iterator for BaseBounds<'_> {
 }
 
 impl NormalBounds {
-    /// What is said of an image.
+    /// Returns the bounds for an image of the sphere: the certificates are about the sphere itself, so they are
+    /// dropped.
     fn without_certificates(&self) -> Self {
         let bare = |bound: &NormalBound| NormalBound {
             normal: bound.normal.clone(),

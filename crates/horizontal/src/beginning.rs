@@ -1,4 +1,4 @@
-//! The first layers of a pile, as a pile of their own, and the certificates of it.
+//! The first layers of a pile as a pile of their own, and certificates about them.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,8 @@ use cannonpile::stacking::{Run, Stacking};
 use crate::certificate::{Certificate, Claim};
 use crate::network::MOST_CERTIFIED;
 
-/// The pile itself, or, if it is large, its layers down to one.
+/// Returns the pile itself if a certificate for all its spheres is small enough, and its layers 0 … `floor`
+/// otherwise.
 pub(crate) fn certified_down_to(pile: &Pile, floor: i128) -> Result<Pile, cannonpile::Error> {
     if pile.sphere_count() <= MOST_CERTIFIED.into() {
         Ok(pile.clone())
@@ -18,7 +19,7 @@ pub(crate) fn certified_down_to(pile: &Pile, floor: i128) -> Result<Pile, cannon
     }
 }
 
-/// The layers down to one, as a pile of their own.
+/// Returns layers 0 … `floor` as a pile, with the weights and loads of their spheres.
 pub(crate) fn beginning(pile: &Pile, floor: i128) -> Result<Pile, cannonpile::Error> {
     let shape = pile.shape();
     let mut left = floor;
@@ -44,7 +45,7 @@ pub(crate) fn beginning(pile: &Pile, floor: i128) -> Result<Pile, cannonpile::Er
     Ok(first)
 }
 
-/// A claim about a pile, as yet without forces or a field.
+/// Returns a certificate with the given claim, without horizontal forces and without a field.
 pub(crate) fn certified(pile: Pile, claim: Claim) -> Certificate {
     Certificate {
         pile,

@@ -1,4 +1,4 @@
-//! What a bottom sphere can bear.
+//! Bounds of the normal force of a bottom sphere.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,14 @@ use crate::Error;
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::edge::Edge;
 use crate::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
-use crate::program::{Aim, Closeness, Program, accepted, of_formulas};
+use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::stand::unsolved;
 use crate::straight::{End, Straight};
 use crate::symmetry::Orbits;
 
-/// The least and the greatest normal force of a bottom sphere on the floor, over all forces that balance the pile and
-/// only push.
+/// The smallest and the largest normal force of a bottom sphere, over all admissible sets of contact forces.
+///
+/// A set of contact forces is admissible if it balances every sphere and no force is tensile.
 ///
 /// # Examples
 /// ```
@@ -35,13 +36,13 @@ use crate::symmetry::Orbits;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NormalBounds {
-    /// The least.
+    /// The lower bound.
     pub least: NormalBound,
-    /// The greatest.
+    /// The upper bound.
     pub greatest: NormalBound,
 }
 
-/// One of the two bounds of a bottom sphere.
+/// A bound of the normal force of a bottom sphere.
 ///
 /// # Examples
 /// ```
@@ -51,7 +52,7 @@ pub struct NormalBounds {
 ///
 /// let inner = Site { i: 1, j: 1, k: 3 };
 /// let least = bounds(&Pile::triangular(4)?, inner)?.least;
-/// // An arch can take off everything but its own weight.
+/// // Arching can unload the sphere down to its own weight.
 /// assert_eq!((least.normal.to_string(), least.attained), ("1".to_owned(), true));
 /// assert_eq!(least.certificate.unwrap().check(), Ok(()));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
@@ -61,26 +62,32 @@ pub struct NormalBounds {
 pub struct NormalBound {
     /// The normal force, in mg.
     pub normal: BigRational,
-    /// Whether some forces attain it; if not, no forces pass it, and how close they come is not known.
+    /// `true` if some admissible forces attain the bound. Otherwise the bound is still valid, but it may not be sharp.
     pub attained: bool,
-    /// The proof; none where it would have a number for each of more than 10⁵ spheres, and the bound is that of a formula
-    /// for all L ([`paper`](cannonpile::paper#arching)), and of [`base_bounds`](crate::base_bounds) that are said of an image.
+    /// The proof of the bound.
+    ///
+    /// `None` if it would list more than 10⁵ spheres and a formula proves the bound for every L
+    /// ([`paper`](cannonpile::paper#arching)). `None` also for images of a sphere in
+    /// [`base_bounds`](crate::base_bounds).
     pub certificate: Option<Certificate>,
 }
 
-/// Returns the least and the greatest normal force of a bottom sphere at a = R, horizontal contacts included.
+/// Returns the smallest and the largest normal force of a bottom sphere at a = R, in mg, with horizontal contacts.
 ///
-/// Straight piles of equal spheres under one sphere have formulas, for any number of layers: at a corner both
-/// bounds, elsewhere the least; on an edge of up to 82 layers the greatest, by forces that are written down and checked;
-/// and, of more than 31 layers, an upper bound that may not be attained. All else is a linear program over the forces of
-/// all contacts, whose solution is made exact and certified.
+/// For a straight pile of equal spheres under one sphere, formulas give: both bounds at a corner; the lower bound
+/// elsewhere; the upper bound on an edge for up to 82 layers, with a checked certificate. Above 31 layers a formula
+/// gives an upper bound that may not be attained. In all other cases a linear program over the forces of all
+/// contacts is solved, and its solution is made exact and certified.
 ///
-/// The horizontal forces that a pile was given are left out.
+/// Horizontal forces that were assigned to the pile are ignored.
 ///
 /// # Errors
-/// [`NotOnFloor`](cannonpile::Error::NotOnFloor) or [`SiteOutside`](cannonpile::Error::SiteOutside) of a site that is no
-/// bottom sphere; [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts);
-/// [`TooLarge`](cannonpile::Error::TooLarge); [`Error::CannotStand`] if there are no such forces; [`Error::Weightless`].
+/// * [`NotOnFloor`](cannonpile::Error::NotOnFloor) or [`SiteOutside`](cannonpile::Error::SiteOutside) if the site
+///   is not a bottom sphere.
+/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if the neighbours of a layer do not touch.
+/// * [`TooLarge`](cannonpile::Error::TooLarge) if the linear program has too many equations.
+/// * [`Error::CannotStand`] if no forces are admissible.
+/// * [`Error::Weightless`] if the spheres weigh nothing.
 ///
 /// # Examples
 /// ```
@@ -132,7 +139,7 @@ struct Solver<'p> {
 }
 
 impl<'p> Solver<'p> {
-    /// The bound that is proved and attained for any number of layers.
+    /// Returns the bound that a formula gives for every number of layers, if there is one.
     fn by_formula(&self, end: End) -> Result<Option<NormalBound>, Error> {
         if let (End::Greatest, Some(edge)) = (end, self.straight.and_then(Edge::of)) {
             return Ok(self.on_edge(&edge));
@@ -153,7 +160,7 @@ impl<'p> Solver<'p> {
         }))
     }
 
-    /// The greatest bound on an edge, if its certificate is accepted.
+    /// Returns the upper bound on an edge if its certificate is accepted.
     fn on_edge(&self, edge: &Edge) -> Option<NormalBound> {
         if self.pile.sphere_count() > MOST_CERTIFIED.into() {
             return None;
@@ -168,7 +175,7 @@ impl<'p> Solver<'p> {
         })
     }
 
-    /// The equations of all forces; `None` where they are too many, and a formula has an outer bound.
+    /// Returns the balance equations, or `None` if they are too many and a formula gives an outer bound instead.
     fn network(&self) -> Result<Option<Network<'p>>, Error> {
         match Network::above(self.pile, self.pile.layers() - 1, MOST_EQUATIONS) {
             Err(cannonpile::Error::TooLarge { .. }) if self.straight.is_some() => Ok(None),
@@ -190,11 +197,11 @@ impl<'p> Solver<'p> {
                 attained: false,
                 certificate: None,
             }),
-            (None, None, None) => Err(bug("a bound is that of a formula or of a program").into()),
+            (None, None, None) => Err(bug("a formula or a program gives each bound").into()),
         }
     }
 
-    /// The bound of the linear program over all forces.
+    /// Computes the bound by the linear program over all forces.
     fn by_program(&self, end: End, network: &Network<'_>) -> Result<NormalBound, Error> {
         let sign = BigRational::from_integer(match end {
             End::Least => 1.into(),
@@ -210,17 +217,17 @@ impl<'p> Solver<'p> {
             None => Program {
                 columns: network.columns.as_slice().into(),
                 sums: network.weights.clone(),
-                aim: Aim::Cost(cost),
+                objective: Objective::LinearCost(cost),
             },
         };
         let (program, scale) = program.scaled();
         let equations = network.weights.len();
         let not_solved = || Error::NotSolved { equations };
         let mut outer = None;
-        // No closer than it takes.
-        for closeness in [Closeness::Loose, Closeness::Tight] {
-            let Some(guess) = program.guess(closeness) else {
-                // Bounded, so that only the forces can be missing.
+        // The loose tolerance usually suffices and is faster.
+        for tolerance in [Tolerance::Loose, Tolerance::Tight] {
+            let Some(guess) = program.guess(tolerance) else {
+                // The program is bounded, so a failure means that it is infeasible or was not solved.
                 return Err(unsolved(self.pile, equations));
             };
             let mut unknowns = program.exact_unknowns(&guess);
@@ -243,7 +250,8 @@ impl<'p> Solver<'p> {
                     let both =
                         self.certificate(end, normal.clone(), Some(horizontal), field.clone());
                     match accepted(both, not_solved) {
-                        // One side takes less memory.
+                        // The checker can need too much memory for forces and field together. The field alone needs
+                        // less.
                         Err(
                             Error::NotSolved { .. }
                             | Error::Core(cannonpile::Error::TooLarge { .. }),
@@ -263,9 +271,9 @@ impl<'p> Solver<'p> {
                 (Some(_), None) => {}
             }
         }
-        // An interrupted search has found nothing, and that says nothing of the bound.
+        // An interrupted solver proves nothing, so the interrupt is reported first.
         check_interrupt()?;
-        // Not a default: what it proves is a bound too, and said to be no more.
+        // The trivial field is also a valid proof. Its bound is marked as not attained.
         let field = outer.unwrap_or_else(|| trivial_field(network, end));
         let normal = self.normal_of(&field);
         let certificate = self.certificate(end, normal.clone(), None, field);
@@ -276,7 +284,7 @@ impl<'p> Solver<'p> {
         })
     }
 
-    /// The normal force that a field proves.
+    /// Returns the normal force that a field proves as a bound, in mg.
     fn normal_of(&self, field: &BTreeMap<Site, [BigRational; 3]>) -> BigRational {
         let directions = self.pile.dimension().number();
         let work = field
@@ -286,7 +294,7 @@ impl<'p> Solver<'p> {
         self.pile.total_load(self.site) + work / BigRational::from_integer(directions.into())
     }
 
-    /// That a bound holds, by this field; and that it is attained, by these forces if there are any.
+    /// Returns a certificate that the field proves the bound and that the horizontal forces, if given, attain it.
     fn certificate(
         &self,
         end: End,
@@ -306,14 +314,15 @@ impl<'p> Solver<'p> {
         Certificate {
             pile: self.pile.clone(),
             claim,
-            // Not a default: without forces the bound is not called attained.
+            // Without forces the claim does not say that the bound is attained.
             horizontal: horizontal.unwrap_or_default(),
             field,
         }
     }
 }
 
-/// A field that is right for every pile: no sphere bears less than its own weight, none more than that and all others.
+/// Returns a field that is dual feasible for every pile. It proves that a sphere carries at least its own weight,
+/// and at most the weight of the whole pile.
 fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational; 3]> {
     let directions = network.pile.dimension().directions().len();
     let one = |l: usize| BigRational::from_integer(i32::from(l < directions).into());
@@ -331,9 +340,10 @@ fn trivial_field(network: &Network<'_>, end: End) -> BTreeMap<Site, [BigRational
 mod tests {
     use super::*;
 
-    /// The spheres above the floor bear down on one at most, each with its weight, whatever the dimension.
+    /// The upper bound is the weight of all spheres above the floor and of the sphere itself, in two and three
+    /// dimensions.
     #[test]
-    fn what_is_said_without_a_solution_is_proved() {
+    fn trivial_field_proves_its_bound() {
         for (pile, i, most) in [
             (Pile::triangular(4), 1, 1 + 10),
             (Pile::triangular(1), 0, 1),

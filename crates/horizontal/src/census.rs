@@ -1,31 +1,36 @@
-//! Which stackings stand at a = R, horizontal contacts included: each with a certificate.
+//! Census of the stackings that are stable at a = R with horizontal contacts, each with a certificate.
 //!
 //! # Under one sphere
-//! Of L layers there stand, one of each mirror pair, with horizontal contacts and without
+//! Numbers of stable stackings of L layers, counting one of each mirror pair:
 //!
 //! | L | 1 | 2 | 3 | 4 | 5 | 6 and more |
 //! |---|---|---|---|---|---|---|
-//! | with | 1 | 1 | 2 | 4 | 8 | 12 |
+//! | with horizontal contacts | 1 | 1 | 2 | 4 | 8 | 12 |
 //! | [without](cannonpile::census) | 1 | 1 | 2 | 4 | 8 | 11 |
 //!
-//! The one more is (1,1,1,1,*) in Zhdanov's notation: five layers of HCP, and then straight for ever. The proof that the
-//! number stops growing has four parts; f and X ≥ 0 are the forces of [`certificate`](crate::certificate).
+//! The additional stacking is (1,1,1,1,*) in Zhdanov's notation: five layers of HCP, continued by equal steps. The
+//! proof that the number stops growing has four parts. The forces f and X ≥ 0 are those of
+//! [`certificate`](crate::certificate).
 //!
-//! 1. *A run before a change has at most three steps from the top, four after a change.* Within a run of + steps take the
-//!    spheres with the largest i of each layer. Nothing rests on them but along β, and no contact of theirs leads further
-//!    out, so that of the horizontal ones those that push on them add to β what is ≥ 0: f_β = g_β + 1 + (≥ 0). After r
-//!    steps from the top g_β ≥ r; after r steps from a change, where all that is known is f_β ≥ 0, g_β ≥ r − 1. If the sign
-//!    changes there, g_α = g_γ = 0, and the same contacts now take away: f_β = 1 − g_β/3 − (≥ 0). So g_β ≤ 3. As a
-//!    certificate: φ_β = 1 on four spheres of the edge, −3 on the fifth, where the sign changes. Then D ≤ 0 and c ≤ 0, and
-//!    the work is 4 − 3 > 0. This holds under any top, and however far down.
-//! 2. *The beginnings of what stands stand.* What lies below a layer changes no equation above it, and it can be held.
-//! 3. *What stands does so with its last step repeated.* Below the last change of sign let X = 0: f = g + w ≥ 0.
-//! 4. *The rest is a finite search* ([`under_one_sphere`] carries it out): by 2 from the top, by 3 run after run, and by 1
-//!    with runs of at most four steps before a change. Each beginning that fails has a certificate, and none with a fifth
-//!    change of sign is left.
+//! 1. *A run that ends in a sign change has at most three steps from the top, and at most four after a sign
+//!    change.* Consider a run of + steps, and in each layer the spheres with the largest i. Only the contact along
+//!    β loads such a sphere from above, and no horizontal contact leads further outwards. Hence the horizontal
+//!    forces on it only add to f_β: f_β = g_β + 1 + (≥ 0). After r steps from the top, g_β ≥ r. After r steps from
+//!    a sign change, f_β ≥ 0 is all that is known there, so g_β ≥ r − 1. At the next sign change g_α = g_γ = 0, and
+//!    the same horizontal forces subtract: f_β = 1 − g_β/3 − (≥ 0). So g_β ≤ 3. The Farkas certificate is φ_β = 1
+//!    on four spheres of the edge and −3 on the fifth, at the sign change. It has D ≤ 0, c ≤ 0 and work 4 − 3 > 0.
+//!    The argument holds under any top and at any depth.
+//! 2. *The first layers of a stable stacking are stable.* The layers below do not occur in the balance of the
+//!    layers above, and the last of the first layers can serve as a fixed floor.
+//! 3. *A stable stacking stays stable if its last step is repeated.* Below the last sign change X = 0 is
+//!    admissible: f = g + w ≥ 0.
+//! 4. *The remaining search is finite*, and [`under_one_sphere`] performs it. By 2 it proceeds from the top, by 3
+//!    run by run, and by 1 with at most four steps in a run before a sign change. Each unstable prefix has a
+//!    certificate. No stacking with five sign changes remains.
 //!
 //! # On a base
-//! As without horizontal contacts every stacking is carried as high as it goes ([`on_base`]), and looked at there.
+//! As without horizontal contacts, every stacking is extended upwards as far as it goes ([`on_base`]), and then
+//! tested.
 
 use cannonpile::Pile;
 use cannonpile::census::{Judged, carried_up, search};
@@ -37,7 +42,7 @@ use crate::stand::decided;
 
 pub use crate::stand::DecidedBy;
 
-/// A stacking, and the proof that it stands at a = R, or cannot.
+/// A stacking with the proof that it is stable or unstable at a = R.
 ///
 /// # Examples
 /// ```
@@ -51,16 +56,17 @@ pub use crate::stand::DecidedBy;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Entry {
-    /// The pile of this stacking.
+    /// The pile of the stacking.
     pub pile: Pile,
-    /// The proof; of its first layers, if it has more than 10⁵ spheres ([`equilibrium`](crate::equilibrium)).
+    /// The proof. For a pile of more than 10⁵ spheres it is about its first layers
+    /// ([`equilibrium`](crate::equilibrium)).
     pub certificate: Certificate,
-    /// What the proof rests on.
+    /// The kind of proof.
     pub decided_by: DecidedBy,
 }
 
 impl Entry {
-    /// Whether it stands.
+    /// Returns whether the stacking is stable.
     ///
     /// # Examples
     /// ```
@@ -95,21 +101,25 @@ impl Judged for Entry {
     }
 }
 
-/// The stackings of `layers` layers under one sphere that stand at a = R, one of each mirror pair (the one that begins with
-/// +); with `failing`, also the shortest beginnings that cannot. In order of their runs.
+/// Returns the stackings of `layers` layers under one sphere that are stable at a = R, ordered by their runs.
 ///
-/// Of those that stand there are at most twelve (module documentation); with what fails there are 12L − 56 for six
-/// layers or more.
+/// Of each mirror pair the one that begins with + is listed. With `failing` the shortest unstable prefixes are
+/// listed as well. At most twelve stackings are stable (see the module documentation). Together with the unstable
+/// prefixes there are 12L − 56 entries for L ≥ 6 layers.
 ///
 /// # Errors
-/// [`Layers`](cannonpile::Error::Layers) unless 1 ≤ `layers` ≤ 10³⁶; [`TooManyRows`](cannonpile::Error::TooManyRows) for
-/// more than [`MAX_ENTRIES`](cannonpile::census::MAX_ENTRIES) with what fails. An entry is no error: all that is not decided by the lemmas is small, and was decided.
+/// * [`Layers`](cannonpile::Error::Layers) unless 1 ≤ `layers` ≤ 10³⁶.
+/// * [`TooManyRows`](cannonpile::Error::TooManyRows) if `failing` would give more than
+///   [`MAX_ENTRIES`](cannonpile::census::MAX_ENTRIES) entries.
+///
+/// The items contain no errors: a lemma or a small linear program decides every entry, and all of them were
+/// computed.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_horizontal::census;
 ///
-/// // However many layers there are, no more than these stand.
+/// // The number does not depend on the number of layers.
 /// let standing: Result<Vec<_>, _> = census::under_one_sphere(10_i128.pow(36), false)?.collect();
 /// let standing = standing?;
 /// assert_eq!(standing.len(), 12);
@@ -123,10 +133,12 @@ pub fn under_one_sphere(
     Ok(search(layers, failing)?)
 }
 
-/// Every stacking of a base, carried up as in [`census::on_base`](cannonpile::census::on_base), with whether it stands at a = R.
+/// Returns every stacking on a base, extended upwards as in [`census::on_base`](cannonpile::census::on_base), with
+/// the proof that it is stable or unstable at a = R.
 ///
 /// # Errors
-/// [`TooManyRows`](cannonpile::Error::TooManyRows) as there; in an entry those of [`equilibrium`](crate::equilibrium).
+/// Returns [`TooManyRows`](cannonpile::Error::TooManyRows) under the same condition. Items contain the errors of
+/// [`equilibrium`](crate::equilibrium).
 ///
 /// # Examples
 /// ```

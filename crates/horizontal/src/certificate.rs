@@ -1,39 +1,57 @@
-//! What a pile with horizontal contacts can bear, as something that anybody can check.
+//! Certificates: claims about a pile with horizontal contacts, with data that anybody can check.
 //!
-//! At a = R the spheres of a layer touch, and the forces are no longer unique
-//! ([`paper`](cannonpile::paper#horizontal-contacts)). What is found there is found by programs that round. So nothing is
-//! answered but with a certificate: forces X of horizontal contacts, a field φ on the spheres, or both.
-//! [`Certificate::check`] needs nothing but these and the balance of a sphere, and shares with what found them only its
-//! formulas ([`formula`](crate::formula) here and in the [core](cannonpile::formula)), which theorems
-//! `horizontal-balance` and `virtual-work` are about.
-//! `check_certificate.py` in this crate's folder is a second checker, in Python, written from this page; the command
-//! `check` reads the same files.
+//! At a = R the spheres of a layer touch, and the contact forces are not unique
+//! ([`paper`](cannonpile::paper#horizontal-contacts)). Solvers that round find the results. So each result comes
+//! with a certificate: horizontal forces X (a primal solution), a field φ on the spheres (a dual solution), or
+//! both. [`Certificate::check`] uses only these numbers and the balance of a sphere. It shares only the formulas
+//! with the solvers ([`formula`](crate::formula) here and in the [core](cannonpile::formula)); the theorems
+//! `horizontal-balance` and `virtual-work` are about these formulas. `check_certificate.py`, in the folder of this
+//! crate, is an independent checker in Python, written from this page. The command `check` reads the same files.
 //!
-//! # What is checked
-//! The forces are f₀ = mg/(3cosθ) times: X ≥ 0 of the horizontal contacts, and f_l of the sloping ones, which follow
-//! layer by layer from the balance of each sphere,
+//! # Balance
+//! Forces are in units of f₀ = mg/(3cosθ). X ≥ 0 are the forces of horizontal contacts. The forces f_l of sloping
+//! contacts follow layer by layer from the balance of each sphere:
 //!
-//! f_l = (T g)_l + w − σ H_l,
+//! f_l = (T g)_l + w − σ H_l.
 //!
-//! g what the sphere receives from above, T the identity or, where the sign changes, the
-//! [half-turn](cannonpile::formula::half_turn), w its weight, σ = ±1 the step below, and H_l the sum of −X over its
-//! horizontal contacts that lead from l, of +X over those that lead to l (of the other sphere of each with the signs
-//! swapped). The field has three numbers φ_l for each sphere off the floor, and there φ = 0. With q_l the support of p,
+//! * g: the forces that the sphere receives from above.
+//! * T: the identity, or the [half-turn](cannonpile::formula::half_turn) at a sign change.
+//! * w: the weight of the sphere and the load on it, in mg.
+//! * σ = ±1: the sign of the step below.
+//! * H_l: the sum over the horizontal contacts of the sphere, with −X for a contact that leads from l and +X for
+//!   one that leads to l. For the other sphere of each contact the signs are exchanged.
 //!
-//! * drop: D_l(p) = φ_l(p) − (T φ(q_l))_l,
-//! * compression: c(p; a→b) = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)), p′ = p + d_b − d_a,
-//! * virtual work: Σ f_l D_l + Σ X c = Σ w φ_l, for **every** solution of the equations of balance.
+//! # Virtual work
+//! The field φ is a virtual displacement: φ_l(p) is the displacement of sphere p along its contact direction l. On
+//! the floor φ = 0. With q_l the sphere below p in direction l:
 //!
-//! The last is an identity: each equation times φ, summed. It turns a field with the right signs into a proof about
-//! all forces that only push:
+//! * drop, the approach of p and q_l: D_l(p) = φ_l(p) − (T φ(q_l))_l,
+//! * compression, the approach of two neighbours: c(p; a→b) = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)),
+//!   p′ = p + d_b − d_a,
+//! * virtual work: Σ f_l D_l + Σ X c = Σ w φ_l for **every** solution of the balance equations.
+//!
+//! The last equation is an identity: the sum of all balance equations, each multiplied by its φ_l. It is weak
+//! duality of linear programming. A field with suitable signs thus proves a statement about all compressive forces:
 //!
 //! | claim | X | φ |
 //! |---|---|---|
-//! | [stands](Claim::Stands) | all f ≥ 0 | |
-//! | [cannot stand](Claim::CannotStand) | | D ≤ 0, c ≤ 0, Σ w φ > 0 |
-//! | [least normal force](Claim::Least) N of a bottom sphere n | attains it | D ≤ 1 at the contacts with n, D ≤ 0 at others, c ≤ 0, and N = w + Σ w φ / 3 |
-//! | [greatest normal force](Claim::Greatest) | attains it | D ≥ 1 at the contacts with n, D ≥ 0 at others, c ≥ 0, and the same N |
-//! | [elastic state](Claim::Elastic), with springs κ, and κ′ for horizontal contacts | all f ≥ 0 | D ≤ f, D = f where f > 0; κ′/κ · c ≤ X, equal where X > 0 |
+//! | [stable](Claim::Stands) | all f ≥ 0 | |
+//! | [unstable](Claim::CannotStand) (Farkas certificate) | | D ≤ 0, c ≤ 0, Σ w φ > 0 |
+//! | [smallest normal force](Claim::Least) N of a bottom sphere n | attains N | D ≤ 1 at the contacts with n, D ≤ 0 at others, c ≤ 0, and N = w + Σ w φ / 3 |
+//! | [largest normal force](Claim::Greatest) | attains N | D ≥ 1 at the contacts with n, D ≥ 0 at others, c ≥ 0, and the same N |
+//! | [elastic state](Claim::Elastic) with stiffness κ, and κ′ for horizontal contacts | all f ≥ 0 | D ≤ f, D = f where f > 0; κ′/κ · c ≤ X, equal where X > 0 |
+//!
+//! # Example
+//! Three layers of discs have one horizontal contact above the floor, between the two discs of the middle layer.
+//! Each disc weighs 1 mg. The top disc transmits f = 1 to each disc of the middle layer. By balance, each of these
+//! transmits 2 + X outwards and 1 − X to the central bottom disc. So 0 ≤ X ≤ 1, and the central normal force is
+//! N = 1 + 2(1 − X)/2 = 2 − X.
+//!
+//! * X = 0 attains N = 2. Proof that N is at most 2: let φ = 1 on the left and the right disc, in the direction of
+//!   the central bottom disc, and φ = 0 otherwise. Then D = 1 at the two contacts with that disc, D = 0 at all
+//!   others, and c = 2. So N ≤ w + Σ w φ / 2 = 1 + 2/2. (Check of the identity: Σ f D + Σ X
+//!   c = 2(1 − X) + 2X = 2 = Σ w φ.)
+//! * X = 1 attains N = 1. Proof that N is at least 1: let φ = 0.
 
 mod check;
 mod file;
@@ -54,14 +72,14 @@ use cannonpile::lattice::{HorizontalContact, Site};
 use num_rational::BigRational;
 use serde::{Deserialize, Serialize};
 
-/// A claim about a pile at a = R, and all that is needed to check it.
+/// A claim about a pile at a = R, with the data for its check.
 ///
 /// # Examples
 /// ```
 /// use cannonpile::Pile;
 /// use cannonpile_horizontal::certificate::{Certificate, Claim};
 ///
-/// // Without any force between the spheres of a layer the straight pile stands.
+/// // The straight pile is stable without horizontal forces.
 /// let mut certificate = Certificate {
 ///     pile: Pile::triangular(4)?,
 ///     claim: Claim::Stands,
@@ -70,53 +88,53 @@ use serde::{Deserialize, Serialize};
 /// };
 /// assert_eq!(certificate.check(), Ok(()));
 ///
-/// // HCP does not, of six layers.
+/// // Six layers of HCP are not.
 /// certificate.pile = Pile::under(cannonpile::lattice::Region::SITE, "+-+-+".parse()?)?;
 /// let refusal = certificate.check().unwrap_err();
-/// assert!(refusal.to_string().contains("would have to pull"));
+/// assert!(refusal.to_string().contains("is tensile"));
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certificate {
     /// The pile.
     pub pile: Pile,
-    /// What is claimed of it.
+    /// The claim.
     pub claim: Claim,
-    /// The forces X of horizontal contacts, in f₀; none bears a force that is not here.
+    /// The forces X of horizontal contacts, in f₀. Contacts that are not listed carry no force.
     pub horizontal: BTreeMap<HorizontalContact, BigRational>,
-    /// The field φ by direction; zero on spheres that are not here.
+    /// The field φ by direction. It is zero on spheres that are not listed.
     pub field: BTreeMap<Site, [BigRational; 3]>,
 }
 
-/// What a certificate claims of the forces that balance a pile at a = R and only push.
+/// A claim about the admissible forces of a pile at a = R: those that balance every sphere and are not tensile.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_horizontal::certificate::Claim;
 ///
-/// assert_eq!(Claim::CannotStand.to_string(), "no forces that only push balance the pile: it cannot stand");
+/// assert_eq!(Claim::CannotStand.to_string(), "no compressive forces balance the pile: it is unstable");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[non_exhaustive]
 pub enum Claim {
-    /// There are such forces.
+    /// Admissible forces exist: the pile is stable.
     Stands,
-    /// There are none.
+    /// No forces are admissible: the pile is unstable.
     CannotStand,
-    /// No less is the normal force of a bottom sphere on the floor.
+    /// A lower bound of the normal force of a bottom sphere.
     Least(Extreme),
-    /// No more is it.
+    /// An upper bound of the normal force of a bottom sphere.
     Greatest(Extreme),
-    /// The forces are those of springs that only push: of all such forces, those of least energy.
+    /// The forces are those of unilateral springs: they have the least elastic energy of all admissible forces.
     Elastic {
-        /// κ′/κ: the stiffness of horizontal contacts over that of sloping ones.
+        /// κ′/κ: the stiffness of horizontal contacts divided by that of sloping ones.
         #[serde(with = "number")]
         stiffness_ratio: BigRational,
     },
 }
 
-/// The least or the greatest normal force of a bottom sphere.
+/// A bound of the normal force of a bottom sphere.
 ///
 /// # Examples
 /// ```
@@ -125,7 +143,7 @@ pub enum Claim {
 /// use cannonpile::lattice::Site;
 /// use num_rational::BigRational;
 ///
-/// // No sphere can bear less than its own weight.
+/// // No sphere carries less than its own weight.
 /// let normal = BigRational::from_integer(1.into());
 /// let extreme = Extreme { site: Site { i: 1, j: 1, k: 3 }, normal, attained: false };
 /// let certificate = Certificate {
@@ -142,15 +160,15 @@ pub enum Claim {
 pub struct Extreme {
     /// The bottom sphere.
     pub site: Site,
-    /// Its normal force, in mg.
+    /// The bound, in mg.
     #[serde(with = "number")]
     pub normal: BigRational,
-    /// Whether the forces of the certificate attain it; if not, it is a bound only.
+    /// `true` if the forces of the certificate attain the bound. Otherwise it may not be sharp.
     pub attained: bool,
 }
 
 impl fmt::Display for Claim {
-    /// Prints it in words.
+    /// Writes the claim as a sentence.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let extreme = |f: &mut fmt::Formatter<'_>, extreme: &Extreme, bound| {
             let Extreme {
@@ -159,25 +177,25 @@ impl fmt::Display for Claim {
                 attained,
             } = extreme;
             let attained = if *attained {
-                "and forces attain it"
+                "and some admissible forces attain it"
             } else {
-                "whether attained or not"
+                "a bound that may not be attained"
             };
             write!(
                 f,
-                "the floor under the sphere {site} bears {bound} {normal} mg, {attained}"
+                "the normal force of the bottom sphere {site} is {bound} {normal} mg, {attained}"
             )
         };
         match self {
-            Self::Stands => f.write_str("forces that only push balance the pile: it stands"),
+            Self::Stands => f.write_str("compressive forces balance the pile: it is stable"),
             Self::CannotStand => {
-                f.write_str("no forces that only push balance the pile: it cannot stand")
+                f.write_str("no compressive forces balance the pile: it is unstable")
             }
             Self::Least(least) => extreme(f, least, "at least"),
             Self::Greatest(greatest) => extreme(f, greatest, "at most"),
             Self::Elastic { stiffness_ratio } => write!(
                 f,
-                "these are the forces of springs that only push, horizontal ones {stiffness_ratio} times as stiff as others"
+                "these are the forces of unilateral springs, horizontal ones {stiffness_ratio} times as stiff as others"
             ),
         }
     }

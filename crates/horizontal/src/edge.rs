@@ -1,4 +1,4 @@
-//! The greatest force on an edge of a straight pile: forces that attain it, and the field that proves it.
+//! The largest normal force on an edge of a straight pile: forces that attain it, and the field that proves it.
 
 use std::collections::BTreeMap;
 
@@ -8,22 +8,23 @@ use num_traits::{One, Zero};
 
 use crate::straight::Straight;
 
-/// A bottom sphere (a, b, 0), a ≥ b ≥ 1, of a straight pile of equal spheres under one sphere, in the order of its
-/// coordinates.
+/// A bottom sphere (a, b, 0) with a ≥ b ≥ 1 of a straight pile of equal spheres under one sphere. Its coordinates
+/// are sorted.
 ///
-/// What is found for the spheres (x, y, 0) of the face of that edge is no theorem: each certificate is checked.
+/// All forces and the field lie on the face of the pile that contains the edge: the spheres (x, y, 0). Optimality
+/// is not a theorem, so every certificate is checked before it is returned.
 pub(crate) struct Edge {
     straight: Straight,
     /// The directions of x, y and z.
     directions: [usize; 3],
     a: i128,
     b: i128,
-    /// From here on the lines of b bear what they can: min(b + 1, a).
+    /// min(b + 1, a). The lines of b with x ≥ c lead their full load to the sphere.
     c: i128,
 }
 
 impl Edge {
-    /// That of a sphere on an edge; none of another, or of a corner.
+    /// Returns the edge of a bottom sphere, or `None` at a corner or inside the base.
     pub(crate) fn of(straight: Straight) -> Option<Self> {
         let (sorted, directions) = straight.sorted();
         match sorted {
@@ -38,20 +39,22 @@ impl Edge {
         }
     }
 
-    /// What it bears at most.
+    /// Returns the largest normal force of the sphere, in mg.
     pub(crate) fn bound(&self) -> BigRational {
         self.straight.outer_bound()
     }
 
-    /// The face of the edge without its bottom spheres: x and y, x + y < a + b.
+    /// Returns the coordinates [x, y] of the spheres of the face above the floor: x + y < a + b.
     fn face(&self) -> impl Iterator<Item = [i128; 2]> {
         let layers = self.a + self.b;
         (0..layers).flat_map(move |x| (0..layers - x).map(move |y| [x, y]))
     }
 
-    /// X that attains it. Along the face a sphere (x, y, 0) pushes at (x−1, y+1, 0): in rows y ≥ b all that comes down
-    /// along x is led to the row b, in columns x > a all that comes down along y to the column a. What would leave the
-    /// face is kept in it: the sphere pushes at its neighbour behind, along x or along y, with X = 1.
+    /// Returns horizontal forces X that attain the bound.
+    ///
+    /// Along the face, sphere (x, y, 0) presses on (x−1, y+1, 0). In rows y ≥ b these forces transfer the load of
+    /// the lines x to row b. In columns x > a they transfer the load of the lines y to column a. A force X = 1 on
+    /// the neighbour behind the face, along x or along y, keeps the remaining load within the face.
     pub(crate) fn forces(&self) -> BTreeMap<HorizontalContact, BigRational> {
         let mut forces = BTreeMap::new();
         for [x, y] in self.face() {
@@ -60,7 +63,7 @@ impl Edge {
             for (other, force) in all {
                 let contact = self
                     .straight
-                    .contact(self.number([x, y, 0]), self.number(other));
+                    .contact(self.coordinates([x, y, 0]), self.coordinates(other));
                 if let Some(contact) = contact.filter(|_| force > 0) {
                     *forces.entry(contact).or_insert_with(BigRational::zero) +=
                         BigRational::from_integer(force.into());
@@ -70,7 +73,7 @@ impl Edge {
         forces
     }
 
-    /// X between (x, y, 0) and (x−1, y+1, 0).
+    /// Returns X between (x, y, 0) and (x−1, y+1, 0).
     fn along(&self, [x, y]: [i128; 2]) -> i128 {
         let above = y - self.b;
         if x >= 1 && above >= 0 {
@@ -82,7 +85,7 @@ impl Edge {
         }
     }
 
-    /// The neighbour of (x, y, 0) behind the face that it pushes at, and X.
+    /// Returns the neighbour of (x, y, 0) behind the face, and X between the two.
     fn behind(&self, [x, y]: [i128; 2]) -> ([i128; 3], i128) {
         let (along_x, along_y) = ([x - 1, y, 1], [x, y - 1, 1]);
         let above = y - self.b;
@@ -96,8 +99,10 @@ impl Edge {
         (other, i128::from(is_pushed))
     }
 
-    /// φ that proves it: 1 in the direction of x where what comes down along x is led to the sphere, of y likewise, and of z
-    /// where nothing leaves the face.
+    /// Returns the field φ that proves the bound.
+    ///
+    /// φ = 1 in direction x where the load of the lines x reaches the sphere, and likewise in direction y. φ = 1 in
+    /// direction z where no load leaves the face.
     pub(crate) fn field(&self) -> BTreeMap<Site, [BigRational; 3]> {
         let mut field = BTreeMap::new();
         for [x, y] in self.face() {
@@ -111,14 +116,14 @@ impl Edge {
                 }
             }
             if along_x || along_y {
-                field.insert(self.straight.site(self.number([x, y, 0])), here);
+                field.insert(self.straight.site(self.coordinates([x, y, 0])), here);
             }
         }
         field
     }
 
-    /// The coordinates of a sphere, by direction.
-    fn number(&self, [x, y, z]: [i128; 3]) -> [i128; 3] {
+    /// Returns the coordinates of a sphere by direction, from its sorted coordinates.
+    fn coordinates(&self, [x, y, z]: [i128; 3]) -> [i128; 3] {
         let mut n = [0; 3];
         for (direction, value) in self.directions.into_iter().zip([x, y, z]) {
             if let Some(place) = n.get_mut(direction) {
@@ -136,7 +141,7 @@ mod tests {
     use cannonpile::Pile;
 
     #[test]
-    fn every_edge_attains_its_bound() {
+    fn edge_bounds_are_attained() {
         for layers in 3..=18_i128 {
             let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
             for b in 1..=k / 2 {

@@ -1,4 +1,4 @@
-//! The state of springs that only push.
+//! The elastic state: equilibrium of linear unilateral springs in the rigid limit.
 
 use cannonpile::Pile;
 use cannonpile::engine::{bug, check_interrupt};
@@ -8,14 +8,16 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::certificate::{Certificate, Claim};
 use crate::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
-use crate::program::{Aim, Closeness, Program, accepted, of_formulas};
+use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::springs::{Springs, State};
 use crate::stand::cannot_stand;
 use crate::straight::factor_of;
 use crate::{Error, formula};
 
-/// The forces of a pile at a = R whose contacts are springs that only push: of all forces that balance it those of least
-/// energy, Σ f²/2κ + Σ X²/2κ′, and there is only one such state.
+/// The elastic state of a pile at a = R, from [`elastic`].
+///
+/// Each contact is a linear spring that carries compression only. Of all admissible forces, the elastic state
+/// minimises the energy Σ f²/2κ + Σ X²/2κ′. The energy is strictly convex, so the state is unique.
 ///
 /// # Examples
 /// ```
@@ -25,11 +27,11 @@ use crate::{Error, formula};
 /// use num_rational::BigRational;
 ///
 /// let equal = BigRational::from_integer(1.into());
-/// // The paper's forces: horizontal contacts open.
+/// // The straight pile has the forces of the paper: all horizontal contacts open.
 /// let straight = elastic(&Pile::triangular(100)?, &equal)?;
 /// assert_eq!(straight.pile().horizontal_forces().len(), 0);
 ///
-/// // Six layers of HCP stand only with them.
+/// // Six layers of HCP need horizontal forces.
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// let elastic = elastic(&pile, &equal)?;
 /// assert!(pile.first_failure()?.is_some() && elastic.pile().first_failure()?.is_none());
@@ -42,18 +44,21 @@ pub struct ElasticState {
     certificate: Option<Certificate>,
 }
 
-/// Returns the elastic state at a = R, κ′/κ being the stiffness of horizontal contacts over that of sloping ones.
+/// Returns the elastic state at a = R. `stiffness_ratio` is κ′/κ, the stiffness of horizontal contacts over that of
+/// sloping ones.
 ///
-/// Straight piles of equal weights bear what they bear without horizontal contacts
-/// ([`paper`](cannonpile::paper#elastic-state)), of any number of layers. For others it is tested whether they do, in time
-/// proportional to the number of spheres; if not, a quadratic program in floats guesses which contacts push, and from
-/// there an active-set method in rationals goes on to those that do (Goldfarb & Idnani 1983), which ends whatever the
-/// weights are. The horizontal forces that a pile was given are left out of it.
+/// In a straight pile of equal weights, of any size, the horizontal contacts open and the forces are those without
+/// them ([`paper`](cannonpile::paper#elastic-state)). For other piles a test at linear cost decides whether this
+/// holds. If not, a quadratic program in floats suggests the active contacts, and an active-set method in rationals
+/// (Goldfarb & Idnani 1983) finds the exact ones. It terminates for all weights. Horizontal forces that were
+/// assigned to the pile are ignored.
 ///
 /// # Errors
-/// [`NotPositive`](cannonpile::Error::NotPositive) of a stiffness ratio;
-/// [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts); [`Error::CannotStand`];
-/// [`TooLarge`](cannonpile::Error::TooLarge); as for [`standing`](Pile::standing).
+/// * [`NotPositive`](cannonpile::Error::NotPositive) if the stiffness ratio is zero or negative.
+/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if the neighbours of a layer do not touch.
+/// * [`Error::CannotStand`] if the pile is unstable.
+/// * [`TooLarge`](cannonpile::Error::TooLarge) if the program has too many equations.
+/// * The errors of [`standing`](Pile::standing).
 ///
 /// # Examples
 /// ```
@@ -81,7 +86,7 @@ pub fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<ElasticStat
         {
             None
         }
-        // What fails early is known to, however large the pile is.
+        // A failure in the first layers is cheap to find, for piles of any size.
         Err(Error::Core(cannonpile::Error::TooLarge { .. })) if cannot_stand(&pile) => {
             return Err(Error::CannotStand);
         }
@@ -94,8 +99,8 @@ pub fn elastic(pile: &Pile, stiffness_ratio: &BigRational) -> Result<ElasticStat
 }
 
 impl ElasticState {
-    /// Returns the pile with the horizontal forces of this state: its forces, of any scalar and in any units, are those of the
-    /// state.
+    /// Returns the pile with the horizontal forces of this state. Its contact forces, in any scalar and unit, are
+    /// those of the elastic state.
     ///
     /// # Examples
     /// ```
@@ -114,8 +119,9 @@ impl ElasticState {
         &self.pile
     }
 
-    /// Returns the certificate: the forces, and the displacements that they follow from. None where the pile is straight and
-    /// has more than 10⁵ spheres off the floor: there it is a theorem.
+    /// Returns the certificate: the forces, and the displacements that cause them.
+    ///
+    /// `None` for a straight pile with more than 10⁵ spheres above the floor, for which a theorem proves the state.
     ///
     /// # Examples
     /// See [`ElasticState`].
@@ -125,19 +131,19 @@ impl ElasticState {
     }
 }
 
-/// The most equations of a pile that is certified.
+/// Returns the maximum number of equations of a pile that gets a certificate.
 fn most_certified(dimension: Dimension) -> u64 {
     u64::from(MOST_CERTIFIED * dimension.number())
 }
 
-/// Returns the certificate of the elastic state.
+/// Computes the elastic state and returns its certificate.
 fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Error> {
     if pile.is_paper_pile() && pile.sphere_count() <= MOST_CERTIFIED.into() {
         return Ok(of_formulas(of_straight(pile, stiffness_ratio))?);
     }
-    // What pulls without horizontal contacts needs them, and a program.
-    let pulls = pile.first_failure()?.is_some();
-    let most = if pulls {
+    // If a contact is tensile without horizontal forces, these forces are needed, and with them a program.
+    let is_tensile = pile.first_failure()?.is_some();
+    let most = if is_tensile {
         MOST_EQUATIONS
     } else {
         most_certified(pile.dimension())
@@ -146,7 +152,7 @@ fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, 
         network: Network::above(pile, pile.layers() - 1, most)?,
         stiffness_ratio,
     };
-    let alone = if pulls {
+    let alone = if is_tensile {
         None
     } else {
         Some(springs.without_horizontal()?).filter(State::is_least_energy)
@@ -158,11 +164,11 @@ fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, 
         springs.least_energy(guess(&springs)?)?
     };
     accepted(certificate(&springs, &state), || {
-        bug("the state of least energy is accepted").into()
+        bug("the checker accepts the elastic state").into()
     })
 }
 
-/// That the paper's pile bears what it bears without horizontal contacts.
+/// Returns the certificate of the paper's pile: all horizontal contacts open.
 fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
     let directions = pile.dimension().directions();
     let (floor, sigma) = (pile.layers() - 1, factor_of(pile));
@@ -190,17 +196,19 @@ fn of_straight(pile: &Pile, stiffness_ratio: &BigRational) -> Certificate {
     }
 }
 
-/// The gaps of contacts, zero where they are shut, by a quadratic program in floats; if that finds nothing, any
-/// gaps of all horizontal ones.
+/// Returns a gap for each contact, zero if it is closed, from a quadratic program in floats.
+///
+/// If the solver finds nothing, the result has all horizontal contacts open and all others closed.
 fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
     let network = &springs.network;
     let sloping = network.weights.len();
-    // In units of √(κ′/κ) horizontal forces are as soft as the others.
-    // Not a default: what is too great for a float is too great for a guess.
+    // Horizontal forces are scaled by √(κ′/κ), so that the objective of the program is a plain sum of squares.
+    // An infinite ratio is clamped below.
     let ratio = springs.stiffness_ratio.to_f64().unwrap_or(f64::INFINITY);
-    // Not a default: beyond these ratios which forces push hardly changes, and what is guessed is made exact.
+    // Beyond these ratios the set of active contacts hardly changes. The result is only a guess for the exact
+    // method.
     let unit = ratio.clamp(1e-6, 1e6).sqrt();
-    let unit = BigRational::from_float(unit).ok_or_else(|| bug("a stiffness ratio is a number"))?;
+    let unit = BigRational::from_float(unit).ok_or_else(|| bug("a stiffness ratio is finite"))?;
     let mut columns = network.columns.clone();
     for (_, coefficient) in columns.iter_mut().skip(sloping).flatten() {
         *coefficient *= &unit;
@@ -209,10 +217,10 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
         let program = Program {
             columns: columns.as_slice().into(),
             sums,
-            aim: Aim::Squares,
+            objective: Objective::SumOfSquares,
         };
         let (program, _) = program.scaled();
-        program.guess(Closeness::Tight)
+        program.guess(Tolerance::Tight)
     };
     let guess = with_light_spheres(&network.weights).and_then(by_program);
     let guess = guess.or_else(|| by_program(network.weights.clone()));
@@ -230,8 +238,9 @@ fn guess(springs: &Springs<'_>) -> Result<Vec<f64>, Error> {
         .collect())
 }
 
-/// The weights, with a thousandth of the least for each sphere that weighs nothing: floats can tell then which of its contacts
-/// are open. `None` if all weigh something, or nothing does.
+/// Returns the weights with a small weight for each weightless sphere: a thousandth of the smallest weight. With it
+/// the float solution shows which contacts of these spheres are open. `None` if no sphere or every sphere is
+/// weightless.
 fn with_light_spheres(weights: &[BigRational]) -> Option<Vec<BigRational>> {
     let least = weights.iter().filter(|weight| !weight.is_zero()).min()?;
     let light = least / BigRational::from_integer(1000.into());
@@ -246,7 +255,7 @@ fn with_light_spheres(weights: &[BigRational]) -> Option<Vec<BigRational>> {
     is_needed.then(|| weights.iter().map(heavier).collect())
 }
 
-/// The certificate of a state of springs.
+/// Returns the certificate of an elastic state.
 fn certificate(springs: &Springs<'_>, state: &State) -> Certificate {
     Certificate {
         pile: springs.network.pile.clone(),
@@ -264,7 +273,7 @@ mod tests {
 
     /// Three equations for each sphere, two for each disc.
     #[test]
-    fn a_hundred_thousand_spheres_are_certified() {
+    fn up_to_100_000_spheres_are_certified() {
         let most = [Dimension::Three, Dimension::Two].map(most_certified);
         assert_eq!(most, [300_000, 200_000]);
     }

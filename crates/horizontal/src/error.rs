@@ -1,10 +1,10 @@
-//! Why this crate refuses a request.
+//! Errors of this crate.
 
 use core::fmt;
 
-/// Why there is no answer about a pile with horizontal contacts.
+/// The reason why a request about a pile with horizontal contacts fails.
 ///
-/// The message is one line. It names the value and what would be accepted.
+/// The message is one line. It states the value given and the remedy.
 ///
 /// # Examples
 /// ```
@@ -12,11 +12,11 @@ use core::fmt;
 /// use cannonpile::lattice::{Region, Site};
 /// use cannonpile_horizontal::{Error, bounds};
 ///
-/// // A run of four steps from the top before a sign change: unstable, whatever the horizontal contacts carry.
+/// // A run of four steps from the top, followed by a sign change, is unstable for all horizontal forces.
 /// let pile = Pile::under(Region::SITE, "++++-".parse()?)?;
 /// assert_eq!(bounds(&pile, Site { i: 0, j: 0, k: 5 }), Err(Error::CannotStand));
 ///
-/// // The core's errors pass through.
+/// // Errors of the core are passed through.
 /// let error = bounds(&pile, Site { i: 9, j: 0, k: 5 }).unwrap_err();
 /// assert!(matches!(error, Error::Core(cannonpile::Error::SiteOutside { .. })));
 /// # Ok::<(), Error>(())
@@ -24,16 +24,16 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The core refuses the pile, a site or the amount of work.
+    /// An error of the core, about the pile, a site or the amount of work.
     Core(cannonpile::Error),
-    /// Bounds of a pile whose spheres weigh nothing.
+    /// Bounds were requested of a pile whose spheres are weightless.
     Weightless,
-    /// A pile that no forces balance which only push, horizontal contacts included.
+    /// The pile is unstable: no compressive forces balance it, horizontal contacts included.
     CannotStand,
-    /// A program over contact forces whose solution in floats leads to no exact one.
+    /// The float solution of a program over the contact forces did not lead to an exact one.
     #[non_exhaustive]
     NotSolved {
-        /// The equations of balance that it has.
+        /// The number of balance equations.
         equations: usize,
     },
 }
@@ -49,15 +49,15 @@ impl fmt::Display for Error {
         match self {
             Self::Core(error) => error.fmt(f),
             Self::Weightless => f.write_str(
-                "bounds are those of a pile that weighs something: give the spheres their weight",
+                "bounds need the weight of the spheres, but this pile is weightless; give the spheres their weight",
             ),
             Self::CannotStand => f.write_str(
-                "this pile cannot stand: no forces that only push balance it, horizontal contacts included; change the \
+                "this pile cannot stand: no compressive forces balance it, even with horizontal contacts; change the \
                  stacking, or the loads",
             ),
             Self::NotSolved { equations } => write!(
                 f,
-                "no exact solution was found of {equations} equations of balance: ask for a smaller pile"
+                "no exact solution of the {equations} balance equations was found; use a smaller pile"
             ),
         }
     }
@@ -66,7 +66,8 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            // The message is the inner error's own, so a chain goes on with what is behind that.
+            // The message is that of the inner error, so the chain of sources continues with the source of the
+            // inner error.
             Self::Core(error) => error.source(),
             _ => None,
         }

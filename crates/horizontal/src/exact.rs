@@ -1,4 +1,9 @@
-//! Exact solutions of sparse equations, near a guess.
+//! Exact solution of sparse linear equations near a float solution.
+//!
+//! Example: the equation x + y = 1 with the float solution (0.3333, 0.6667) leaves one unknown free, say y. It is
+//! rounded to fractions with growing denominators, and x follows exactly: (0, 1), then (1/2, 1/2), then (1/3, 2/3),
+//! and so on. The first solution that the caller accepts is returned, for instance the first one without a negative
+//! entry.
 
 use core::mem;
 use core::num::NonZeroI64;
@@ -11,32 +16,33 @@ use num_traits::{ToPrimitive, Zero};
 
 use crate::ONE;
 
-/// The greatest denominators to which free numbers are rounded, one after the other.
+/// The limits for the denominators of rounded unknowns, tried in this order.
 const DENOMINATORS: [i64; 6] = [1, 2, 12, 1000, 1_000_000, 1_000_000_000];
 
-/// An equation: coefficients by unknown, and what they sum to.
+/// A linear equation: coefficients by unknown, and the right-hand side.
 pub(crate) type Equation<T = BigRational> = (BTreeMap<usize, T>, T);
 
-/// Equations in triangular form: each gives one unknown by those that are given after it, or by none.
+/// Equations in triangular form. Each one determines its pivot from unknowns with later pivots and free unknowns.
 struct Triangular<T>(Vec<(usize, Equation<T>)>);
 
-/// Why equations have no triangular form.
+/// The reason why the elimination failed.
 enum Failure {
-    /// They contradict each other.
+    /// The equations are inconsistent.
     Contradiction,
-    /// A number of it is a fault.
-    Fault,
-    /// An end was asked for.
+    /// A value overflowed its scalar type.
+    Overflow,
+    /// Cancellation was requested.
     Interrupted,
 }
 
-/// Returns exact numbers that solve the equations and are accepted, close to the guess; `None` if there are none, or none
-/// was found.
+/// Returns an exact solution of the equations that `accepted` accepts, close to `guess`, or `None` if none was
+/// found.
 ///
-/// What the equations leave free is rounded to fractions, at first of small denominators, so that the exact numbers are
-/// short. Unknowns that are in no equation are rounded too.
+/// Free unknowns, and unknowns that occur in no equation, are rounded to fractions, with small denominators first,
+/// so that the exact numbers stay short.
 ///
-/// Most coefficients are ±1 and stay short: where they fit into machine words, no others are computed.
+/// Most coefficients are ±1 and stay short. So the elimination uses machine words if they suffice, and big
+/// rationals otherwise.
 pub(crate) fn near(
     equations: Vec<Equation>,
     guess: &[f64],
@@ -44,7 +50,7 @@ pub(crate) fn near(
 ) -> Option<Vec<BigRational>> {
     let in_words = match Triangular::of(equations.iter().map(in_words).collect()) {
         Ok(triangular) => Some(triangular),
-        Err(Failure::Fault) => None,
+        Err(Failure::Overflow) => None,
         Err(Failure::Contradiction | Failure::Interrupted) => return None,
     };
     let mut equations = Some(equations);
@@ -72,9 +78,8 @@ pub(crate) fn near(
     None
 }
 
-/// Returns changes of the unknowns, as many as equations, that change no sum: all others are made up of them. `None` if an end
-/// was asked for.
-pub(crate) fn changes_of_nothing(mut equations: Vec<Equation>) -> Option<Vec<Vec<BigRational>>> {
+/// Returns a basis of the null space of square equations. `None` if cancellation was requested.
+pub(crate) fn null_space(mut equations: Vec<Equation>) -> Option<Vec<Vec<BigRational>>> {
     for (_, sum) in &mut equations {
         sum.set_zero();
     }
@@ -87,7 +92,7 @@ pub(crate) fn changes_of_nothing(mut equations: Vec<Equation>) -> Option<Vec<Vec
     free.collect()
 }
 
-/// An equation in machine words.
+/// Returns the equation in machine words. Values that do not fit become undefined.
 fn in_words((coefficients, sum): &Equation) -> Equation<FixedRational<i64>> {
     let coefficients = coefficients
         .iter()
@@ -96,12 +101,13 @@ fn in_words((coefficients, sum): &Equation) -> Equation<FixedRational<i64>> {
 }
 
 impl<T: Field> Triangular<T> {
-    /// By elimination: always the shortest equation is solved for the unknown that stands in fewest others.
+    /// Eliminates with the Markowitz rule: it takes the shortest equation, and as its pivot the unknown in the
+    /// fewest others.
     fn of(mut equations: Vec<Equation<T>>) -> Result<Self, Failure> {
         let mut with: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         for (number, (coefficients, sum)) in equations.iter().enumerate() {
             if !coefficients.values().chain([sum]).all(T::is_defined) {
-                return Err(Failure::Fault);
+                return Err(Failure::Overflow);
             }
             for unknown in coefficients.keys() {
                 with.entry(*unknown).or_default().insert(number);
@@ -131,7 +137,7 @@ impl<T: Field> Triangular<T> {
                 queue.remove(&(coefficients_of_other.len(), other));
                 let of_pivot = coefficients_of_other.remove(&pivot);
                 let factor = of_pivot.and_then(|c| c.checked_div(&coefficients[&pivot]));
-                let factor = factor.ok_or(Failure::Fault)?;
+                let factor = factor.ok_or(Failure::Overflow)?;
                 let rest = coefficients
                     .iter()
                     .filter(|(unknown, _)| **unknown != pivot);
@@ -156,7 +162,7 @@ impl<T: Field> Triangular<T> {
         Ok(Self(solved))
     }
 
-    /// Which of so many unknowns it gives by none.
+    /// Returns the free unknowns among `unknowns` unknowns.
     fn free(&self, unknowns: usize) -> Vec<usize> {
         let given: BTreeSet<usize> = self.0.iter().map(|(pivot, _)| *pivot).collect();
         (0..unknowns)
@@ -164,7 +170,8 @@ impl<T: Field> Triangular<T> {
             .collect()
     }
 
-    /// With what is free as it is given: numerators and denominators. `None` if a number of it is a fault.
+    /// Returns the solution for given values of the free unknowns, as numerators and denominators. `None` on
+    /// overflow or cancellation.
     fn solution(&self, free: &[(i64, NonZeroI64)]) -> Option<Vec<T>> {
         let fraction = |(n, d): &(i64, NonZeroI64)| T::from_i128((*n).into()).div_int(*d);
         let mut solution: Vec<T> = free.iter().map(fraction).collect();
@@ -180,7 +187,7 @@ impl<T: Field> Triangular<T> {
     }
 }
 
-/// 0 = 0.
+/// Returns the equation 0 = 0.
 fn none<T: Field>() -> Equation<T> {
     (BTreeMap::new(), T::zero())
 }
@@ -188,12 +195,14 @@ fn none<T: Field>() -> Equation<T> {
 fn subtract<T: Field>(from: &mut T, number: &T) -> Result<(), Failure> {
     let difference = mem::replace(from, T::zero()) - number;
     *from = difference;
-    from.is_defined().then_some(()).ok_or(Failure::Fault)
+    from.is_defined().then_some(()).ok_or(Failure::Overflow)
 }
 
-/// Returns numerator and denominator of the first convergent of the continued fraction of a number that is as good as
-/// floats, or else of the last with a denominator up to `most`; with `most` = 1 of the nearest integer. `None` if it is not
-/// finite, or too great for this.
+/// Returns numerator and denominator of a convergent of the continued fraction of a float.
+///
+/// The result is the first convergent that equals the float within its precision, or else the last one with a
+/// denominator of at most `most`. For `most` = 1 it is the nearest integer. `None` if the number is not finite or
+/// exceeds 10¹⁵.
 fn simple_fraction(number: f64, most: i64) -> Option<(i64, NonZeroI64)> {
     const GREATEST: f64 = 1e15;
     const CLOSE: f64 = 1e-12;
@@ -238,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn fractions_are_simple() {
+    fn convergents_have_small_denominators() {
         let found = [
             (0.333_333_333_4, 12),
             (2.5, 1),
@@ -260,7 +269,7 @@ mod tests {
                 ratio(1, 7)
             ]
         );
-        // Of which the next floor is beyond all integers.
+        // The next partial quotient exceeds all machine integers.
         for tiny in [1e-20, -1e-20, 1e-300] {
             let (n, d) = simple_fraction(tiny, 12).unwrap();
             assert_eq!(ratio(n, d.get()), ratio(0, 1), "{tiny}");
@@ -276,9 +285,9 @@ mod tests {
         assert_eq!(simple_fraction(f64::INFINITY, 12), None);
     }
 
-    /// Numbers that are in no machine word, or that leave them on the way, are solved all the same, and no others.
+    /// Numbers that exceed a machine word, from the start or during elimination, are handled in big rationals.
     #[test]
-    fn what_no_word_holds() {
+    fn overflow_falls_back_to_big_rationals() {
         let great = 1_i64 << 40;
         let chain = || {
             let link = |n: usize| equation(&[(n, 1), (n + 1, -great)], 0);
@@ -302,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn solutions_solve() {
+    fn solutions_satisfy_equations() {
         let equations = || {
             vec![
                 equation(&[(0, 2), (1, 1), (2, -1)], 3),

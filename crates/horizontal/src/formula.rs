@@ -1,7 +1,9 @@
-//! Formulas of horizontal contacts, at a = R: drops and compressions of a field, and closed forms of straight piles.
+//! Formulas of horizontal contacts at a = R: drops and compressions of a field, and closed forms for straight
+//! piles.
 //!
-//! All are generic over the scalar, and [`theorem`](crate::theorem) is about them. The balance of a sphere with horizontal
-//! contacts is in the core: [`pushed`](cannonpile::formula::pushed) and [`beside`](cannonpile::formula::beside).
+//! All are generic over the scalar, and the theorems of [`theorem`](crate::theorem) are about them. The core
+//! contains the balance of a sphere with horizontal contacts: [`pushed`](cannonpile::formula::pushed) and
+//! [`beside`](cannonpile::formula::beside).
 
 use cannonpile::formula::force;
 use cannonpile::lattice::{Direction, Sign, count};
@@ -9,8 +11,12 @@ use cannonpile::scalar::{Algebra, Ring};
 
 use crate::TWO;
 
-/// Returns D = φ_l(p) − (Tφ(q))_l of the contact of p with its support q: `here` is φ_l(p), `below` what is taken off, 0 on
-/// the floor, with T the [half-turn](cannonpile::formula::half_turn) where the sign changes at q.
+/// Returns the drop D of a sloping contact: how far its two spheres approach each other under the virtual
+/// displacement φ.
+///
+/// D = φ_l(p) − (Tφ(q))_l for the contact of p with the sphere q below it. `here` is φ_l(p). `below` is (Tφ(q))_l,
+/// zero on the floor, with T the [half-turn](cannonpile::formula::half_turn) at a sign change and the identity
+/// otherwise.
 ///
 /// # Examples
 /// ```
@@ -20,8 +26,11 @@ pub fn lowered<T: Ring>(here: T, below: &T) -> T {
     here - below
 }
 
-/// Returns c = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)) of the contact of p and p′ = p + d_b − d_a; `ends` are a and b, σ the
-/// sign of the step below.
+/// Returns the compression c of a horizontal contact: how far the two neighbours approach each other under the
+/// virtual displacement φ. Positive if they come closer.
+///
+/// c = σ((φ_b − φ_a)(p) − (φ_b − φ_a)(p′)) for p and p′ = p + d_b − d_a. `ends` are a and b, and σ is the sign of
+/// the step below.
 ///
 /// # Examples
 /// ```
@@ -37,8 +46,9 @@ pub fn compression<T: Ring>(here: &[T; 3], there: &[T; 3], ends: [Direction; 2],
     signed(difference(here) - &difference(there), sign)
 }
 
-/// Returns φ_l = d·n_l + d(d+1)/2 of the elastic state of a straight pile of equal weights, in f₀/κ: d layers above the floor,
-/// on a sphere with n_l spheres above it on its line l; of discs too.
+/// Returns the field of the elastic state of a straight pile of equal weights, in f₀/κ, for spheres and discs.
+///
+/// φ_l = d·n_l + d(d+1)/2 on a sphere with n_l spheres above it on its line l, d layers above the floor.
 ///
 /// # Examples
 /// ```
@@ -48,8 +58,8 @@ pub fn elastic_field<T: Algebra>(n: &T, d: &T) -> T {
     force(n.clone(), d) + &count::spheres_in_layer(&(d.clone() - &T::one()), 3)
 }
 
-/// Returns the field on the edge of spheres (t, 0, 0) that proves what can rest on the corner below it: 1 along the
-/// edge, and 0 or, of `all` lines, 1 along the other two.
+/// Returns the field on an edge (t, 0, 0) that proves a bound for the corner below it: 1 along the edge. Along the
+/// other two lines it is 1 if `all`, and 0 otherwise.
 ///
 /// # Examples
 /// ```
@@ -69,7 +79,8 @@ pub fn corner_field<T: Ring>(edge: Direction, all: bool) -> [T; 3] {
     })
 }
 
-/// Returns the least that can rest on a corner below K layers under one sphere, in f₀: K.
+/// Returns the smallest load that a corner below K layers under one sphere can receive from above, in f₀. It equals
+/// K.
 ///
 /// # Examples
 /// ```
@@ -79,7 +90,8 @@ pub fn least_on_corner<T: Ring>(k: &T) -> T {
     k.clone()
 }
 
-/// Returns the greatest that can rest on a corner below K ≥ 1 layers under one sphere, in f₀: 3K − 2.
+/// Returns the largest load that a corner below K ≥ 1 layers under one sphere can receive from above, in f₀:
+/// 3K − 2.
 ///
 /// # Examples
 /// ```
@@ -89,8 +101,9 @@ pub fn greatest_on_corner<T: Ring>(k: &T) -> T {
     k.clone() + k + k - &T::from_i128(2)
 }
 
-/// Returns a bound of what can rest on a bottom sphere n of a pile under one sphere, in f₀: Σ C(n_l+2, 3). It may not be
-/// attained.
+/// Returns an upper bound of the load on a bottom sphere n of a pile under one sphere, in f₀: Σ C(n_l+2, 3).
+///
+/// The bound may not be attained.
 ///
 /// # Examples
 /// ```
@@ -101,10 +114,10 @@ pub fn greatest_inside<T: Algebra>(n: &[T; 3]) -> T {
     counts.fold(T::zero(), |sum, count| sum + &count)
 }
 
-/// Returns a bound of what can rest on the bottom sphere (k, j, 0) on an edge of a pile under one sphere, in f₀, for
-/// k ≥ j ≥ 1 and c = min(j+1, k): 2k − 1 + (c−1)² + 2j(k−c) + j². It may not be attained.
+/// Returns an upper bound of the load on the bottom sphere (k, j, 0), on an edge of a pile under one sphere, in f₀.
 ///
-/// That is 2(j+1)(k−1) + 1 if k > j, and 2k² if k = j.
+/// It is 2k − 1 + (c−1)² + 2j(k−c) + j² for k ≥ j ≥ 1 and c = min(j+1, k): that is 2(j+1)(k−1) + 1 for k > j, and
+/// 2k² for k = j. The bound may not be attained.
 ///
 /// # Examples
 /// ```
@@ -120,8 +133,10 @@ pub fn greatest_on_edge<T: Ring>(k: &T, j: &T, c: &T) -> T {
     k.clone() + k - &one + &square(c.clone() - &one) + &across + &across + &square(j.clone())
 }
 
-/// Returns the forces with which the three spheres that rest on a bottom sphere must press each other so that nothing does,
-/// where they would pass on ν to it: X_bc, X_ca, X_ab, with X_ab = (ν_a + ν_b − ν_c)/2.
+/// Returns the horizontal forces between three spheres that completely unload the bottom sphere below them.
+///
+/// Without these forces they would transmit ν to it. The result is X_bc, X_ca, X_ab, with
+/// X_ab = (ν_a + ν_b − ν_c)/2.
 ///
 /// # Examples
 /// ```

@@ -1,4 +1,8 @@
-//! A pile at a = R as a system of equations.
+//! The balance equations of a pile at a = R, as a sparse linear system.
+//!
+//! Example: three layers of discs have three discs above the floor and two directions, hence six equations. The
+//! unknowns are six forces of sloping contacts and one horizontal force. The degree of static indeterminacy is the
+//! number of horizontal forces, here 1.
 
 use std::collections::HashMap;
 
@@ -10,39 +14,40 @@ use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-/// The most equations, three for each sphere off the floor, of which a program is solved: 31 layers under one sphere.
+/// The maximum number of equations of a program that is solved: 31 layers under one sphere have 14,880.
 pub(crate) const MOST_EQUATIONS: u64 = 15_000;
 
-/// What a program takes for an equation, its factors above all: 118 MB for the 14,880 of 31 layers, where no symmetry helps.
+/// The memory of a program for each equation, mainly for its factors: 118 MB for 14,880 equations without symmetry.
 const BYTES_AN_EQUATION: usize = 8_000;
 
-/// The most spheres of a pile whose certificate has numbers for all of them, where fewer would do.
+/// The maximum number of spheres in a certificate that lists all of them, if a shorter proof exists.
 pub(crate) const MOST_CERTIFIED: u32 = 100_000;
 
-/// The coefficients of an unknown force, by equation.
+/// The coefficients of an unknown force, with the numbers of their equations.
 pub(crate) type Column = Vec<(usize, BigRational)>;
 
-/// The equations of balance: one for each sphere off the floor and each direction, numbered so; the unknowns are
-/// the sloping forces in the same order, and then the horizontal ones.
+/// The balance equations: one for each sphere above the floor and each direction.
+///
+/// The unknowns are the sloping forces, numbered like the equations, and then the horizontal forces.
 pub(crate) struct Network<'p> {
     pub(crate) pile: &'p Pile,
     /// The spheres above `floor`.
     pub(crate) spheres: Vec<Site>,
     pub(crate) contacts: Vec<HorizontalContact>,
     pub(crate) columns: Vec<Column>,
-    /// What each sphere adds to its lines, by equation.
+    /// The weight and load of each sphere, for each of its equations.
     pub(crate) weights: Vec<BigRational>,
     numbers: HashMap<Site, usize>,
-    /// The layer that holds what rests on it.
+    /// The layer whose spheres are fixed.
     floor: i128,
 }
 
 impl<'p> Network<'p> {
-    /// The spheres above layer `floor`, which is taken to be held: the floor of the pile, or a layer above it; of so many
-    /// equations at most.
+    /// Returns the equations of the spheres above layer `floor`, whose spheres are fixed. It is the floor of the
+    /// pile or a layer above it.
     ///
     /// # Errors
-    /// [`Error::NoHorizontalContacts`]; [`Error::TooLarge`].
+    /// [`Error::NoHorizontalContacts`], and [`Error::TooLarge`] for more than `most` equations.
     pub(crate) fn above(pile: &'p Pile, floor: i128, most: u64) -> Result<Self, Error> {
         pile.check_horizontal()?;
         let directions = pile.dimension().directions();
@@ -78,7 +83,7 @@ impl<'p> Network<'p> {
         Ok(network)
     }
 
-    /// Whether a program over it is solved.
+    /// Checks that a program with these equations is small enough to be solved.
     pub(crate) fn check_size(&self) -> Result<(), Error> {
         fits(&self.weights.len().into(), MOST_EQUATIONS)
     }
@@ -90,9 +95,9 @@ impl<'p> Network<'p> {
             for direction in directions {
                 let mut column = vec![(self.equation(*site, *direction)?, BigRational::one())];
                 if let Some(support) = self.support(*site, *direction) {
-                    // f enters the balance of the support as what T makes of it.
-                    let passed = self.transferred(support.k, *direction);
-                    for (to, share) in directions.iter().zip(passed) {
+                    // f enters the balance of the sphere below after the transfer T.
+                    let transfer = self.transferred(support.k, *direction);
+                    for (to, share) in directions.iter().zip(transfer) {
                         if !share.is_zero() {
                             column.push((self.equation(support, *to)?, -share));
                         }
@@ -104,7 +109,8 @@ impl<'p> Network<'p> {
         for contact in &self.contacts {
             let [sphere, neighbour] = self.ends(*contact)?;
             let sign = self.pile.shape().sign_below(contact.site.k);
-            let sign = sign.ok_or_else(|| bug("a step leads from every layer above the floor"))?;
+            let sign =
+                sign.ok_or_else(|| bug("every layer above the floor has a step below it"))?;
             let sigma = BigRational::from_integer(sign.factor().into());
             let (ends, mut column) = (contact.axis.ends(), Vec::new());
             for (sphere, leads_away) in [(sphere, true), (neighbour, false)] {
@@ -119,25 +125,25 @@ impl<'p> Network<'p> {
         Ok(columns)
     }
 
-    /// The support of a sphere, if it is not held.
+    /// Returns the sphere below in a direction, unless it is fixed.
     fn support(&self, site: Site, direction: Direction) -> Option<Site> {
         let support = self.pile.shape().below(site, direction);
         support.filter(|support| support.k < self.floor)
     }
 
-    /// The number of an equation, and of the sloping force in its direction.
+    /// Returns the number of an equation. The sloping force in its direction has the same number.
     pub(crate) fn equation(&self, site: Site, direction: Direction) -> Result<usize, Error> {
         let sphere = self.numbers.get(&site);
         let sphere = sphere.ok_or_else(|| bug("a sphere of the network has a number"))?;
         Ok(sphere * self.pile.dimension().directions().len() + direction.index())
     }
 
-    /// The two spheres of a horizontal contact.
+    /// Returns the two spheres of a horizontal contact.
     pub(crate) fn ends(&self, contact: HorizontalContact) -> Result<[Site; 2], Error> {
         Ok([contact.site, self.pile.shape().neighbour(contact)?])
     }
 
-    /// T of layer k, of a unit force in a direction.
+    /// Returns T of layer k, applied to a unit force in a direction.
     fn transferred(&self, k: i128, direction: Direction) -> [BigRational; 3] {
         let mut unit: [BigRational; 3] = core::array::from_fn(|_| BigRational::zero());
         unit[direction.index()] = BigRational::one();
@@ -149,7 +155,7 @@ impl<'p> Network<'p> {
         }
     }
 
-    /// The unknowns of the forces on a bottom sphere.
+    /// Returns the unknowns that are forces on a bottom sphere.
     pub(crate) fn onto(&self, site: Site) -> Result<Vec<usize>, Error> {
         let directions = self.pile.dimension().directions();
         let above = directions.iter().filter_map(|direction| {
@@ -159,8 +165,9 @@ impl<'p> Network<'p> {
         above.collect()
     }
 
-    /// The sloping forces for these sums of the equations, without horizontal ones: from the top, since an equation has one
-    /// that is in none before it.
+    /// Solves for the sloping forces with given right-hand sides and without horizontal forces.
+    ///
+    /// The matrix of sloping forces is triangular from the top, so forward substitution suffices.
     pub(crate) fn sloping(&self, mut sums: Vec<BigRational>) -> Vec<BigRational> {
         for unknown in 0..sums.len() {
             let force = sums[unknown].clone();
@@ -171,7 +178,7 @@ impl<'p> Network<'p> {
         sums
     }
 
-    /// The field with these drops, from below.
+    /// Returns the field with the given drops, by backward substitution from below: the transposed system.
     pub(crate) fn field_of(&self, mut drops: Vec<BigRational>) -> Vec<BigRational> {
         for unknown in (0..drops.len()).rev() {
             for (equation, coefficient) in self.columns[unknown].iter().skip(1) {
@@ -182,7 +189,7 @@ impl<'p> Network<'p> {
         drops
     }
 
-    /// The horizontal forces that are not zero.
+    /// Returns the horizontal forces that are not zero.
     pub(crate) fn horizontal(
         &self,
         unknowns: &[BigRational],
@@ -196,7 +203,7 @@ impl<'p> Network<'p> {
         bearing.map(|(contact, force)| (*contact, force.clone()))
     }
 
-    /// The field by sphere, where it is not zero.
+    /// Returns the field by sphere, where it is not zero.
     pub(crate) fn field(
         &self,
         multipliers: &[BigRational],
@@ -205,7 +212,7 @@ impl<'p> Network<'p> {
         by_sphere.filter(|(_, field)| field.iter().any(|number| !number.is_zero()))
     }
 
-    /// Numbers of sloping contacts or equations, by sphere.
+    /// Groups values of sloping contacts, or of equations, by sphere.
     pub(crate) fn by_sphere(
         &self,
         numbers: &[BigRational],
@@ -213,7 +220,7 @@ impl<'p> Network<'p> {
         let directions = self.pile.dimension().directions().len();
         let spheres = self.spheres.iter().zip(numbers.chunks(directions));
         spheres.map(|(site, numbers)| {
-            // Not a default: discs have no third direction.
+            // Discs have no third direction; its value is zero.
             let number = |l: usize| numbers.get(l).cloned().unwrap_or_else(BigRational::zero);
             (*site, [number(0), number(1), number(2)])
         })
@@ -225,7 +232,7 @@ fn fits(equations: &BigUint, limit: u64) -> Result<(), Error> {
         "a program over all contacts",
         equations,
         (limit, BYTES_AN_EQUATION),
-        "ask for a smaller pile",
+        "use a smaller pile",
     )
 }
 
@@ -235,7 +242,7 @@ mod tests {
 
     /// Three equations for each of 1 + 3 + 6 spheres, two for each of 1 + 2 + 3 discs.
     #[test]
-    fn as_many_equations_as_are_allowed() {
+    fn equation_count_is_limited() {
         for (pile, equations) in [(Pile::triangular(4), 30), (Pile::discs(4), 12)] {
             let pile = pile.unwrap();
             let network = Network::above(&pile, 3, equations).unwrap();

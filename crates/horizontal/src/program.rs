@@ -1,4 +1,4 @@
-//! Programs over forces that only push: a guess in floats, then exact.
+//! Linear and quadratic programs over compressive forces: a float solution, then an exact one.
 
 use std::borrow::Cow;
 
@@ -16,48 +16,49 @@ use crate::certificate::{Certificate, Refusal};
 use crate::exact::{Equation, near};
 use crate::network::{Column, MOST_EQUATIONS};
 
-/// Minimise over x ≥ 0 with Σ column x = sums.
+/// A program: minimise the objective over x ≥ 0 with Σ column · x = sums.
 pub(crate) struct Program<'n> {
-    /// By unknown.
+    /// The columns of the matrix, by unknown.
     pub(crate) columns: Cow<'n, [Column]>,
-    /// By equation.
+    /// The right-hand sides, by equation.
     pub(crate) sums: Vec<BigRational>,
-    pub(crate) aim: Aim,
+    pub(crate) objective: Objective,
 }
 
-/// What is to be least.
-pub(crate) enum Aim {
-    /// Σ cost x: the costs by unknown.
-    Cost(Vec<BigRational>),
+/// The objective to minimise.
+pub(crate) enum Objective {
+    /// Σ cost · x, with the costs by unknown.
+    LinearCost(Vec<BigRational>),
     /// ½ Σ x².
-    Squares,
+    SumOfSquares,
 }
 
-/// How close floats come to a minimum before they are made exact, as a share of it.
+/// The tolerance of the float solver, relative to the optimum.
 #[derive(Clone, Copy)]
-pub(crate) enum Closeness {
-    /// Enough, as a rule, to say which forces are zero.
+pub(crate) enum Tolerance {
+    /// This usually suffices to identify the forces that are zero.
     Loose,
-    /// As close as floats come with certainty.
+    /// The tightest tolerance that the solver reaches reliably.
     Tight,
 }
 
-/// What floats make of a program.
+/// A float solution of a program.
 pub(crate) struct Guess {
-    /// By unknown.
+    /// The primal solution, by unknown.
     pub(crate) unknowns: Vec<f64>,
-    /// By equation: the multipliers y of a minimum, with Σ column y ≤ cost.
+    /// The dual solution y, by equation, with Σ column · y ≤ cost.
     pub(crate) multipliers: Vec<f64>,
-    /// By unknown: what is left of its inequality.
+    /// The slack of the dual inequality, by unknown.
     pub(crate) slacks: Vec<f64>,
-    /// By unknown: whether it is positive, and its inequality an equality.
+    /// The predicted active set, by unknown: `true` if the unknown is positive, so that its dual inequality is an
+    /// equality.
     pub(crate) positive: Vec<bool>,
 }
 
 impl Program<'_> {
-    /// Returns what an interior point finds; `None` if it finds nothing.
-    pub(crate) fn guess(&self, closeness: Closeness) -> Option<Guess> {
-        // A layer that is on the floor has no forces to find.
+    /// Returns the solution of an interior-point solver, or `None` if it fails.
+    pub(crate) fn guess(&self, tolerance: Tolerance) -> Option<Guess> {
+        // A pile of one layer has no unknown forces.
         if self.columns.is_empty() {
             return Some(Guess {
                 unknowns: Vec::new(),
@@ -67,15 +68,15 @@ impl Program<'_> {
             });
         }
         let sums = floats(&self.sums)?;
-        match &self.aim {
-            Aim::Cost(cost) => self.guess_of_cost(&floats(cost)?, &sums, closeness),
-            Aim::Squares => self.guess_of_squares(sums, closeness),
+        match &self.objective {
+            Objective::LinearCost(cost) => self.guess_of_cost(&floats(cost)?, &sums, tolerance),
+            Objective::SumOfSquares => self.guess_of_squares(sums, tolerance),
         }
     }
 
-    /// By the program of the multipliers, which is the smaller one: Σ sums y is greatest with Σ column y ≤ cost, and the
-    /// unknowns are its multipliers.
-    fn guess_of_cost(&self, cost: &[f64], sums: &[f64], closeness: Closeness) -> Option<Guess> {
+    /// Solves the linear program through its dual, which is smaller: maximise Σ sums · y with Σ column · y ≤ cost.
+    /// The unknowns are the dual variables of that program.
+    fn guess_of_cost(&self, cost: &[f64], sums: &[f64], tolerance: Tolerance) -> Option<Guess> {
         let (equations, unknowns) = (sums.len(), self.columns.len());
         let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for (unknown, column) in self.columns.iter().enumerate() {
@@ -86,10 +87,10 @@ impl Program<'_> {
             }
         }
         let matrix = CscMatrix::new_from_triplets(unknowns, equations, rows, columns, values);
-        let lowered: Vec<f64> = sums.iter().map(|sum| -sum).collect();
-        let found = closeness.solve(
+        let negated: Vec<f64> = sums.iter().map(|sum| -sum).collect();
+        let found = tolerance.solve(
             &CscMatrix::zeros((equations, equations)),
-            &lowered,
+            &negated,
             &matrix,
             cost,
             &[NonnegativeConeT(unknowns)],
@@ -97,7 +98,7 @@ impl Program<'_> {
         Some(Guess::new(found.z, found.x, found.s))
     }
 
-    fn guess_of_squares(&self, mut sums: Vec<f64>, closeness: Closeness) -> Option<Guess> {
+    fn guess_of_squares(&self, mut sums: Vec<f64>, tolerance: Tolerance) -> Option<Guess> {
         let (equations, unknowns) = (sums.len(), self.columns.len());
         let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for (unknown, column) in self.columns.iter().enumerate() {
@@ -113,7 +114,7 @@ impl Program<'_> {
         let matrix =
             CscMatrix::new_from_triplets(equations + unknowns, unknowns, rows, columns, values);
         sums.resize(equations + unknowns, 0.0);
-        let mut found = closeness.solve(
+        let mut found = tolerance.solve(
             &CscMatrix::identity(unknowns),
             &vec![0.0; unknowns],
             &matrix,
@@ -121,12 +122,12 @@ impl Program<'_> {
             &[ZeroConeT(equations), NonnegativeConeT(unknowns)],
         )?;
         let slacks = found.z.split_off(equations);
-        // Of the program as it is posed there, with the other sign.
+        // The solver's Lagrangian has the opposite sign.
         let multipliers = found.z.iter().map(|y| -y).collect();
         Some(Guess::new(found.x, multipliers, slacks))
     }
 
-    /// Returns exact x ≥ 0 of which only those are positive that the guess says.
+    /// Returns an exact primal solution x ≥ 0 with support in the predicted active set.
     pub(crate) fn exact_unknowns(&self, guess: &Guess) -> Option<Vec<BigRational>> {
         let mut equations: Vec<Equation> = self
             .sums
@@ -148,9 +149,9 @@ impl Program<'_> {
         })
     }
 
-    /// Returns exact multipliers y with Σ column y ≤ cost, and equality where the guess says so.
+    /// Returns an exact dual solution: Σ column · y ≤ cost, with equality on the predicted active set.
     pub(crate) fn exact_multipliers(&self, guess: &Guess) -> Option<Vec<BigRational>> {
-        let Aim::Cost(cost) = &self.aim else {
+        let Objective::LinearCost(cost) = &self.objective else {
             return None;
         };
         let of_positive = self.columns.iter().zip(cost).zip(&guess.positive);
@@ -167,14 +168,14 @@ impl Program<'_> {
         })
     }
 
-    /// The program with sums of order 1, and what they were divided by.
+    /// Returns the program with right-hand sides of order 1, and the scale factor.
     pub(crate) fn scaled(mut self) -> (Self, BigRational) {
         let greatest = self
             .sums
             .iter()
             .max()
             .filter(|greatest| greatest.is_positive());
-        // Not a default: sums that are all zero need no scale.
+        // If all right-hand sides are zero, no scaling is needed.
         let scale = greatest
             .cloned()
             .unwrap_or_else(|| BigRational::from_integer(1.into()));
@@ -197,8 +198,8 @@ impl Guess {
     }
 }
 
-impl Closeness {
-    /// Minimises q x + ½ x P x over A x + s = b, with s in the cones.
+impl Tolerance {
+    /// Minimises q·x + ½ x·Px subject to A x + s = b, with s in the cones.
     fn solve(
         self,
         p: &CscMatrix,
@@ -229,7 +230,7 @@ impl Closeness {
     }
 }
 
-/// A third of the iterations less than what clarabel holds to be close.
+/// This tolerance saves a third of the iterations of clarabel's default.
 const LOOSE: f64 = 1e-5;
 
 fn floats(numbers: &[BigRational]) -> Option<Vec<f64>> {
@@ -239,7 +240,8 @@ fn floats(numbers: &[BigRational]) -> Option<Vec<f64>> {
 /// Returns a certificate if the checker accepts it.
 ///
 /// # Errors
-/// [`TooLarge`](cannonpile::Error::TooLarge) if it would not fit into memory; `refused` if it is refused.
+/// [`TooLarge`](cannonpile::Error::TooLarge) if the check needs too much memory, and `refused` if the certificate
+/// is rejected.
 pub(crate) fn accepted(
     certificate: Certificate,
     refused: impl FnOnce() -> Error,
@@ -253,16 +255,17 @@ pub(crate) fn accepted(
     }
 }
 
-/// Returns a certificate that formulas have made, checked where programs are solved too; of larger piles theorems vouch for
-/// the formulas.
+/// Returns a certificate that formulas produced.
+///
+/// It is checked up to the size at which programs are solved. For larger piles theorems prove the formulas.
 ///
 /// # Errors
-/// [`Bug`](cannonpile::Error::Bug) if it is refused.
+/// [`Bug`](cannonpile::Error::Bug) if the checker rejects it.
 pub(crate) fn of_formulas(certificate: Certificate) -> Result<Certificate, cannonpile::Error> {
     let directions = certificate.pile.dimension().number();
     let is_small = certificate.pile.sphere_count() * directions <= MOST_EQUATIONS.into();
     if is_small && certificate.check().is_err() {
-        return Err(bug("a certificate that formulas have made is accepted"));
+        return Err(bug("the checker accepts certificates of formulas"));
     }
     Ok(certificate)
 }
@@ -278,9 +281,9 @@ mod tests {
         certified(Pile::triangular(layers).unwrap(), claim)
     }
 
-    /// Of forty layers, 34,440 equations, theorems vouch for what is claimed.
+    /// A pile of 40 layers has 34,440 equations; theorems prove its certificate.
     #[test]
-    fn what_formulas_have_made_is_accepted() {
+    fn certificates_of_formulas_are_accepted() {
         for made in [claimed(7, Claim::Stands), claimed(40, Claim::CannotStand)] {
             assert_eq!(of_formulas(made.clone()), Ok(made));
         }
@@ -289,21 +292,21 @@ mod tests {
     #[test]
     #[cfg_attr(
         debug_assertions,
-        should_panic(expected = "formulas have made is accepted")
+        should_panic(expected = "accepts certificates of formulas")
     )]
-    fn what_formulas_have_made_is_checked_where_programs_are_solved() {
+    fn small_certificates_of_formulas_are_checked() {
         let refused = of_formulas(claimed(7, Claim::CannotStand));
         assert!(matches!(refused, Err(cannonpile::Error::Bug { .. })));
     }
 
     #[test]
-    fn a_refusal_says_whether_the_pile_is_too_large() {
+    fn refusal_distinguishes_size_from_error() {
         let stands = claimed(4, Claim::Stands);
         let refused = || Error::NotSolved { equations: 7 };
         assert_eq!(accepted(stands.clone(), refused), Ok(stands));
         let cannot_stand = accepted(claimed(4, Claim::CannotStand), refused);
         assert_eq!(cannot_stand, Err(refused()));
-        // Four and a half million spheres.
+        // 4.5 million spheres.
         let large = accepted(claimed(300, Claim::Stands), refused);
         assert!(
             matches!(large, Err(Error::Core(cannonpile::Error::TooLarge { .. }))),

@@ -1,4 +1,4 @@
-//! Runs that are too long before a change of sign.
+//! Farkas certificates for runs that are too long before a sign change.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,12 @@ use num_traits::{One, Signed, Zero};
 use crate::beginning::{certified, certified_down_to};
 use crate::certificate::{Certificate, Claim};
 
-/// The longest run from the top before a change of sign that may stand, in steps; after a change it may have one more.
+/// The longest stable run between the top and a sign change, in steps. After a sign change one more step is
+/// possible.
 const LONGEST: i128 = 3;
 
-/// The most spheres of an edge that are added up, if the one at the change is heavier than others.
+/// The maximum number of spheres of an edge in a field. More than four are needed if the sphere at the sign change
+/// is heavier.
 const MOST_SPHERES: usize = 1000;
 
 /// Returns the layer above the first step of each run, from the top.
@@ -26,12 +28,13 @@ pub(crate) fn run_starts(shape: &Shape) -> impl Iterator<Item = i128> {
     })
 }
 
-/// Returns the proof that a run is too long before a change of sign, from the spheres of an edge
-/// ([`census`](crate::census), 1); the first of them, if there are several.
+/// Returns a certificate that some run before a sign change is too long, for the first such run.
+///
+/// The field lives on the spheres of one edge (lemma 1 of [`census`](crate::census)).
 pub(crate) fn too_long_run(pile: &Pile) -> Result<Option<Certificate>, Error> {
     let shape = pile.shape();
     for (from, k) in run_starts(shape).zip(run_starts(shape).skip(1)) {
-        // What a sphere at a change passes on may be nothing, whatever it weighs.
+        // At a sign change a sphere can transmit zero force along the edge, whatever its weight.
         let first = from + i128::from(from > 0);
         if k - first <= LONGEST {
             continue;
@@ -54,7 +57,10 @@ pub(crate) fn too_long_run(pile: &Pile) -> Result<Option<Certificate>, Error> {
     Ok(None)
 }
 
-/// φ = −3 on the lowest sphere of a line and 1 on those above it, as many as outweigh it, down to a layer at most.
+/// Returns the field φ = −3 on the lowest sphere of a line and φ = 1 on those above it, as many as make the work
+/// positive.
+///
+/// The line goes up to layer `first`. `None` if the sphere is not on an edge, or the line is too short.
 fn edge(
     pile: &Pile,
     lowest: Site,
@@ -62,7 +68,7 @@ fn edge(
     first: i128,
 ) -> Option<BTreeMap<Site, [BigRational; 3]>> {
     let shape = pile.shape();
-    // On an edge nothing else rests on it.
+    // On an edge the sphere is loaded from above along this line only.
     let mut others = Direction::ALL.into_iter().filter(|l| *l != direction);
     if others.any(|other| shape.above(lowest, other).is_some()) {
         return None;

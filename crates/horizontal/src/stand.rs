@@ -1,4 +1,4 @@
-//! Whether there are forces that only push.
+//! Stability: the existence of compressive forces that balance a pile.
 
 use cannonpile::Pile;
 use cannonpile::engine::bug;
@@ -11,16 +11,17 @@ use crate::Error;
 use crate::beginning::{beginning, certified, certified_down_to};
 use crate::certificate::{Certificate, Claim};
 use crate::network::{Column, MOST_EQUATIONS, Network};
-use crate::program::{Aim, Closeness, Program, accepted};
+use crate::program::{Objective, Program, Tolerance, accepted};
 use crate::run::{run_starts, too_long_run};
 
-/// The layers above the one that is held in the first beginning that is looked at, if the pile fails no further down.
+/// The first truncated pile that is tested has this many layers above its fixed floor, unless the first failure is
+/// lower.
 const FIRST: i128 = 6;
 
-/// What all pulls may come to in floats, of weights of order 1, if there are none.
-const NO_PULL: f64 = 1e-5;
+/// The largest sum of tensile forces that counts as zero in floats, for weights of order 1.
+const MAX_TENSION: f64 = 1e-5;
 
-/// What decides whether a pile stands at a = R.
+/// The kind of proof that decides whether a pile is stable at a = R.
 ///
 /// # Examples
 /// ```
@@ -31,25 +32,26 @@ const NO_PULL: f64 = 1e-5;
 /// let entries = entries?;
 /// let horizontal = entries.iter().filter(|entry| entry.decided_by == DecidedBy::Horizontal);
 /// let stackings: Vec<_> = horizontal.map(|entry| entry.pile.shape().stacking().to_string()).collect();
-/// // Only HCP needs them.
+/// // Of these only HCP needs horizontal contacts.
 /// assert_eq!(stackings, ["+-+-+"]);
 /// # Ok::<(), cannonpile_horizontal::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DecidedBy {
-    /// It stands without horizontal contacts: no force along α, β, γ pulls.
+    /// Stable without horizontal forces: no sloping contact is tensile.
     Sloping,
-    /// It stands by the forces of horizontal contacts that the certificate has.
+    /// Stable with the horizontal forces of the certificate.
     Horizontal,
-    /// It cannot stand: a run is too long before a change of sign, by the spheres of an edge (module documentation, 1).
+    /// Unstable: a run before a sign change is too long, by the spheres of an edge (lemma 1 of the module
+    /// documentation).
     Run,
-    /// It cannot stand: the field of the certificate would do work for nothing.
+    /// Unstable: the field of the certificate is a Farkas certificate, found by a linear program.
     Work,
 }
 
 impl DecidedBy {
-    /// `sloping`, `horizontal`, `run`, `work`.
+    /// Returns `sloping`, `horizontal`, `run` or `work`.
     ///
     /// # Examples
     /// ```
@@ -69,26 +71,28 @@ impl DecidedBy {
 }
 
 impl fmt::Display for DecidedBy {
-    /// `sloping`, `horizontal`, `run`, `work`.
+    /// Writes `sloping`, `horizontal`, `run` or `work`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
 }
 
-/// Returns a certificate that the pile stands at a = R, with horizontal contacts, or that it cannot.
+/// Returns a certificate that the pile is stable or unstable at a = R, with horizontal contacts.
 ///
-/// A run that is too long before a change of sign is found at once ([`census`](crate::census)). Where the
-/// sloping contacts alone bear it nothing is computed but [`standing`](Pile::standing). Below the last
-/// change of sign nothing has to be looked at, since there every force only grows; and of what is above it first the
-/// beginnings, since a pile stands only if each of them does. Of a pile of more than 10⁵ spheres the certificate is
-/// that of its first layers, by the same reasons: its [`pile`](Certificate::pile) are these.
+/// * A run that is too long before a sign change is detected first ([`census`](crate::census)).
+/// * If the sloping contacts alone are stable, the cost is that of [`standing`](Pile::standing).
+/// * Below the last sign change all forces increase, so those layers need no test.
+/// * Of the layers above it, the first layers are tested first. A pile is stable only if all its first layers are.
+/// * For a pile of more than 10⁵ spheres the certificate is about its first layers, for the same reasons. Its
+///   [`pile`](Certificate::pile) has only these layers.
 ///
-/// The horizontal forces that a pile was given are left out.
+/// Horizontal forces that were assigned to the pile are ignored.
 ///
 /// # Errors
-/// [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts); [`TooLarge`](cannonpile::Error::TooLarge) if more
-/// than 15,000 equations would have to be solved; [`Error::NotSolved`] if they are, in floats, and what comes of it is no
-/// proof; as for [`standing`](Pile::standing).
+/// * [`NoHorizontalContacts`](cannonpile::Error::NoHorizontalContacts) if the neighbours of a layer do not touch.
+/// * [`TooLarge`](cannonpile::Error::TooLarge) if the program has more than 15,000 equations.
+/// * [`Error::NotSolved`] if the float solution does not lead to an exact proof.
+/// * The errors of [`standing`](Pile::standing).
 ///
 /// # Examples
 /// ```
@@ -97,7 +101,7 @@ impl fmt::Display for DecidedBy {
 /// use cannonpile_horizontal::certificate::Claim;
 /// use cannonpile_horizontal::equilibrium;
 ///
-/// // Six layers of HCP do not stand without horizontal contacts.
+/// // Six layers of HCP are unstable without horizontal contacts.
 /// let pile = Pile::under(Region::SITE, "+-+-+".parse()?)?;
 /// assert_eq!(pile.first_failure()?, Some(4));
 /// let certificate = equilibrium(&pile)?;
@@ -109,7 +113,7 @@ pub fn equilibrium(pile: &Pile) -> Result<Certificate, Error> {
     decided(pile).map(|(certificate, _)| certificate)
 }
 
-/// Whether it is in equilibrium, with the proof, and what decides it.
+/// Decides stability, and returns the certificate and the kind of proof.
 pub(crate) fn decided(pile: &Pile) -> Result<(Certificate, DecidedBy), Error> {
     pile.check_horizontal()?;
     decided_bare(&pile.clone().without_horizontal_forces())
@@ -119,7 +123,7 @@ fn decided_bare(pile: &Pile) -> Result<(Certificate, DecidedBy), Error> {
     if let Some(certificate) = too_long_run(pile)? {
         return Ok((certificate, DecidedBy::Run));
     }
-    // Held is what lies under the last change of sign.
+    // The layer below the last sign change can be taken as fixed.
     let held = run_starts(pile.shape()).last().map(|from| from + 1);
     let Some(failure) = pile.first_failure()? else {
         let pile = match held {
@@ -128,7 +132,7 @@ fn decided_bare(pile: &Pile) -> Result<(Certificate, DecidedBy), Error> {
         };
         return Ok((certified(pile, Claim::Stands), DecidedBy::Sloping));
     };
-    let last = held.ok_or_else(|| bug("a pile that fails has a step"))?;
+    let last = held.ok_or_else(|| bug("an unstable pile has a step"))?;
     let mut floor = (failure + 1).max(FIRST).min(last);
     loop {
         let certificate = equilibrium_above(pile, floor, floor == last)?;
@@ -140,13 +144,14 @@ fn decided_bare(pile: &Pile) -> Result<(Certificate, DecidedBy), Error> {
     }
 }
 
-/// Whether it is known that no forces balance it which only push.
+/// Returns `true` if a certificate proves that the pile is unstable.
 pub(crate) fn cannot_stand(pile: &Pile) -> bool {
     let certificate = equilibrium(pile);
     certificate.is_ok_and(|certificate| certificate.claim == Claim::CannotStand)
 }
 
-/// Why a program over its forces, of so many equations, has no solution.
+/// Returns the error for a program of so many equations without a solution: the pile is unstable, or the solver
+/// failed.
 pub(crate) fn unsolved(pile: &Pile, equations: usize) -> Error {
     if cannot_stand(pile) {
         Error::CannotStand
@@ -155,14 +160,17 @@ pub(crate) fn unsolved(pile: &Pile, equations: usize) -> Error {
     }
 }
 
-/// Of the layers above one that is held: the least sum of all pulls is 0, or a field proves that it is not. Below
-/// them forces only grow, if they are the whole.
+/// Decides the stability of the layers above `floor`, whose spheres are taken as fixed.
+///
+/// A linear program minimises the sum of tensile forces. If it is zero, the layers are stable. Otherwise the dual
+/// solution is a Farkas certificate. `is_whole` says that the pile below has no further sign change, so the result
+/// holds for all of it.
 fn equilibrium_above(pile: &Pile, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
     let network = Network::above(pile, floor, MOST_EQUATIONS)?;
     let (equations, unknowns) = (network.weights.len(), network.columns.len());
     let not_solved = || Error::NotSolved { equations };
-    let pulls = network.columns[..equations].iter();
-    let pulls = pulls.map(|column| {
+    let tension = network.columns[..equations].iter();
+    let tension = tension.map(|column| {
         column
             .iter()
             .map(|(equation, c)| (*equation, -c.clone()))
@@ -170,24 +178,24 @@ fn equilibrium_above(pile: &Pile, floor: i128, is_whole: bool) -> Result<Certifi
     });
     let cost =
         repeat_n(BigRational::zero(), unknowns).chain(repeat_n(BigRational::one(), equations));
-    let with_pulls: Vec<Column> = network.columns.iter().cloned().chain(pulls).collect();
+    let with_tension: Vec<Column> = network.columns.iter().cloned().chain(tension).collect();
     let program = Program {
-        columns: with_pulls.as_slice().into(),
+        columns: with_tension.as_slice().into(),
         sums: network.weights.clone(),
-        aim: Aim::Cost(cost.collect()),
+        objective: Objective::LinearCost(cost.collect()),
     };
     let (program, scale) = program.scaled();
-    let mut guess = program.guess(Closeness::Tight).ok_or_else(not_solved)?;
-    // What is said is checked, whatever floats say.
-    let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < NO_PULL;
-    // What cannot stand cannot with more below it; what stands does so as far as it was looked at.
+    let mut guess = program.guess(Tolerance::Tight).ok_or_else(not_solved)?;
+    // The float result only selects the claim. The checker verifies the certificate.
+    let stands = guess.unknowns[unknowns..].iter().sum::<f64>() < MAX_TENSION;
+    // An unstable beginning makes the whole pile unstable. A stable one proves nothing about the layers below it.
     let pile = if is_whole || !stands {
         certified_down_to(pile, floor)?
     } else {
         beginning(pile, floor)?
     };
     let certificate = if stands {
-        // Without the pulls.
+        // The variables of tensile forces are dropped.
         guess.unknowns.truncate(unknowns);
         guess.positive.truncate(unknowns);
         program.exact_unknowns(&guess).map(|forces| {
@@ -216,13 +224,13 @@ mod tests {
     use cannonpile::lattice::Region;
 
     #[test]
-    fn what_has_no_solution_cannot_stand_or_was_not_solved() {
+    fn unsolved_program_is_unstable_or_not_solved() {
         let unsolved = |stacking: &str| {
             let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
             unsolved(&pile, 7)
         };
         assert_eq!(unsolved("+++"), Error::NotSolved { equations: 7 });
-        // A run of five steps before a change of sign.
+        // A run of five steps before a sign change.
         assert_eq!(unsolved("+++++-"), Error::CannotStand);
     }
 }

@@ -1,4 +1,4 @@
-//! What formulas say of the bottom spheres of straight piles.
+//! Closed forms for the bottom spheres of straight piles.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +9,22 @@ use num_traits::{One, Zero};
 
 use crate::formula;
 
-/// Which of the two bounds of a sphere.
+/// The lower or the upper bound.
 #[derive(Clone, Copy)]
 pub(crate) enum End {
     Least,
     Greatest,
 }
 
-/// The straight pile of equal spheres under one sphere: a site is n = (k−i−j, i, j), of − steps (k+i+j, −i, −j), and K =
-/// L−1.
+/// A bottom sphere of a straight pile of equal spheres under one sphere.
+///
+/// A site has coordinates n = (k−i−j, i, j) for + steps and (k+i+j, −i, −j) for − steps. K = L−1 is the layer of
+/// the floor.
 #[derive(Clone, Copy)]
 pub(crate) struct Straight {
     /// σ of all steps.
     sigma: i128,
-    /// Of the bottom sphere.
+    /// The coordinates of the bottom sphere.
     n: [i128; 3],
     k: i128,
 }
@@ -38,19 +40,19 @@ impl Straight {
         })
     }
 
-    /// The direction whose line ends in this corner.
+    /// Returns the direction of the edge that leads to this corner, or `None` if the sphere is not at a corner.
     fn corner(self) -> Option<usize> {
         self.n.iter().position(|n| *n == self.k)
     }
 
-    /// n_A ≥ n_B ≥ n_C, and the directions A, B and C.
+    /// Returns the coordinates n_A ≥ n_B ≥ n_C and their directions A, B and C.
     pub(crate) fn sorted(self) -> ([i128; 3], [usize; 3]) {
         let mut directions = [0, 1, 2];
         directions.sort_by_key(|l| core::cmp::Reverse(self.n[*l]));
         (directions.map(|l| self.n[l]), directions)
     }
 
-    /// The bound that is proved and attained for any K.
+    /// Returns the bound in mg if a formula gives it and it is attained for every K.
     pub(crate) fn bound(self, end: End) -> Option<BigRational> {
         let k = BigRational::from_integer(self.k.into());
         let onto = match (self.corner(), end) {
@@ -62,7 +64,7 @@ impl Straight {
         Some(normal_below(onto))
     }
 
-    /// What no forces pass on an edge or inside, for any K; it may not be attained.
+    /// Returns an upper bound on an edge or inside the base, in mg, for every K. It may not be attained.
     pub(crate) fn outer_bound(self) -> BigRational {
         let (sorted, _) = self.sorted();
         let n = sorted.map(|n| BigRational::from_integer(n.into()));
@@ -76,7 +78,7 @@ impl Straight {
         normal_below(onto)
     }
 
-    /// X that attains the bound.
+    /// Returns horizontal forces X that attain the bound.
     pub(crate) fn forces(self, end: End) -> BTreeMap<HorizontalContact, BigRational> {
         match (self.corner(), end) {
             (Some(l), End::Greatest) => self.press(l),
@@ -85,7 +87,7 @@ impl Straight {
         }
     }
 
-    /// The spheres of the edge that leads to a corner are pressed by their neighbours, with X = 1.
+    /// Returns X = 1 between each sphere of the edge to a corner and its neighbours.
     fn press(self, l: usize) -> BTreeMap<HorizontalContact, BigRational> {
         let pairs = (1..self.k).flat_map(|t| {
             [(l + 1) % 3, (l + 2) % 3].map(|other| {
@@ -102,9 +104,10 @@ impl Straight {
             .collect()
     }
 
-    /// The arch that takes everything off an inner sphere or one on an edge: of n_A ≥ n_B ≥ n_C, the spheres (t, n_B,
-    /// n_C) push at (t+1, n_B−1, n_C) with X = 1, for t < n_A − r, r = min(n_A, n_B + n_C), and the three that rest on
-    /// n push at each other.
+    /// Returns the arch that completely unloads a sphere inside the base or on an edge.
+    ///
+    /// For n_A ≥ n_B ≥ n_C and r = min(n_A, n_B + n_C), the spheres (t, n_B, n_C) with t < n_A − r press on (t+1,
+    /// n_B−1, n_C) with X = 1. The three spheres that touch n from above press on each other.
     fn arch(self) -> BTreeMap<HorizontalContact, BigRational> {
         let ([n_a, n_b, n_c], [a, b, c]) = self.sorted();
         let r = n_a.min(n_b + n_c);
@@ -134,7 +137,7 @@ impl Straight {
         forces
     }
 
-    /// φ that proves it.
+    /// Returns the field φ that proves the bound.
     pub(crate) fn field(self, end: End) -> BTreeMap<Site, [BigRational; 3]> {
         let Some(l) = self.corner() else {
             return BTreeMap::new();
@@ -152,7 +155,7 @@ impl Straight {
         Site { i, j, k }
     }
 
-    /// The horizontal contact of two neighbours.
+    /// Returns the horizontal contact of two neighbours.
     pub(crate) fn contact(self, one: [i128; 3], other: [i128; 3]) -> Option<HorizontalContact> {
         let [one, other] = [one, other].map(|n| self.site(n));
         let both = [(one, other), (other, one)]
@@ -165,14 +168,15 @@ impl Straight {
     }
 }
 
-/// Returns σ of the steps of a straight pile, 1 if there are none: the sites of − steps, times σ, are those of + steps.
+/// Returns σ of the steps of a straight pile, or 1 without steps. The sites of a pile of − steps, times σ, are
+/// those of + steps.
 pub(crate) fn factor_of(pile: &Pile) -> i128 {
     let sign = pile.shape().sign_below(0);
-    // Not a default: of one sphere both turns are the same.
+    // A single sphere has no step; either sign is correct.
     sign.map_or(1, |sign| sign.factor().into())
 }
 
-/// 1 + G/3 in mg, of what rests on a bottom sphere in f₀.
+/// Returns the normal force 1 + G/3 in mg, from the load G above a bottom sphere in f₀.
 fn normal_below(onto: BigRational) -> BigRational {
     BigRational::one() + onto / BigRational::from_integer(3.into())
 }
@@ -185,9 +189,9 @@ fn unit(l: usize) -> [i128; 3] {
 mod tests {
     use super::*;
 
-    /// In f₀, of which mg is three; a corner of one layer is the sphere itself, and nothing rests on it.
+    /// Loads are in f₀ = mg/3. A corner of one layer is the sphere itself, without a load.
     #[test]
-    fn bounds_of_corners_edges_and_inner_spheres() {
+    fn bounds_at_corners_on_edges_and_inside() {
         let bound = |n: [i128; 3], end| {
             let k = n.iter().sum();
             let of = Straight { sigma: 1, n, k };

@@ -1,4 +1,8 @@
-//! The symmetries of a pile under one sphere, its spheres all alike: they permute the three directions.
+//! Symmetries of a pile of equal spheres under one sphere: permutations of the three contact directions.
+//!
+//! Example: four layers have 30 balance equations. The bottom sphere on the axis is fixed by all six permutations.
+//! Equations that are images of each other form an orbit, and one variable for each orbit suffices: 7 equations
+//! remain.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -10,15 +14,15 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use crate::network::{Column, Network};
-use crate::program::{Aim, Program};
+use crate::program::{Objective, Program};
 
-/// A shape whose sites are n = (o − i − j, i, j), o the net number of + steps above: permuted, they are sites again, and
-/// contacts are those of the permuted directions.
+/// A symmetric shape. Its sites have coordinates n = (o − i − j, i, j), with o the net number of + steps above. A
+/// permutation of n maps sites to sites, and contacts to contacts of the permuted directions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SixFold<'p>(&'p Shape);
+pub(crate) struct AxisSymmetry<'p>(&'p Shape);
 
-impl<'p> SixFold<'p> {
-    /// That of a pile of spheres under one sphere, if all bear the same load; `None` of other piles.
+impl<'p> AxisSymmetry<'p> {
+    /// Returns the symmetry of a pile of spheres under one sphere with equal loads; `None` for other piles.
     pub(crate) fn of(pile: &'p Pile) -> Option<Self> {
         let shape = pile.shape();
         let is_symmetric = pile.dimension() == Dimension::Three
@@ -27,7 +31,7 @@ impl<'p> SixFold<'p> {
         is_symmetric.then_some(Self(shape))
     }
 
-    /// n, by direction.
+    /// Returns n by direction.
     pub(crate) fn coordinates(self, site: Site) -> [i128; 3] {
         let shift = self.0.shift_from_origin(site.k);
         [shift - site.i - site.j, site.i, site.j]
@@ -39,8 +43,8 @@ impl<'p> SixFold<'p> {
         Site { i, j, ..site }
     }
 
-    /// The permutations that leave a site where it is: to each direction the one it comes from.
-    fn leaving(self, site: Site) -> impl Iterator<Item = [usize; 3]> {
+    /// Returns the permutations that fix a site. Entry l is the direction that is mapped to direction l.
+    fn fixing(self, site: Site) -> impl Iterator<Item = [usize; 3]> {
         PERMUTATIONS
             .into_iter()
             .filter(move |permutation| self.image(site, *permutation) == site)
@@ -56,15 +60,15 @@ const PERMUTATIONS: [[usize; 3]; 6] = [
     [2, 1, 0],
 ];
 
-/// Equations and unknowns of a network that are images of each other where a bottom sphere stays where it is.
+/// The orbits of equations and unknowns under the permutations that fix a bottom sphere.
 pub(crate) struct Orbits {
-    /// By equation.
+    /// The orbits of the equations.
     equations: Grouping,
-    /// By unknown.
+    /// The orbits of the unknowns.
     unknowns: Grouping,
 }
 
-/// Numbers of orbits, by member; the first member of each and how many it has.
+/// A partition into orbits: the orbit of each member, and for each orbit its first member and its size.
 struct Grouping {
     orbits: Vec<usize>,
     first: Vec<usize>,
@@ -72,28 +76,29 @@ struct Grouping {
 }
 
 impl Orbits {
-    /// `None` if nothing but the identity leaves the sphere where it is.
+    /// Returns the orbits, or `None` if only the identity fixes the sphere.
     ///
     /// # Errors
     /// [`Error::Bug`] if an image is not in the network.
     pub(crate) fn of(network: &Network<'_>, site: Site) -> Result<Option<Self>, Error> {
-        let Some(six_fold) = SixFold::of(network.pile) else {
+        let Some(symmetry) = AxisSymmetry::of(network.pile) else {
             return Ok(None);
         };
-        let permutations: Vec<_> = six_fold.leaving(site).collect();
+        let permutations: Vec<_> = symmetry.fixing(site).collect();
         if permutations.len() == 1 {
             return Ok(None);
         }
         let equations = network.spheres.iter().flat_map(|sphere| {
             Direction::ALL.map(|direction| {
                 let images = permutations.iter().map(|permutation| {
-                    // Where this direction goes.
+                    // The image of this direction.
                     let to = Direction::ALL
                         .into_iter()
                         .zip(permutation)
                         .find(|(_, from)| **from == direction.index());
-                    let (to, _) = to.ok_or_else(|| bug("a permutation has every direction"))?;
-                    network.equation(six_fold.image(*sphere, *permutation), to)
+                    let (to, _) =
+                        to.ok_or_else(|| bug("a permutation contains every direction"))?;
+                    network.equation(symmetry.image(*sphere, *permutation), to)
                 });
                 least(images)
             })
@@ -106,9 +111,9 @@ impl Orbits {
         let horizontal = network.contacts.iter().map(|contact| {
             let pair = network.ends(*contact)?;
             least(permutations.iter().map(|permutation| {
-                let image = pair.map(|end| six_fold.image(end, *permutation));
+                let image = pair.map(|end| symmetry.image(end, *permutation));
                 let image = ends.get(&sorted(image)).copied();
-                image.ok_or_else(|| bug("images of neighbours are neighbours"))
+                image.ok_or_else(|| bug("a symmetry maps neighbours to neighbours"))
             }))
         });
         let horizontal: Vec<usize> = horizontal.collect::<Result<_, _>>()?;
@@ -119,8 +124,8 @@ impl Orbits {
         }))
     }
 
-    /// The program of what is the same throughout each orbit: its minimum is that of the whole, since the mean of the
-    /// images of a minimum is one.
+    /// Returns the program for solutions that are constant on each orbit. Its minimum is that of the full program:
+    /// the average over all images of a minimiser is again a minimiser.
     pub(crate) fn quotient(&self, network: &Network<'_>, cost: &[BigRational]) -> Program<'static> {
         let mut columns = vec![BTreeMap::new(); self.unknowns.first.len()];
         for (column, orbit) in network.columns.iter().zip(&self.unknowns.orbits) {
@@ -143,17 +148,17 @@ impl Orbits {
         Program {
             columns: columns.collect(),
             sums: sums.map(|first| network.weights[*first].clone()).collect(),
-            aim: Aim::Cost(costs),
+            objective: Objective::LinearCost(costs),
         }
     }
 
-    /// The unknowns of the whole, of those of the quotient.
+    /// Expands a primal solution of the quotient to the full program.
     pub(crate) fn unknowns(&self, of_quotient: &[BigRational]) -> Vec<BigRational> {
         let orbits = self.unknowns.orbits.iter();
         orbits.map(|orbit| of_quotient[*orbit].clone()).collect()
     }
 
-    /// The multipliers of the whole: an orbit shares its own evenly.
+    /// Expands a dual solution of the quotient: each orbit distributes its multiplier equally.
     pub(crate) fn multipliers(&self, of_quotient: &[BigRational]) -> Vec<BigRational> {
         let orbits = self.equations.orbits.iter();
         let share = |orbit: &usize| {
@@ -164,7 +169,7 @@ impl Orbits {
 }
 
 impl Grouping {
-    /// Of members, each with the least of its orbit.
+    /// Builds the partition from the least element of the orbit of each member.
     fn of(least: impl Iterator<Item = usize>) -> Self {
         let (mut orbits, mut first, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
         let mut numbers = HashMap::new();
@@ -192,7 +197,7 @@ fn sorted([one, other]: [Site; 2]) -> [Site; 2] {
 fn least(images: impl Iterator<Item = Result<usize, Error>>) -> Result<usize, Error> {
     let images: Vec<usize> = images.collect::<Result<_, _>>()?;
     let least = images.into_iter().min();
-    least.ok_or_else(|| bug("a sphere is an image of itself"))
+    least.ok_or_else(|| bug("an orbit is not empty"))
 }
 
 #[cfg(test)]
@@ -200,7 +205,8 @@ mod tests {
     use super::*;
     use crate::network::MOST_EQUATIONS;
 
-    /// How many equations and unknowns are left of a straight pile of four layers, on a bottom sphere.
+    /// Returns the numbers of equations and unknowns that remain for a bottom sphere of a straight pile of four
+    /// layers.
     fn left(i: i128, j: i128) -> Result<Option<[usize; 2]>, Error> {
         let pile = Pile::triangular(4)?;
         let network = Network::above(&pile, 3, MOST_EQUATIONS)?;
@@ -209,9 +215,10 @@ mod tests {
     }
 
     #[test]
-    fn a_sixth_is_left_under_the_apex_and_all_off_the_planes_of_symmetry() -> Result<(), Error> {
-        // Of 30 equations, the first of each layer: one direction of one sphere, then those of (1,0,0) that lead to a corner
-        // and to a side, then of (2,0,0) and (1,1,0); of 12 horizontal contacts, one and two.
+    fn quotient_sizes_depend_on_sphere() -> Result<(), Error> {
+        // Of 30 equations those of one direction per orbit remain: 1 for the top, then 2, then 4. Layer 1 has 2
+        // orbits, one for directions to a corner and one for directions to a side. The horizontal contacts have 1
+        // orbit in layer 1 and 2 in layer 2.
         assert_eq!(left(1, 1)?, Some([1 + 2 + 4, 1 + 2 + 4 + 1 + 2]));
         assert!(left(3, 0)?.is_some_and(|[equations, _]| equations < 30));
         assert_eq!(left(2, 0)?, None);
@@ -219,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_load_off_the_axis_leaves_no_symmetry() -> Result<(), Error> {
+    fn load_off_axis_breaks_symmetry() -> Result<(), Error> {
         let site = Site { i: 1, j: 0, k: 1 };
         let pile = Pile::triangular(4)?.with_load(site, BigRational::from_integer(1.into()))?;
         let network = Network::above(&pile, 3, MOST_EQUATIONS)?;

@@ -1,8 +1,8 @@
-//! What is proved for every pile with horizontal contacts, at a = R: balance, virtual work, the elastic state, bounds and
-//! arches.
+//! Theorems about piles of every size with horizontal contacts, at a = R: balance, virtual work, the elastic state,
+//! bounds and arches.
 //!
-//! The proofs run the formulas of this crate and of the core on polynomials, as [`cannonpile::theorem`] explains. Every
-//! theorem takes the [`Formulas`] it is about as an argument, so that a test can replace one by a wrong one.
+//! The proofs run the formulas of this crate and of the core on polynomials, as [`cannonpile::theorem`] explains.
+//! Every theorem receives its [`Formulas`] as an argument, so that a test can replace one of them by a mutant.
 //!
 //! # Examples
 //! ```
@@ -32,7 +32,7 @@ use crate::THREE;
 /// A theorem about the [`Formulas`] of horizontal contacts.
 pub type Theorem = cannonpile::theorem::Theorem<Formulas>;
 
-/// Returns every theorem about horizontal contacts, in the order in which one would read them.
+/// Returns all theorems about horizontal contacts, in reading order.
 ///
 /// # Examples
 /// ```
@@ -61,10 +61,11 @@ pub fn find(name: &str) -> Option<&'static Theorem> {
 const THEOREMS: &[Theorem] = &[
     Theorem {
         name: "horizontal-balance",
-        statement: "At a = R neighbours touch, |ê_a − ê_b| = 1. A sphere of weight n·mg that receives any forces g and \
-                    passes on f = Tg + n − σH, with T = G where the sign changes and H the sum of what its horizontal \
-                    contacts push, is in equilibrium with these pushes: X of the neighbour p + d_b − d_a along σ(ê_b − ê_a), \
-                    Y of p − d_b + d_a along the reverse, for all six neighbours at once; an identity",
+        statement: "At a = R neighbours touch, |ê_a − ê_b| = 1. A sphere of weight n·mg receives any forces g and \
+                    transmits f = Tg + n − σH. Here T = G at a sign change, and H is the sum of the entries of its \
+                    horizontal forces. Then the sphere is in equilibrium with these horizontal forces: X from the \
+                    neighbour p + d_b − d_a along σ(ê_b − ê_a), and Y from p − d_b + d_a along the reverse, for all \
+                    six neighbours at once; an identity",
         hypotheses: "s = 1/2, sin²θ = 1/3; any g_1, g_2, g_3, n, X, Y",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, n, X_1, X_2, X_3, Y_1, Y_2, Y_3",
@@ -72,11 +73,11 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "virtual-work",
-        statement: "Virtual work, for any numbers φ and any forces that balance: the balance of a sphere times φ is \
-                    Σφ_l f_l + σΣφ_l H_l = Σg_l(Tφ)_l + wΣφ_l, since T is symmetric, whether the sign is kept or changes. \
-                    Of a sloping contact f φ_l(p) − f (Tφ(q))_l is f D, and of a horizontal one what it adds to σΣφ_l H_l \
-                    of its two spheres is X c. So (in words, by adding the balances of all spheres, φ = 0 on the floor) \
-                    Σ f_l D_l + Σ X c = Σ w φ_l; an identity",
+        statement: "Virtual work, for any field φ and any forces in balance. The balance of a sphere times φ is Σφ_l \
+                    f_l + σΣφ_l H_l = Σg_l(Tφ)_l + wΣφ_l, since T is symmetric, with and without a sign change. For a \
+                    sloping contact f φ_l(p) − f (Tφ(q))_l is f D. A horizontal contact contributes X c to σΣφ_l H_l \
+                    of its two spheres. So (in words, by adding the balances of all spheres, φ = 0 on the floor) Σ f_l \
+                    D_l + Σ X c = Σ w φ_l; an identity",
         hypotheses: "s = 1/2; any φ, g, H, w, X",
         method: ProofKind::Identity,
         symbols: "φ_1, φ_2, φ_3, φ'_1, φ'_2, φ'_3, g_1, g_2, g_3, h_1, h_2, h_3, f, w, X",
@@ -84,10 +85,11 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "elastic-straight",
-        statement: "The elastic state of the paper's pile, d layers above the floor: φ_l = d·n_l + d(d+1)/2 is 0 on the floor, \
-                    has D_l = n_l + 1, the force that the sphere passes on, and c = −2d at every horizontal contact; and \
-                    so of discs. So (in words) for every L and every stiffness of horizontal contacts it meets the \
-                    conditions of the elastic state with X = 0, and they open by 2d f₀/κ; an identity",
+        statement: "The elastic state of the paper's pile, d layers above the floor: φ_l = d·n_l + d(d+1)/2 is 0 on \
+                    the floor. It has D_l = n_l + 1, the force that the sphere transmits, and c = −2d at every \
+                    horizontal contact. The same holds for discs. So (in words) it satisfies the conditions of the \
+                    elastic state with X = 0 for every L and every stiffness of horizontal contacts, and these open by \
+                    2d f₀/κ; an identity",
         hypotheses: "s = 1/2, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j; discs: j = 0",
         method: ProofKind::Identity,
         symbols: "i, j, k, n, d",
@@ -95,8 +97,8 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "elastic-energy",
-        statement: "Energy of the elastic state: Σf² = L(L−1)(L+1)(L+2)(2L+1)/40 f₀² over all contacts, and it is the work of \
-                    the weights, Σφ_l; by summing over the spheres off the floor",
+        statement: "Energy of the elastic state: Σf² = L(L−1)(L+1)(L+2)(2L+1)/40 f₀² over all contacts. It equals the \
+                    work of the weights, Σφ_l; by summing over the spheres above the floor",
         hypotheses: "L ≥ 1, s = 1/2",
         method: ProofKind::Sum,
         symbols: "L",
@@ -104,10 +106,10 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "settlement",
-        statement: "Settlement: with φ_l = w − p_l, w the mean of the three φ_l of the elastic state, w = d(3L−k)/6 for every \
-                    sphere of layer k, d = L−1−k, so layers stay plane, and p_l = −d(n_l − k/3), so each dilates \
-                    uniformly. The apex sinks by w = L(L−1)/2 in f₀/κ, which is (in words) L(L−1)/2·mg/(3κcos²θ); an \
-                    identity",
+        statement: "Settlement in the elastic state, with φ_l = w − p_l and w the mean of the three φ_l. Every sphere \
+                    of layer k has w = d(3L−k)/6, d = L−1−k, so layers stay plane. p_l = −d(n_l − k/3), so each layer \
+                    dilates uniformly. The apex sinks by w = L(L−1)/2 in f₀/κ, which is (in words) \
+                    L(L−1)/2·mg/(3κcos²θ); an identity",
         hypotheses: "s = 1/2, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j",
         method: ProofKind::Identity,
         symbols: "L, i, j, k",
@@ -115,11 +117,12 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "elastic-monotone",
-        statement: "Any base under straight steps, weights equal: from a sphere to its neighbour p + d_b − d_a two of the four \
-                    arguments of the min that counts the spheres above (theorem region-counts) change by σ along b, and two \
-                    by −σ along a, the others not. So (in words) σf_b does not fall and σf_a does not grow, nor do sums of \
-                    increasing functions of them along the lines below: c ≤ 0 without horizontal forces, which is the \
-                    elastic state; an identity",
+        statement: "Any base with equal steps and equal weights. A minimum of four arguments counts the spheres above \
+                    a sphere (theorem region-counts). From a sphere to its neighbour p + d_b − d_a two of the \
+                    arguments change by σ along b, and two by −σ along a; the others are constant. So (in words) σf_b \
+                    does not decrease and σf_a does not increase. The same holds for sums of increasing functions of \
+                    them along the lines below. Hence c ≤ 0 without horizontal forces, which is the elastic state; an \
+                    identity",
         hypotheses: "two neighbours within the bounds",
         method: ProofKind::Identity,
         symbols: "i, j, m, x_0, x_1, y_0, y_1, s_0, s_1",
@@ -127,9 +130,9 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "no-dip",
-        statement: "No dip: the arguments of the min that counts the spheres above a sphere of the floor are linear in its \
-                    place, A(p+v) + A(p−v) = 2A(p). So (in words) their min is concave, and so is the normal force \
-                    1 + Σ N_l/3 under a straight pile of equal weights on any base; an identity",
+        statement: "No dip: the arguments of the minimum that counts the spheres above a bottom sphere are linear in \
+                    its position, A(p+v) + A(p−v) = 2A(p). So (in words) their minimum is concave. The normal force 1 \
+                    + Σ N_l/3 under a straight pile of equal weights on any base is concave as well; an identity",
         hypotheses: "three spheres p−v, p, p+v of the floor, v = (u, v)",
         method: ProofKind::Identity,
         symbols: "i, j, m, u, v, x_0, x_1, y_0, y_1, s_0, s_1",
@@ -137,10 +140,11 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "corner-least",
-        statement: "The least on a corner, (L+2)/3 mg: φ = 1 along the edge that leads there, and 0 along the other lines and on \
-                    other spheres, has D = 0 at all contacts of the edge but the last, D = 1 there, and c = −1 at \
-                    the horizontal contacts of the edge. Other contacts (in words) have D = c = 0. Σφ = K, so (in words, by theorem \
-                    virtual-work) K f₀ at least rest on the corner; an identity",
+        statement: "The smallest normal force at a corner is (L+2)/3 mg. Let φ = 1 along the edge that leads to the \
+                    corner, and φ = 0 along the other lines and on other spheres. Then D = 0 at all contacts of the \
+                    edge but the last, D = 1 there, and c = −1 at the horizontal contacts of the edge. Other contacts \
+                    (in words) have D = c = 0. Σφ = K, so (in words, by theorem virtual-work) the load on the corner \
+                    is at least K f₀; an identity",
         hypotheses: "K = L−1",
         method: ProofKind::Identity,
         symbols: "K",
@@ -148,14 +152,14 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "corner-greatest",
-        statement: "The greatest on a corner, (L − 2/3) mg: φ = 1 along all lines of the spheres of the edge below the apex, and \
-                    along the edge at the apex, has D = 0 along the edge, D = 1 at its last contact, D = 1 or, at the \
-                    apex, 0 along the other lines, and c = 0; other contacts (in words) have D = c = 0. Σφ = 3K−2, so (in words) no more \
-                    rests on the corner. \
-                    X = 1 between the spheres of the edge and their neighbours attain it: a sphere (t, 0, 0) that receives \
-                    3t−2 along the edge passes on 3(t+1)−2, the first from the apex, and nothing along other lines, and \
-                    its neighbour adds 0 along the edge, 2 along the line that leads to it from that edge and 1 along the third, so that \
-                    (in words) no force is negative; by induction",
+        statement: "The largest normal force at a corner is (L − 2/3) mg. Let φ = 1 along all lines of the spheres of \
+                    the edge below the apex, and along the edge at the apex. Then D = 0 along the edge, D = 1 at its \
+                    last contact, D = 1 along the other lines (0 at the apex), and c = 0. Other contacts (in words) \
+                    have D = c = 0. Σφ = 3K−2, so (in words) the load on the corner is at most 3K−2 f₀. X = 1 between \
+                    the spheres of the edge and their neighbours attains it. A sphere (t, 0, 0) that receives 3t−2 \
+                    along the edge, the first one from the apex, transmits 3(t+1)−2, and nothing along other lines. \
+                    Its neighbour adds 0 along the edge, 2 along the line that leads to it from that edge and 1 along \
+                    the third line, so that (in words) no force is negative; by induction",
         hypotheses: "K = L−1 ≥ 1, for K = 1 the field of corner-least",
         method: ProofKind::Induction,
         symbols: "K, t, g_1, g_2, g_3",
@@ -163,12 +167,13 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "arch",
-        statement: "The arch that empties a sphere: of three spheres that would pass on ν_l to the one they rest on, and press \
-                    each other with X_ab = (ν_a+ν_b−ν_c)/2, each passes on ν_l − 1 + 1 − ν_l = 0 to it, and adds 1 + X_ab \
-                    along the line of the other. The flank takes off what exceeds ν: of spheres that push at a neighbour \
-                    with X = 1, one adds nothing along one line and 2 along the other, the neighbour the reverse. For \
-                    ν = (r, n_B, n_C) X = (0, n_C, n_B) at r = n_B + n_C, and (in words) no X is negative, as n_C ≤ n_B ≤ r ≤ \
-                    n_B + n_C; that nothing rests on n, and no sphere pulls, is proved in the paper's page, in words; an identity",
+        statement: "An arch unloads a sphere. Three spheres would transmit ν_l to the sphere below them, and press on \
+                    each other with X_ab = (ν_a+ν_b−ν_c)/2. Then each transmits ν_l − 1 + 1 − ν_l = 0 to it, and adds \
+                    1 + X_ab along the lines of the others. The flank removes the load above ν: of two spheres that \
+                    press on each other with X = 1, one adds nothing along one line and 2 along the other, and its \
+                    neighbour the reverse. For ν = (r, n_B, n_C) X = (0, n_C, n_B) at r = n_B + n_C, and (in words) no \
+                    X is negative, as n_C ≤ n_B ≤ r ≤ n_B + n_C. The paper's page proves in words that the load on n \
+                    is zero and no contact is tensile; an identity",
         hypotheses: "n_A ≥ n_B ≥ n_C, n_B ≥ 1, r = min(n_A, n_B + n_C)",
         method: ProofKind::Identity,
         symbols: "g_1, g_2, g_3, ν_1, ν_2, ν_3, n_B, n_C",
@@ -176,10 +181,10 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "inner-greatest",
-        statement: "An upper bound on any bottom sphere n, 1 + ΣC(n_l+2, 3)/3 mg, and 1 + C(k+2, 3) at a centre (k, k, k): of the \
-                    field φ_l = 1 on the spheres with at least n_m along both other lines m, which is a pile of n_l layers, \
-                    Σφ is that sum. The signs of D and c are proved in the paper's page, in words; by summing over the \
-                    spheres",
+        statement: "An upper bound for any bottom sphere n is 1 + ΣC(n_l+2, 3)/3 mg, and 1 + C(k+2, 3) at a centre (k, \
+                    k, k). Let φ_l = 1 on the spheres with at least n_m along both other lines m, which form a pile of \
+                    n_l layers. Then Σφ is that sum. The paper's page proves the signs of D and c in words; by summing \
+                    over the spheres",
         hypotheses: "n_l ≥ 0",
         method: ProofKind::Sum,
         symbols: "k, n_1, n_2, n_3",
@@ -187,11 +192,12 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "edge-greatest",
-        statement: "An upper bound on the bottom sphere (k, j, 0) of an edge: with c = min(j+1, k) the field that is 1 along α on \
-                    S₀, along β on S₁ and along γ on those of S₀ with n_α ≥ 1 and of S₁ with n_β ≥ 1 sums to 2k − 1 + (c−1)² + \
-                    2j(k−c) + j², which is 2(j+1)(k−1) + 1 for k > j, and 2k² for k = j. S₀ are the spheres of the edge \
-                    layer with n_β = j, n_α < k or n_β > j, n_α + n_β < j + c, S₁ those with n_α ≥ c, n_β ≤ j. The signs \
-                    of D and c are proved in the paper's page, in words; by summing over the spheres",
+        statement: "An upper bound for the bottom sphere (k, j, 0) of an edge, with c = min(j+1, k). The field is 1 \
+                    along α on S₀, along β on S₁, and along γ on the spheres of S₀ with n_α ≥ 1 and of S₁ with n_β ≥ \
+                    1. It sums to 2k − 1 + (c−1)² + 2j(k−c) + j², which is 2(j+1)(k−1) + 1 for k > j, and 2k² for k = \
+                    j. S₀ are the spheres of the face with n_β = j, n_α < k or n_β > j, n_α + n_β < j + c. S₁ are \
+                    those with n_α ≥ c, n_β ≤ j. The paper's page proves the signs of D and c in words; by summing \
+                    over the spheres",
         hypotheses: "k ≥ j ≥ 1",
         method: ProofKind::Sum,
         symbols: "c, j, k",
@@ -199,11 +205,12 @@ const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         name: "run-horizontal",
-        statement: "Runs end with horizontal contacts too: spheres on the edge where only line l goes on (theorem edge) are \
-                    pressed along l by their two neighbours off the edge, with x and y, under either sign: within a run such a sphere \
-                    passes on g + 1 + x + y, at its end, where the sign changes, f = 1 − g/3 − x − y, or f + g + x + y = \
-                    (2g+3)/3. For g = 4+p it is −(1+p)/3 − x − y. So (in words) no run of four steps from the top, or of \
-                    five after a change, is followed by a change in a pile that stands; an identity",
+        statement: "Long runs are unstable with horizontal contacts too. Consider the spheres on the edge with line l \
+                    only (theorem edge). Their two neighbours off the edge press them along l, with x and y, under \
+                    either sign. Within a run such a sphere transmits g + 1 + x + y. At its end, where the sign \
+                    changes, f = 1 − g/3 − x − y, or f + g + x + y = (2g+3)/3. For g = 4+p this is −(1+p)/3 − x − y. \
+                    So (in words) no run of four steps from the top, or of five after a change, is followed by a \
+                    change in a stable pile; an identity",
         hypotheses: "x, y, p ≥ 0, weights of mg",
         method: ProofKind::Identity,
         symbols: "g, p, x, y",
@@ -233,12 +240,12 @@ fn signed(x: P, sign: Sign) -> P {
     x * &int(sign.factor().into())
 }
 
-/// A value on all lines.
+/// Returns the same value on all three lines.
 fn each(value: i128) -> [P; 3] {
     [value; 3].map(int)
 }
 
-/// A value on one line, and 0 on the others.
+/// Returns a value on one line, and 0 on the others.
 fn on(line: Direction, value: &P) -> [P; 3] {
     Direction::ALL.map(|other| {
         if other == line {
@@ -249,18 +256,18 @@ fn on(line: Direction, value: &P) -> [P; 3] {
     })
 }
 
-/// The other two lines.
+/// Returns the other two lines.
 fn others(line: Direction) -> [Direction; 2] {
     [1, 2].map(|n| Direction::ALL[(line.index() + n) % 3])
 }
 
-/// The site p + d_b − d_a.
+/// Returns the site p + d_b − d_a.
 fn neighbour(f: &Formulas, axis: Axis, i: &P, j: &P) -> [P; 2] {
     let [[a_i, a_j], [b_i, b_j]] = axis.ends().map(|end| (f.core.descent)(Sign::Plus, end));
     [i.clone() + &int(b_i - a_i), j.clone() + &int(b_j - a_j)]
 }
 
-/// T g.
+/// Returns T g: the half-turn of g if the sign changes, otherwise g.
 fn transferred(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
     if changes {
         (f.core.half_turn)(g)
@@ -269,7 +276,7 @@ fn transferred(f: &Formulas, changes: bool, g: &[P; 3]) -> [P; 3] {
     }
 }
 
-/// What a sphere passes on of g, with the sum H of what is pushed.
+/// Returns the forces that a sphere transmits, with `g` from above and the sum H of its horizontal forces.
 fn beside(f: &Formulas, g: &[P; 3], own: &P, pushed: &[P; 3], sign: Sign) -> [P; 3] {
     Direction::ALL
         .map(Direction::index)
@@ -303,7 +310,8 @@ fn horizontal_balance(f: &Formulas) -> Vec<Step> {
             let received = transferred(f, above != below, &g);
             let passed = beside(f, &received, &n, &h, below);
             let left = (f.core.unbalanced)(&passed, &under(below), &g, &under(above), &weight);
-            let claim = format!("{above_name} above, {name} below: the pushes are left to balance");
+            let claim =
+                format!("{above_name} above, {name} below: the horizontal forces balance the rest");
             steps.extend(by_component(&claim, left, pushes.clone()));
         }
     }
@@ -344,7 +352,7 @@ fn virtual_work(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// φ of a sphere with so many above it on its lines, and d layers above the floor.
+/// Returns φ of a sphere with n_l spheres above it on its lines, d layers above the floor.
 fn elastic_field(f: &Formulas, n: &[P; 3], d: &P) -> [P; 3] {
     n.each_ref().map(|n| (f.elastic_field)(n, d))
 }
@@ -370,7 +378,7 @@ fn elastic_straight(f: &Formulas) -> Vec<Step> {
             let claim = format!("{name}: D along {direction} is the force");
             steps.extend(equations! { (claim): drop => forces[l].clone() });
         }
-        // αβ alone is in the plane of discs.
+        // Discs have only the contacts along αβ.
         for axis in Axis::ALL.into_iter().take(2 * dimension - 3) {
             let [i, j] = neighbour(f, axis, &i, &j);
             let there = elastic_field(f, &(f.core.above)(&i, &j, &k), &d);
@@ -381,7 +389,7 @@ fn elastic_straight(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// φ of the sphere (i, j, k) of L layers.
+/// Returns φ of the sphere (i, j, k) in a pile of L layers.
 fn of_site(f: &Formulas) -> [P; 3] {
     elastic_field(f, &above(&f.core), &(last_layer() - &symbol("k")))
 }
@@ -414,7 +422,7 @@ fn settlement(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// The arguments of the min along each line above (i, j).
+/// Returns the arguments of the minimum for each line above (i, j).
 fn arguments(f: &Formulas, [i, j]: &[P; 2], sign: Sign) -> [[P; 4]; 3] {
     let lower = symbols(["x_0", "y_0", "s_0"]);
     let upper = symbols(["x_1", "y_1", "s_1"]);
@@ -461,7 +469,7 @@ fn no_dip(f: &Formulas) -> Vec<Step> {
     steps
 }
 
-/// D of a sphere of a field, from what is taken off.
+/// Returns the drops D of a sphere, from its field and the field of the spheres below.
 fn drops(f: &Formulas, here: &[P; 3], below: &[P; 3]) -> [P; 3] {
     let of_line = |l: usize| (f.lowered)(here[l].clone(), &below[l]);
     Direction::ALL.map(Direction::index).map(of_line)
@@ -541,7 +549,7 @@ fn arch(f: &Formulas) -> Vec<Step> {
         let (l, mut received) = (line.index(), g.clone());
         let (mut pushed, mut expected) = (each(0), more.clone());
         let [a, b] = others(line);
-        // Between n − e_l and n − e_a is the force that is named by the third line, b.
+        // The force between n − e_l and n − e_a is numbered by the third line, b.
         for (other, third) in [(a, b), (b, a)] {
             let force = &forces[third.index()];
             pushed = plus(pushed, &(f.core.pushed)(force, [other, line], true));
@@ -589,11 +597,11 @@ fn edge_greatest(f: &Formulas) -> Vec<Step> {
     let ([zero, one], y) = (&[P::zero(), P::one()], symbol("y"));
     let last = |p: &P| p.clone() - one;
     let row = |from: &P, to: &P| one.sum(Symbol("x"), from, to);
-    // From x = n_α on: S₀ with n_β = j, and with n_β = j + y, and S₁ with n_β = y.
+    // Rows from x = n_α on: S₀ with n_β = j, S₀ with n_β = j + y, and S₁ with n_β = y.
     let lone = |from: &P| row(from, &last(k));
     let above = |from: &P| row(from, &(last(c) - &y)).sum(Symbol("y"), one, &last(c));
     let right = |from: &P| row(c, &(last(k) + j - &y)).sum(Symbol("y"), from, j);
-    // Along γ the spheres of both are counted once.
+    // Along γ the spheres in both sets are counted once.
     let gamma = lone(one) + &above(one) + &right(one) - &lone(c);
     let next = j.clone() + one;
     let beyond = int(2) * &next * &last(k) + one;
@@ -612,7 +620,7 @@ fn run_horizontal(f: &Formulas) -> Vec<Step> {
         for line in Direction::ALL {
             let l = line.index();
             let [a, b] = others(line);
-            // Where + steps lead along the line, the layer is on the side from which they come; under − steps opposite.
+            // For + steps the layer lies on the side where the line begins. For − steps it lies on the opposite side.
             let push = |force: &P, other| (f.core.pushed)(force, [line, other], sign == Sign::Plus);
             let h = plus(push(&x, a), &push(&y, b))[l].clone();
             let within = (f.core.beside)(g.clone(), &one, &h, sign);

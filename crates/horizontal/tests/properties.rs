@@ -1,7 +1,8 @@
-//! The claims about horizontal contacts on random input: deterministic, from the generators that fuzzing shares.
+//! Claims about horizontal contacts on random input. The test is deterministic, and its generators are those of the
+//! fuzz targets.
 //!
-//! Each claim is a function of bytes; its planted faults stand beside it in `cannonpile_testkit`. A failure prints the
-//! shortest bytes that proptest could find, and the claim's own witness.
+//! Each claim is a function of bytes. `cannonpile_testkit` defines it next to its mutants, which it must reject. A
+//! failure prints the shortest input that proptest finds, and the counterexample of the claim.
 
 use cannonpile_testkit::claims;
 use cannonpile_testkit::generators::region;
@@ -9,24 +10,24 @@ use cannonpile_testkit::properties;
 use cannonpile_testkit::properties::census;
 
 properties! {
-    what_can_be_borne_is_what_an_exact_program_says: claims::horizontal::any_pile, 192;
-    what_a_checker_accepts_is_true: claims::certificates::changed, 384;
+    results_match_exact_linear_program: claims::horizontal::any_pile, 192;
+    accepted_certificates_are_true: claims::certificates::changed, 384;
     damaged_certificates_are_refused_or_true: claims::certificates::damaged, 512;
-    both_checkers_come_to_one_verdict: claims::certificates::judged_twice, 384;
+    both_checkers_agree: claims::certificates::judged_twice, 384;
 }
 
 #[test]
-fn tiny_piles_stand_or_not_with_pushes_or_without() {
+fn tiny_piles_cover_all_verdicts() {
     let kinds = census(|u| {
         let pile = region::tiny(u)?
             .pile()
-            .expect("what was described is a pile");
+            .expect("the description is a valid pile");
         let alone = pile.first_failure().expect("a verdict").is_none();
         let claim = cannonpile_horizontal::equilibrium(&pile)
             .expect("a verdict")
             .claim;
         Ok(format!("{claim:?} alone={alone}"))
     });
-    // What stands alone stands.
+    // A pile that is stable without horizontal contacts is stable with them.
     assert_eq!(kinds.len(), 3, "{kinds:?}");
 }

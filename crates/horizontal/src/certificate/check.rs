@@ -1,4 +1,4 @@
-//! The checker: the balance of a sphere, its transpose, and signs.
+//! The checker of certificates: balance of each sphere, its transpose, and signs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,20 +13,21 @@ use num_traits::{One, Signed, Zero};
 use super::{Certificate, Claim, Extreme, Refusal, Relation};
 use crate::formula;
 
-/// The most words of 64 bits that the numbers of a direction may take.
+/// The largest total size of the numbers of one direction, in words of 64 bits.
 const MOST_WORDS: u64 = 4_000_000;
 
-/// Three numbers of a sphere, by direction.
+/// Three numbers of a sphere, indexed by direction.
 type Triple = [BigRational; 3];
 
 impl Certificate {
-    /// Checks every equation of the claim.
+    /// Checks every equation and inequality of the claim.
     ///
-    /// Takes a few operations on rationals for each contact of the pile; of a claim that it cannot stand,
-    /// only for those around the spheres of the field, however large the pile is.
+    /// The cost is a few rational operations for each contact of the pile. For [`Claim::CannotStand`] only contacts
+    /// near the spheres of the field are checked, so the cost does not depend on the size of the pile.
     ///
     /// # Errors
-    /// The first equation that does not hold; [`Refusal::Pile`] with [`TooLarge`](Error::TooLarge) of what would not fit into memory.
+    /// Returns the first condition that is violated. Returns [`Refusal::Pile`] with [`TooLarge`](Error::TooLarge)
+    /// if the numbers would not fit into memory.
     ///
     /// # Examples
     /// ```
@@ -82,7 +83,8 @@ impl Certificate {
         }
     }
 
-    /// Whether all numbers fit into memory: one a sphere, over a common denominator of all that is given.
+    /// Checks that all numbers fit into memory: one for each sphere, over the common denominator of all given
+    /// numbers.
     fn fits(&self) -> Result<(), Error> {
         let one = BigRational::one();
         let weights = self.pile.weights().chain(self.pile.loads());
@@ -90,10 +92,10 @@ impl Certificate {
         let balanced = core::iter::once(&one)
             .chain(weights)
             .chain(self.horizontal.values());
-        // Each half-turn brings a factor of 3, which is less than two bits, and sums of so many numbers less than a word.
+        // Each half-turn adds a factor 3, less than two bits, to the denominator. The sums add less than one word.
         let turns: u64 = self.pile.shape().stacking().runs().map(|_| 2).sum();
         let (spheres, turns) = match self.claim {
-            // Nothing is computed but around the field, and across one change of sign.
+            // The check is restricted to the field and crosses one sign change only.
             Claim::CannotStand => (self.field.len().into(), 2),
             _ => (self.pile.sphere_count(), turns),
         };
@@ -106,19 +108,20 @@ impl Certificate {
                 "a check of every sphere",
                 &needed,
                 (MOST_WORDS, size_of::<u64>()),
-                "certify a smaller pile, with shorter numbers",
+                "certify a smaller pile, or use shorter numbers",
             )?;
         }
         Ok(())
     }
 
-    /// The forces of all sloping contacts from the balance of each sphere, from the top: none may pull.
+    /// Returns the forces of all sloping contacts, from the top, by the balance of each sphere. A tensile force is
+    /// refused.
     fn forces(&self) -> Result<BTreeMap<Site, Triple>, Box<Refusal>> {
         let (pile, mut forces) = (&self.pile, BTreeMap::<Site, Triple>::new());
         for site in above_the_floor(pile) {
-            let passed_on = self.passed_on(&forces, site)?;
+            let transmitted = self.transmitted(&forces, site)?;
             for direction in pile.dimension().directions() {
-                let force = &passed_on[direction.index()];
+                let force = &transmitted[direction.index()];
                 if force.is_negative() {
                     let (direction, force) = (*direction, force.clone());
                     return Err(Box::new(Refusal::Pulls {
@@ -128,13 +131,13 @@ impl Certificate {
                     }));
                 }
             }
-            forces.insert(site, passed_on);
+            forces.insert(site, transmitted);
         }
         Ok(forces)
     }
 
-    /// The forces of the sloping contacts below a sphere, from those above it.
-    fn passed_on(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
+    /// Returns the forces of the sloping contacts below a sphere, from those above it.
+    fn transmitted(&self, forces: &BTreeMap<Site, Triple>, site: Site) -> Result<Triple, Error> {
         let pile = &self.pile;
         let mut balance = turned(pile, site.k, &received(pile, forces, site));
         let (own, horizontal, sign) = (weight(pile, site), self.pushed(site), sigma(pile, site.k)?);
@@ -145,7 +148,7 @@ impl Certificate {
         Ok(balance)
     }
 
-    /// H: what the horizontal contacts of a sphere add to its balance.
+    /// Returns H, the contribution of the horizontal contacts to the balance of a sphere.
     fn pushed(&self, site: Site) -> Triple {
         let mut sum = zeros();
         for (contact, leads_away) in around(site) {
@@ -160,11 +163,11 @@ impl Certificate {
     }
 
     fn field(&self, site: Site) -> Triple {
-        // Not a default: φ is zero on spheres that are not listed.
+        // φ is zero by definition on spheres that are not listed.
         self.field.get(&site).cloned().unwrap_or_else(zeros)
     }
 
-    /// D of all contacts of a sphere: the transpose of its balance.
+    /// Returns D for the contacts below a sphere: the transpose of the balance equations, applied to the field.
     fn drops(&self, site: Site) -> Triple {
         let (pile, mut drops) = (&self.pile, self.field(site));
         for direction in pile.dimension().directions() {
@@ -177,7 +180,7 @@ impl Certificate {
         drops
     }
 
-    /// c of a horizontal contact.
+    /// Returns c for a horizontal contact.
     fn compression(
         &self,
         contact: HorizontalContact,
@@ -193,7 +196,7 @@ impl Certificate {
         ))
     }
 
-    /// Σ w φ.
+    /// Returns the virtual work Σ w φ of the weights.
     fn work(&self) -> BigRational {
         let directions = self.pile.dimension().directions();
         let mut work = BigRational::zero();
@@ -207,7 +210,8 @@ impl Certificate {
         work
     }
 
-    /// Every D, and every c times the stiffness ratio, lies so to what is needed of its contact, of these spheres.
+    /// Checks D at the contacts of the spheres, and c times the stiffness ratio, against the required relation and
+    /// value.
     fn conditions(
         &self,
         spheres: impl Iterator<Item = Site>,
@@ -246,8 +250,9 @@ impl Certificate {
         Ok(())
     }
 
-    /// The spheres with a contact of which D or c may be another number than 0, and those on a bottom sphere, in the order of
-    /// tables: those of the field, those that rest on them, and their neighbours.
+    /// Returns the spheres at which D or c can differ from zero, and those on the bottom sphere, in row order.
+    ///
+    /// These are the spheres of the field, the spheres supported by them, and their neighbours.
     fn around_the_field(&self, bottom: Option<Site>) -> BTreeSet<Site> {
         let shape = self.pile.shape();
         let above = |site: Site| Direction::ALL.map(|direction| shape.above(site, direction));
@@ -261,7 +266,8 @@ impl Certificate {
             .collect()
     }
 
-    /// Every D lies so to 1 at the contacts with a bottom sphere, if there is one, and to 0 at others; every c to 0.
+    /// Checks that D satisfies the relation to 1 at the contacts of the bottom sphere, if given, and to 0 at all
+    /// others, and that every c satisfies the relation to 0.
     fn one_sided(&self, relation: Relation, bottom: Option<Site>) -> Result<(), Box<Refusal>> {
         let shape = self.pile.shape();
         let of_drop = |site, direction| {
@@ -302,7 +308,7 @@ impl Certificate {
             return Err(Box::new(Refusal::Stiffness { given }));
         }
         let forces = self.forces()?;
-        // Equal where a contact bears, at most where it is open.
+        // Complementary slackness: equality if the contact carries a force, an inequality if it is open.
         let of_spring = |force: Option<&BigRational>| match force {
             Some(force) if force.is_positive() => (Relation::Equal, force.clone()),
             _ => (Relation::AtMost, BigRational::zero()),
@@ -322,13 +328,13 @@ fn zeros() -> Triple {
     core::array::from_fn(|_| BigRational::zero())
 }
 
-/// The spheres that do not rest on the floor, from the top.
+/// Returns the spheres above the floor, from the top.
 fn above_the_floor(pile: &Pile) -> impl Iterator<Item = Site> + '_ {
     let floor = pile.layers() - 1;
     pile.shape().sites().take_while(move |site| site.k < floor)
 }
 
-/// What a sphere receives from above, by direction.
+/// Returns the forces that a sphere receives from above, by direction.
 fn received(pile: &Pile, forces: &BTreeMap<Site, Triple>, site: Site) -> Triple {
     Direction::ALL.map(|direction| {
         let above = pile
@@ -341,7 +347,7 @@ fn received(pile: &Pile, forces: &BTreeMap<Site, Triple>, site: Site) -> Triple 
     })
 }
 
-/// T of layer k: the half-turn where the sign changes there.
+/// Applies T of layer k: the half-turn if the sign changes there, otherwise the identity.
 fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
     let signs = [k - 1, k].map(|k| pile.shape().sign_below(k));
     match signs {
@@ -352,18 +358,18 @@ fn turned(pile: &Pile, k: i128, numbers: &Triple) -> Triple {
     }
 }
 
-/// σ of the step below a layer.
+/// Returns the sign σ of the step below a layer.
 fn sigma(pile: &Pile, k: i128) -> Result<Sign, Error> {
     let sign = pile.shape().sign_below(k);
-    sign.ok_or_else(|| bug("a step leads from every layer above the floor"))
+    sign.ok_or_else(|| bug("every layer above the floor has a step below it"))
 }
 
-/// Weight and load of a sphere, in mg: what it adds to each line, in f₀.
+/// Returns weight plus load of a sphere, in mg. It is also its contribution to each contact line, in f₀.
 fn weight(pile: &Pile, site: Site) -> BigRational {
     pile.total_load(site)
 }
 
-/// The six places of horizontal contacts around a sphere, and whether each leads away from it.
+/// Returns the six possible horizontal contacts of a sphere, and whether each one leads away from it.
 fn around(site: Site) -> impl Iterator<Item = (HorizontalContact, bool)> {
     Axis::ALL.into_iter().flat_map(move |axis| {
         let back = before(site, axis).map(|site| (HorizontalContact { site, axis }, false));
@@ -371,14 +377,14 @@ fn around(site: Site) -> impl Iterator<Item = (HorizontalContact, bool)> {
     })
 }
 
-/// The place p − d_b + d_a, from which a horizontal contact leads to p; none beyond the greatest coordinates.
+/// Returns the site p − d_b + d_a, where a horizontal contact with p begins. `None` if its coordinates overflow.
 fn before(Site { i, j, k }: Site, axis: Axis) -> Option<Site> {
     let [[a_i, a_j], [b_i, b_j]] = axis.ends().map(|end| Sign::Plus.descent(end));
     let (i, j) = (i.checked_add(a_i - b_i)?, j.checked_add(a_j - b_j)?);
     Some(Site { i, j, k })
 }
 
-/// The horizontal contacts that lead away from a sphere off the floor.
+/// Returns the horizontal contacts that lead away from a sphere above the floor.
 fn contacts(pile: &Pile, site: Site) -> Vec<(HorizontalContact, Site)> {
     let shape = pile.shape();
     let is_free = site.k < pile.layers() - 1 && shape.contains(site);
@@ -398,12 +404,12 @@ mod tests {
     use cannonpile::lattice::Region;
     use cannonpile::stacking::Stacking;
 
-    /// Numbers without order: −9/7 … 9/1, and none for long 0.
+    /// Pseudo-random rationals from −9 to 9 with denominators 1, 2, 3 and 7.
     struct Numbers(u64);
 
     impl Numbers {
         fn next(&mut self) -> BigRational {
-            // Knuth's multiplier; the upper bits are good.
+            // Knuth's linear congruential generator. The upper bits are random enough.
             self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005) + 1;
             let [numer, denom] = [self.0 >> 40, self.0 >> 50].map(i128::from);
             let denom: i128 = [1, 2, 3, 7][usize::from(denom.to_le_bytes()[0] % 4)];
@@ -411,7 +417,8 @@ mod tests {
         }
     }
 
-    /// Both sides of Σ f D + Σ X c = Σ w φ, for X and φ of any sign on every contact and sphere above the floor.
+    /// Returns both sides of Σ f D + Σ X c = Σ w φ, with X and φ of any sign on all contacts and spheres above the
+    /// floor.
     fn both_sides(pile: Pile, numbers: &mut Numbers) -> [BigRational; 2] {
         let mut certificate = Certificate {
             claim: Claim::Stands,
@@ -431,12 +438,12 @@ mod tests {
         }
         let (mut forces, mut done) = (BTreeMap::new(), BigRational::zero());
         for site in above() {
-            let passed_on = certificate.passed_on(&forces, site).unwrap();
+            let transmitted = certificate.transmitted(&forces, site).unwrap();
             let drops = certificate.drops(site);
             for direction in certificate.pile.dimension().directions() {
-                done += &passed_on[direction.index()] * &drops[direction.index()];
+                done += &transmitted[direction.index()] * &drops[direction.index()];
             }
-            forces.insert(site, passed_on);
+            forces.insert(site, transmitted);
         }
         for (contact, force) in &certificate.horizontal {
             let neighbour = contact.neighbour().unwrap();

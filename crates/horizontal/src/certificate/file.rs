@@ -1,4 +1,4 @@
-//! Certificates as JSON files.
+//! Reading and writing of certificates as JSON files.
 
 use core::fmt;
 use std::io::{self, BufReader, Read, Write};
@@ -10,13 +10,13 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::certificate::Certificate;
 
-/// The most bytes of a certificate that is read: 512 MiB.
+/// The maximum size of a certificate file: 512 MiB.
 pub const MOST_BYTES: u64 = 512 << 20;
 
-/// Reads the certificates of a file, one or an array of them, as [`read_certificate`] reads one.
+/// Reads a file with one certificate or an array of certificates.
 ///
 /// # Errors
-/// As there.
+/// Returns the errors of [`read_certificate`].
 ///
 /// # Examples
 /// ```
@@ -35,13 +35,14 @@ pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
     Ok(certificates)
 }
 
-/// Reads a certificate from JSON, piece by piece; what it takes in memory is a few times the file, of which
-/// there are at most [`MOST_BYTES`].
+/// Reads a certificate from JSON, as a stream. The memory needed is a few times the size of the file, which is
+/// limited to [`MOST_BYTES`].
 ///
 /// # Errors
-/// Those of the input; of the kind [`InvalidData`](io::ErrorKind::InvalidData) or
-/// [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line, what is no certificate; of the kind
-/// [`FileTooLarge`](io::ErrorKind::FileTooLarge), one that is too long.
+/// * The errors of `input`.
+/// * [`InvalidData`](io::ErrorKind::InvalidData) or [`UnexpectedEof`](io::ErrorKind::UnexpectedEof), with the line,
+///   if the input is not a certificate.
+/// * [`FileTooLarge`](io::ErrorKind::FileTooLarge) if it is too long.
 ///
 /// # Examples
 /// ```
@@ -72,7 +73,7 @@ fn read<T: for<'de> Deserialize<'de>>(input: impl Read) -> io::Result<T> {
     Ok(serde_json::from_reader(BufReader::new(input))?)
 }
 
-/// A certificate, or a list of them.
+/// One certificate or a list of certificates.
 struct OneOrMore(Vec<Certificate>);
 
 impl<'de> Deserialize<'de> for OneOrMore {
@@ -98,16 +99,18 @@ impl<'de> Visitor<'de> for OneOrMore {
             self.0.push(certificate);
         }
         if self.0.is_empty() {
-            return Err(A::Error::custom("an empty array certifies nothing"));
+            return Err(A::Error::custom(
+                "the array of certificates is empty; it needs at least one",
+            ));
         }
         Ok(self)
     }
 }
 
-/// Writes a certificate as JSON, with a line for each horizontal contact and for the field on each sphere.
+/// Writes a certificate as JSON, with one line for each horizontal contact and for each sphere of the field.
 ///
 /// # Errors
-/// Those of the output.
+/// Returns the errors of the output.
 ///
 /// # Examples
 /// ```
@@ -151,10 +154,10 @@ pub fn write_certificate(certificate: &Certificate, out: &mut impl Write) -> io:
     out.write_all(b"\n}\n")
 }
 
-/// Writes certificates as a JSON array, each as [`write_certificate`] writes one.
+/// Writes certificates as a JSON array.
 ///
 /// # Errors
-/// Those of the output.
+/// Returns the errors of the output.
 ///
 /// # Examples
 /// See [`read_certificates`].
@@ -172,7 +175,7 @@ pub fn write_certificates(certificates: &[Certificate], out: &mut impl Write) ->
     })
 }
 
-/// A list with a line for each entry.
+/// Writes a JSON list with one line for each entry.
 fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) -> io::Result<()> {
     let mut gap = "[\n    ";
     for entry in entries {
@@ -184,7 +187,7 @@ fn lines(entries: impl Iterator<Item = impl Serialize>, out: &mut impl Write) ->
     out.write_all(end.as_bytes())
 }
 
-/// An input that may have so many bytes more.
+/// A reader that returns an error after `left` bytes.
 struct Limited<R> {
     input: R,
     left: u64,
@@ -195,10 +198,9 @@ impl<R: Read> Read for Limited<R> {
         let read = self.input.read(bytes)?;
         let left = self.left.checked_sub(read as u64);
         self.left = left.ok_or_else(|| {
-            let said = format!(
-                "a certificate of more than {MOST_BYTES} bytes is not read: certify a smaller pile"
-            );
-            io::Error::new(io::ErrorKind::FileTooLarge, said)
+            let message =
+                format!("the certificate has more than {MOST_BYTES} bytes; certify a smaller pile");
+            io::Error::new(io::ErrorKind::FileTooLarge, message)
         })?;
         Ok(read)
     }
@@ -209,7 +211,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_too_long_is_refused() {
+    fn input_beyond_limit_is_refused() {
         for (length, fits) in [(99, true), (100, true), (101, false)] {
             let (input, left) = (io::repeat(b' ').take(length), 100);
             let read = io::copy(&mut Limited { input, left }, &mut io::sink());

@@ -1,4 +1,4 @@
-//! Certificates as records whose maps are written as lists, since their keys are no strings.
+//! Serialisation of certificates. Maps are written as lists because their keys are not strings.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ impl<'de> Deserialize<'de> for Certificate {
         let certificate: Self = CertificateRecord::deserialize(deserializer)?;
         if certificate.pile.horizontal_forces().len() > 0 {
             return Err(D::Error::custom(
-                "the pile of a certificate has horizontal forces of its own: put them beside it",
+                "the pile of a certificate has horizontal forces; move them to the certificate",
             ));
         }
         Ok(certificate)

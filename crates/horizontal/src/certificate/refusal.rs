@@ -1,4 +1,4 @@
-//! Why a certificate is refused.
+//! Reasons to reject a certificate.
 
 use core::fmt;
 
@@ -7,7 +7,7 @@ use cannonpile::engine::shortened;
 use cannonpile::lattice::{Direction, HorizontalContact, Site};
 use num_rational::BigRational;
 
-/// How a number is to lie to another one.
+/// A required relation between a number and a bound.
 ///
 /// # Examples
 /// ```
@@ -27,7 +27,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// Whether `number` lies so to `needed`.
+    /// Returns whether `number` satisfies the relation to `needed`.
     ///
     /// # Examples
     /// See [`Relation`].
@@ -42,7 +42,7 @@ impl Relation {
 }
 
 impl fmt::Display for Relation {
-    /// Prints `at most`, `equal to`, `at least`.
+    /// Writes `at most`, `equal to` or `at least`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::AtMost => "at most",
@@ -52,7 +52,7 @@ impl fmt::Display for Relation {
     }
 }
 
-/// Why a certificate is refused: the first equation that does not hold.
+/// The reason why a certificate is rejected: the first condition that is violated.
 ///
 /// # Examples
 /// ```
@@ -62,49 +62,49 @@ impl fmt::Display for Relation {
 ///
 /// let force = BigRational::from_integer((-2).into());
 /// let refusal = Refusal::Pulls { site: Site::APEX, direction: Direction::Beta, force };
-/// assert_eq!(refusal.to_string(), "the contact (0,0,0) beta would have to pull: its force is -2");
+/// assert_eq!(refusal.to_string(), "the contact (0,0,0) beta is tensile: its force is -2");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The pile has no horizontal contacts of this kind: sin φ is neither 1/2 nor that of discs.
+    /// The pile has no horizontal contacts: sin φ is neither 1/2 nor that of discs.
     NoSuchPile {
         /// sin φ.
         sin_phi: BigRational,
     },
-    /// Horizontal contacts of the pile itself were given forces; a certificate has its own.
+    /// The pile itself has horizontal forces. They belong in the certificate.
     GivenForces {
-        /// The first of them.
+        /// The first such contact.
         contact: HorizontalContact,
     },
     /// The stiffness ratio is not positive.
     Stiffness {
-        /// What it is.
+        /// The ratio given.
         given: BigRational,
     },
-    /// A horizontal contact that the pile lacks, or one between spheres on the floor, which are held.
+    /// A horizontal contact is not in the pile, or lies on the floor, where the spheres are fixed.
     NoContact {
         /// The contact.
         contact: HorizontalContact,
     },
-    /// A field on a sphere that the pile lacks, or that is on the floor.
+    /// The field has a value on a sphere that is not in the pile, or lies on the floor.
     NoSphere {
         /// The site.
         site: Site,
     },
-    /// The normal force is asked of a sphere that is not on the floor.
+    /// The claim is about a sphere that is not on the floor.
     NotOnFloor {
         /// The site.
         site: Site,
     },
-    /// A horizontal contact that pulls.
+    /// The force of a horizontal contact is tensile.
     HorizontalPulls {
         /// The contact.
         contact: HorizontalContact,
         /// Its force.
         force: BigRational,
     },
-    /// A sloping contact that pulls.
+    /// The force of a sloping contact is tensile.
     Pulls {
         /// The upper sphere.
         site: Site,
@@ -113,50 +113,50 @@ pub enum Refusal {
         /// Its force.
         force: BigRational,
     },
-    /// A drop D that is not as the claim needs it.
+    /// A drop D violates the condition of the claim.
     Drop {
         /// The upper sphere.
         site: Site,
         /// The direction of the contact.
         direction: Direction,
-        /// D.
+        /// The value of D.
         drop: BigRational,
-        /// How it was to lie to `needed`.
+        /// The required relation to `needed`.
         relation: Relation,
-        /// What it was to be.
+        /// The required value.
         needed: BigRational,
     },
-    /// A compression c that is not as the claim needs it.
+    /// A compression c violates the condition of the claim.
     Compression {
         /// The contact.
         contact: HorizontalContact,
-        /// c, times the stiffness ratio.
+        /// The value of c times the stiffness ratio.
         compression: BigRational,
-        /// How it was to lie to `needed`.
+        /// The required relation to `needed`.
         relation: Relation,
-        /// What it was to be.
+        /// The required value.
         needed: BigRational,
     },
-    /// The work of the weights, Σ w φ, is not positive.
+    /// The virtual work of the weights, Σ w φ, is not positive.
     Work {
-        /// The sum.
+        /// The virtual work.
         work: BigRational,
     },
-    /// The field proves another bound.
+    /// The field proves a different bound.
     Bound {
-        /// What is claimed.
+        /// The bound claimed.
         claimed: BigRational,
-        /// What the field proves.
+        /// The bound that the field proves.
         proved: BigRational,
     },
-    /// The forces attain another normal force.
+    /// The forces attain a different normal force.
     Attained {
-        /// What is claimed.
+        /// The normal force claimed.
         claimed: BigRational,
-        /// What they attain.
+        /// The normal force that the forces attain.
         attained: BigRational,
     },
-    /// The pile does not answer.
+    /// An operation on the pile failed.
     Pile(Error),
 }
 
@@ -170,11 +170,11 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSuchPile { sin_phi } => f.write_str(&shortened(&format!(
-                "neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
+                "the neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
             ))),
             Self::GivenForces { contact } => write!(
                 f,
-                "the pile itself has a force in the horizontal contact {contact}: leave it out there"
+                "the pile itself has a force in the horizontal contact {contact}; remove it there"
             ),
             Self::Stiffness { given } => {
                 write!(f, "the stiffness ratio must be positive, not {given}")
@@ -189,7 +189,7 @@ impl fmt::Display for Refusal {
             Self::NotOnFloor { site } => write!(f, "there is no sphere {site} on the floor"),
             Self::HorizontalPulls { contact, force } => write!(
                 f,
-                "the horizontal contact {contact} would have to pull: its force is {force}"
+                "the horizontal contact {contact} is tensile: its force is {force}"
             ),
             Self::Pulls {
                 site,
@@ -197,7 +197,7 @@ impl fmt::Display for Refusal {
                 force,
             } => write!(
                 f,
-                "the contact {site} {direction} would have to pull: its force is {force}"
+                "the contact {site} {direction} is tensile: its force is {force}"
             ),
             Self::Drop {
                 site,
@@ -207,7 +207,7 @@ impl fmt::Display for Refusal {
                 needed,
             } => write!(
                 f,
-                "the drop along the contact {site} {direction} is {drop} and was to be {relation} {needed}"
+                "the drop along the contact {site} {direction} is {drop}, but must be {relation} {needed}"
             ),
             Self::Compression {
                 contact,
@@ -216,10 +216,13 @@ impl fmt::Display for Refusal {
                 needed,
             } => write!(
                 f,
-                "the compression of the horizontal contact {contact} is {compression} and was to be {relation} {needed}"
+                "the compression of the horizontal contact {contact} is {compression}, but must be {relation} {needed}"
             ),
             Self::Work { work } => {
-                write!(f, "the work of the weights must be positive, and is {work}")
+                write!(
+                    f,
+                    "the virtual work of the weights must be positive, not {work}"
+                )
             }
             Self::Bound { claimed, proved } => {
                 write!(f, "the field proves the bound {proved}, not {claimed}")

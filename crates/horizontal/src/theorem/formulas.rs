@@ -1,4 +1,4 @@
-//! The formulas that the theorems are about, each replaceable by a wrong one.
+//! The formulas that the theorems use. A test can replace each of them by a mutant.
 
 use cannonpile::lattice::{Direction, Sign};
 use cannonpile::scalar::{Algebra, Polynomial};
@@ -6,20 +6,20 @@ use cannonpile::theorem::Library;
 
 use crate::formula;
 
-/// By direction α, β, γ.
+/// Values by direction: α, β, γ.
 type Three<P> = [P; 3];
 
-/// The formulas of horizontal contacts and those of the core, run on polynomials, which prove, or on any scalar `P` that is
-/// its own ring of numerators.
+/// The formulas of horizontal contacts and those of the core, as functions on a scalar `P`.
 ///
-/// [`LIBRARY`](Self::LIBRARY) holds exactly the functions that the answers of this crate call.
+/// With polynomials they prove the theorems. Any other scalar that is its own ring of numerators works as well.
+/// [`LIBRARY`](Self::LIBRARY) contains exactly the functions that this crate calls for its results.
 ///
 /// # Examples
 /// ```
 /// use cannonpile_horizontal::theorem;
 /// use cannonpile_horizontal::theorem::Formulas;
 ///
-/// // A wrong bound of the corner.
+/// // A wrong bound for the corner.
 /// let wrong: Formulas = Formulas {
 ///     least_on_corner: |k| k.clone() + k,
 ///     ..Formulas::LIBRARY
@@ -29,7 +29,7 @@ type Three<P> = [P; 3];
 /// ```
 #[derive(Debug)]
 pub struct Formulas<P = Polynomial> {
-    /// Those of the core.
+    /// The formulas of the core.
     pub core: cannonpile::theorem::Formulas<P>,
     /// [`formula::lowered`].
     pub lowered: fn(P, &P) -> P,
@@ -51,7 +51,7 @@ pub struct Formulas<P = Polynomial> {
     pub arch: fn(&Three<P>) -> Three<P>,
 }
 
-// Derived, they would require that P is `Copy`.
+// Derived implementations would require `P: Copy`.
 impl<P> Clone for Formulas<P> {
     fn clone(&self) -> Self {
         *self
@@ -61,7 +61,7 @@ impl<P> Clone for Formulas<P> {
 impl<P> Copy for Formulas<P> {}
 
 impl<P: Algebra<Numerator = P>> Formulas<P> {
-    /// The functions that the answers of this crate call.
+    /// The functions that this crate calls for its results.
     pub const LIBRARY: Self = Self {
         core: cannonpile::theorem::Formulas::LIBRARY,
         lowered: formula::lowered,

@@ -1,4 +1,4 @@
-//! What bottom spheres can bear, with every certificate checked.
+//! Bounds of bottom spheres, with every certificate checked.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ fn bottom(pile: &Pile) -> impl Iterator<Item = Site> + '_ {
     pile.rows(Selection::Base).unwrap().flatten()
 }
 
-/// Both bounds of every bottom sphere.
+/// Returns both bounds of every bottom sphere.
 fn all(pile: &Pile) -> BTreeMap<Site, [NormalBound; 2]> {
     let bounds = base_bounds(pile, Selection::Base)
         .unwrap()
@@ -43,7 +43,7 @@ fn is_proved(bound: &NormalBound) {
     }
 }
 
-/// n* in order, and the formula of the upper bound.
+/// Returns the upper bound of the paper page, from the sorted coordinates n*.
 fn formula(k: i128, site: Site) -> BigRational {
     let mut n = [k - site.i - site.j, site.i, site.j];
     n.sort_unstable();
@@ -65,7 +65,7 @@ fn formula(k: i128, site: Site) -> BigRational {
 }
 
 #[test]
-fn straight_piles_have_the_formulas() {
+fn straight_piles_match_formulas() {
     for layers in 3..=9 {
         let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
         for (site, [least, greatest]) in all(&pile) {
@@ -82,7 +82,7 @@ fn straight_piles_have_the_formulas() {
             assert_eq!(least.normal, expected, "{site}");
             let most = formula(k, site);
             if n.contains(&0) || n == [k / 3; 3] {
-                // Corners, edges and the centre: attained.
+                // The bound is attained at corners, on edges and at the centre.
                 assert_eq!(greatest.normal, most, "{site}");
             } else {
                 assert!(greatest.normal <= most, "{site}");
@@ -92,7 +92,7 @@ fn straight_piles_have_the_formulas() {
 }
 
 #[test]
-fn piles_of_minus_steps_are_those_of_plus_steps_turned() {
+fn minus_piles_are_rotated_plus_piles() {
     let turned = Pile::under(Region::SITE, "-----".parse().unwrap()).unwrap();
     let plus = all(&Pile::triangular(6).unwrap());
     let minus = all(&turned);
@@ -110,10 +110,10 @@ fn piles_of_minus_steps_are_those_of_plus_steps_turned() {
 }
 
 #[test]
-fn edges_too_long_for_a_program_attain_their_bound() {
+fn long_edges_attain_their_bound() {
     let layers = 33;
     let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
-    // On each of the three edges, and of both orders.
+    // Sites on each of the three edges, with both orders of their coordinates.
     for [i, j] in [[1, 0], [0, 11], [k - 16, 16], [21, k - 21]] {
         let site = Site { i, j, k };
         let bounds = bounds(&pile, site).unwrap();
@@ -124,7 +124,7 @@ fn edges_too_long_for_a_program_attain_their_bound() {
 }
 
 #[test]
-fn very_high_piles_have_them_too() {
+fn very_high_piles_match_formulas() {
     let layers = 10_i128.pow(30);
     let (pile, k) = (Pile::triangular(layers).unwrap(), layers - 1);
     for [i, j] in [[0, 0], [0, 1], [1, 1], [k / 2, k / 3], [k, 0]] {
@@ -137,7 +137,7 @@ fn very_high_piles_have_them_too() {
     }
 }
 
-/// A field of zeros and ones, by direction, that bounds the force on n from above.
+/// Checks that a field of zeros and ones, by direction, proves the upper bound for n.
 fn proves(layers: i128, n: [i128; 3], field: impl Fn([i128; 3]) -> [bool; 3]) {
     let pile = Pile::triangular(layers).unwrap();
     let ones = |on: [bool; 3]| on.map(|on| BigRational::from_integer(i32::from(on).into()));
@@ -166,7 +166,7 @@ fn proves(layers: i128, n: [i128; 3], field: impl Fn([i128; 3]) -> [bool; 3]) {
 }
 
 #[test]
-fn the_fields_of_the_paper_page_prove_the_upper_bounds() {
+fn fields_of_paper_page_prove_upper_bounds() {
     for layers in 3..=10 {
         let pile = Pile::triangular(layers).unwrap();
         for Site { i, j, k } in bottom(&pile) {
@@ -192,7 +192,7 @@ fn the_fields_of_the_paper_page_prove_the_upper_bounds() {
 }
 
 #[test]
-fn other_stackings_are_proved_and_hold_what_springs_bear() {
+fn elastic_forces_lie_between_bounds() {
     let mut proved = 0;
     for stacking in stackings(5) {
         let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
@@ -216,7 +216,7 @@ fn other_stackings_are_proved_and_hold_what_springs_bear() {
                 );
             }
         }
-        // Images of a sphere have its bounds.
+        // Images of a sphere have the same bounds.
         for site in bottom(&pile).step_by(3) {
             let alone = bounds(&pile, site).unwrap();
             let [least, greatest] = &found[&site];
@@ -260,7 +260,7 @@ fn loads_tops_and_bases() {
             assert!(bound.attained);
         }
     }
-    // What is on the floor bears itself.
+    // A sphere of a single layer carries its own weight.
     for pile in [
         Pile::discs(1).unwrap(),
         Pile::under(hexagon, Stacking::single_layer()).unwrap(),
@@ -279,7 +279,7 @@ fn loads_tops_and_bases() {
 }
 
 #[test]
-fn what_has_no_bounds_is_refused() {
+fn invalid_requests_are_errors() {
     let site = Site { i: 0, j: 0, k: 3 };
     let leaning = Pile::isosceles(4, ratio(1, 3)).unwrap();
     assert!(matches!(
@@ -312,9 +312,9 @@ fn what_has_no_bounds_is_refused() {
     assert!(BigRational::zero() < high.weight());
 }
 
-/// Said of the first sphere of six images with a certificate, and of the others without.
+/// The first of up to six images has a certificate, the others have none.
 #[test]
-fn images_have_no_certificates_of_their_own() {
+fn images_have_no_certificates() {
     for stacking in ["+++", "+-+"] {
         let pile = Pile::under(Region::SITE, stacking.parse().unwrap()).unwrap();
         let shift = pile.shape().stacking().runs().count();
@@ -329,7 +329,7 @@ fn images_have_no_certificates_of_their_own() {
             }
         }
     }
-    // Without an image every sphere has its own.
+    // Without symmetry every sphere has its own certificate.
     let pile = Pile::under(Region::hexagon(2, 1).unwrap(), "++".parse().unwrap()).unwrap();
     for (site, bounds) in all(&pile) {
         let certified = bounds.iter().all(|bound| bound.certificate.is_some());
@@ -338,7 +338,7 @@ fn images_have_no_certificates_of_their_own() {
 }
 
 #[test]
-fn bounds_still_to_come_are_counted() {
+fn size_hint_counts_remaining_items() {
     let pile = Pile::triangular(4).unwrap();
     let mut bounds = base_bounds(&pile, Selection::Base).unwrap();
     for left in (0..=10).rev() {
@@ -347,7 +347,7 @@ fn bounds_still_to_come_are_counted() {
             least <= left && most.is_none_or(|most| left <= most),
             "{left}"
         );
-        // Within a row of four all that is left of it is known.
+        // Within a row of four the number of remaining items is exact.
         assert!(left != 9 || least >= 3, "{least}");
         assert_eq!(bounds.next().is_some(), left > 0);
     }

@@ -1,4 +1,4 @@
-//! The census at a = R: every certificate is checked, and every stacking is of an entry or goes on from one that fails.
+//! The census at a = R. Every certificate is checked. Every stacking is an entry or extends an unstable entry.
 
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ fn signs(pile: &Pile) -> String {
     stacking.in_notation(Notation::Hagg).to_string()
 }
 
-/// The certificate is about the pile and accepted, and `decided_by` is what it says.
+/// Asserts that the certificate is about the pile and accepted, and that `decided_by` describes it.
 fn is_proved(entry: &Entry) {
     let Entry {
         pile, certificate, ..
@@ -55,16 +55,16 @@ fn is_proved(entry: &Entry) {
     assert_eq!(alone, entry.decided_by == DecidedBy::Sloping);
 }
 
-/// Four steps of one sign may be borne: of these it is their work that tells.
+/// A run of four steps can be stable. A Farkas certificate of the linear program refutes this one.
 #[test]
-fn a_run_of_four_is_not_too_long_by_itself() {
+fn run_of_four_is_decided_by_program() {
     let entries = entries(7, true);
     let found = entries.iter().find(|entry| signs(&entry.pile) == "+----+");
     assert_eq!(found.map(|entry| entry.decided_by), Some(DecidedBy::Work));
 }
 
 #[test]
-fn up_to_nine_layers() {
+fn counts_up_to_nine_layers() {
     let mut counts = Vec::new();
     for layers in 1..=9 {
         let both = entries(layers, true);
@@ -76,7 +76,7 @@ fn up_to_nine_layers() {
             assert_eq!(both.len(), usize::try_from(12 * layers - 56).unwrap());
         }
         counts.push(standing.len());
-        // Each fails at its last change of sign: without the last step it stands.
+        // Each unstable entry fails at its last sign change: without its last step it is stable.
         let beginnings: Vec<String> = standing.iter().map(|entry| signs(&entry.pile)).collect();
         for entry in failing {
             let signs = signs(&entry.pile);
@@ -92,9 +92,9 @@ fn up_to_nine_layers() {
     assert_eq!(counts, [1, 1, 2, 4, 8, 12, 12, 12, 12]);
 }
 
-/// Springs are found in another way.
+/// The comparison computes the elastic state, by another method.
 #[test]
-fn brute_force_over_all_stackings_of_seven_layers() {
+fn census_matches_brute_force_up_to_seven_layers() {
     let both = entries(7, true);
     let [standing, failing] = [true, false].map(|stands| -> BTreeSet<String> {
         let of_verdict = both.iter().filter(|entry| entry.stands() == stands);
@@ -126,14 +126,14 @@ fn brute_force_over_all_stackings_of_seven_layers() {
 }
 
 #[test]
-fn no_number_of_layers_is_too_large() {
+fn census_has_no_layer_limit() {
     for layers in [1_000_000, 10_i128.pow(36)] {
         let standing = entries(layers, false);
         assert_eq!(standing.len(), 12);
         for entry in standing {
             assert_eq!(entry.certificate.check(), Ok(()));
             assert_eq!(entry.pile.layers(), layers);
-            // Of what is large its first layers are certified, down to the one below the last change of sign.
+            // Certificates of large piles cover the first layers, to the layer below the last sign change.
             let certified = signs(&entry.certificate.pile);
             let last_run = entry.pile.shape().stacking().runs().last().unwrap();
             assert_eq!(
@@ -153,7 +153,7 @@ fn no_number_of_layers_is_too_large() {
     }
 }
 
-/// Whether a pile is found not to stand by an edge alone.
+/// Returns `true` if the field on an edge proves that the pile is unstable.
 fn by_an_edge(pile: &Pile) -> bool {
     let certificate = equilibrium(pile).unwrap();
     assert_eq!(certificate.check(), Ok(()), "{:?}", pile.shape());
@@ -161,7 +161,7 @@ fn by_an_edge(pile: &Pile) -> bool {
 }
 
 #[test]
-fn a_long_run_cannot_end_under_any_top() {
+fn long_run_is_unstable_under_any_top() {
     let mut random = Random(7);
     for _ in 0..30 {
         let top = random.bounds(4).region();
@@ -178,7 +178,7 @@ fn a_long_run_cannot_end_under_any_top() {
             assert!(by_an_edge(&pile), "{stacking} under {top}");
         }
     }
-    // However large.
+    // Also for very large piles.
     let pile = Pile::under(
         Region::SITE,
         format!("({},3)", 10_i128.pow(30)).parse().unwrap(),
@@ -189,16 +189,16 @@ fn a_long_run_cannot_end_under_any_top() {
         "(9,80)".parse().unwrap(),
     );
     assert!(by_an_edge(&wide.unwrap()));
-    // One step less is not too long.
+    // A run one step shorter is not too long.
     let pile = Pile::under(Region::SITE, "+++-".parse().unwrap()).unwrap();
     assert_eq!(equilibrium(&pile).unwrap().claim, Claim::Stands);
 }
 
 #[test]
-fn what_the_spheres_of_the_edge_weigh_is_counted() {
+fn loads_on_edge_change_certificate() {
     let pile = Pile::under(Region::SITE, "++++-".parse().unwrap()).unwrap();
     let corners = [[0, 0], [4, 0], [0, 4]].map(|[i, j]| Site { i, j, k: 4 });
-    // The three corners are heavy: pressed down, they push what lies beside them.
+    // The three corners carry loads, so they press on their neighbours.
     let heavy = corners.into_iter().fold(pile.clone(), |pile, site| {
         pile.with_load(site, ratio(1, 3)).unwrap()
     });
@@ -211,7 +211,7 @@ fn what_the_spheres_of_the_edge_weigh_is_counted() {
         pile.with_load(*site, ratio(1, 3)).unwrap()
     });
     assert!(by_an_edge(&one_free));
-    // A longer run outweighs a load on its end.
+    // A longer run outweighs a load at its end.
     let pile = Pile::under(Region::SITE, "(40,1)".parse().unwrap()).unwrap();
     let loaded = [[0, 0], [40, 0], [0, 40]]
         .iter()
@@ -232,7 +232,7 @@ fn what_the_spheres_of_the_edge_weigh_is_counted() {
 }
 
 #[test]
-fn on_bases() {
+fn every_kind_of_proof_occurs_on_bases() {
     let mut decided = Vec::new();
     for base in [
         Region::hexagon(3, 4),
@@ -242,7 +242,7 @@ fn on_bases() {
     ] {
         let base = base.unwrap();
         let all: Vec<Entry> = census::on_base(base).unwrap().map(Result::unwrap).collect();
-        all.iter().for_each(is_proved_or_of_an_edge);
+        all.iter().for_each(is_proved_and_matches_elastic_state);
         let alone = cannonpile::census::on_base(base)
             .unwrap()
             .map(Result::unwrap);
@@ -265,7 +265,7 @@ fn on_bases() {
     ));
 }
 
-fn is_proved_or_of_an_edge(entry: &Entry) {
+fn is_proved_and_matches_elastic_state(entry: &Entry) {
     is_proved(entry);
     if entry.pile.layers() <= 6 {
         let cannot = Err(Error::CannotStand);
@@ -275,7 +275,7 @@ fn is_proved_or_of_an_edge(entry: &Entry) {
 }
 
 #[test]
-fn what_decides_is_written_by_its_name() {
+fn proof_kinds_are_printed_by_name() {
     for (by, name) in [
         (DecidedBy::Sloping, "sloping"),
         (DecidedBy::Horizontal, "horizontal"),
@@ -287,9 +287,9 @@ fn what_decides_is_written_by_its_name() {
     }
 }
 
-/// 12L − 56 entries of L layers, and no more than 10¹¹ of them.
+/// There are 12L − 56 entries for L layers, and the limit is 10¹¹.
 #[test]
-fn as_many_entries_as_a_census_may_have_are_not_refused() {
+fn entry_count_is_limited() {
     let most = 8_333_333_338;
     assert!(census::under_one_sphere(most, true).is_ok());
     let refused = census::under_one_sphere(most + 1, true).err();

@@ -1,11 +1,11 @@
-//! Certificates: made by hand for each claim, changed in one number, and before a second checker.
+//! Certificates: made by hand for each claim, with single numbers changed, and compared with a second checker.
 //!
-//! | file | what is checked |
+//! | file | contents |
 //! |---|---|
-//! | `claims` | certificates that anybody can derive are accepted, and what they say is what the library says elsewhere |
-//! | `changed` | with another number they are refused, in the equation that has it |
-//! | `size` | what would not fit into memory is refused |
-//! | `python` | `check_certificate.py` comes to the same verdicts |
+//! | `claims` | certificates with short proofs are accepted and agree with other results of the library |
+//! | `changed` | certificates with one changed number are refused, by the condition that contains it |
+//! | `size` | checks that need too much memory are refused |
+//! | `python` | `check_certificate.py` gives the same verdicts |
 
 mod changed;
 mod claims;
@@ -31,7 +31,7 @@ fn whole(numbers: [i128; 3]) -> [BigRational; 3] {
     numbers.map(|n| BigRational::from_integer(n.into()))
 }
 
-/// Without forces of horizontal contacts, and without a field.
+/// Returns a certificate without horizontal forces and without a field.
 fn bare(pile: Pile, claim: Claim) -> Certificate {
     Certificate {
         pile,
@@ -49,20 +49,23 @@ fn extreme(site: Site, normal: BigRational, attained: bool) -> Extreme {
     }
 }
 
-/// One sphere on three, which rest on the three directions of −; `load` is on the uppermost.
+/// Returns one sphere on three, followed by a − step; `load` is on the top sphere.
 fn twin(load: BigRational) -> Pile {
     let pile = Pile::under(Region::SITE, "+-".parse().unwrap());
     pile.and_then(|pile| pile.with_load(Site::APEX, load))
         .unwrap()
 }
 
-/// The straight pile stands.
+/// Returns a certificate that the straight pile is stable.
 fn straight(layers: i128) -> Certificate {
     bare(Pile::triangular(layers).unwrap(), Claim::Stands)
 }
 
-/// The three spheres of [`twin`] under the uppermost are pushed apart, and horizontal contacts push them further. With
-/// φ_l = 1/3 on top and −1 on the sphere that l leads to, Σ w φ = w − 3, w the weight and load on top.
+/// Returns a Farkas certificate for [`twin`].
+///
+/// The load pushes the three middle spheres apart, and horizontal forces can only increase this. With φ_l = 1/3 on
+/// the top sphere and −1 on the sphere below it in direction l, Σ w φ = w − 3, where w is the weight and load of
+/// the top sphere.
 fn apart(load: i64) -> Certificate {
     let mut certificate = bare(twin(ratio(load, 1)), Claim::CannotStand);
     certificate.field = [
@@ -75,8 +78,10 @@ fn apart(load: i64) -> Certificate {
     certificate
 }
 
-/// A load of `load` on the middle of seven spheres, over a change of sign: each of the three below it would pull on its
-/// outer support by (load + 1)/3 − 7/3, but its two outer neighbours push it back by `push` each.
+/// Returns seven spheres above a sign change, with `load` on the central one.
+///
+/// Without horizontal forces each of three middle spheres would have the tensile force (load + 1)/3 − 7/3 on its
+/// outer contact. Its two outer neighbours press it inwards with `push` each.
 fn held_together(load: i64, push: (i64, i64)) -> Certificate {
     let pile = Pile::under(Region::hexagon(2, 2).unwrap(), "+-".parse().unwrap());
     let pile = pile.and_then(|pile| pile.with_load(Site::APEX, ratio(load, 1)));
@@ -95,14 +100,17 @@ fn held_together(load: i64, push: (i64, i64)) -> Certificate {
     certificate
 }
 
-/// No sphere bears less than its weight.
+/// Returns a certificate that no sphere carries less than its weight.
 fn own_weight(site: Site) -> Certificate {
     let pile = Pile::triangular(site.k + 1).unwrap();
     bare(pile, Claim::Least(extreme(site, ratio(1, 1), false)))
 }
 
-/// The sphere in a corner of the straight pile bears at most L − 2/3, K = L − 1: the field is 1 on the edge that leads
-/// there, on the uppermost along the edge only, and Σ w φ = 1 + 3(K − 1). Neighbours push all weight of the edge into it.
+/// Returns a certificate that a corner of the straight pile carries at most L − 2/3.
+///
+/// The field is 1 on the edge that leads to the corner; on the top sphere it is 1 along the edge only. With
+/// K = L − 1, Σ w φ = 1 + 3(K − 1). Horizontal forces lead the full weight of the edge and its neighbours to the
+/// corner.
 fn corner(layers: i128) -> Certificate {
     let bottom = layers - 1;
     let normal = BigRational::from_integer(layers.into()) - ratio(2, 3);
@@ -119,8 +127,10 @@ fn corner(layers: i128) -> Certificate {
     certificate
 }
 
-/// In straight piles of springs horizontal contacts bear nothing: the forces are n_l + 1, n_l spheres above on the line,
-/// and φ_l = d n_l + d(d + 1)/2 at height d over the floor; then c = −2d.
+/// Returns a certificate of the elastic state of a straight pile. Its horizontal contacts carry no force.
+///
+/// The forces are n_l + 1, with n_l spheres above on the line, and φ_l = d n_l + d(d + 1)/2 at height d above the
+/// floor. Then c = −2d.
 fn springs(pile: Pile, stiffness_ratio: BigRational) -> Certificate {
     let mut certificate = bare(pile, Claim::Elastic { stiffness_ratio });
     let pile = &certificate.pile;
@@ -135,7 +145,7 @@ fn springs(pile: Pile, stiffness_ratio: BigRational) -> Certificate {
     certificate
 }
 
-/// All of these, of several sizes: each holds.
+/// Returns certificates of all these kinds in several sizes. All are valid.
 fn all() -> Vec<Certificate> {
     let mut all = vec![
         apart(3),
@@ -150,7 +160,7 @@ fn all() -> Vec<Certificate> {
     all.extend((1..=5).map(straight));
     all.extend((2..=6).map(corner));
     all.extend((1..=5).map(|layers| springs(Pile::triangular(layers).unwrap(), ratio(1, 2))));
-    // Of two layers there is nothing to choose: least is greatest.
+    // For two layers the forces are unique, so the lower bound equals the upper bound.
     let mut only = corner(2);
     only.claim = Claim::Least(extreme(at(0, 0, 1), ratio(4, 3), true));
     all.push(only);
@@ -158,9 +168,10 @@ fn all() -> Vec<Certificate> {
     all
 }
 
-/// Springs whose horizontal contacts bear something: discs under two loads, and a hexagon under one with a change of sign.
+/// Returns elastic states with horizontal forces: discs under two loads, and a hexagon under a load with a sign
+/// change.
 ///
-/// Found by another program; what makes them right is what is checked.
+/// Another program computed them. Only the check makes them valid.
 fn pressed() -> [Certificate; 2] {
     let texts = [
         include_str!("certificate/discs.json"),

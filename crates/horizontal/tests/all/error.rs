@@ -1,4 +1,4 @@
-//! The errors of this crate say in one line what was given and what would do.
+//! Every error message of this crate is one line that states the given value and the remedy.
 
 use std::error::Error as _;
 
@@ -21,7 +21,7 @@ fn weightless() {
     assert_eq!(error, Error::Weightless);
     says(
         &error,
-        &["weighs something", "give the spheres their weight"],
+        &["this pile is weightless", "give the spheres their weight"],
     );
 }
 
@@ -39,7 +39,7 @@ fn cannot_stand() {
     );
 }
 
-/// A wrapped error says what it says by itself, and a chain of sources does not say it twice.
+/// The message of a wrapped error is that of the inner error, and the chain of sources does not repeat it.
 #[test]
 fn errors_of_the_core() {
     let error = bounds(&Pile::triangular(6).unwrap(), Site::APEX).unwrap_err();

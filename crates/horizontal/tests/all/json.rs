@@ -1,4 +1,4 @@
-//! Certificates: a record of lists, and what is refused of them.
+//! Certificates as JSON: the format, and invalid input that is rejected.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, HorizontalContact, Region, Site};
@@ -77,7 +77,7 @@ fn certificates() {
 }
 
 #[test]
-fn no_doubtful_certificate_comes_in() {
+fn invalid_certificates_are_rejected() {
     let text = serde_json::to_string(&certificate(Claim::Stands)).unwrap();
     for (from, to, said) in [
         (
@@ -139,13 +139,13 @@ fn no_doubtful_certificate_comes_in() {
         assert_eq!(from_file.kind(), std::io::ErrorKind::InvalidData);
         assert!(from_file.to_string().contains(said), "{from_file}");
     }
-    // Something after it, and something missing.
+    // Trailing and missing input is rejected.
     assert!(read_certificate(format!("{text} {{}}").as_bytes()).is_err());
     for end in 0..text.len() {
         let error = read_certificate(&text.as_bytes()[..end]).unwrap_err();
         assert_eq!(error.kind(), std::io::ErrorKind::UnexpectedEof, "{end}");
     }
-    // In bytes, too.
+    // The same for a binary format.
     let bytes = postcard::to_allocvec(&certificate(Claim::Stands)).unwrap();
     for place in 0..bytes.len() {
         assert!(postcard::from_bytes::<Certificate>(&bytes[..place]).is_err());
@@ -160,7 +160,7 @@ fn no_doubtful_certificate_comes_in() {
 }
 
 #[test]
-fn a_certificate_is_of_the_bare_pile() {
+fn certificate_pile_has_no_horizontal_forces() {
     let region = Region::hexagon(2, 2).unwrap();
     let pile = Pile::under(region, "+-++-".parse().unwrap()).unwrap();
     let contact = HorizontalContact {
@@ -176,5 +176,5 @@ fn a_certificate_is_of_the_bare_pile() {
         ..certificate
     })
     .unwrap();
-    assert!(refusal::<Certificate>(&text).contains("horizontal forces of its own"));
+    assert!(refusal::<Certificate>(&text).contains("has horizontal forces"));
 }

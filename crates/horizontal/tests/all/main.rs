@@ -1,4 +1,4 @@
-//! The fixed and the exhaustive tests of piles with horizontal contacts, a file for each subject.
+//! The fixed and the exhaustive tests of piles with horizontal contacts, one file for each subject.
 //!
 //! Random tests are in `tests/properties.rs`. The oracles are those of `cannonpile_testkit`.
 
@@ -11,7 +11,7 @@ mod rounded;
 mod states;
 mod theorem;
 
-/// All stackings of so many steps that begin with +.
+/// Returns all stackings with the given number of steps that begin with +.
 fn stackings(steps: usize) -> impl Iterator<Item = String> {
     let all = cannonpile_testkit::cases::all_signs(steps);
     all.filter(|signs| signs.starts_with('+'))

@@ -1,4 +1,4 @@
-//! Which stackings stand with horizontal contacts, and what springs bear.
+//! Stability with horizontal contacts, and elastic states.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,7 @@ fn under_one_sphere(stacking: &str) -> Pile {
 }
 
 #[test]
-fn every_stacking_stands_or_cannot_and_so_do_its_beginnings() {
+fn every_stacking_is_decided_with_its_prefixes() {
     let mut standing = BTreeSet::from([String::new()]);
     let mut counts = Vec::new();
     for steps in 1..=7 {
@@ -38,7 +38,7 @@ fn every_stacking_stands_or_cannot_and_so_do_its_beginnings() {
                 standing.insert(stacking.clone());
                 count += 1;
             }
-            // Springs say the same.
+            // The elastic state exists if and only if the pile is stable.
             let springs = elastic(&pile, &ratio(1, 1));
             assert_eq!(springs.is_ok(), stands, "{stacking}");
             if !stands {
@@ -47,18 +47,18 @@ fn every_stacking_stands_or_cannot_and_so_do_its_beginnings() {
         }
         counts.push(count);
     }
-    // Without horizontal contacts HCP of six layers is missing.
+    // Without horizontal contacts HCP of six layers would be missing.
     assert_eq!(counts, [1, 2, 4, 8, 12, 12, 12]);
 }
 
 #[test]
-fn what_is_large_is_decided_by_its_beginning() {
+fn large_piles_are_decided_by_first_layers() {
     let hcp = under_one_sphere(&repeated("+-", 999));
     let certificate = equilibrium(&hcp).unwrap();
     assert_eq!(certificate.claim, Claim::CannotStand);
     assert_eq!(certificate.check(), Ok(()));
     assert!(certificate.pile.layers() < 20);
-    // From one layer below the first failure on, and half as far again each time.
+    // The search starts one layer below the first failure and extends by half each time.
     for (stacking, layers) in [
         ("+-+-++-".to_owned() + &repeated("+-", 100), 10),
         ("++----+".to_owned() + &repeated("-+", 100), 8),
@@ -67,7 +67,7 @@ fn what_is_large_is_decided_by_its_beginning() {
         assert_eq!(certificate.claim, Claim::CannotStand);
         assert!(certificate.pile.layers() <= layers, "{stacking}");
     }
-    // Below the last change of sign forces only grow.
+    // Below the last sign change all forces increase.
     let straight_below = under_one_sphere(&format!("+-+-+{}", "+".repeat(300)));
     let certificate = equilibrium(&straight_below).unwrap();
     assert_eq!(certificate.claim, Claim::Stands);
@@ -84,9 +84,10 @@ fn what_is_large_is_decided_by_its_beginning() {
     assert_eq!(certificate.check(), Ok(()));
 }
 
-/// Two steps of one sign are no run that is too long, whatever weighs on them, and a program of 23,610 equations is not solved.
+/// Runs of two steps are never too long, whatever their loads are. The program with 23,610 equations is too large
+/// to solve.
 #[test]
-fn a_heavy_edge_is_no_long_run() {
+fn heavy_edge_is_not_a_long_run() {
     let heavy = Site { i: 60, j: -1, k: 2 };
     let pile = Pile::under(Region::triangle(60).unwrap(), "+--+".parse().unwrap());
     let pile = pile.unwrap().with_load(heavy, ratio(10, 1)).unwrap();
@@ -98,7 +99,7 @@ fn a_heavy_edge_is_no_long_run() {
 }
 
 #[test]
-fn springs_of_straight_piles_are_the_paper_s() {
+fn elastic_state_of_straight_piles_is_isostatic() {
     for pile in [
         Pile::triangular(9).unwrap(),
         Pile::discs(9).unwrap(),
@@ -118,7 +119,7 @@ fn springs_of_straight_piles_are_the_paper_s() {
 }
 
 #[test]
-fn springs_balance_each_sphere_and_the_weight() {
+fn elastic_forces_balance_pile() {
     let mut pushing = 0;
     let stackings = ["+-+-+", "+-+-++", "++-+-+", "+-+-+++"];
     let loads = [ratio(0, 1), ratio(1, 30), ratio(1, 3)];
@@ -145,7 +146,7 @@ fn springs_balance_each_sphere_and_the_weight() {
             [normal, shear_x, shear_y],
             [pile.weight(), ratio(0, 1), ratio(0, 1)]
         );
-        // What was pushed before makes no difference.
+        // Horizontal forces that were assigned before make no difference.
         assert_eq!(elastic(state, &ratio(3, 2)).as_ref(), Ok(&springs));
         let forces = springs.certificate().unwrap();
         assert_eq!(forces.check(), Ok(()));
@@ -154,7 +155,7 @@ fn springs_balance_each_sphere_and_the_weight() {
 }
 
 #[test]
-fn what_has_no_springs_is_refused() {
+fn invalid_elastic_requests_are_errors() {
     let pile = Pile::triangular(4).unwrap();
     let given = ratio(0, 1);
     let refused = elastic(&pile, &given).unwrap_err();
@@ -170,10 +171,10 @@ fn what_has_no_springs_is_refused() {
     ));
 }
 
-/// Springs of spheres that nothing presses are as long as they like: any of their displacements will do that press
-/// nothing.
+/// Contacts of spheres without weight and load have no unique displacement field: any field without compression is
+/// valid.
 #[test]
-fn springs_that_nothing_presses_are_open() {
+fn contacts_without_force_are_open() {
     let base = Region::new(-3..=0, -3..=1, -5..=-1).unwrap();
     let pile = Pile::on(base, "+++".parse().unwrap()).unwrap();
     let loaded = pile.with_load(Site { i: -2, j: -3, k: 1 }, ratio(1, 1));
@@ -182,9 +183,9 @@ fn springs_that_nothing_presses_are_open() {
     assert_eq!(springs.certificate().unwrap().check(), Ok(()));
 }
 
-/// Nor is any whole number of gaps as good as another: the nearest ones press, others do not.
+/// Not every choice of the undetermined gaps is valid: those nearest to the float solution overlap, others do not.
 #[test]
-fn gaps_that_press_are_given_up_for_others() {
+fn overlapping_gaps_are_corrected() {
     for (top, stacking, loads) in [
         (
             Region::hexagon(1, 2).unwrap(),
@@ -211,9 +212,9 @@ fn gaps_that_press_are_given_up_for_others() {
     }
 }
 
-/// Some contacts bear nothing and have no gap either, so that floats cannot say which are open.
+/// Some contacts have neither force nor gap, so floats cannot decide which of them are open.
 #[test]
-fn contacts_between_open_and_shut_are_decided_exactly() {
+fn degenerate_contacts_are_decided_exactly() {
     let base = Region::new(-6..=0, -3..=3, -5..=2).unwrap();
     let mut pile = Pile::on(base, "---".parse().unwrap()).unwrap();
     for ([k, i, j], weight) in [([0, -2, 0], 0), ([2, -4, 2], 0), ([2, -1, 1], 5)] {
@@ -227,9 +228,9 @@ fn contacts_between_open_and_shut_are_decided_exactly() {
     }
 }
 
-/// Most spheres weigh nothing and bear nothing.
+/// Most spheres have neither weight nor load.
 #[test]
-fn contacts_of_light_spheres_are_decided_too() {
+fn contacts_of_weightless_spheres_are_decided() {
     let base = Region::new(-3..=3, -3..=2, -2..=4).unwrap();
     let mut pile = Pile::on(base, "--+".parse().unwrap()).unwrap().weightless();
     for ([k, i, j], load) in [([2, -1, 0], ratio(5, 4)), ([3, -2, 2], ratio(7, 1))] {
@@ -238,7 +239,7 @@ fn contacts_of_light_spheres_are_decided_too() {
     let springs = elastic(&pile, &ratio(4, 7)).unwrap();
     assert_eq!(springs.certificate().unwrap().check(), Ok(()));
 
-    // Here contacts without a force are opened and shut for each other, one by one.
+    // Here degenerate contacts are opened and closed in turn, one by one.
     let base = Region::new(-2..=4, -2..=4, -2..=4).unwrap();
     let pile = Pile::on(base, "+++-".parse().unwrap())
         .unwrap()
@@ -250,9 +251,9 @@ fn contacts_of_light_spheres_are_decided_too() {
     assert_eq!(springs.certificate().unwrap().check(), Ok(()));
 }
 
-/// However soft or stiff horizontal springs are.
+/// The stiffness ratios range from very soft to very stiff horizontal springs.
 #[test]
-fn the_active_contacts_are_found_at_every_stiffness_ratio() {
+fn active_contacts_are_found_at_every_stiffness_ratio() {
     let loaded = Pile::triangular(6).unwrap();
     let site = Site { i: 1, j: 0, k: 2 };
     let piles = [
@@ -282,25 +283,25 @@ fn the_active_contacts_are_found_at_every_stiffness_ratio() {
 }
 
 #[test]
-fn a_certificate_of_a_pile_with_forces_of_its_own_is_refused() {
+fn certificate_with_forces_in_pile_is_refused() {
     let springs = elastic(&under_one_sphere("+-+-+"), &ratio(1, 1)).unwrap();
     let certificate = springs.certificate().unwrap().clone();
     let pile = springs.pile().clone();
     let (contact, _) = pile.horizontal_forces().next().unwrap();
-    let planted = Certificate {
+    let invalid = Certificate {
         pile,
         ..certificate
     };
     assert_eq!(
-        *planted.check().unwrap_err(),
+        *invalid.check().unwrap_err(),
         Refusal::GivenForces { contact }
     );
 }
 
-/// Of a pile of more than 10⁵ spheres the certificate is that of its layers down to one below the last change of sign, with
-/// what they weigh and bear; of a smaller one of itself.
+/// A certificate about more than 10⁵ spheres covers the layers down to one below the last sign change, with their
+/// weights and loads. A certificate about fewer spheres covers the whole pile.
 #[test]
-fn certificates_of_large_piles_are_of_their_first_layers() {
+fn certificates_of_large_piles_cover_first_layers() {
     let large = under_one_sphere("(1,1,98)");
     let certificate = equilibrium(&large).unwrap();
     assert_eq!(
@@ -323,9 +324,9 @@ fn certificates_of_large_piles_are_of_their_first_layers() {
     }
 }
 
-/// Only the straight pile of equal spheres is known to be elastic however large it is.
+/// The elastic state is known for all sizes only for the straight pile of equal spheres.
 #[test]
-fn springs_of_large_piles_are_those_of_the_paper_or_refused() {
+fn large_piles_are_straight_or_too_large() {
     let one = ratio(1, 1);
     let straight = Pile::triangular(100).unwrap();
     let state = elastic(&straight, &one).unwrap();

@@ -1,4 +1,4 @@
-//! Every theorem on horizontal contacts holds of the crate's formulas, says what it is about, and refuses wrong formulas.
+//! Every theorem about horizontal contacts holds, states its subject, and fails for wrong formulas.
 
 mod faults;
 mod numbers;
@@ -11,7 +11,7 @@ use cannonpile_horizontal::theorem::{Formulas, Theorem};
 use cannonpile_testkit::proofs;
 use cannonpile_testkit::proofs::Attempts;
 
-/// Every theorem with what becomes of its proof, for each fault: for all tests once.
+/// The proofs of all theorems with each mutant of a formula, computed once for all tests.
 static ATTEMPTS: LazyLock<Attempts<Formulas>> =
     LazyLock::new(|| Attempts::new(theorem::all(), faults::all()));
 
@@ -29,18 +29,27 @@ fn names_are_unique() {
     proofs::have_names(&theorems());
 }
 
-/// What each statement must name.
+/// A phrase that each statement must contain.
 const SUBJECTS: [(&str, &str); 13] = [
-    ("horizontal-balance", "in equilibrium with these pushes"),
+    (
+        "horizontal-balance",
+        "in equilibrium with these horizontal forces",
+    ),
     ("virtual-work", "Σ f_l D_l + Σ X c = Σ w φ_l"),
     ("elastic-straight", "The elastic state of the paper's pile"),
     ("elastic-energy", "L(L−1)(L+1)(L+2)(2L+1)/40"),
     ("settlement", "layers stay plane"),
     ("elastic-monotone", "c ≤ 0 without horizontal forces"),
     ("no-dip", "No dip"),
-    ("corner-least", "The least on a corner, (L+2)/3"),
-    ("corner-greatest", "The greatest on a corner, (L − 2/3)"),
-    ("arch", "The arch that empties a sphere"),
+    (
+        "corner-least",
+        "The smallest normal force at a corner is (L+2)/3",
+    ),
+    (
+        "corner-greatest",
+        "The largest normal force at a corner is (L − 2/3)",
+    ),
+    ("arch", "An arch unloads a sphere"),
     ("inner-greatest", "ΣC(n_l+2, 3)/3"),
     (
         "edge-greatest",
@@ -54,7 +63,7 @@ fn statements_name_their_subject_and_method() {
     proofs::name_subject_and_method(&theorems(), &SUBJECTS);
 }
 
-/// A fault is refused by the theorems it is said to break, and by no others.
+/// Each mutant is rejected by the theorems that it is listed for, and by no others.
 #[test]
 fn faults_are_refused() {
     ATTEMPTS.are_refused_as_said();
@@ -65,7 +74,7 @@ fn every_theorem_refuses_a_fault() {
     ATTEMPTS.every_theorem_refuses_one();
 }
 
-/// Fields by name; one that is missing does not compile.
+/// The names of the fields. A missing field is a compile error.
 macro_rules! fields {
     ($($field:ident)*) => {{
         let Formulas { core: _, $($field: _),* } = Formulas::<cannonpile::scalar::Polynomial>::LIBRARY;
@@ -75,7 +84,7 @@ macro_rules! fields {
 
 /// The formulas of the core have their own test.
 #[test]
-fn every_formula_is_put_wrong() {
+fn every_formula_has_a_mutant() {
     let fields = fields! {
         lowered compression elastic_field corner_field least_on_corner greatest_on_corner greatest_inside greatest_on_edge arch
     };
@@ -83,19 +92,19 @@ fn every_formula_is_put_wrong() {
     assert_eq!(wrong, BTreeSet::from(fields));
 }
 
-/// No step is idle: each is broken by some fault.
+/// Every step of a proof is needed: some mutant breaks it.
 #[test]
 fn every_step_refuses_a_fault() {
     ATTEMPTS.every_step_refuses_one();
 }
 
-/// The printed proof says that it fails, where it does.
+/// A refuted proof is printed as refuted.
 #[test]
-fn a_refuted_proof_is_listed_as_such() {
+fn refuted_proof_is_printed_as_refuted() {
     ATTEMPTS.are_listed_as_refuted();
 }
 
-/// How many steps each proof has, counted by cases.
+/// The number of steps of each proof.
 const STEPS: [(&str, usize); 13] = [
     ("horizontal-balance", 15),
     ("virtual-work", 11),
@@ -112,8 +121,8 @@ const STEPS: [(&str, usize); 13] = [
     ("run-horizontal", 18),
 ];
 
-/// As many steps as there are cases: none is passed over.
+/// The number of steps matches the number of cases.
 #[test]
-fn no_case_is_left_out() {
+fn every_case_has_a_step() {
     proofs::have_steps(&theorems(), &STEPS);
 }

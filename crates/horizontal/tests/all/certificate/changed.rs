@@ -1,4 +1,4 @@
-//! One number of what is accepted is changed.
+//! Certificates with one changed number.
 
 use cannonpile::lattice::{Axis, HorizontalContact};
 use cannonpile_horizontal::certificate::{Certificate, Claim, Refusal};
@@ -8,12 +8,12 @@ use num_traits::Zero;
 use super::{all, springs};
 use cannonpile_testkit::answers::ratio;
 
-/// By how much numbers are changed.
+/// The changes of a number.
 fn changes() -> [BigRational; 4] {
     [ratio(1, 1), ratio(-1, 1), ratio(1, 1_000_000), ratio(-2, 7)]
 }
 
-/// Every horizontal contact above the floor, whether it bears something or not.
+/// Returns all horizontal contacts above the floor, with and without a force.
 pub(super) fn contacts(certificate: &Certificate) -> Vec<HorizontalContact> {
     let shape = certificate.pile.shape();
     let above = shape.sites().filter(|site| site.k < shape.layers() - 1);
@@ -23,12 +23,14 @@ pub(super) fn contacts(certificate: &Certificate) -> Vec<HorizontalContact> {
         .collect()
 }
 
-/// A field that proves a bound, or springs that bear at every contact, leave no number free.
+/// If a field proves a bound, or all contacts of an elastic state carry forces, no number of the field is
+/// arbitrary.
 #[test]
-fn every_number_of_a_field_counts() {
+fn changed_field_is_refused() {
     let mut changed = 0;
     for certificate in all() {
-        // With c < 0 and every force positive no other field is of springs; any counts for a bound by its work.
+        // With c < 0 and all forces positive, the field of the elastic state is unique. In a bound every number
+        // changes the work.
         if matches!(certificate.claim, Claim::Stands | Claim::CannotStand) {
             continue;
         }
@@ -54,13 +56,13 @@ fn every_number_of_a_field_counts() {
             }
         }
     }
-    // Four changes of each of 250 numbers: 173 of the certificates made by hand, 77 of the two from files.
+    // Four changes of each of 250 numbers: 173 in certificates made by hand, 77 in the two from files.
     assert_eq!(changed, 1000);
 }
 
-/// The forces of springs are the only ones of least energy, and the forces that attain a bound are used up to the last.
+/// The forces of least energy are unique, and so are the forces that attain a bound here.
 #[test]
-fn every_force_counts() {
+fn changed_force_is_refused() {
     let mut changed = 0;
     for certificate in all() {
         let contacts = match &certificate.claim {
@@ -85,7 +87,7 @@ fn every_force_counts() {
 }
 
 #[test]
-fn every_number_of_a_claim_counts() {
+fn changed_claim_is_refused() {
     for certificate in all() {
         for change in changes() {
             let mut other = certificate.clone();
@@ -110,18 +112,18 @@ fn every_number_of_a_claim_counts() {
     }
 }
 
-/// Where nothing is pressed together the ratio does not matter, but its sign does.
+/// If no horizontal contact is closed, the stiffness ratio is arbitrary, but must be positive.
 #[test]
-fn straight_piles_are_alike_for_all_springs() {
+fn straight_pile_accepts_every_positive_stiffness_ratio() {
     for (numer, denom) in [(1, 1), (1, 1_000_000), (1_000_000, 1)] {
         let pile = cannonpile::Pile::triangular(5).unwrap();
         assert_eq!(springs(pile, ratio(numer, denom)).check(), Ok(()));
     }
 }
 
-/// The other bound: the same field with the signs changed proves nothing of it.
+/// The same field with the opposite sign does not prove the other bound.
 #[test]
-fn least_is_not_greatest() {
+fn negated_field_does_not_prove_other_bound() {
     for certificate in all() {
         let mut other = certificate.clone();
         let is_only = certificate.pile.layers() == 2;

@@ -1,4 +1,4 @@
-//! What is claimed and accepted.
+//! Claims that are accepted.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, Direction, Site};
@@ -12,32 +12,32 @@ use super::{
 use cannonpile_testkit::answers::ratio;
 
 #[test]
-fn what_holds_is_accepted() {
+fn valid_certificates_are_accepted() {
     for certificate in all() {
         assert_eq!(certificate.check(), Ok(()), "{certificate:?}");
     }
 }
 
 #[test]
-fn a_pile_that_is_pushed_apart_cannot_stand() {
-    // Three times its weight on top is borne, with forces of 0; more is not.
+fn spreading_pile_is_unstable() {
+    // A load of at most three times the weight is stable, with zero forces at the limit.
     assert_eq!(
         *apart(2).check().unwrap_err(),
         Refusal::Work { work: ratio(0, 1) }
     );
-    let mut borne = apart(2);
-    borne.claim = Claim::Stands;
-    assert_eq!(borne.check(), Ok(()));
-    let mut not_borne = apart(3);
-    not_borne.claim = Claim::Stands;
+    let mut stable = apart(2);
+    stable.claim = Claim::Stands;
+    assert_eq!(stable.check(), Ok(()));
+    let mut unstable = apart(3);
+    unstable.claim = Claim::Stands;
     assert!(matches!(
-        *not_borne.check().unwrap_err(),
+        *unstable.check().unwrap_err(),
         Refusal::Pulls { .. }
     ));
 }
 
 #[test]
-fn what_stands_by_horizontal_contacts_alone() {
+fn horizontal_forces_stabilise_pile() {
     let without = held_together(8, (0, 1)).check().unwrap_err();
     let refusal = Refusal::Pulls {
         site: at(0, 0, 1),
@@ -64,13 +64,13 @@ fn what_stands_by_horizontal_contacts_alone() {
     );
 }
 
-/// What the library says without horizontal contacts is between the bounds.
+/// Forces without horizontal contacts lie between the bounds.
 #[test]
-fn bounds_are_about_what_the_pile_bears() {
+fn isostatic_force_lies_between_bounds() {
     for layers in 2..=6 {
         let certificate = corner(layers);
         let Claim::Greatest(greatest) = &certificate.claim else {
-            panic!("the greatest");
+            panic!("the claim is an upper bound");
         };
         let forces = certificate.pile.forces::<BigRational>();
         let isostatic = forces.on_floor(greatest.site).unwrap().normal;
@@ -81,10 +81,10 @@ fn bounds_are_about_what_the_pile_bears() {
 }
 
 #[test]
-fn a_certificate_is_of_the_pile_it_names() {
+fn certificate_must_match_its_pile() {
     let mut no_contact = straight(4);
     for (axis, site) in [
-        // On the floor spheres are held.
+        // The spheres of the floor are fixed.
         (Axis::AlphaBeta, at(0, 0, 3)),
         (Axis::AlphaBeta, at(2, 0, 2)),
         (Axis::GammaBeta, at(0, 0, 2)),
@@ -124,7 +124,7 @@ fn a_certificate_is_of_the_pile_it_names() {
 }
 
 #[test]
-fn what_does_not_fit_is_refused_at_once() {
+fn oversized_checks_are_refused() {
     let is_refused = |pile: Pile| {
         let refusal = bare(pile, Claim::Stands).check();
         matches!(
@@ -133,7 +133,7 @@ fn what_does_not_fit_is_refused_at_once() {
         )
     };
     assert!(is_refused(Pile::triangular(10_i128.pow(30)).unwrap()));
-    // Sums of numbers over denominators that have no factor in common are as long as all of these.
+    // Sums of fractions with coprime denominators are as long as all denominators together.
     let mut pile = Pile::triangular(60).unwrap();
     for load in [1, 3] {
         let denominator = BigInt::from(10).pow(4_998) + BigInt::from(load);
@@ -144,7 +144,7 @@ fn what_does_not_fit_is_refused_at_once() {
 }
 
 #[test]
-fn relations_are_written_in_words() {
+fn relations_are_printed_in_words() {
     use cannonpile_horizontal::certificate::Relation;
 
     let written = [Relation::AtMost, Relation::Equal, Relation::AtLeast].map(|r| r.to_string());

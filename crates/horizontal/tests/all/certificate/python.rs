@@ -1,4 +1,4 @@
-//! The checker in Python, which shares no line with the library, comes to the same verdicts.
+//! The independent checker in Python gives the same verdicts.
 //!
 //! It needs `python3`. Without it these tests fail, unless `CANNONPILE_WITHOUT_PYTHON` is set.
 
@@ -22,16 +22,16 @@ fn script() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("check_certificate.py")
 }
 
-/// Whether the tests of this file can be left out, as somebody said; if not, Python has to be there.
-fn left_out() -> bool {
+/// Returns `true` if Python is missing and the environment allows these tests to be skipped.
+fn is_skipped() -> bool {
     let version = Command::new("python3").arg("--version").output();
     if version.is_ok_and(|output| output.status.success()) && script().exists() {
         return false;
     }
     assert!(
         env::var_os("CANNONPILE_WITHOUT_PYTHON").is_some(),
-        "no python3, or no {}: the second checker is NOT compared; install Python 3.9 or later, or set \
-         CANNONPILE_WITHOUT_PYTHON=1 to go without",
+        "no python3, or no {}: the Python checker was NOT compared; install Python 3.9 or later, or set \
+         CANNONPILE_WITHOUT_PYTHON=1 to skip this test",
         script().display()
     );
     true
@@ -43,7 +43,7 @@ fn file(certificate: &Certificate) -> Vec<u8> {
     file
 }
 
-/// What both checkers say of a certificate, which are to agree: whether it is accepted.
+/// Asserts that both checkers agree about a certificate, and returns whether they accept it.
 fn agreed(certificate: &Certificate) -> bool {
     let file = file(certificate);
     let (status, said) = python_checker::verdict(&file).expect("python3");
@@ -56,7 +56,7 @@ fn agreed(certificate: &Certificate) -> bool {
         Err(refusal) => refusal,
     };
     assert_eq!(status, 1, "{refusal}: {}", context());
-    // Both go from the top, row by row: where only forces are concerned, the number they stop at is the same.
+    // Both checkers proceed from the top, row by row, so they stop at the same number if only forces are wrong.
     let number = match &*refusal {
         Refusal::HorizontalPulls { .. } if certificate.horizontal.len() > 1 => return false,
         Refusal::Pulls { force, .. } | Refusal::HorizontalPulls { force, .. } => force,
@@ -73,9 +73,9 @@ fn agreed(certificate: &Certificate) -> bool {
     false
 }
 
-struct Chance(TestRng);
+struct RandomCases(TestRng);
 
-impl Chance {
+impl RandomCases {
     fn new() -> Self {
         Self(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
     }
@@ -93,7 +93,8 @@ impl Chance {
         (!all.is_empty()).then(|| all[self.below(all.len())].clone())
     }
 
-    /// Any stacking on any small region, or discs, with loads, weights, or without weight.
+    /// Returns a random stacking on a random small region, or discs, with random weights and loads, or without
+    /// weight.
     fn pile(&mut self) -> Pile {
         let layers = 1 + self.below(5);
         let signs = (1..layers).map(|_| [Sign::Plus, Sign::Minus][self.below(2)]);
@@ -122,7 +123,7 @@ impl Chance {
         pile
     }
 
-    /// Any claim of a random pile: with forces that may balance it, and a field that seldom proves anything.
+    /// Returns a random claim about a random pile: its forces may be valid, its field rarely is.
     fn certificate(&mut self) -> Certificate {
         let pile = self.pile();
         let sites: Vec<Site> = pile.shape().sites().collect();
@@ -151,7 +152,7 @@ impl Chance {
         certificate
     }
 
-    /// One thing in it is another one.
+    /// Changes one random part of a certificate.
     fn change(&mut self, certificate: &mut Certificate) {
         let sites: Vec<Site> = certificate.pile.shape().sites().collect();
         let site = sites[self.below(sites.len())];
@@ -201,10 +202,10 @@ impl Chance {
     }
 }
 
-/// As a program, on a file: it says what it says elsewhere line by line, and exits accordingly.
+/// The checker as a program, on a file: it prints the same line and exits with the corresponding status.
 #[test]
-fn the_program_says_the_same_of_a_file() {
-    if left_out() {
+fn program_agrees_on_files() {
+    if is_skipped() {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
@@ -233,8 +234,8 @@ fn the_program_says_the_same_of_a_file() {
 }
 
 #[test]
-fn what_holds_is_accepted_by_both() {
-    if left_out() {
+fn valid_certificates_are_accepted_by_both() {
+    if is_skipped() {
         return;
     }
     for certificate in all() {
@@ -243,11 +244,11 @@ fn what_holds_is_accepted_by_both() {
 }
 
 #[test]
-fn what_is_changed_has_one_verdict() {
-    if left_out() {
+fn changed_certificates_have_one_verdict() {
+    if is_skipped() {
         return;
     }
-    let (mut chance, all) = (Chance::new(), all());
+    let (mut chance, all) = (RandomCases::new(), all());
     let mut accepted = 0;
     for turn in 0..80 {
         let mut certificate = all[turn % all.len()].clone();
@@ -258,11 +259,11 @@ fn what_is_changed_has_one_verdict() {
 }
 
 #[test]
-fn random_piles_have_one_verdict() {
-    if left_out() {
+fn random_certificates_have_one_verdict() {
+    if is_skipped() {
         return;
     }
-    let mut chance = Chance::new();
+    let mut chance = RandomCases::new();
     let mut accepted = 0;
     for _ in 0..80 {
         accepted += i32::from(agreed(&chance.certificate()));
@@ -271,8 +272,8 @@ fn random_piles_have_one_verdict() {
 }
 
 #[test]
-fn the_census_is_accepted_by_both() {
-    if left_out() {
+fn census_is_accepted_by_both() {
+    if is_skipped() {
         return;
     }
     let census = cannonpile_horizontal::census::under_one_sphere(7, true).unwrap();

@@ -1,4 +1,4 @@
-//! Fields and bounds that are wrong.
+//! Mutants of the formulas: wrong fields and bounds.
 
 use cannonpile::scalar::{Polynomial, Ring};
 use cannonpile_horizontal::theorem::Formulas;
@@ -11,7 +11,7 @@ type P = Polynomial;
 
 const RIGHT: Formulas = Formulas::LIBRARY;
 
-/// Every fault: of the formulas of the core, and of those of this crate.
+/// Returns all mutants, of the core's formulas and of those of this crate.
 pub(super) fn all() -> impl Iterator<Item = Fault<Formulas>> {
     let lifted = |fault: Fault| Fault {
         what: fault.what,
@@ -26,7 +26,7 @@ pub(super) fn all() -> impl Iterator<Item = Fault<Formulas>> {
     of_the_core.chain(own())
 }
 
-/// Those of the formulas of this crate.
+/// Returns the mutants of the formulas of this crate.
 pub(super) fn own() -> Vec<Fault<Formulas>> {
     faults! {
         "the floor sinks too": lowered = |here, _| here => ["virtual-work", "elastic-straight", "corner-least",

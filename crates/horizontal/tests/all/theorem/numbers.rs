@@ -1,4 +1,4 @@
-//! Theorems at numbers: energy and settlement of the elastic state, as its certificate has them.
+//! Theorems evaluated at numbers: energy and settlement of the elastic state, compared with its certificate.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
@@ -23,7 +23,7 @@ fn find(name: &str) -> &'static Theorem {
     found.expect("a theorem")
 }
 
-/// Piles of 1 to `layers` layers.
+/// Returns the straight piles of 1 to `layers` layers.
 fn piles(layers: i128) -> impl Iterator<Item = Pile> {
     (1..=layers).map(|l| Pile::triangular(l).expect("a pile"))
 }
@@ -61,9 +61,9 @@ fn settlement() {
     }
 }
 
-/// Sites may be named the other way round, with i and j exchanged.
+/// The theorem does not depend on the labels of the coordinates: i and j can be exchanged.
 #[test]
-fn the_elastic_state_is_the_same_whatever_the_names_of_sites() {
+fn exchanged_coordinates_give_same_elastic_state() {
     let exchanged = cannonpile::theorem::Formulas {
         above: |i, j, k| (RIGHT.core.above)(j, i, k),
         descent: |sign, direction| {
@@ -76,7 +76,7 @@ fn the_elastic_state_is_the_same_whatever_the_names_of_sites() {
     let proof_of = |core| theorem.prove_for(&Formulas { core, ..RIGHT });
     let proof = proof_of(exchanged);
     assert!(proof.holds(), "{proof:?}");
-    // With one exchanged alone a contact leads elsewhere.
+    // If only one formula is changed, contacts connect the wrong sites.
     for mixed in [
         cannonpile::theorem::Formulas {
             above: RIGHT.core.above,
