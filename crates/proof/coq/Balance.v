@@ -1,11 +1,12 @@
-(** Newton's law for one sphere: what it passes on is what it receives and its weight, and nothing else balances it. *)
+(** Newton's law for one sphere: it is in balance if and only if it transmits the forces received plus its own
+    increments. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
 From Cannonpile Require Import Directions Sums Formulas.
 
 Open Scope Q_scope.
 
-(** Puts in what the formulas are, and takes vectors and threes apart. *)
+(** Unfolds the formulas and destructs vectors and triples. *)
 Ltac formulas :=
   cbv beta iota zeta delta
     [above spheres_3 spheres_in_layer_3 contacts_3 contacts_of_strength_3 directions disc_directions
@@ -32,22 +33,22 @@ Definition combination (c : three Q) (v : three vector) : vector :=
 
 Definition turned_over (v : vector) : vector := Vector (- v.(along_x)) (- v.(along_y)) (- v.(along_z)).
 
-(** Directions of contacts under a step of either sign. *)
+(** The contact directions under a step of either sign. *)
 Definition directions_under (s : Q) (sigma : sign) : three vector :=
   match sigma with
   | Plus => directions s
   | Minus => map turned_about_z (directions s)
   end.
 
-(** What a sphere of so much weight, in mg, adds to its lines. *)
+(** The increments of a sphere of weight n mg along its lines. *)
 Definition own (s n : Q) : three Q := map (force n) (increments s).
 
-(** What a sphere passes on that receives g and weighs n mg. *)
+(** The forces transmitted by a sphere of weight n mg that receives g. *)
 Definition to_below (s : Q) (g : three Q) (n : Q) : three Q := by_line passed_on g (own s n).
 
 (** ** (3), (4), (5), (6) of the paper *)
 
-(** Equilibrium in components is the paper's system (4). *)
+(** Equilibrium in components is system (4) of the paper. *)
 Theorem paper_system : forall s up down w,
   let left := unbalanced up (directions s) down (directions s) w in
   let more := by_line Qminus up down in
@@ -63,7 +64,7 @@ Theorem increments_solve : forall s,
   w.(alpha) + w.(beta) + w.(gamma) == weight w /\ weight w == 2 * (1 + s).
 Proof. intros s. by_components. Qed.
 
-(** e_a . (e_b x e_c) = 1 + s: the three directions are independent. *)
+(** e_a . (e_b x e_c) = 1 + s: the three directions are linearly independent. *)
 Definition triple_product (v : three vector) : Q :=
   let (a, b, c) := v in
   a.(along_x) * (b.(along_y) * c.(along_z) - b.(along_z) * c.(along_y))
@@ -73,26 +74,27 @@ Definition triple_product (v : three vector) : Q :=
 Theorem determinant : forall s, triple_product (directions s) == 1 + s.
 Proof. intros. unfold triple_product. formulas. ring. Qed.
 
-(** A product is nothing only if a factor is. *)
+(** A product is zero only if a factor is zero. *)
 Lemma factor : forall a b, ~ a == 0 -> a * b == 0 -> b == 0.
 Proof.
   intros a b Ha H. destruct (Qmult_integral _ _ H); [contradiction | assumption].
 Qed.
 
-(** Equal forces, equally off balance. *)
+(** Equal forces have equal residuals. *)
 Lemma unbalanced_of_same : forall f f' e g g' e' w w',
   f =3= f' -> g =3= g' -> w == w' -> unbalanced f e g e' w =v= unbalanced f' e g' e' w'.
 Proof.
   intros f f' e g g' e' w w' (a & b & c) (x & y & z) H. repeat split; formulas; congruent.
 Qed.
 
-(** Every sphere that passes on what it receives and adds is in balance: in all components, for every angle. *)
+(** A sphere that transmits the forces received plus its increments is in balance: in all components, for every
+    angle. *)
 Theorem every_sphere_is_in_balance : forall s g n,
   let e := directions s in
   unbalanced (to_below s g n) e g e (force n (weight (increments s))) =v= nothing.
 Proof. intros s [] n. unfold to_below, own. by_components. Qed.
 
-(** A sphere of weight n mg that receives g is in balance if and only if it passes on g + n increments. *)
+(** A sphere of weight n mg that receives g is in balance if and only if it transmits g + n increments. *)
 Theorem newton : forall s g n up, ~ 1 + s == 0 ->
   (unbalanced up (directions s) g (directions s) (force n (weight (increments s))) =v= nothing
    <-> up =3= to_below s g n).
@@ -113,13 +115,13 @@ Proof.
     apply unbalanced_of_same; [exact H | reflexivity | reflexivity].
 Qed.
 
-(** Under - steps too. *)
+(** The same under - steps. *)
 Theorem every_sphere_is_in_balance_under : forall s sigma g n,
   let e := directions_under s sigma in
   unbalanced (to_below s g n) e g e (force n (weight (increments s))) =v= nothing.
 Proof. intros s [] [] n; unfold to_below, own, directions_under; by_components. Qed.
 
-(** The three supports together push with what the forces from above and the weight press, in the opposite direction. *)
+(** The reaction of the three supports is opposite to the sum of the forces from above and the weight. *)
 Theorem supports_push_back : forall s g n,
   let e := directions s in
   combination (to_below s g n) e =v= turned_over (handed_on g e (force n (weight (increments s)))).
@@ -129,8 +131,8 @@ Qed.
 
 (** ** Directions *)
 
-(** The squared length of a vector, from the squares of what its components stand for: sin^2 theta, 4 cos^2 phi sin^2
-    theta, cos^2 theta. *)
+(** The squared length of a vector. The arguments are the squares of the units of its components: sin^2 theta, 4
+    cos^2 phi sin^2 theta, cos^2 theta. *)
 Definition length_squared (s sin2 : Q) (v : vector) : Q :=
   sin2 * (v.(along_x) * v.(along_x) + 4 * (1 - s * s) * v.(along_y) * v.(along_y))
   + (1 - sin2) * v.(along_z) * v.(along_z).
@@ -138,12 +140,12 @@ Definition length_squared (s sin2 : Q) (v : vector) : Q :=
 Theorem unit_directions : forall s sin2 d, length_squared s sin2 (on d (directions s)) == 1.
 Proof. intros s sin2 []; unfold length_squared; formulas; ring. Qed.
 
-(** Squared distances are lengths of what leads from centre to centre. *)
+(** Squared distances are squared lengths of difference vectors of centres. *)
 Theorem gram_form : forall n s sin2,
   squared_distance n s sin2 == length_squared s sin2 (combination n (directions s)).
 Proof. intros [] s sin2. unfold length_squared, combination. formulas. ring. Qed.
 
-(** ** Across a change of sign *)
+(** ** Sign changes *)
 
 (** G g = (2/3)(g_1 + g_2 + g_3)(1, 1, 1) - g. *)
 Theorem half_turn_is : forall g, half_turn g =3= map (fun x => (2 # 3) * sum g - x) g.
@@ -171,7 +173,7 @@ Theorem tripled : forall g,
   tripled_half_turn g =3= map (Qmult 3) (half_turn g) /\ tripled_apart g =3= map (Qmult 3) (half_turn g).
 Proof. intros []. split; by_components. Qed.
 
-(** Integers go the way of the rationals that they are: what the engines turn is what is meant. *)
+(** The integer formulas agree with the rational ones: the half-turn of the engines is the half-turn of the theory. *)
 Theorem tripled_integers : forall g,
   map q (Integers.tripled_half_turn g) =3= map (Qmult 3) (half_turn (map q g)) /\
   map q (Integers.tripled_apart g) =3= map (Qmult 3) (half_turn (map q g)).
@@ -180,15 +182,15 @@ Proof.
   unfold Z.sub. repeat split; formulas; repeat (rewrite inject_Z_plus || rewrite inject_Z_opp); ring.
 Qed.
 
-(** What arrives along the directions of a step as the next step needs it. *)
+(** The forces received along the directions of one step, resolved along the directions of the next step. *)
 Definition transferred (from to : sign) (g : three Q) : three Q :=
   match from, to with
   | Plus, Plus | Minus, Minus => g
   | _, _ => half_turn g
   end.
 
-(** On an equilateral base: a sphere of weight n mg that receives any g under a step of one sign is in balance on a step
-    of the same or the other sign, if and only if it passes on T g + n. *)
+(** On an equilateral base: a sphere of weight n mg receives any g under a step of one sign and stands on a step of
+    the same or the other sign. It is in balance if and only if it transmits T g + n. *)
 Theorem newton_in_any_stacking : forall from to g n up,
   (unbalanced up (directions_under (1 # 2) to) g (directions_under (1 # 2) from)
      (force n (weight (increments (1 # 2)))) =v= nothing

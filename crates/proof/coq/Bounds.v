@@ -1,6 +1,6 @@
-(** Bounds of what rests on a sphere of the floor of the straight pile, however its spheres press each other sideways: at a
-    corner, anywhere, and on an edge. Each is the work of the weights on a field whose signs are all proved. What rests on a
-    sphere is G in f0; the floor bears 1 + G/3 mg under it. *)
+(** Bounds of the load on a bottom sphere of the straight pile, for all horizontal forces: at a corner, inside, and
+    on an edge. Each bound is the virtual work of the weights on a field whose signs are proved. For a load G in f0
+    the normal force is 1 + G/3 mg. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
 From Cannonpile Require Import Directions Sums Formulas Balance Straight Floor Stackings Regions Horizontal Virtual.
@@ -11,15 +11,15 @@ Set Default Proof Using "Type".
 
 (** ** Corners *)
 
-(** The sphere of layer k on the edge along which only one line goes on. *)
+(** The sphere of layer k on the edge where only one line continues. *)
 Definition corner (edge : direction) (k : nat) : site :=
   match edge with Alpha => (0, 0)%Z | Beta => (Z.of_nat k, 0%Z) | Gamma => (0%Z, Z.of_nat k) end.
 
-(** A field that is not 0 on an edge only. *)
+(** A field that is zero outside an edge. *)
 Definition along_the_edge (edge : direction) (phi : nat -> three Q) (k : nat) (i j : Z) : three Q :=
   if is_at (corner edge k) (i, j) then phi k else each 0.
 
-(** 1 along the edge; and along all lines, but at the apex. *)
+(** 1 along the edge; and 1 along all lines, except at the apex. *)
 Definition least_field (edge : direction) : nat -> Z -> Z -> three Q :=
   along_the_edge edge (fun _ => corner_field edge false).
 Definition greatest_field (edge : direction) : nat -> Z -> Z -> three Q :=
@@ -44,7 +44,7 @@ Proof.
     rewrite holds_spheres, holds_straight, corners_are_there. reflexivity.
 Qed.
 
-(** Whether numbers are equal, one question after the other, and what cannot be. *)
+(** Decides equality of numbers case by case, and discards impossible cases. *)
 Ltac ask :=
   repeat match goal with
          | |- context [(?a =? ?b)%Z] => destruct (Z.eqb_spec a b); try (exfalso; lia)
@@ -74,7 +74,7 @@ Proof.
     destruct edge, x; cbn [from to descent fst snd] in N; on_corners.
 Qed.
 
-(** At least K f0 rest on a corner below K layers, however the spheres press each other. *)
+(** The load on a corner below K layers is at least K f0, for all horizontal forces. *)
 Theorem least_on_a_corner : forall edge f X K, balanced_beside f X K ->
   least_on_corner (n_of K) <= rests_on f K (corner edge K).
 Proof.
@@ -86,7 +86,7 @@ Proof.
   rewrite E in B. exact B.
 Qed.
 
-(** The paper's closed form reaches it. *)
+(** The closed form of the paper attains this bound. *)
 Theorem least_is_reached : forall edge K,
   rests_on paper_forces K (corner edge K) == least_on_corner (n_of K).
 Proof.
@@ -96,7 +96,7 @@ Proof.
   destruct edge; cbn [corner fst snd]; fold (n_of K); change (q 0) with 0; formulas; ring.
 Qed.
 
-(** And at most 3K - 2. *)
+(** The load is at most 3K - 2 f0. *)
 Theorem greatest_on_a_corner : forall edge f X K, (1 <= K)%nat -> balanced_beside f X K ->
   rests_on f K (corner edge K) <= greatest_on_corner (n_of K).
 Proof.
@@ -113,8 +113,9 @@ Qed.
 Definition same_line (a b : direction) : bool :=
   match a, b with Alpha, Alpha | Beta, Beta | Gamma, Gamma => true | _, _ => false end.
 
-(** It is reached, too: the spheres of an edge push their neighbours with 1. What all pass on then, in whole numbers: 3n + 1
-    along the edge, nothing from its neighbours along it, and nothing along other lines from the edge below the apex. *)
+(** This bound is attained as well: the spheres of an edge press on their neighbours with force 1. In integers, a
+    sphere transmits 3n + 1 along the edge. Its neighbours transmit nothing along the edge, and no sphere of the edge
+    below the apex transmits along other lines. *)
 Definition edge_push (edge : direction) (k : nat) (x : axis) (i j : Z) : Q :=
   truth (same_line edge (from x) && is_at (corner edge k) (i, j)
          || same_line edge (to x) && is_at (corner edge k) (next x (i, j))).
@@ -216,7 +217,7 @@ Qed.
 
 (** ** Inside
 
-    A sphere of the floor with a, b, c spheres above it on its lines. *)
+    A bottom sphere with a, b, c spheres above it on its lines. *)
 Definition with_at_least (m n : Z) (x y : Z) : bool := ((m <=? x) && (n <=? y))%Z.
 
 Definition inner_field (a b c : nat) (k : nat) (i j : Z) : three Q :=
@@ -289,7 +290,7 @@ Proof.
     replace (occupied k (Z.of_nat i) (Z.of_nat j)) with true by (symmetry; apply occupied_iff; lia). reflexivity.
 Qed.
 
-(** A part of a layer that is a layer k' further up, moved by (u, v). *)
+(** A part of layer k that is a copy of layer k', moved by (u, v). *)
 Lemma moved_layer : forall k k' u v here,
   (forall i j, occupied k i j = true -> here i j = occupied k' (i - u) (j - v)) ->
   (forall i j, occupied k' i j = true -> occupied k (i + u) (j + v) = true) ->
@@ -316,7 +317,7 @@ Proof.
   apply spheres_are, layers_of_straight in P. cbn [fst snd]. rewrite H by exact P. reflexivity.
 Qed.
 
-(** So below s layers without any, l layers have the spheres of a pile. *)
+(** Below s empty layers, l layers have the spheres of a pile. *)
 Lemma moved_pile : forall l s u v (here : nat -> Z -> Z -> bool),
   (forall k i j, (s <= k)%nat -> occupied k i j = true -> here k i j = occupied (k - s) (i - u) (j - v)) ->
   (forall k i j, (s <= k)%nat -> occupied (k - s) i j = true -> occupied k (i + u) (j + v) = true) ->
@@ -354,7 +355,7 @@ Proof.
     try (apply not_true_iff_false; rewrite with_at_least_iff); lia.
 Qed.
 
-(** At most the sum of C(n_l + 2, 3) rests on a sphere of the floor with n_l spheres above it on its lines. *)
+(** The load on a bottom sphere with n_l spheres above it on its lines is at most the sum of C(n_l + 2, 3). *)
 Theorem greatest_on_any_sphere : forall a b c f X, balanced_beside f X (a + b + c) ->
   rests_on f (a + b + c) (inner_site b c) <= greatest_inside (Three (n_of a) (n_of b) (n_of c)).
 Proof.
@@ -364,12 +365,12 @@ Qed.
 
 (** ** Edges
 
-    A sphere of the floor with k spheres above it along a, j along b and none along the third line. *)
+    A bottom sphere with k spheres above it along a, j along b and none along the third line. *)
 Definition placed (a b : direction) (x y : Z) : site :=
   let on_line d := if same_line a d then x else if same_line b d then y else 0%Z in
   (on_line Beta, on_line Gamma).
 
-(** The spheres on which the field is 1: along a, along b, along the third line. *)
+(** The spheres where the field is 1: along a, along b, along the third line. *)
 Definition along_first (k j c x y : Z) : bool := ((y =? j) && (x <? k) || (j <? y) && (x + y <? j + c))%Z.
 Definition along_second (j c x y : Z) : bool := ((c <=? x) && (y <=? j))%Z.
 Definition along_third (k j c x y : Z) : bool :=
@@ -400,7 +401,7 @@ Ltac parts :=
   unfold along_third, along_first, along_second;
   rewrite ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?orb_true_iff, ?andb_true_iff, ?Z.eqb_eq, ?Z.ltb_lt, ?Z.leb_le.
 
-(** D and c by lines, whichever two of the three the first two are: x and y are the counts along these. *)
+(** D and c by lines, for any choice of the first two lines. x and y are the counts along these. *)
 Section Signs.
 Variables k j c m below x y x' y' : Z.
 Hypothesis Hc : (1 <= c <= k)%Z.
@@ -481,7 +482,7 @@ Proof.
       pressing; lia.
 Qed.
 
-(** The row of a layer that is on the edge, as a sum. *)
+(** The row of a layer on the edge, as a sum. *)
 Lemma over_edge : forall a b m (F : Z -> Z -> bool), a <> b ->
   over (spheres apex straight m) (fun p =>
     let n := Integers.above (fst p) (snd p) (Z.of_nat m) in
@@ -534,7 +535,7 @@ Proof.
     + replace (S K - K)%nat with 1%nat by lia. cbn [total]. change (Z.of_nat 0) with 0%Z. rewrite Z.sub_diag. ring.
 Qed.
 
-(** How many of a row are from one place on up to another. *)
+(** The number of spheres of a row between two positions. *)
 Lemma count_from_to : forall n lo hi (F : nat -> bool), (lo <= hi <= n)%nat ->
   (forall x, (x < n)%nat -> (F x = true <-> (lo <= x < hi)%nat)) ->
   total n (fun x => truth (F x)) == n_of hi - n_of lo.
@@ -664,7 +665,7 @@ Proof.
   apply occupied_iff. unfold placed. destruct a, b; try congruence; cbn [same_line fst snd]; lia.
 Qed.
 
-(** The bound is that for c = min(j+1, k): 2(j+1)(k-1) + 1 rest on it at most, and 2k^2 for k = j. *)
+(** The bound is that for c = min(j+1, k): the load is at most 2(j+1)(k-1) + 1, and 2k^2 for k = j. *)
 Theorem greatest_on_an_edge : forall a b k j f X, a <> b -> (1 <= j <= k)%nat -> balanced_beside f X (k + j) ->
   let rests := rests_on f (k + j) (placed a b (Z.of_nat k) (Z.of_nat j)) in
   rests <= greatest_on_edge (n_of k) (n_of j) (n_of (Nat.min (j + 1) k)) /\

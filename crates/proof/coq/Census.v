@@ -1,4 +1,4 @@
-(** Which stackings stand under one sphere: a finite search, by computation. *)
+(** The stable stackings under one sphere: a finite search by computation. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
 From Cannonpile Require Import Directions Sums Formulas Balance Stackings.
@@ -9,7 +9,7 @@ Open Scope Q_scope.
 Definition site_eq_dec : forall p p' : Z * Z, {p = p'} + {p <> p'}.
 Proof. decide equality; apply Z.eq_dec. Defined.
 
-(** A layer as a table: each of its sites once, with what the sphere passes on. *)
+(** A layer as a table: each of its sites once, with the forces that its sphere transmits. *)
 Definition table := list ((Z * Z) * three Q).
 
 Fixpoint found (t : table) (i j : Z) : option (three Q) :=
@@ -20,7 +20,7 @@ Fixpoint found (t : table) (i j : Z) : option (three Q) :=
 
 Definition reduced_three (t : three Q) : three Q := map Qred t.
 
-(** What a sphere of the next layer, below a step [from] and above a step [to], receives and passes on. *)
+(** The forces that a sphere of the next layer, below a step [from] and above a step [to], receives and transmits. *)
 Definition from_table (from : sign) (t : table) (p : Z * Z) (d : direction) : Q :=
   let (a, b) := above_in from d (fst p) (snd p) in
   match found t a b with Some f => on d f | None => 0 end.
@@ -117,7 +117,7 @@ Qed.
 Definition pushes (t : table) : bool :=
   forallb (fun e => Qle_bool 0 (snd e).(alpha) && Qle_bool 0 (snd e).(beta) && Qle_bool 0 (snd e).(gamma)) t.
 
-(** A pile stands just if all its tables push. *)
+(** A pile is stable if and only if no table has a tensile force. *)
 Theorem stands_if_tables_push : forall L,
   stands [(0, 0)%Z] step L <-> forall k, (S k < L)%nat -> forall i j f, found (tables k) i j = Some f -> forall d, 0 <= on d f.
 Proof.
@@ -145,7 +145,8 @@ End Tables.
 
 (** ** The search
 
-    The beginnings of n+1 steps, the first of which is +, whose n+1 upper layers push, each with the table of the last. *)
+    The prefixes of n+1 steps that begin with + and whose n+1 upper layers are free of tension, each with the table
+    of the last layer. *)
 Fixpoint survivors (n : nat) : list (list sign * table) :=
   match n with
   | O => [([Plus], [((0, 0)%Z, each 1)])]
@@ -190,7 +191,7 @@ Proof.
     destruct (found (tables step k) i j) as [f|] eqn:F; [|tauto].
     destruct R as [_ (x & y & z)]. apply found_in in F. specialize (H i j f F d). destruct d; cbn [on] in *; lra.
   - intros H i j f I d.
-    (* Each site stands once in a table. *)
+    (* Each site occurs once in a table. *)
     assert (U : found (tables step k) i j = Some f).
     { assert (ND : NoDup (List.map fst (tables step k))).
       { destruct k as [|m]; [constructor; [intros [] | constructor]|]. cbn [tables]. unfold next_table.
@@ -213,7 +214,7 @@ Proof.
   - intros H k i j d HL I. specialize (H k HL). rewrite table_pushes_iff in H. apply H. exact I.
 Qed.
 
-(** A straight continuation stands: a sphere passes on what it receives, and its own. *)
+(** A straight continuation is stable: a sphere transmits the forces received plus its own weight. *)
 Lemma straight_continuation : forall step k, step (S k) = step k ->
   pushes (tables step k) = true -> pushes (tables step (S k)) = true.
 Proof.
@@ -227,7 +228,8 @@ Proof.
   specialize (P d). destruct d; cbn [on by_line alpha beta gamma] in *; unfold passed_on, each; cbn [alpha beta gamma]; lra.
 Qed.
 
-(** By computation: eleven beginnings of ten steps push, and in each of them the last five steps have one sign. *)
+(** By computation: eleven prefixes of ten steps are free of tension. In each of them the last five steps have one
+    sign. *)
 Definition five_equal (s : list sign) : bool :=
   match s with
   | a :: b :: c :: d :: e :: _ =>
@@ -264,10 +266,10 @@ Proof. decide equality. Defined.
 
 Definition same_signs : forall s t : list sign, {s = t} + {s <> t} := list_eq_dec same_sign.
 
-(** One of the eleven, and straight on: the sign of step k. *)
+(** One of the eleven prefixes with a straight continuation: the sign of step k. *)
 Definition continued (s : list sign) (k : nat) : sign := nth k (rev s) (hd Plus s).
 
-(** By computation too: the beginnings of ten steps or fewer that push are those of the eleven. *)
+(** By computation: every tension-free prefix of at most ten steps is a prefix of one of the eleven. *)
 Definition within (l m : list (list sign)) : bool := forallb (fun s => if in_dec same_signs s m then true else false) l.
 
 Definition beginnings (n : nat) : list (list sign) := List.map (fun s => prefix (continued s) n) eleven.
@@ -288,8 +290,8 @@ Qed.
 
 #[local] Opaque survivors tables.
 
-(** Under one sphere eleven stackings that begin with + stand, at any height of 11 layers or more: these ten steps from the
-    top (the last one first), and straight on. *)
+(** Under one sphere eleven stackings that begin with + are stable, at any height of 11 layers or more: these ten
+    steps from the top (the last one first), with a straight continuation. *)
 Theorem census : forall step L, step O = Plus -> (11 <= L)%nat ->
   (stands [(0, 0)%Z] step L <->
    In (prefix step 10) eleven /\ forall k, (10 <= k)%nat -> (S k < L)%nat -> step k = step 9%nat).
@@ -324,7 +326,7 @@ Qed.
 
 (** ** At any height
 
-    A stacking and its mirror image, each sign the other, stand or fall together. *)
+    A stacking is stable if and only if its mirror image is, with each sign reversed. *)
 Section Mirror.
 Variable step : nat -> sign.
 Notation image := (fun k => opposite (step k)).
@@ -381,7 +383,7 @@ Proof.
   - intros H. f_equal; [apply H; lia | apply IH; intros; apply H; lia].
 Qed.
 
-(** Of a stacking that begins with +. *)
+(** For a stacking that begins with +. *)
 Lemma census_of_plus : forall step L, step O = Plus ->
   (stands [(0, 0)%Z] step L <-> exists s, In s eleven /\ forall k, (S k < L)%nat -> step k = continued s k).
 Proof.
@@ -413,8 +415,8 @@ Proof.
       rewrite (H k HkL), (H 9%nat), F3 by lia. unfold continued. apply nth_overflow. rewrite rev_length. lia.
 Qed.
 
-(** The census: under one sphere, at any height, there stand the eleven and what they begin with, and their mirror
-    images, and nothing else. *)
+(** The census: under one sphere, at any height, the stable stackings are the eleven, their prefixes and their mirror
+    images. *)
 Theorem census_at_any_height : forall step L,
   stands [(0, 0)%Z] step L <->
   exists s, In s eleven /\
@@ -439,7 +441,7 @@ Proof.
       * exists s. split; [exact I|]. intros k Hk. rewrite (H k Hk), O2. reflexivity.
 Qed.
 
-(** How many: of those that begin with + the signs of all steps, the last one first, each once. *)
+(** Their number: the sign lists of the stable stackings that begin with +, the last sign first, without repetition. *)
 Definition standing (L : nat) : list (list sign) := nodup same_signs (beginnings (L - 1)).
 
 Lemma different : forall A B C (f : A -> B) (g : A -> C) l,

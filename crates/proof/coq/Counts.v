@@ -1,4 +1,4 @@
-(** How many: contacts, contacts of a strength, discs, and piles in other dimensions. *)
+(** Numbers of contacts, in total and by force; discs; piles in other dimensions. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
 From Cannonpile Require Import Directions Sums Formulas Balance Straight Floor.
@@ -13,7 +13,7 @@ Ltac opened ::=
 
 (** ** Contacts
 
-    One in each of three directions below each sphere that is not on the floor; L = k+1. *)
+    Each sphere above the floor has one contact below it in each of three directions; L = k+1. *)
 Theorem contacts : forall k, total_over_pile k (fun _ _ _ => 3) == contacts_3 (n_of k + 1).
 Proof.
   intros k.
@@ -28,7 +28,7 @@ Qed.
 Theorem contacts_are : forall L, 2 * contacts_3 L == L * (L - 1) * (L + 1).
 Proof. intros. opened. ring. Qed.
 
-(** 1 if a number is at least 1, or is n; else 0. *)
+(** 1 if a number is at least 1, or equals n; otherwise 0. *)
 Definition some (x : Q) : Q := if Qle_bool 1 x then 1 else 0.
 Definition exactly (n x : Q) : Q := if Qeq_bool x n then 1 else 0.
 
@@ -47,7 +47,7 @@ Proof. intros. unfold n_of. change 1 with (q 1). rewrite <- Zle_Qle. lia. Qed.
 Lemma n_of_not_negative : forall n, 0 <= n_of n.
 Proof. intros. unfold n_of. change 0 with (q 0). rewrite <- Zle_Qle. lia. Qed.
 
-(** From 0 to n there are n numbers that are at least 1, and from n down to 0 too. *)
+(** The numbers from 0 to n contain n numbers that are at least 1, and so do those from n down to 0. *)
 Lemma total_of_some : forall n, total (S n) (fun m => some (n_of m)) == n_of n.
 Proof.
   induction n as [|n IH].
@@ -66,7 +66,7 @@ Proof.
     destruct (n - m)%nat eqn:E; [lia|]. assert (B := n_of_positive n0). lra.
 Qed.
 
-(** Counted from below: one above each sphere on each line on which N >= 1. *)
+(** Counted from below: one contact above each sphere on each line with N >= 1. *)
 Definition lines_above (i j k : Q) : Q :=
   let n := above i j k in some n.(alpha) + some n.(beta) + some n.(gamma).
 
@@ -86,7 +86,7 @@ Proof.
       rewrite n_of_S, n_of_sub by lia. ring.
     + intros i _. unfold some. assert (E : n_of k - n_of i - n_of j == n_of k - n_of j - n_of i) by ring.
       rewrite E. reflexivity.
-  - (* The row j = 0 has no line along gamma. *)
+  - (* Row j = 0 has no line along gamma. *)
     assert (A : forall n, total (S n) (fun j => 2 * (n_of k - n_of j) + some (n_of j) * (n_of k - n_of j + 1))
       == 2 * n_of k + n_of n * (3 * n_of k + 1) - 3 * (n_of n * (n_of n + 1) * (1 # 2))).
     { induction n as [|n IH].
@@ -102,9 +102,9 @@ Proof.
   apply (total_over_pile_is _ (fun k => 3 * (k * (k + 1) * (1 # 2))) contacts_3 lines_above_of_layer); closed.
 Qed.
 
-(** ** Strengths, on an equilateral base
+(** ** Contacts by force, on an equilateral base
 
-    In layer k one contact along gamma of each sphere with j = n-1 carries n: there are k-n+2 of them. *)
+    In layer k one contact along gamma of each sphere with j = n-1 has force n. There are k-n+2 of them. *)
 Lemma exactly_is : forall n x, exactly n x = 1 /\ x == n \/ exactly n x = 0 /\ ~ x == n.
 Proof.
   intros n x. unfold exactly. destruct (Qeq_bool x n) eqn:E.
@@ -129,7 +129,7 @@ Proof.
       [apply Nat.ltb_lt in A; apply Nat.ltb_nlt in B | apply Nat.ltb_nlt in A; apply Nat.ltb_lt in B]; lia.
 Qed.
 
-(** What the sphere (i, j, k) passes on along gamma. *)
+(** The force that sphere (i, j, k) transmits along gamma. *)
 Definition along_gamma (i j k : Q) : Q := (closed_form (1 # 2) i j k).(gamma).
 
 Lemma strengths_of_layer : forall m k,
@@ -150,7 +150,7 @@ Proof.
   - apply (total_of_exactly (S k) m (fun j => n_of k - n_of j + 1)).
 Qed.
 
-(** Of the contacts of one direction (L-n)(L-n+1)/2 carry n, n = 1 ... L-1: here n = m+1, L = m+1+t. *)
+(** (L-n)(L-n+1)/2 contacts of one direction have force n, n = 1 ... L-1. Here n = m+1, L = m+1+t. *)
 Theorem strengths : forall m t,
   total_over_pile (m + t) (fun i j k => exactly (n_of (S m)) (along_gamma i j k))
   == contacts_of_strength_3 (n_of m + 1 + n_of t) (n_of (S m)).
@@ -170,8 +170,8 @@ Proof.
     rewrite E. opened. rewrite !n_of_S. ring.
 Qed.
 
-(** They are all contacts of that direction, carry C(L+2, 4) in all, (L+2)/4 in the mean, and the sum of squares is
-    C(L+2, 4)(2L+1)/5; L = k+1. *)
+(** These are all contacts of that direction. Their forces sum to C(L+2, 4) with mean (L+2)/4, and the sum of squares
+    is C(L+2, 4)(2L+1)/5; L = k+1. *)
 Definition by_strength (k : nat) (g : Q -> Q) : Q :=
   total k (fun m => contacts_of_strength_3 (n_of k + 1) (n_of m + 1) * g (n_of m + 1)).
 
@@ -217,7 +217,7 @@ Qed.
 
 (** ** Discs *)
 
-(** A disc that receives a and b is in balance just if it passes on a + 1 and b + 1. *)
+(** A disc that receives a and b is in balance if and only if it transmits a + 1 and b + 1. *)
 Theorem newton_of_discs : forall a b x y,
   let e := disc_directions in
   unbalanced (Three x y 0) e (Three a b 0) e (weight (increments 0)) =v= nothing <-> x == a + 1 /\ y == b + 1.
@@ -229,7 +229,7 @@ Qed.
 
 Definition discs_brought (i k : Q) : three Q := by_line force (above i 0 k) (increments 0).
 
-(** So in closed form, as for spheres. *)
+(** The closed form, as for spheres. *)
 Theorem discs_are_in_balance : forall i k,
   let g := discs_brought i k in
   unbalanced (by_line passed_on g (increments 0)) disc_directions g disc_directions (weight (increments 0)) =v= nothing.
@@ -255,8 +255,8 @@ Qed.
 
 (** ** Other dimensions
 
-    In d dimensions a sphere stands on d others, in the directions of the corners of a regular simplex: d times the
-    horizontal part of direction m is d-1 along its own coordinate and -1 along each other. *)
+    In d dimensions a sphere has d supports, in the directions of the corners of a regular simplex. d times the
+    horizontal part of direction m is d-1 along its own coordinate and -1 along each other one. *)
 Definition sideways (d c m : nat) : Q := if (m =? c)%nat then n_of d - 1 else - (1).
 
 Lemma total_of_corners : forall d c n,
@@ -268,7 +268,8 @@ Proof.
     rewrite ?Nat.eqb_eq, ?Nat.eqb_neq, ?Nat.ltb_lt, ?Nat.ltb_ge in *; try lia; ring.
 Qed.
 
-(** What the supports push more than the spheres above is the weight d, and pushes to no side, whatever arrives. *)
+(** The reaction of the supports exceeds the forces from above by the weight d, and has no horizontal part, for all
+    loads. *)
 Theorem balance_in_any_dimension : forall d (g : nat -> Q),
   total d (fun m => passed_on (g m) 1 - g m) == n_of d /\
   forall c, (c < d)%nat -> total d (fun m => sideways d c m * (passed_on (g m) 1 - g m)) == 0.
@@ -280,13 +281,13 @@ Proof.
     rewrite total_of_corners. apply Nat.ltb_lt in Hc. rewrite Hc. ring.
 Qed.
 
-(** The weight of a sphere is d, what is passed on after n spheres is what is received after n+1. *)
+(** The weight of a sphere is d. The force transmitted after n spheres is the force received after n+1. *)
 Theorem weight_in_dimensions :
   weight_2 1 1 == 2 /\ weight_3 1 1 1 == 3 /\ weight_4 1 1 1 1 == 4 /\ weight_5 1 1 1 1 1 == 5 /\
   weight_6 1 1 1 1 1 1 == 6 /\ forall n w, passed_on (force n w) w == force (n + 1) w.
 Proof. repeat split; intros; opened; ring. Qed.
 
-(** With n_1 + ... + n_d = L-1 the normal force on the floor is L+d-1, in mg/d, under every sphere. *)
+(** For n_1 + ... + n_d = L-1 the normal force on the floor is L+d-1, in mg/d, under every sphere. *)
 Theorem normal_in_any_dimension : forall d L (n : nat -> Q),
   total d n == L - 1 -> total d (fun m => force (n m) 1) + n_of d == L + n_of d - 1.
 Proof.
@@ -298,7 +299,7 @@ Theorem increments_are_summed : forall a b c d e f,
   weight_5 a b c d e == a + b + c + d + e /\ weight_6 a b c d e f == a + b + c + d + e + f.
 Proof. intros. repeat split; opened; ring. Qed.
 
-(** A layer in d dimensions is a pile in d-1, and the layers are the pile. *)
+(** A layer in d dimensions is a pile in d-1 dimensions, and the layers form the pile. *)
 Theorem layers_are_piles : forall k,
   spheres_in_layer_2 k == k + 1 /\ spheres_in_layer_3 k == spheres_2 (k + 1) /\
   spheres_in_layer_4 k == spheres_3 (k + 1) /\ spheres_in_layer_5 k == spheres_4 (k + 1) /\
@@ -320,7 +321,7 @@ Proof. intros L. apply (total_is spheres_in_layer_5 spheres_5); closed. Qed.
 Theorem spheres_in_dimension_6 : forall L, total L (fun k => spheres_in_layer_6 (n_of k)) == spheres_6 (n_of L).
 Proof. intros L. apply (total_is spheres_in_layer_6 spheres_6); closed. Qed.
 
-(** C(L+d-1, d): of the product of L, L+1, ..., L+d-1 the d!-th part. *)
+(** C(L+d-1, d): the product of L, L+1, ..., L+d-1 divided by d!. *)
 Fixpoint choose (d : nat) (L : Q) : Q :=
   match d with
   | O => 1
@@ -330,7 +331,7 @@ Fixpoint choose (d : nat) (L : Q) : Q :=
 Lemma n_of_S_is_not_0 : forall n, ~ n_of n + 1 == 0.
 Proof. intros n. assert (N := n_of_not_negative n). lra. Qed.
 
-(** As many spheres have L layers. *)
+(** L layers have this number of spheres. *)
 Theorem spheres_in_dimensions : forall L,
   spheres_2 L == choose 2 L /\ spheres_3 L == choose 3 L /\ spheres_4 L == choose 4 L /\
   spheres_5 L == choose 5 L /\ spheres_6 L == choose 6 L.
@@ -350,7 +351,7 @@ Proof.
   induction d as [|d IH]; intros x y H; cbn [choose]; [reflexivity|]. rewrite (IH x y H), H. reflexivity.
 Qed.
 
-(** In every dimension the layers are the pile: the sum of C(k+d, d) over k < L is C(L+d, d+1). *)
+(** In every dimension the layers form the pile: the sum of C(k+d, d) over k < L is C(L+d, d+1). *)
 Theorem spheres_in_any_dimension : forall d L, total L (fun k => choose d (n_of k + 1)) == choose (S d) (n_of L).
 Proof.
   intros d L. apply (total_is (fun k => choose d (k + 1)) (choose (S d))).
@@ -371,7 +372,8 @@ Theorem weight_arrives_in_dimensions : forall L,
   (L + 5) * spheres_in_layer_6 (L - 1) == 6 * spheres_6 L.
 Proof. intros. repeat split; opened; ring. Qed.
 
-(** Contacts: d below each sphere off the floor; those of one direction that carry n are as many as the spheres of a layer. *)
+(** Contacts: d below each sphere above the floor. The number of contacts of one direction with force n is the number
+    of spheres of a layer. *)
 Theorem contacts_in_dimensions : forall L,
   contacts_2 L == 2 * spheres_2 (L - 1) /\ contacts_3 L == 3 * spheres_3 (L - 1) /\
   contacts_4 L == 4 * spheres_4 (L - 1) /\ contacts_5 L == 5 * spheres_5 (L - 1) /\

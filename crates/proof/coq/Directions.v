@@ -1,15 +1,15 @@
-(** Directions, signs and vectors: the words in which the formulas are written. *)
+(** Directions, signs and vectors: the types of the recorded formulas. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Qreduction.
 
 (** The three contacts below a sphere. *)
 Inductive direction := Alpha | Beta | Gamma.
 
-(** The sign of a step from a layer to the one below: under [Plus] the sphere (i, j) rests on (i, j), (i+1, j), (i, j+1),
-    under [Minus] on (i, j), (i-1, j), (i, j-1). *)
+(** The sign of a step from a layer to the one below. Under [Plus] sphere (i, j) is supported by (i, j), (i+1, j),
+    (i, j+1), under [Minus] by (i, j), (i-1, j), (i, j-1). *)
 Inductive sign := Plus | Minus.
 
-(** One thing for each direction. *)
+(** One value for each direction. *)
 Record three (A : Type) := Three { alpha : A; beta : A; gamma : A }.
 Arguments Three {A} _ _ _.
 Arguments alpha {A} _.
@@ -39,7 +39,7 @@ Definition sum (t : three Q) : Q := t.(alpha) + t.(beta) + t.(gamma).
 
 Definition nothing : vector := Vector 0 0 0.
 
-(** Rationals as a ring whose numbers are reduced while [ring] computes: they would grow without end. *)
+(** Rationals as a ring whose numbers are reduced during [ring]; otherwise they would grow without limit. *)
 Lemma reduced :
   ring_morph 0 1 Qplus Qmult Qminus Qopp Qeq 0 1
     (fun a b => Qred (a + b)) (fun a b => Qred (a * b)) (fun a b => Qred (a - b)) (fun a => Qred (- a))
@@ -51,7 +51,7 @@ Qed.
 Add Ring reduced_rationals :
   Qsrt (morphism reduced, constants [Qcst], power_tac Qpower_theory [Qpow_tac]).
 
-(** Equal as rationals, number by number: 1/2 and 2/4 are. *)
+(** Equality as rationals, componentwise: 1/2 equals 2/4. *)
 Definition same (s t : three Q) : Prop :=
   s.(alpha) == t.(alpha) /\ s.(beta) == t.(beta) /\ s.(gamma) == t.(gamma).
 

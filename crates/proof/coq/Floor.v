@@ -1,18 +1,18 @@
-(** What the floor feels of the straight pile: the pressure, the weight, the shear, and their moments, for every L. *)
+(** The reaction at the base of the straight pile: pressure, weight, shear and their moments, for every L. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa.
 From Cannonpile Require Import Directions Sums Formulas Balance Straight.
 
 Open Scope Q_scope.
 
-(** The force of the sphere (i, j) of the bottom layer of L layers on the floor, (11) to (14), in f0. *)
+(** The force of bottom sphere (i, j) of L layers on the floor, (11) to (14), in f0. *)
 Definition on_floor (s L i j : Q) : vector :=
   handed_on (brought s i j (L - 1)) (directions s) (weight (increments s)).
 
 (** The normal force, in mg. *)
 Definition normal (s L i j : Q) : Q := (on_floor s L i j).(along_z) / weight (increments s).
 
-(** It is what any forces that balance all spheres press the floor with. *)
+(** It is the normal force for any forces that balance all spheres. *)
 Theorem on_floor_is_what_arrives : forall s f L i j, ~ 1 + s == 0 ->
   (forall k a b, (k < L)%nat -> occupied k a b = true -> balanced s f k a b) ->
   occupied L i j = true ->
@@ -37,7 +37,7 @@ Proof. intros. unfold on_floor, brought. formulas. ring. Qed.
 Theorem base_normal_equilateral : forall L i j, normal (1 # 2) L i j == (L + 2) / 3.
 Proof. intros. unfold normal. rewrite base_normal. formulas. field. Qed.
 
-(** Two normal forces differ by (2s-1)(j-j') increments. *)
+(** The difference of two normal forces is (2s-1)(j-j') increments. *)
 Theorem difference_of_normals : forall s L i j a b,
   (on_floor s L i j).(along_z) - (on_floor s L a b).(along_z) == (2 * s - 1) * (j - b).
 Proof. intros. unfold on_floor, brought. formulas. ring. Qed.
@@ -75,22 +75,22 @@ Qed.
 
 Ltac opened := unfold on_floor, brought, normal; formulas.
 
-(** Conditions of a closed form: that it respects equality, that it is 0 at 0 and grows by the terms. *)
+(** Conditions of a closed form: it respects equality, is 0 at 0, and its differences are the terms. *)
 Ltac closed :=
   intros; match goal with
           | |- respects _ => intros ? ? ?; cbv beta; congruent
           | _ => opened; ring
           end.
 
-(** A sum over a layer, by the sums of its rows and of the rows before one. *)
+(** A sum over a layer, from the sums of its rows and of the preceding rows. *)
 Ltac over_layer R S := etransitivity; [apply (total_over_layer_is _ R S); closed|].
 
-(** A sum over layers, by the sums of each. *)
+(** A sum over layers, from the sum of each layer. *)
 Ltac over_pile R S U T :=
   etransitivity;
   [apply (total_over_pile_is _ U T); [let m := fresh "m" in intros m; over_layer (R (n_of m)) (S (n_of m)); closed | closed | closed | closed]|].
 
-(** How many spheres there are: the sum of 1. *)
+(** The number of spheres: the sum of 1. *)
 Theorem spheres_in_a_layer : forall k, total_over_layer k (fun _ _ => 1) == spheres_in_layer_3 (n_of k).
 Proof.
   intros k.
@@ -104,18 +104,18 @@ Proof.
     spheres_in_layer_3 (fun x => (x * x * x + 3 * x * x + 2 * x) * (1 # 6)). closed.
 Qed.
 
-(** There are (k+1)(k+2)/2 in layer k, and L(L+1)(L+2)/6 in all. *)
+(** There are (k+1)(k+2)/2 spheres in layer k, and L(L+1)(L+2)/6 in all. *)
 Theorem spheres_of_a_layer_are : forall k, total_over_layer k (fun _ _ => 1) == (n_of k + 1) * (n_of k + 2) / 2.
 Proof. intros k. rewrite spheres_in_a_layer. formulas. field. Qed.
 
 Theorem spheres_are : forall L, total_over_pile L (fun _ _ _ => 1) == n_of L * (n_of L + 1) * (n_of L + 2) / 6.
 Proof. intros L. rewrite spheres_of_a_pile. formulas. field. Qed.
 
-(** ** The weight arrives
+(** ** The base carries the weight
 
-    The base is layer k = L-1, so that L is k + 1. *)
+    The base is layer k = L-1, so L = k + 1. *)
 
-(** The weight of all spheres, each of weight W in f0 cos theta. *)
+(** The weight of all spheres, each of weight W, in f0 cos theta. *)
 Definition weight_of_pile (s : Q) (L : nat) : Q := total_over_pile L (fun _ _ _ => weight (increments s)).
 
 Lemma weight_of_pile_is : forall s L, weight_of_pile s L == spheres_3 (n_of L) * weight (increments s).
@@ -163,7 +163,7 @@ Qed.
 
 (** ** Moments
 
-    The place of a sphere of layer k from the apex, in 2R; r are its horizontal parts. *)
+    The position of a sphere of layer k relative to the apex, in 2R. r is its horizontal part. *)
 Definition place (s i j k : Q) : vector := position (above i j k) (directions s).
 
 Ltac opened ::= unfold on_floor, brought, closed_form, normal, place; formulas.
@@ -181,7 +181,7 @@ Proof.
     ((fun K y : Q => 0) (n_of k)). closed.
 Qed.
 
-(** The normal forces have the moment of the weights, about both horizontal axes. *)
+(** The normal forces have the same moments as the weights, about both horizontal axes. *)
 Theorem total_moment : forall s k,
   let W := weight (increments s) in
   total_over_layer k (fun i j => (on_floor s (n_of k + 1) i j).(along_z) * (place s i j (n_of k)).(along_x))
@@ -233,7 +233,7 @@ Definition from_axis_squared (s : Q) (v : vector) : Q :=
 
 Ltac opened ::= unfold from_axis_squared, on_floor, closed_form, brought, normal, place; formulas.
 
-(** Second moment: the sum of F_z r_b^2 is that of mg (r_s^2 + H_s^2 tan^2 theta), H_s the height over the base. *)
+(** Second moment: the sum of F_z r_b^2 equals that of mg (r_s^2 + H_s^2 tan^2 theta), H_s the height above the base. *)
 Theorem second_moment : forall s k,
   let W := weight (increments s) in
   total_over_layer k (fun i j =>
@@ -317,7 +317,7 @@ Qed.
 
 (** ** The axis and the corners *)
 
-(** On an equilateral base the shear of a bottom sphere is its place from the axis. *)
+(** On an equilateral base the shear of a bottom sphere is its position relative to the axis. *)
 Theorem shear_is_the_place : forall L i j,
   (on_floor (1 # 2) L i j).(along_x) == (place (1 # 2) i j (L - 1)).(along_x) /\
   (on_floor (1 # 2) L i j).(along_y) == (place (1 # 2) i j (L - 1)).(along_y).
@@ -326,7 +326,7 @@ Proof. intros. opened. split; ring. Qed.
 Lemma q_zero : forall z : Z, q z == 0 -> z = 0%Z.
 Proof. intros z H. unfold Qeq in H. simpl in H. lia. Qed.
 
-(** It vanishes on the axis and nowhere else: there is such a sphere only if L-1 = 3n, and then it is i = j = n. *)
+(** It vanishes only on the axis. Such a sphere exists only if L-1 = 3n, and then i = j = n. *)
 Theorem shear_vanishes_on_the_axis : forall L i j : Z,
   let F := on_floor (1 # 2) (q L) (q i) (q j) in
   (F.(along_x) == 0 /\ F.(along_y) == 0) <-> (i = j /\ L - 1 = 3 * j)%Z.
@@ -344,15 +344,15 @@ Proof.
   rewrite !Z. lia.
 Qed.
 
-(** (L-1)^2 - |shear|^2 = 3 (N_a N_b + N_b N_c + N_c N_a), with the normal force L+2: so the largest ratio of shear to normal
-    force is tan theta (L-1)/(L+2). *)
+(** (L-1)^2 - |shear|^2 = 3 (N_a N_b + N_b N_c + N_c N_a), with normal force L+2. So the largest ratio of shear to
+    normal force is tan theta (L-1)/(L+2). *)
 Theorem shear_ratio : forall L i j,
   (L - 1) * (L - 1) - from_axis_squared (1 # 2) (on_floor (1 # 2) L i j)
   == 3 * (let (a, b, c) := above i j (L - 1) in a * b + b * c + c * a) /\
   (on_floor (1 # 2) L i j).(along_z) == L + 2.
 Proof. intros. opened. split; ring. Qed.
 
-(** It is at most that everywhere on the base, and that in the corners and nowhere else. *)
+(** This is the maximum over the base, attained only at the corners. *)
 Theorem shear_is_greatest_in_the_corners : forall k i j, occupied k i j = true ->
   let shear_squared := from_axis_squared (1 # 2) (on_floor (1 # 2) (n_of k + 1) (q i) (q j)) in
   shear_squared <= n_of k * n_of k /\

@@ -16,12 +16,12 @@ Definition times (sigma : sign) (x : Q) : Q := match sigma with Plus => x | Minu
 
 (** ** Balance *)
 
-(** Neighbours of a layer touch: their squared distance over 4R^2 is 1. *)
+(** Neighbours in a layer touch: their squared distance over 4R^2 is 1. *)
 Theorem neighbours_touch : forall a b, a <> b ->
   squared_distance (minus_three (one_on a) (one_on b)) (1 # 2) (1 # 3) == 1.
 Proof. intros [] [] H; try congruence; unfold minus_three; formulas; cbn; reflexivity. Qed.
 
-(** The six neighbours: x to p + d_b - d_a, y to p - d_b + d_a, for the pairs (a, b) of the three axes. *)
+(** The six neighbours: x for p + d_b - d_a, y for p - d_b + d_a, for the pairs (a, b) of the three axes. *)
 Record pushes := { ab : Q; ag : Q; gb : Q }.
 
 Definition pushed_by (x y : pushes) : three Q :=
@@ -29,7 +29,7 @@ Definition pushed_by (x y : pushes) : three Q :=
                          (plus_three (pushed x.(ag) Alpha Gamma true) (pushed y.(ag) Alpha Gamma false)))
              (plus_three (pushed x.(gb) Gamma Beta true) (pushed y.(gb) Gamma Beta false)).
 
-(** The force of all six on the sphere: x along e_b - e_a, y along the reverse. *)
+(** The force of all six neighbours on the sphere: x along e_b - e_a, y along the reverse. *)
 Definition push (x y : pushes) : vector :=
   let along a b f := map (Qmult f) (minus_three (one_on b) (one_on a)) in
   combination (plus_three (plus_three (along Alpha Beta (x.(ab) - y.(ab))) (along Alpha Gamma (x.(ag) - y.(ag))))
@@ -38,7 +38,8 @@ Definition push (x y : pushes) : vector :=
 Definition plus_vector (v w : vector) : vector :=
   Vector (v.(along_x) + w.(along_x)) (v.(along_y) + w.(along_y)) (v.(along_z) + w.(along_z)).
 
-(** A sphere of weight n mg that receives any g and passes on f = T g + n - sigma H is in balance with the pushes. *)
+(** A sphere of weight n mg that receives any g and transmits f = T g + n - sigma H is in balance with the horizontal
+    forces. *)
 Theorem horizontal_balance : forall from to g n x y,
   let turned := transferred from to g in
   let h := pushed_by x y in
@@ -53,16 +54,16 @@ Proof.
     plus_vector, one_on; cbn [ab ag gb]; by_components.
 Qed.
 
-(** A direction and itself are no axis. The formulas are defined there too: what they say is this, and nothing above or below asks
-    for it. *)
+(** A direction paired with itself is not an axis. The formulas are defined there too, with this value, and no other
+    proof depends on it. *)
 Theorem no_axis : forall d away x phi there sigma,
   pushed x d d away =3= map (Qmult x) (one_on d) /\ compression phi there d d sigma == 0.
 Proof. intros [] [] x [] [] []; (split; [unfold one_on; by_components | formulas; ring]). Qed.
 
 (** ** Virtual work
 
-    For any numbers phi: the balance of a sphere times phi, of a sloping contact, and of a horizontal one. Added over all
-    spheres, with phi = 0 on the floor, they are: sum of f D + sum of X c = sum of w phi. *)
+    For any numbers phi: the balance of a sphere times phi, and the terms of a sloping and of a horizontal contact.
+    With phi = 0 on the floor, the sum over all spheres is: sum of f D + sum of X c = sum of w phi. *)
 Theorem work_of_a_sphere : forall from to phi g n h,
   let turned := transferred from to g in
   let f := Three (beside turned.(alpha) n h.(alpha) to) (beside turned.(beta) n h.(beta) to)
@@ -84,14 +85,14 @@ Definition field (n : three Q) (d : Q) : three Q := map (fun n => elastic_field 
 Theorem field_on_the_floor : forall n, elastic_field n 0 == 0.
 Proof. intros. formulas. ring. Qed.
 
-(** D of every sloping contact is the force it bears. *)
+(** D of every sloping contact is its force. *)
 Theorem field_lowers_by_the_force : forall i j k d l,
   let (di, dj) := descent Plus l in
   lowered (on l (field (above i j k) d)) (on l (field (above (i + q di) (j + q dj) (k + 1)) (d - 1)))
   == on l (closed_form (1 # 2) i j k).
 Proof. intros i j k d []; cbn [descent]; unfold closed_form, brought, field; cbn [q]; formulas; ring. Qed.
 
-(** c of every horizontal contact is -2d: they open. *)
+(** c of every horizontal contact is -2d: these contacts open. *)
 Theorem field_opens : forall i j k d a b, a <> b ->
   let (ai, aj) := descent Plus a in
   let (bi, bj) := descent Plus b in
@@ -123,7 +124,7 @@ Proof.
   rewrite E. ring.
 Qed.
 
-(** And it is the work of the weights. *)
+(** It is also the work of the weights. *)
 Theorem energy_is_work : forall k,
   total_over_pile k (fun i j m => let f := closed_form (1 # 2) i j m in dot f f)
   == total_over_pile k (fun i j m => sum (field (above i j m) (n_of k - m))).
@@ -150,8 +151,8 @@ Proof.
   ring.
 Qed.
 
-(** Settlement: 6w = d(3L-k), w the mean of phi, so layers stay plane; 3(w - phi_l) = -d(3n_l - k), so they dilate; the apex
-    sinks by w = L(L-1)/2. *)
+(** Settlement: 6w = d(3L-k), with w the mean of phi, so layers stay plane. 3(w - phi_l) = -d(3n_l - k), so they
+    dilate. The apex sinks by w = L(L-1)/2. *)
 Theorem settlement : forall L i j k,
   let d := L - 1 - k in
   let phi := field (above i j k) d in
@@ -161,7 +162,7 @@ Theorem settlement : forall L i j k,
   2 * elastic_field 0 (L - 1) == L * (L - 1).
 Proof. intros. unfold w, phi, d, field. repeat split; formulas; ring. Qed.
 
-(** Discs too. *)
+(** The same for discs. *)
 Theorem field_of_discs : forall i k d,
   lowered (elastic_field (k - i) d) (elastic_field (k + 1 - i) (d - 1)) == k - i + 1 /\
   lowered (elastic_field i d) (elastic_field (i + 1) (d - 1)) == i + 1 /\
@@ -174,7 +175,8 @@ Definition drops (here below : three Q) : three Q := by_line lowered here below.
 
 Definition other (edge l : direction) : Prop := edge <> l.
 
-(** The least: D = 0 along the edge, D = 1 at its end, c = -1 at the horizontal contacts of the edge, sum of phi = K. *)
+(** Lower bound: D = 0 along the edge, D = 1 at its end, c = -1 at the horizontal contacts of the edge, sum of
+    phi = K. *)
 Theorem corner_least : forall edge K,
   let phi := corner_field edge false in
   drops phi (map (Qmult (on edge phi)) (one_on edge)) =3= each 0 /\
@@ -185,7 +187,8 @@ Proof.
   intros [] K; unfold drops, one_on; repeat split; intros; try (destruct b; try congruence); formulas; ring.
 Qed.
 
-(** The greatest: D = 0 along the edge, 1 along the other lines and at its end; at the apex 0; c = 0; sum of phi = 3K-2. *)
+(** Upper bound: D = 0 along the edge, 1 along the other lines and at its end, 0 there at the apex; c = 0; sum of
+    phi = 3K-2. *)
 Theorem corner_greatest : forall edge K,
   let apex := corner_field edge false in
   let phi := corner_field edge true in
@@ -200,7 +203,8 @@ Proof.
     formulas; ring.
 Qed.
 
-(** It is attained with X = 1 between the spheres of the edge and their neighbours: t spheres down the edge 3t-2 arrive. *)
+(** It is attained with X = 1 between the spheres of the edge and their neighbours: t spheres down the edge the force
+    is 3t-2. *)
 Fixpoint down_the_edge (t : nat) : Q :=
   match t with
   | O => 0
@@ -218,7 +222,7 @@ Proof.
   revert IH. unfold plus_three. formulas. intros IH. rewrite IH, !n_of_S. ring.
 Qed.
 
-(** Its neighbour adds 0 along the edge, 2 along the line that leads to it, and 1 along the third. *)
+(** A neighbour adds 0 along the edge, 2 along the line that leads to it, and 1 along the third. *)
 Theorem neighbour_of_the_edge : forall edge b g, b <> edge ->
   let h := pushed 1 edge b false in
   Three (beside g.(alpha) 1 h.(alpha) Plus) (beside g.(beta) 1 h.(beta) Plus) (beside g.(gamma) 1 h.(gamma) Plus)
@@ -227,8 +231,9 @@ Proof. intros [] [] [] H; try congruence; unfold plus_three, minus_three, one_on
 
 (** ** The arch *)
 
-(** Three spheres that would pass on nu to the one they rest on press each other so that nothing arrives there, and each adds
-    1 + X along the line of the other. [line] is that of the sphere, a and b are the others. *)
+(** Three spheres that would transmit nu to the sphere below them press on each other so that this sphere is
+    unloaded. Each adds 1 + X along the lines of the others. [line] is the line of the sphere; a and b are the
+    others. *)
 Theorem arch_empties : forall line a b g nu, line <> a -> line <> b -> a <> b ->
   let x := arch nu in
   let h := plus_three (pushed (on b x) a line true) (pushed (on a x) b line true) in
@@ -240,25 +245,25 @@ Proof.
   intros [] [] [] [] [] A B C; try congruence; unfold plus_three; repeat split; formulas; ring.
 Qed.
 
-(** A flank: who pushes at a neighbour with 1 adds nothing along one line and 2 along the other. *)
+(** A flank: a sphere that presses on a neighbour with force 1 adds nothing along one line and 2 along the other. *)
 Theorem flank : forall a b g, a <> b ->
   let h := pushed 1 a b true in
   Three (beside g.(alpha) 1 h.(alpha) Plus) (beside g.(beta) 1 h.(beta) Plus) (beside g.(gamma) 1 h.(gamma) Plus)
   =3= plus_three g (plus_three (each 1) (minus_three (one_on a) (one_on b))).
 Proof. intros [] [] [] H; try congruence; unfold plus_three, minus_three, one_on; by_components. Qed.
 
-(** At r = n_B + n_C the pushes are 0, n_C, n_B. *)
+(** At r = n_B + n_C the horizontal forces are 0, n_C, n_B. *)
 Theorem steep_arch : forall b c, arch (Three (b + c) b c) =3= Three 0 c b.
 Proof. intros. by_components. Qed.
 
-(** No push of an arch is negative. *)
+(** No horizontal force of an arch is negative. *)
 Theorem arch_pushes : forall r b c, 0 <= c -> c <= b -> b <= r -> r <= b + c ->
   let x := arch (Three r b c) in 0 <= x.(alpha) /\ 0 <= x.(beta) /\ 0 <= x.(gamma).
 Proof. intros. unfold x. formulas. repeat split; lra. Qed.
 
 (** ** Bounds inside and on edges *)
 
-(** The field that bounds what rests on n is 1 on a pile of n_l layers for each line. *)
+(** The field that bounds the load on n is 1 on a pile of n_l layers for each line. *)
 Theorem inner_greatest : forall a b c,
   let spheres n := total_over_pile n (fun _ _ _ => 1) in
   spheres a + spheres b + spheres c == greatest_inside (Three (n_of a) (n_of b) (n_of c)).
@@ -267,8 +272,8 @@ Proof. intros. unfold spheres. rewrite !spheres_of_a_pile. formulas. ring. Qed.
 Theorem greatest_at_a_centre : forall k, 2 * greatest_inside (each k) == k * (k + 1) * (k + 2).
 Proof. intros. formulas. ring. Qed.
 
-(** On an edge, row by row: the field is 1 along alpha on S0, along beta on S1, and along gamma on those of S0 with
-    n_a >= 1 and of S1 with n_b >= 1. A row of S0 above the first holds c-y spheres, one of S1 k+j-y-c. *)
+(** On an edge, row by row: the field is 1 along alpha on S0, along beta on S1, and along gamma on the spheres of S0
+    with n_a >= 1 and of S1 with n_b >= 1. A row of S0 above the first has c-y spheres, one of S1 has k+j-y-c. *)
 Theorem edge_greatest : forall c j k : nat, (1 <= c)%nat ->
   let above_first less := total (c - 1) (fun y => n_of c - (n_of y + 1) - less) in
   let right n := total n (fun y => n_of k + n_of y - n_of c) in
@@ -291,9 +296,10 @@ Theorem edge_greatest_is : forall k j,
   greatest_on_edge k j (j + 1) == 2 * (j + 1) * (k - 1) + 1 /\ greatest_on_edge k k k == 2 * k * k.
 Proof. intros. split; formulas; ring. Qed.
 
-(** ** Runs end with horizontal contacts too
+(** ** Runs with horizontal contacts
 
-    A sphere on the edge where only line l goes on is pressed along it by its two neighbours off the edge, with x and y. *)
+    Two neighbours off the edge press a sphere of the edge along line l, the only line that continues there, with x
+    and y. *)
 Definition leads_away (sigma : sign) : bool := match sigma with Plus => true | Minus => false end.
 
 Definition pressed (sigma : sign) (l a b : direction) (x y : Q) : Q :=
@@ -308,7 +314,7 @@ Proof.
     split; formulas; ring.
 Qed.
 
-(** So from g >= 4 on it would have to pull, whatever presses. *)
+(** So from g >= 4 on the force is tensile, for all horizontal forces. *)
 Theorem no_run_ends_with_pushes : forall sigma l a b g x y, l <> a -> l <> b -> a <> b ->
   0 <= x -> 0 <= y -> 4 <= g ->
   beside (on l (half_turn (map (Qmult g) (one_on l)))) 1 (pressed sigma l a b x y) (opposite sigma) < 0.

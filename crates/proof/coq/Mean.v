@@ -1,4 +1,4 @@
-(** The mean over random stackings: each sign differs from the one before with probability q. *)
+(** The mean over random stackings: each sign differs from the previous one with probability q. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa List.
 From Cannonpile Require Import Directions Sums Formulas Balance Horizontal Response.
@@ -9,12 +9,12 @@ Open Scope Q_scope.
 
 (** ** Modes *)
 
-(** The parts of the mean before a + and before a - step, and what a step makes of them where nothing moves. *)
+(** The parts of the mean before a + and before a - step, and their transfer across a step without motion. *)
 Definition stepped (q : Q) (f h : three Q) : three Q * three Q :=
   let mixed same other := by_line Qplus (map (Qmult (1 - q)) same) (map (Qmult q) (half_turn other)) in
   (mixed f h, mixed h f).
 
-(** (M - 1)(M - mu) = 0, mu = 1-2q: three numbers are kept, three shrink. *)
+(** (M - 1)(M - mu) = 0, mu = 1-2q: three numbers are conserved, three decay. *)
 Theorem modes_of_the_mean : forall q f h,
   let mu := 1 - 2 * q in
   let once := stepped q f h in
@@ -23,8 +23,8 @@ Theorem modes_of_the_mean : forall q f h,
   by_line Qminus (by_line Qplus (snd twice) (map (Qmult mu) h)) (map (Qmult (1 + mu)) (snd once)) =3= each 0.
 Proof. intros q [] []. cbv zeta. unfold stepped. cbn [fst snd]. split; by_components. Qed.
 
-(** What changes its sign from site to site along alpha and beta, (1, -1, 0) and its negative, is turned into its
-    negative by every step: it never decays. *)
+(** A field that alternates from site to site along alpha and beta, (1, -1, 0) and its negative, changes its sign in
+    every step and never decays. *)
 Theorem staggered_mode : forall q x,
   let psi := Three x (- x) 0 in
   let moved := Three (- x) x 0 in
@@ -34,8 +34,8 @@ Proof. intros q x. cbv zeta. unfold stepped. cbn [fst snd]. split; by_components
 
 (** ** Registries *)
 
-(** Shares of the stackings that come to the registries 0, 1, 2 by a + step, p, and by a - step, m; and what one step more
-    makes of them: + leads from r to r+1, - to r-1. *)
+(** Fractions of the stackings in registries 0, 1, 2 after a + step, p, and after a - step, m, and their change in
+    one more step: + leads from r to r+1, - to r-1. *)
 Record shares := Shares { p0 : Q; p1 : Q; p2 : Q; m0 : Q; m1 : Q; m2 : Q }.
 
 Definition further (q : Q) (s : shares) : shares :=
@@ -43,20 +43,20 @@ Definition further (q : Q) (s : shares) : shares :=
   Shares (mix s.(p2) s.(m2)) (mix s.(p0) s.(m0)) (mix s.(p1) s.(m1))
          (mix s.(m1) s.(p1)) (mix s.(m2) s.(p2)) (mix s.(m0) s.(p0)).
 
-(** By how much each registry exceeds a third of all. *)
+(** The excess of each registry over one third. *)
 Definition excesses (s : shares) : three Q :=
   let all := s.(p0) + s.(p1) + s.(p2) + s.(m0) + s.(m1) + s.(m2) in
   Three (s.(p0) + s.(m0) - all * (1 # 3)) (s.(p1) + s.(m1) - all * (1 # 3)) (s.(p2) + s.(m2) - all * (1 # 3)).
 
 Ltac by_shares := cbv zeta; intros; unfold further, excesses, by_line; cbn [p0 p1 p2 m0 m1 m2]; repeat split; formulas; ring.
 
-(** The recursion of the library, from any shares. *)
+(** The recursion of the library, from any fractions. *)
 Theorem registry : forall q s,
   let once := further q s in
   by_line (fun x y => registry_excess x y q) (excesses s) (excesses once) =3= excesses (further q once).
 Proof. intros q []. by_shares. Qed.
 
-(** And two steps below a single layer, of registry 0, if the shares of the first signs are u and v. *)
+(** Two steps below a single layer of registry 0, if the fractions of the first signs are u and v. *)
 Theorem registry_at_the_top : forall q u v,
   let first := Shares 0 u 0 0 0 v in
   by_line (fun x y => registry_excess x y q) (excesses (Shares (u + v) 0 0 0 0 0)) (excesses first)
@@ -65,7 +65,7 @@ Proof. by_shares. Qed.
 
 (** ** Random signs
 
-    The mean of what depends on the next n signs after one: each differs from the one before with probability q. *)
+    The mean of a quantity that depends on the next n signs: each differs from the previous one with probability q. *)
 Fixpoint mean (q : Q) (n : nat) (before : sign) (F : list sign -> Q) : Q :=
   match n with
   | O => F []
@@ -98,7 +98,7 @@ Proof.
   rewrite mean_of_sum, IH. reflexivity.
 Qed.
 
-(** The signs of a stacking that begins with [first], and goes on with a list; and one of them as a number. *)
+(** The signs of a stacking that begins with [first] and continues with a list; and one of them as a number. *)
 Definition signs (first : sign) (s : list sign) (k : nat) : sign := nth k (first :: s) first.
 Definition sigma (first : sign) (s : list sign) (k : nat) : Q := times (signs first s k) 1.
 
@@ -132,7 +132,7 @@ Proof.
     rewrite !IH by lia. cbn [power]. destruct b; unfold times; cbn [opposite]; ring.
 Qed.
 
-(** And of the product of two mu^(t-s). *)
+(** The mean of the product of two signs is mu^(t-s). *)
 Theorem mean_of_two_signs : forall q n b j k, (j <= k)%nat -> (k <= n)%nat ->
   mean q n b (fun s => sigma b s k * sigma b s j) == power (1 - 2 * q) (k - j).
 Proof.
@@ -150,7 +150,7 @@ Qed.
 
 (** ** Moments *)
 
-(** What the mean signs make of the third moment, (1-mu)^3 times. *)
+(** The third moment for the mean signs, times (1-mu)^3. *)
 Theorem mean_of_third_moment : forall mu n,
   (1 - mu) * (1 - mu) * (1 - mu) * total n (fun s => power mu s * third_moment (n_of n) (n_of s + 1))
   == mean_third_moment (n_of n) mu (power mu n).
@@ -180,7 +180,7 @@ Proof.
   - intros s _. formulas. ring.
 Qed.
 
-(** What pairs of mean signs make of the fourth, (1-mu)^4 times. *)
+(** The contribution of pairs of mean signs to the fourth moment, times (1-mu)^4. *)
 Theorem mean_of_fourth_moment : forall mu n,
   (1 - mu) * (1 - mu) * (1 - mu) * (1 - mu)
     * total n (fun t => total t (fun s => power mu (t - s) * fourth_moment_of_pair (n_of n) (n_of s + 1) (n_of t + 1)))
@@ -238,8 +238,8 @@ Proof.
     + intros s _. formulas. ring.
 Qed.
 
-(** Over random stackings that begin with + and change their sign with probability q the mean third moment of the response at
-    depth n+1, which is its sum of v r^3 cos 3phi; q > 0. *)
+(** The mean third moment of the response at depth n+1, the sum of v r^3 cos 3phi, over random stackings that begin
+    with + and change their sign with probability q > 0. *)
 Theorem third_moment_of_random_stackings : forall q n, ~ q == 0 ->
   let mu := 1 - 2 * q in
   let N := n_of (S n) in
@@ -263,7 +263,7 @@ Proof.
   rewrite T. formulas. field. exact U.
 Qed.
 
-(** And the mean fourth moment, of stackings that begin with either sign. *)
+(** The mean fourth moment, for stackings that begin with either sign. *)
 Theorem fourth_moment_of_random_stackings : forall q n b, ~ q == 0 ->
   let mu := 1 - 2 * q in
   let N := n_of (S n) in
@@ -298,8 +298,8 @@ Qed.
 
 (** ** Waves
 
-    What the library calls the damping and the dispersion of the waves that the mean is made of, times q and q^2; at q = 1,
-    HCP, nothing is damped. That they are those of the spectrum is not proved here. *)
+    The damping and the dispersion of the waves of the mean, as in the library, times q and q^2. At q = 1, HCP, the
+    damping is zero. [Spectrum.v] relates them to the spectrum. *)
 Theorem damping_and_dispersion : forall q,
   16 * fst (wave q) == 1 - q /\ 768 * snd (wave q) == 13 * q * q - 42 * q + 21.
 Proof. intros q. unfold wave. cbn [fst snd]. split; ring. Qed.

@@ -1,11 +1,12 @@
-(** Layers with six sides: how many spheres lie above one on its lines, and what a run of steps makes of a line. *)
+(** Layers with six sides: the number of spheres above a sphere on its lines, and the force along a line in a run of
+    steps. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool.
 From Cannonpile Require Import Directions Sums Formulas Balance.
 
 Open Scope Z_scope.
 
-(** Bounds of i, j and i+j, included. *)
+(** Bounds of i, j and i+j, inclusive. *)
 Definition inside (lower upper : three Z) (i j : Z) : bool :=
   (lower.(alpha) <=? i) && (i <=? upper.(alpha)) && (lower.(beta) <=? j) && (j <=? upper.(beta))
   && (lower.(gamma) <=? i + j) && (i + j <=? upper.(gamma)).
@@ -14,13 +15,13 @@ Lemma inside_iff : forall lower upper i j, inside lower upper i j = true <->
   (lower.(alpha) <= i <= upper.(alpha) /\ lower.(beta) <= j <= upper.(beta) /\ lower.(gamma) <= i + j <= upper.(gamma)).
 Proof. intros. unfold inside. rewrite !andb_true_iff, !Z.leb_le. tauto. Qed.
 
-(** The layer above a step: its bounds are one tighter on the side to which the steps lead. *)
+(** The layer above a step: its bounds are tighter by one on the side to which the step leads. *)
 Definition lower_above (sigma : sign) (lower : three Z) : three Z :=
   match sigma with Plus => lower | Minus => map (fun x => x + 1) lower end.
 Definition upper_above (sigma : sign) (upper : three Z) : three Z :=
   match sigma with Plus => map (fun x => x - 1) upper | Minus => upper end.
 
-(** The spheres above (i, j) on its line within m steps of one sign, one after the other. *)
+(** The spheres above (i, j) on its line within m steps of one sign, one by one. *)
 Fixpoint on_line (d : direction) (sigma : sign) (m : nat) (lower upper : three Z) (i j : Z) : Z :=
   match m with
   | O => 0
@@ -34,7 +35,7 @@ Fixpoint on_line (d : direction) (sigma : sign) (m : nat) (lower upper : three Z
 Definition least (t : Z * Z * Z * Z) : Z :=
   let '(a, b, c, d) := t in Z.min (Z.min a b) (Z.min c d).
 
-(** They are as many as the least of four bounds: a line ends where it leaves the region, or the run begins. *)
+(** Their number is the minimum of four bounds: a line ends at the boundary of the region or at the start of the run. *)
 Theorem region_counts : forall d sigma m lower upper i j,
   inside lower upper i j = true ->
   on_line d sigma m lower upper i j = least (on d (Integers.bounds_above i j lower upper (Z.of_nat m) sigma)).
@@ -50,12 +51,12 @@ Proof.
       cbn [on Integers.bounds_above least map alpha beta gamma]; lia.
 Qed.
 
-(** Of the paper's pile they are (9). *)
+(** For the paper's pile the counts are (9). *)
 Theorem region_of_the_paper : forall d i j k, 0 <= i -> 0 <= j -> i + j <= k ->
   least (on d (Integers.bounds_above i j (each 0) (each k) k Plus)) = on d (Integers.above i j k).
 Proof. intros [] i j k Hi Hj Hk; cbn; lia. Qed.
 
-(** On the edge where one line goes on, nothing lies above on the other two. *)
+(** On the edge where one line continues, the other two have no spheres above. *)
 Theorem edges : forall i j lower upper m,
   let under sigma d := least (on d (Integers.bounds_above i j lower upper m sigma)) in
   inside lower upper i j = true -> 0 <= m ->
@@ -70,7 +71,7 @@ Proof.
   apply inside_iff in H; cbn [alpha beta gamma] in H. cbn. repeat split; intros; subst; lia.
 Qed.
 
-(** Bounds over rationals are those over integers. *)
+(** Bounds over rationals equal those over integers. *)
 Theorem bounds_of_integers : forall i j lower upper m sigma d,
   let '(a, b, c, e) := on d (Integers.bounds_above i j lower upper m sigma) in
   let '(a', b', c', e') := on d (bounds_above (q i) (q j) (map q lower) (map q upper) (q m) sigma) in
@@ -80,9 +81,9 @@ Proof.
     repeat (rewrite inject_Z_plus || rewrite inject_Z_opp); repeat split; ring.
 Qed.
 
-(** ** No dip, and monotony
+(** ** No dip, and monotonicity
 
-    What bounds a count is linear in the place, so that the least of them is concave: under a straight pile of equal
+    The bounds of a count are linear in the position, so their minimum is concave. Under a straight pile of equal
     weights the pressure has a plateau or a hump, never a dip. *)
 Theorem no_dip : forall d sigma m lower upper i j u v,
   let count i j := least (on d (Integers.bounds_above i j lower upper m sigma)) in
@@ -101,8 +102,8 @@ Lemma least_falls : forall a b c d a' b' c' d',
   least (a, b, c, d) - 1 <= least (a', b', c', d') <= least (a, b, c, d).
 Proof. intros. unfold least. split; lia. Qed.
 
-(** From a sphere to its neighbour p + d_b - d_a the count along b does not fall, and that along a does not grow, under +;
-    the reverse under -. *)
+(** From a sphere to its neighbour p + d_b - d_a the count along b does not decrease and that along a does not
+    increase under +; the reverse holds under -. *)
 Theorem monotone : forall a b sigma m lower upper i j,
   let count d i j := least (on d (Integers.bounds_above i j lower upper m sigma)) in
   let (ai, aj) := descent Plus a in
@@ -123,11 +124,11 @@ Qed.
 
 Open Scope Q_scope.
 
-(** A line that carries f, m spheres further down, one after the other. *)
+(** A line with force f, m spheres further down, step by step. *)
 Fixpoint after (f w : Q) (m : nat) : Q :=
   match m with O => f | S n => passed_on (after f w n) w end.
 
-(** One jump is as good as m steps. *)
+(** One jump equals m steps. *)
 Theorem run : forall f w m, after f w m == passed_on f (force (n_of m) w).
 Proof.
   intros f w m. induction m as [|n IH]; cbn [after].
@@ -135,6 +136,6 @@ Proof.
   - revert IH. formulas. intros IH. rewrite IH, n_of_S. ring.
 Qed.
 
-(** What some spheres add besides may be added before or after. *)
+(** Additional contributions of spheres can be added before or after. *)
 Theorem run_in_any_order : forall f w e m, after (passed_on f e) w m == passed_on (after f w m) e.
 Proof. intros. rewrite !run. formulas. ring. Qed.

@@ -1,4 +1,4 @@
-(** The response to a unit load, in any stacking: what is kept, and its moments. *)
+(** The response to a unit load in any stacking: conserved quantities and moments. *)
 
 From Coq Require Import ZArith QArith Qabs Qfield Setoid Morphisms Lia Lqa List.
 From Cannonpile Require Import Directions Sums Formulas Balance Stackings Horizontal Virtual.
@@ -6,36 +6,37 @@ From Cannonpile Require Import Directions Sums Formulas Balance Stackings Horizo
 Import ListNotations.
 Open Scope Q_scope.
 
-(** ** Of one sphere *)
+(** ** One sphere *)
 
-(** Three numbers that do without the signs: of g under - steps Gg has the same resultant along the directions of +. *)
+(** A sign-free form: for g under - steps, Gg has the same resultant along the directions of +. *)
 Theorem resultant_form : forall g,
   resultant g (directions_under (1 # 2) Minus) =v= resultant (half_turn g) (directions_under (1 # 2) Plus).
 Proof. intros []. unfold directions_under. by_components. Qed.
 
-(** Sums and squares: f = T g + n has the sum of g and 3n more, and the squares of g and 2n times its sum and 3n^2 more. *)
+(** Sums and squares: f = T g + n adds 3n to the sum of g, and 2n times the sum plus 3n^2 to the sum of squares. *)
 Theorem sums_and_squares : forall from to g n,
   let f := by_line passed_on (transferred from to g) (each n) in
   sum f == sum g + 3 * n /\ dot f f == dot g g + 2 * n * sum g + 3 * n * n /\
   force n (weight (increments (1 # 2))) == 3 * n.
 Proof. intros [] [] [] n; unfold transferred, dot; repeat split; formulas; ring. Qed.
 
-(** HCP is a wave: what three spheres pass on to the one between them is 2/3 of their loads less what one two layers above
-    has passed on. *)
+(** HCP is a wave: three spheres transmit to the sphere between them 2/3 of their loads minus the force that a sphere
+    two layers above transmitted. *)
 Theorem wave_of_hcp : forall g h k,
   (half_turn g).(alpha) + (half_turn h).(beta) + (half_turn k).(gamma)
   == (2 # 3) * (sum g + sum h + sum k) - (g.(alpha) + h.(beta) + k.(gamma)).
 Proof. intros [] [] []. formulas. ring. Qed.
 
-(** Few faults: a change of sign turns 3v along a line into -v along it and 2v along the others. *)
+(** Few faults: a sign change turns 3v along a line into -v along it and 2v along the others. *)
 Theorem fault : forall l v,
   let t := map (Qmult 3) (half_turn (map (Qmult v) (one_on l))) in
   t =3= map (fun one => (2 - 3 * one) * v) (one_on l) /\ sum t == 3 * v /\ dot t t == 9 * v * v.
 Proof. intros [] v; unfold one_on, dot; repeat split; formulas; ring. Qed.
 
-(** ** Places
+(** ** Positions
 
-    A contact leads down by the position of one sphere on its line; places are (x, y), in units of which r^2 = x^2 + 3y^2. *)
+    A contact leads down by the position of one sphere on its line. Positions are (x, y), in units with
+    r^2 = x^2 + 3y^2. *)
 Definition down_by (sigma : sign) (d : direction) : vector := position (one_on d) (directions_under (1 # 2) sigma).
 
 (** One fault, m steps above and n below: six loads 2/9 and three -1/9, at these distances. *)
@@ -50,7 +51,7 @@ Proof.
     split; formulas; ring.
 Qed.
 
-(** What is made of numbers is a number: steps. *)
+(** The components of a step, which [numbers] evaluates. *)
 Definition ahead_x (sigma : sign) (d : direction) : Q := (down_by sigma d).(along_x).
 Definition ahead_y (sigma : sign) (d : direction) : Q := (down_by sigma d).(along_y).
 
@@ -60,15 +61,15 @@ Ltac numbers :=
          | |- context [ahead_y ?s ?d] => let v := eval vm_compute in (ahead_y s d) in change (ahead_y s d) with v
          end.
 
-(** ** Of whole piles
+(** ** Whole piles
 
-    Any stacking below any top layer, under any weights w in mg; the floor is the layer below L layers (Virtual.v), and forces
-    are in f0, of which 3 bear mg. *)
+    Any stacking below any top layer, under any weights w in mg. The floor is the layer below L layers (Virtual.v).
+    Forces are in f0 = mg/3. *)
 Section Pile.
 Variable top : list site.
 Variable step : nat -> sign.
 
-(** The place of a sphere, from the one at (0, 0) of the top layer. *)
+(** The position of a sphere, relative to site (0, 0) of the top layer. *)
 Definition place (ahead : sign -> direction -> Q) (k : nat) (p : site) : Q :=
   q (fst p) * (ahead Plus Beta - ahead Plus Alpha)
   + q (snd p) * (ahead Plus Gamma - ahead Plus Alpha)
@@ -82,7 +83,7 @@ Ltac places :=
   unfold Z.sub; rewrite ?inject_Z_plus, ?inject_Z_opp;
   repeat match goal with |- context [q ?n] => change (q n) with (n # 1) end.
 
-(** Contacts lead from place to place. *)
+(** Contacts lead from position to position. *)
 Lemma place_of_support : forall k p d,
   x (S k) (support (step k) p d) == x k p + ahead_x (step k) d /\
   y (S k) (support (step k) p d) == y k p + ahead_y (step k) d.
@@ -105,10 +106,10 @@ Variable w : nat -> Z -> Z -> Q.
 Variable L : nat.
 Hypothesis in_equilibrium : equilibrium top step f X w L.
 
-(** What bears on a sphere of the floor. *)
+(** The load on a bottom sphere. *)
 Definition borne (p : site) : Q := sum (arriving top step f L (fst p) (snd p)).
 
-(** A field that no contact lowers, and that is F on the floor. *)
+(** A field with zero drop at all contacts, equal to F on the floor. *)
 Lemma field_arrives : forall phi F,
   (forall k i j d, drop step phi k i j d == 0) ->
   (forall p, phi L (fst p) (snd p) =3= each (F p)) ->
@@ -126,10 +127,10 @@ Proof.
   rewrite S, A. ring.
 Qed.
 
-(** How high a layer is above the floor. *)
+(** The height of a layer above the floor. *)
 Notation height k := (n_of L - n_of k).
 
-(** Its field: the place, and as far as the contact would lead to the floor. *)
+(** Its field: the position where the line of the contact meets the floor. *)
 Definition straight_down (ahead : sign -> direction -> Q) (k : nat) (i j : Z) : three Q :=
   map (fun d => place ahead k (i, j) + height k * ahead (step k) d) (Three Alpha Beta Gamma).
 
@@ -142,7 +143,7 @@ Proof.
   destruct (step k), (step (S k)), d; unfold transferred; formulas; split; rewrite N, ?PX, ?PY; numbers; ring.
 Qed.
 
-(** First moment: the sum of F_z r over the floor is that of mg r over all spheres, whatever the horizontal contacts push. *)
+(** First moment: the sum of F_z r over the floor equals that of mg r over all spheres, for all horizontal forces. *)
 Theorem first_moment_arrives :
   over (spheres top step L) (fun p => borne p * x L p) == over_spheres top step L (fun k i j => 3 * w k i j * x k (i, j)) /\
   over (spheres top step L) (fun p => borne p * y L p) == over_spheres top step L (fun k i j => 3 * w k i j * y k (i, j)).
@@ -172,7 +173,7 @@ Proof.
   split; apply A; [left | right]; reflexivity.
 Qed.
 
-(** And of r^2. *)
+(** The same for r^2. *)
 Definition spreading_down (k : nat) (i j : Z) : three Q :=
   map (fun d => from_axis k (i, j)
       + 2 * height k * (x k (i, j) * ahead_x (step k) d + 3 * y k (i, j) * ahead_y (step k) d)
@@ -186,8 +187,9 @@ Proof.
   destruct (step k), (step (S k)), d; unfold transferred; formulas; rewrite N, PX, PY; numbers; ring.
 Qed.
 
-(** Second moment, in units of (2R sin theta)^2: the sum of F_z r^2 over the floor is that of mg (r^2 + H^2) over all spheres,
-    H the height over the floor in layers, and 6 H times what horizontal contacts push: these spread the load. *)
+(** Second moment, in units of (2R sin theta)^2: the sum of F_z r^2 over the floor equals that of mg (r^2 + H^2) over
+    all spheres plus 6 H times the horizontal forces, with H the height above the floor in layers. Horizontal forces
+    spread the load. *)
 Theorem second_moment_arrives :
   over (spheres top step L) (fun p => borne p * from_axis L p)
   == over_spheres top step L (fun k i j => 3 * w k i j * (from_axis k (i, j) + height k * height k))
@@ -220,7 +222,7 @@ End Pile.
 
 Definition none (k : nat) (a : axis) (i j : Z) : Q := 0.
 
-(** Under any weights there are such forces. *)
+(** For any weights such forces exist. *)
 Fixpoint forces_under (top : list site) (step : nat -> sign) (w : nat -> Z -> Z -> Q) (k : nat) : Z -> Z -> three Q :=
   match k with
   | O => fun i j => by_line passed_on (transferred (step O) (step O) (each 0)) (each (w O i j))
@@ -269,13 +271,13 @@ Proof.
   destruct (step k); formulas; repeat split; ring.
 Qed.
 
-(** What arrives is what was given. *)
+(** The force received equals the force transmitted from above. *)
 Lemma squares_are_given : forall k,
   over (spheres top step (S k)) (fun p => dot (received (S k) (fst p) (snd p)) (received (S k) (fst p) (snd p)))
   == over (spheres top step k) (fun p => dot (f k (fst p) (snd p)) (f k (fst p) (snd p))).
 Proof.
   intros k.
-  (* Works in a field that is felt as what arrives. *)
+  (* Virtual works in a field that weights the forces received. *)
   pose (phi := fun n i j => transferred (step_above step n) (step n) (received n i j)).
   assert (T : forall n p, felt step phi n p =3= received n (fst p) (snd p)).
   { intros n p. unfold felt, phi. destruct (received n (fst p) (snd p)) as [a b c].
@@ -296,8 +298,8 @@ Proof.
   rewrite !R. formulas. ring.
 Qed.
 
-(** In any stacking under any weights: the squares of all forces below k layers are, sphere by sphere, twice the weight times
-    what arrives, and three times the weight squared. *)
+(** In any stacking under any weights: the squares of all forces below k layers sum, over spheres, to twice the
+    weight times the received force plus three times the weight squared. *)
 Theorem squares_in_any_stacking : forall k, (k <= L)%nat ->
   over (spheres top step k) (fun p => dot (received k (fst p) (snd p)) (received k (fst p) (snd p)))
   == over_spheres top step k (fun n i j => 2 * w n i j * sum (received n i j) + 3 * w n i j * w n i j).
@@ -318,8 +320,8 @@ End Squares.
 Lemma over_of_ones : forall A (l : list A), over l (fun _ => 1) == n_of (length l).
 Proof. intros A l. induction l as [|a l IH]; cbn [over length]; [reflexivity|]. rewrite IH, n_of_S. ring. Qed.
 
-(** Spheres of mg: below k layers the sum is 3 W, of squares that of 3 n_j + 6 W_(j-1), of n_j spheres in layer j and W_(j-1)
-    in all above it. *)
+(** Spheres of weight mg: below k layers the forces sum to 3 W. Their squares sum to the sum of 3 n_j + 6 W_(j-1), for n_j
+    spheres in layer j and W_(j-1) spheres above it. *)
 Theorem sums_and_squares_of_piles : forall top step f L,
   equilibrium top step f none (fun _ _ _ => 1) L ->
   let received p := arriving top step f L (fst p) (snd p) in
@@ -342,11 +344,11 @@ Proof.
   - rewrite W, over_of_ones by lia. ring.
 Qed.
 
-(** A unit load on one sphere, and no weights; where it goes, at depth n. *)
+(** A unit load on one sphere, without weights. *)
 Definition unit_load (k : nat) (i j : Z) : Q := match k with O => 1 # 3 | S _ => 0 end.
 
-(** v is what arrives on a line of a sphere: its sum is 1, of squares 1/3, of v r nothing and of v r^2 n^2 rho^2, in any
-    stacking. *)
+(** v is the force received on a line of a sphere. In any stacking its sum is 1, its squares sum to 1/3, v r to zero,
+    and v r^2 to n^2 rho^2. *)
 Theorem point_load : forall step f n,
   let top := [(0, 0)%Z] in
   equilibrium top step f none unit_load (S n) ->
@@ -358,7 +360,7 @@ Theorem point_load : forall step f n,
   below (fun p => sum (v p) * from_axis step (S n) p) == n_of (S n) * n_of (S n).
 Proof.
   intros step f n top E v below.
-  (* Of sums over all spheres the loaded one's is left. *)
+  (* In sums over all spheres only the loaded one remains. *)
   assert (O : forall G, (forall k i j, G (S k) i j == 0) -> over_spheres top step (S n) G == G 0%nat 0%Z 0%Z).
   { intros G HG. unfold over_spheres. induction n as [|m IH].
     - cbn [total]. change (spheres top step 0) with [(0, 0)%Z]. cbn [over fst snd]. ring.
@@ -384,18 +386,18 @@ Proof.
     unfold unit_load, from_axis, place. cbn [total fst snd]. rewrite n_of_0. numbers. ring.
 Qed.
 
-(** ** Contact by contact *)
+(** ** By contact *)
 
-(** A contact of the response: the place of its lower sphere, its line, and what it bears of the load. *)
+(** A contact of the response: the position of its lower sphere, its line, and its force. *)
 Record contact := Contact { at_x : Q; at_y : Q; line : direction; bears : Q }.
 
-(** What one contact makes of those below its sphere: T, spread over three. *)
+(** The contribution of one contact to those below its sphere: T, distributed to three contacts. *)
 Definition spread (from to : sign) (c : contact) : list contact :=
   let f := transferred from to (map (Qmult c.(bears)) (one_on c.(line))) in
   List.map (fun d => Contact (c.(at_x) + (down_by to d).(along_x)) (c.(at_y) + (down_by to d).(along_y)) d (on d f))
     [Alpha; Beta; Gamma].
 
-(** The load stands on three contacts, a third each. *)
+(** The load rests on three contacts, one third each. *)
 Definition first (sigma : sign) : list contact :=
   List.map (fun d => Contact (down_by sigma d).(along_x) (down_by sigma d).(along_y) d
       (on d (increments (1 # 2)) / weight (increments (1 # 2))))
@@ -406,8 +408,8 @@ Fixpoint power (x : Q) (n : nat) : Q := match n with O => 1 | S m => power x m *
 Section Stacking.
 Variable step : nat -> sign.
 
-(** The contacts n+1 steps below the load. Where several arrive on one line of one sphere, they are counted apart:
-    transfers are linear, and so are all sums below. *)
+(** The contacts n+1 steps below the load. Contacts that reach the same line of the same sphere are listed
+    separately. This is valid because transfers and all sums below are linear. *)
 Fixpoint response (n : nat) : list contact :=
   match n with
   | O => first (step 0)
@@ -437,16 +439,16 @@ Proof. intros F G l. induction l as [|c l IH]; simpl; [ring|]. rewrite IH. ring.
 Lemma over_multiple : forall x F l, over (fun c => x * F c) l == x * over F l.
 Proof. intros x F l. induction l as [|c l IH]; simpl; [ring|]. rewrite IH. ring. Qed.
 
-(** The step of a contact of the layer under the sign sigma. *)
+(** The step of a contact of the layer under sign sigma. *)
 Definition dx (sigma : sign) (c : contact) : Q := (down_by sigma c.(line)).(along_x).
 Definition dy (sigma : sign) (c : contact) : Q := (down_by sigma c.(line)).(along_y).
 
-(** Products of places in the complex plane, x + iy sqrt(3): the real part of z times the conjugate of d, and r^2. *)
+(** Products of positions in the complex plane, x + iy sqrt(3): the real part of z times the conjugate of d, and r^2. *)
 Definition along (sigma : sign) (c : contact) : Q := c.(at_x) * dx sigma c + 3 * c.(at_y) * dy sigma c.
 Definition square (c : contact) : Q := c.(at_x) * c.(at_x) + 3 * c.(at_y) * c.(at_y).
 
-(** The real part of z^3 E', with E the cube of the step along alpha under +, E' its conjugate, so that it is r^3 cos 3phi; and
-    that of z'^2 d' E. *)
+(** The real part of z^3 E', with E the cube of the step along alpha under + and E' its conjugate: it equals r^3 cos
+    3phi. And the real part of z'^2 d' E. *)
 Definition cube_x (x y : Q) : Q := x * x * x - 9 * x * y * y.
 Definition cube_y (x y : Q) : Q := 3 * x * x * y - 3 * y * y * y.
 Definition e_x : Q := cube_x (down_by Plus Alpha).(along_x) (down_by Plus Alpha).(along_y).
@@ -462,7 +464,7 @@ Definition across (sigma : sign) (c : contact) : Q :=
 
 Definition load (F : contact -> Q) (c : contact) : Q := c.(bears) * F c.
 
-(** And E. *)
+(** The same with E. *)
 Ltac numbers ::=
   repeat match goal with
          | |- context [along_x (down_by ?s ?d)] =>
@@ -479,7 +481,7 @@ Ltac opened :=
 
 Ltac by_signs := intros [] [] [x y [] v]; unfold times; opened; ring.
 
-(** What one contact's sphere passes on, of each moment: whatever the two signs are. *)
+(** The contribution to each moment of the contacts below one contact, for all pairs of signs. *)
 Lemma load_step : forall from to c, over (load (fun _ => 1)) (spread from to c) == load (fun _ => 1) c.
 Proof. by_signs. Qed.
 
@@ -523,13 +525,13 @@ Ltac at_first :=
 Ltac next lemma := cbn [response]; rewrite (over_spread _ _ _ _ _ (lemma _ _));
   rewrite ?over_sum, ?over_multiple, ?over_sum, ?over_multiple.
 
-(** The load is kept: sum of v = 1. *)
+(** The load is conserved: the sum of v is 1. *)
 Theorem load_is_kept : forall n, over (load (fun _ => 1)) (response n) == 1.
 Proof.
   induction n as [|n IH]; [at_first|]. next load_step. exact IH.
 Qed.
 
-(** Few faults: how many of the signs above these contacts differ from the one before. *)
+(** Few faults: the number of sign changes above these contacts. *)
 Definition changed (from to : sign) : nat :=
   match from, to with
   | Plus, Plus | Minus, Minus => 0
@@ -576,8 +578,8 @@ Lemma squares_step : forall from to c,
   over (fun c => c.(bears) * c.(bears)) (spread from to c) == c.(bears) * c.(bears).
 Proof. intros [] [] [x y [] v]; unfold spread, transferred, one_on; cbn [List.map over bears line]; formulas; ring. Qed.
 
-(** d changes make 3^(d+1) of the load, whose sum stays 1 ([load_is_kept]), whose squares sum to 1/3, and whose absolute
-    values to (5/3)^d. *)
+(** d sign changes turn the load into 3^(d+1) forces. Their sum is 1 ([load_is_kept]), their squares sum to 1/3, and
+    their absolute values to (5/3)^d. *)
 Theorem few_faults : forall n,
   over not_nothing (response n) == power 3 (S (changes n)) /\
   over (fun c => c.(bears) * c.(bears)) (response n) == 1 # 3 /\
@@ -592,13 +594,13 @@ Proof.
   - rewrite (over_spread _ _ _ _ _ (absolute_step _ _)), over_multiple, A, P. reflexivity.
 Qed.
 
-(** No horizontal force: sum of v d = 0. *)
+(** The horizontal forces cancel: the sum of v d is 0. *)
 Lemma no_side : forall n, over (load (dx (step n))) (response n) == 0 /\ over (load (dy (step n))) (response n) == 0.
 Proof.
   induction n as [|n [X Y]]; [split; at_first|]. split; [next dx_step; exact X | next dy_step; exact Y].
 Qed.
 
-(** It stays below the load: sum of v r = 0. *)
+(** The response stays centred below the load: the sum of v r is 0. *)
 Theorem response_is_centred : forall n, over (load at_x) (response n) == 0 /\ over (load at_y) (response n) == 0.
 Proof.
   induction n as [|n [X Y]]; [split; at_first|]. destruct (no_side n) as [DX DY].
@@ -610,13 +612,13 @@ Proof.
   induction n as [|n IH]; [at_first|]. next along_step. rewrite IH, load_is_kept, (n_of_S (S n)). reflexivity.
 Qed.
 
-(** Sum of v r^2 = n^2 rho^2 at depth n, whatever the stacking. *)
+(** The sum of v r^2 is n^2 rho^2 at depth n, for every stacking. *)
 Theorem second_moment_of_response : forall n, over (load square) (response n) == n_of (S n) * n_of (S n).
 Proof.
   induction n as [|n IH]; [at_first|]. next square_step. rewrite IH, along_is, load_is_kept, (n_of_S (S n)). ring.
 Qed.
 
-(** ** The third moment: which way a response points *)
+(** ** The third moment: the orientation of a response *)
 
 Lemma across_is : forall n,
   over (load (across (step n))) (response n) == total (S n) (fun s => times (step s) 1 * (2 * (n_of s + 1) - 1)).
@@ -643,7 +645,7 @@ Proof.
   - intros s _. formulas. rewrite (n_of_S (S n)). ring.
 Qed.
 
-(** ** The fourth moment: how a response spreads *)
+(** ** The fourth moment: the spread of a response *)
 
 Definition fourth (c : contact) : Q := square c * square c.
 Definition outward (sigma : sign) (c : contact) : Q := square c * along sigma c.
@@ -664,7 +666,7 @@ Lemma fourth_step : forall from to c,
      + 2 * times to 1 * load (across from) c)))).
 Proof. by_signs. Qed.
 
-(** What pairs of signs make of the outward moment, and of the fourth. *)
+(** The contributions of pairs of signs to the outward moment and to the fourth moment. *)
 Definition pairs_below (n : nat) (weight : Q -> Q -> Q) : Q :=
   total n (fun t => times (step t) 1 * total t (fun s => times (step s) 1 * weight (n_of s + 1) (n_of t + 1))).
 
@@ -693,7 +695,8 @@ Proof.
   - intros s _. rewrite E. ring.
 Qed.
 
-(** The sum of v r^4 at depth n+1 is [fourth_moment], and [fourth_moment_of_pair] times the signs of each two steps. *)
+(** The sum of v r^4 at depth n+1 is [fourth_moment] plus [fourth_moment_of_pair] times the product of the signs of
+    each two steps. *)
 Theorem fourth_moment_of_response : forall n,
   over (load fourth) (response n)
   == fourth_moment (n_of (S n)) + pairs_below (S n) (fourth_moment_of_pair (n_of (S n))).

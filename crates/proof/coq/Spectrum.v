@@ -1,4 +1,4 @@
-(** The spectrum of the mean over random stackings, of forces that vary from place to place as waves. *)
+(** The spectrum of the mean over random stackings, for forces that vary in space as plane waves. *)
 
 From Coq Require Import ZArith QArith Qfield Lia Lqa List.
 From Cannonpile Require Import Directions Formulas Balance Mean.
@@ -16,7 +16,7 @@ Fixpoint without {A} (i : nat) (all : list A) : list A :=
   | x :: rest, S j => x :: without j rest
   end.
 
-(** Of n columns, along the first: its entries times the minors, with alternating signs. *)
+(** The determinant of n columns, expanded along the first: entries times minors, with alternating signs. *)
 Fixpoint determinant (n : nat) (columns : list (list Q)) : Q :=
   match n, columns with
   | S m, first :: others =>
@@ -30,14 +30,14 @@ Fixpoint determinant (n : nat) (columns : list (list Q)) : Q :=
   | _, _ => 1
   end.
 
-(** A step of the mean, which multiplies what moves along l by D_l, or by its inverse: with D_alpha D_beta D_gamma = 1 that
-    is the product of the other two. *)
+(** A step of the mean, which multiplies forces along l by D_l or by its inverse. For D_alpha D_beta D_gamma = 1 the
+    inverse is the product of the other two. *)
 Definition step_of_wave (q : Q) (d : three Q) (f h : three Q) : list Q :=
   let inverse := Three (d.(beta) * d.(gamma)) (d.(alpha) * d.(gamma)) (d.(alpha) * d.(beta)) in
   let (f, h) := stepped q (by_line Qmult d f) (by_line Qmult inverse h) in
   [f.(alpha); f.(beta); f.(gamma); h.(alpha); h.(beta); h.(gamma)].
 
-(** lambda - M: six columns, what becomes of a unit force each. *)
+(** lambda - M: six columns, the images of a unit force in each component. *)
 Definition characteristic (q lambda : Q) (d : three Q) : list (list Q) :=
   let unit i := let at_ j := if Nat.eqb i j then 1 else 0 in
     [at_ 0%nat; at_ 1%nat; at_ 2%nat; at_ 3%nat; at_ 4%nat; at_ 5%nat] in
@@ -45,7 +45,7 @@ Definition characteristic (q lambda : Q) (d : three Q) : list (list Q) :=
     step_of_wave q d (Three (at_ 0%nat) (at_ 1%nat) (at_ 2%nat)) (Three (at_ 3%nat) (at_ 4%nat) (at_ 5%nat)) in
   List.map (fun i => List.map (fun xy => lambda * fst xy - snd xy) (combine (unit i) (made i))) (seq 0 6).
 
-(** Q(y), with T_1, T_2 and S the sums of cosines; of y = x/lambda, and times lambda^3. *)
+(** Q(y) times lambda^3, with T_1, T_2 and S the sums of cosines and y = x/lambda. *)
 Definition cubic (q t1 t2 s x lambda : Q) : Q :=
   x * x * x - 2 * (1 - q) * t1 * (x * x) * lambda
   + ((8 # 3) * (q * q) + 2 * ((1 - q) * (1 - q)) * t1 + (2 # 9) * (3 - q) * (3 - 5 * q) * s) * x * (lambda * lambda)
@@ -66,9 +66,9 @@ Proof.
   ring [unit].
 Qed.
 
-(** ** Great waves *)
+(** ** Long waves *)
 
-(** Polynomials in t by their coefficients, below t^6: series, of which no more is asked. The coefficients are rationals, or
+(** Polynomials in t by their coefficients below t^6: truncated series. The coefficients are rationals, or
     polynomials in q, so that they can be computed. *)
 Section Series.
 Context {A : Type} (of_Q : Q -> A) (add mul : A -> A -> A).
@@ -82,7 +82,7 @@ Definition times (p r : list A) : list A :=
 Definition scaled (x : A) (p : list A) : list A := series_of (fun n => mul x (coefficient p n)).
 Definition multiple (x : Q) : list A -> list A := scaled (of_Q x).
 
-(** 1 + x (1 + x/2 (1 + x/3 (...))): the exponential, of an x without constant. *)
+(** 1 + x (1 + x/2 (1 + x/3 (...))): the exponential of a series x without constant term. *)
 Definition exponential (x : list A) : list A :=
   fold_right (fun n rest => plus (constant (of_Q 1)) (multiple (1 # Pos.of_succ_nat n) (times x rest)))
     (constant (of_Q 1)) (seq 0 6).
@@ -92,8 +92,8 @@ Definition exponential (x : list A) : list A :=
 Definition cosines (square : list A) : list A :=
   plus (constant (of_Q 3)) (plus (multiple (- (3 # 4)) square) (multiple (3 # 64) (times square square))).
 
-(** Q(lambda + mu/lambda) for lambda = e^x. What is the cosine of kappa cos(phi) in T_1 has twice kappa in T_2, and sqrt(3)
-    times kappa in S. *)
+(** Q(lambda + mu/lambda) for lambda = e^x. The argument kappa cos(phi) of the cosine in T_1 becomes twice kappa in
+    T_2, and sqrt(3) times kappa in S. *)
 Definition cubic_of_wave (q : A) (square x : list A) : list A :=
   let t1 := cosines square in
   let t2 := cosines (multiple 4 square) in
@@ -138,7 +138,7 @@ Proof.
   rewrite value_of_sum, value_of_multiple. cbn [value]. rewrite IH. ring.
 Qed.
 
-(** Series whose coefficients are the values of polynomials at q: all that is made of them is so too. *)
+(** Series whose coefficients are values of polynomials at q. All operations preserve this property. *)
 Section Values.
 Variable q : Q.
 
@@ -182,7 +182,7 @@ Proof.
   intros p r x y Hp Hr. apply series_are_values. intros n. induction (seq 0 (S n)) as [|i rest IH]; cbn [fold_right]; values.
 Qed.
 
-(** By what the series is made of. *)
+(** The same for the operations on series. *)
 Ltac series := lazymatch goal with
   | |- are_values (plus _ _ _ _) _ => apply plus_is_value; series
   | |- are_values (times _ _ _ _ _) _ => apply times_is_value; series
@@ -212,7 +212,7 @@ End Values.
 Definition nothing_below (n : nat) (p : list Q) : Prop :=
   forall m, (m < n)%nat -> coefficient (fun x => x) p m == 0.
 
-(** What is computed of polynomials in q is so of every q. *)
+(** An identity of polynomials in q holds for every q. *)
 Lemma nothing_is_left : forall q n p r x y,
   are_values q p x -> are_values q r y ->
   forallb (fun m => forallb (fun c => Qeq_bool c 0) (coefficient polynomial_of
@@ -228,8 +228,8 @@ Proof.
   apply Qeq_bool_eq in first. rewrite first, (IH others). ring.
 Qed.
 
-(** With i kappa = sqrt(2) q t, so that kappa^2 = -2 q^2 t^2, and the exponent i kappa/sqrt(2) (1 + b kappa^2) - a kappa^2, where
-    qa and q^2 b are those of [wave]: nothing is left of Q below kappa^6. The speed is rho/sqrt(2), for every q. *)
+(** With i kappa = sqrt(2) q t, so kappa^2 = -2 q^2 t^2, and the exponent i kappa/sqrt(2) (1 + b kappa^2) - a
+    kappa^2, where qa and q^2 b are those of [wave]: Q vanishes below kappa^6. The speed is rho/sqrt(2), for every q. *)
 Theorem waves_run : forall q,
   let (damping, dispersion) := wave q in
   nothing_below 6 (cubic_of_wave (fun x => x) Qplus Qmult q
@@ -243,7 +243,7 @@ Proof.
   - vm_compute. reflexivity.
 Qed.
 
-(** With kappa^2 = 8qt: what is across the wave decays with exp(-2a kappa^2); nothing is left of Q below kappa^6. *)
+(** With kappa^2 = 8qt: the component across the wave decays with exp(-2a kappa^2), and Q vanishes below kappa^6. *)
 Theorem waves_across_decay : forall q,
   let (damping, _) := wave q in
   nothing_below 3 (cubic_of_wave (fun x => x) Qplus Qmult q [0; 8 * q] [0; - (16) * damping]).

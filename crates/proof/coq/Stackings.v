@@ -1,4 +1,4 @@
-(** Any stacking below any finite top layer: its forces, and why no run of five steps can end. *)
+(** Any stacking below any finite top layer: its forces, and the proof that no run of five steps can end. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
 From Cannonpile Require Import Directions Sums Formulas Balance.
@@ -6,8 +6,8 @@ From Cannonpile Require Import Directions Sums Formulas Balance.
 Import ListNotations.
 Open Scope Q_scope.
 
-(** The pile is grown downwards: every sphere of a layer stands on its three supports, and the next layer is these.
-    [step k] is the sign of the step below layer k. *)
+(** The pile is built downwards: every sphere of a layer has its three supports in the next layer. [step k] is the
+    sign of the step below layer k. *)
 Section Pile.
 Variable top : list (Z * Z).
 Variable step : nat -> sign.
@@ -24,11 +24,11 @@ Fixpoint layer (k : nat) : list (Z * Z) :=
 Definition member (l : list (Z * Z)) (i j : Z) : bool :=
   existsb (fun p => (fst p =? i)%Z && (snd p =? j)%Z) l.
 
-(** The site of the layer above from which the contact of a direction leads to (i, j). *)
+(** The site of the layer above whose contact in a direction leads to (i, j). *)
 Definition above_in (sigma : sign) (d : direction) (i j : Z) : Z * Z :=
   let (di, dj) := descent sigma d in ((i - di)%Z, (j - dj)%Z).
 
-(** Action and reaction: a sphere receives what those above it pass on to it. *)
+(** Action and reaction: a sphere receives the forces that the spheres above transmit to it. *)
 Definition arriving (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : three Q :=
   match k with
   | O => each 0
@@ -37,7 +37,7 @@ Definition arriving (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : three Q
     Three (from Alpha) (from Beta) (from Gamma)
   end.
 
-(** The sign of the step above a layer; nothing arrives on the top layer, which has none. *)
+(** The sign of the step above a layer. The top layer has none, and receives no force. *)
 Definition step_above (k : nat) : sign := match k with O => step O | S m => step m end.
 
 (** Newton's law for a sphere of weight mg, on an equilateral base. *)
@@ -45,7 +45,7 @@ Definition in_balance (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : Prop 
   unbalanced (f k i j) (directions_under (1 # 2) (step k)) (arriving f k i j)
     (directions_under (1 # 2) (step_above k)) (force 1 (weight (increments (1 # 2)))) =v= nothing.
 
-(** What a sphere passes on: T g + 1. *)
+(** The forces that a sphere transmits: T g + 1. *)
 Definition passing (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : three Q :=
   by_line passed_on (transferred (step_above k) (step k) (arriving f k i j)) (each 1).
 
@@ -102,7 +102,7 @@ Proof.
   - reflexivity.
 Qed.
 
-(** All spheres of L layers are in balance just if their forces are those of the recursion. *)
+(** All spheres of L layers are in balance if and only if their forces are those of the recursion. *)
 Theorem recursion_is_the_only_solution : forall f L,
   (forall k i j, (k < L)%nat -> In (i, j) (layer k) -> in_balance f k i j)
   <->
@@ -118,7 +118,8 @@ Proof.
     intros m a b Hm Hin. symmetry. apply H; [lia | assumption].
 Qed.
 
-(** A pile of L layers stands, without horizontal contacts, if forces that balance all its spheres above the floor push. *)
+(** A pile of L layers is stable, without horizontal contacts, if the forces that balance all its free spheres are
+    compressive. *)
 Definition stands (L : nat) : Prop :=
   exists f, forall k i j, (S k < L)%nat -> In (i, j) (layer k) ->
     in_balance f k i j /\ forall d, 0 <= on d (f k i j).
@@ -138,10 +139,10 @@ Qed.
 
 (** ** Runs *)
 
-(** How far a site lies to the side to which the beta contacts of a step lead. *)
+(** The distance of a site towards the side to which the beta contacts of a step lead. *)
 Definition far (sigma : sign) (p : Z * Z) : Z := match sigma with Plus => fst p | Minus => (- fst p)%Z end.
 
-(** Of a layer that is not empty one sphere is farthest. *)
+(** A layer that is not empty has a farthest sphere. *)
 Lemma farthest : forall sigma l, l <> [] ->
   exists p, In p l /\ forall p', In p' l -> (far sigma p' <= far sigma p)%Z.
 Proof.
@@ -172,7 +173,7 @@ Hypothesis same_sign : forall r, (r < m)%nat -> step (a + r) = sigma.
 Hypothesis is_in : In p (layer a).
 Hypothesis is_farthest : forall p', In p' (layer a) -> (far sigma p' <= far sigma p)%Z.
 
-(** r steps further down, the sphere r steps down its line is the farthest one still. *)
+(** The sphere r steps down its line is the farthest one of its layer. *)
 Lemma still_farthest : forall r, (r <= m)%nat ->
   In (down sigma p r) (layer (a + r)) /\
   forall p', In p' (layer (a + r)) -> (far sigma p' <= far sigma p + Z.of_nat r)%Z.
@@ -191,7 +192,7 @@ Proof.
         destruct E as [E | [E | [E | []]]]; subst; cbn [fst snd]; lia.
 Qed.
 
-(** Nothing arrives on it but along beta. *)
+(** It receives a force only along beta. *)
 Lemma arrives_along_beta : forall f r, (r < m)%nat ->
   arriving f (a + S r) (fst (down sigma p (S r))) (snd (down sigma p (S r)))
   = Three 0 (on Beta (f (a + r)%nat (fst (down sigma p r)) (snd (down sigma p r)))) 0.
@@ -216,7 +217,7 @@ Qed.
 Variable f : nat -> Z -> Z -> three Q.
 Hypothesis balance : forall k i j, (k <= a + m)%nat -> In (i, j) (layer k) -> in_balance f k i j.
 
-(** What the sphere r steps down passes on along beta. *)
+(** The force that the sphere r steps down transmits along beta. *)
 Definition along (r : nat) : Q := on Beta (f (a + r)%nat (fst (down sigma p r)) (snd (down sigma p r))).
 
 Lemma in_balance_down : forall r, (r <= m)%nat ->
@@ -227,7 +228,7 @@ Proof.
   destruct (still_farthest r Hr) as [I _]. rewrite <- surjective_pairing. exact I.
 Qed.
 
-(** Within the run the line counts up. *)
+(** Within the run the force along the line grows by one in each step. *)
 Lemma counts_up : forall r, (r < m)%nat -> along r == along 0 + n_of r.
 Proof.
   induction r as [|r IH]; intros Hr; [rewrite n_of_0; ring|].
@@ -241,7 +242,7 @@ Proof.
   fold (along r). rewrite T. formulas. rewrite IH by lia. ring.
 Qed.
 
-(** At its end, where the sign changes, a third of it is taken off. *)
+(** At the end, where the sign changes, a third of it is subtracted. *)
 Lemma at_the_end : (0 < m)%nat -> step (a + m) = opposite sigma ->
   along m == 1 - (along 0 + n_of m - 1) * (1 # 3).
 Proof.
@@ -261,8 +262,8 @@ End Run.
 
 (** ** No run of five can end
 
-    Steps a to a+m-1 have one sign, and step a+m the other. If no contact below layer a pulls, one below layer a+m does,
-    as soon as m is 5, or 4 from the top. *)
+    Steps a to a+m-1 have one sign, and step a+m the other. If no contact below layer a is tensile, a contact below
+    layer a+m is, for m at least 5, or at least 4 from the top. *)
 Theorem the_end_of_a_run_pulls : forall sigma a m f,
   top <> [] ->
   (forall r, (r < m)%nat -> step (a + r) = sigma) -> step (a + m) = opposite sigma ->

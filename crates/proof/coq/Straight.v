@@ -1,4 +1,5 @@
-(** The straight pile, layer by layer from the top: balance of every sphere has one solution, the paper's closed form. *)
+(** The straight pile, layer by layer from the top: the balance of every sphere has one solution, the paper's closed
+    form. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool.
 From Cannonpile Require Import Directions Sums Formulas Balance.
@@ -13,14 +14,15 @@ Lemma occupied_iff : forall k i j,
   occupied k i j = true <-> (0 <= i /\ 0 <= j /\ i + j <= Z.of_nat k)%Z.
 Proof. intros. unfold occupied. rewrite !andb_true_iff, !Z.leb_le. tauto. Qed.
 
-(** The forces of a pile: of the sphere (i, j) of layer k, on its three supports, in multiples of f0. *)
+(** The forces of a pile: of sphere (i, j) of layer k on its three supports, in multiples of f0. *)
 Definition forces := nat -> Z -> Z -> three Q.
 
-(** The site of the layer above from which the contact of a direction leads to (i, j). *)
+(** The site of the layer above whose contact in a direction leads to (i, j). *)
 Definition above_on (d : direction) (i j : Z) : Z * Z :=
   let (di, dj) := descent Plus d in ((i - di)%Z, (j - dj)%Z).
 
-(** Action and reaction: what a sphere receives is what those above it pass on to it; where there is none, nothing. *)
+(** Action and reaction: a sphere receives the forces that the spheres above transmit to it; without such a sphere,
+    zero. *)
 Definition received (f : forces) (k : nat) (i j : Z) : three Q :=
   match k with
   | O => each 0
@@ -36,7 +38,7 @@ Definition balanced (s : Q) (f : forces) (k : nat) (i j : Z) : Prop :=
 
 (** ** Counts *)
 
-(** The spheres above (i, j) of layer k on its line: one after the other, as long as there are any. *)
+(** The spheres above (i, j) of layer k on its line, one by one, until the line ends. *)
 Fixpoint spheres_above (d : direction) (k : nat) (i j : Z) : Z :=
   match k with
   | O => 0
@@ -57,24 +59,24 @@ Proof.
       cbn [on Integers.above alpha beta gamma]; lia.
 Qed.
 
-(** The rotation (i, j) -> (j, k-i-j) about the axis carries alpha to beta to gamma to alpha. *)
+(** The rotation (i, j) -> (j, k-i-j) about the axis maps alpha to beta to gamma to alpha. *)
 Theorem rotation : forall i j k,
   above j (k - i - j) k =3= Three (above i j k).(beta) (above i j k).(gamma) (above i j k).(alpha).
 Proof. intros. by_components. Qed.
 
-(** What the spheres above bring to (i, j) of layer k in closed form, (8) and (9). *)
+(** The forces on (i, j) of layer k from above, in closed form, (8) and (9). *)
 Definition brought (s i j k : Q) : three Q := by_line force (above i j k) (increments s).
 
-(** What it passes on, (10). *)
+(** The forces that it transmits, (10). *)
 Definition closed_form (s i j k : Q) : three Q := by_line passed_on (brought s i j k) (increments s).
 
-(** Given above is received below: for any i, j, k. *)
+(** The force transmitted above is the force received below, for all i, j, k. *)
 Theorem action_reaction : forall s i j k d,
   let (di, dj) := descent Plus d in
   on d (closed_form s i j k) == on d (brought s (i + q di) (j + q dj) (k + 1)).
 Proof. intros s i j k []; unfold closed_form, brought; formulas; cbn [descent q]; formulas; ring. Qed.
 
-(** At the surface nothing arrives: along alpha on i + j = k, along beta on i = 0, along gamma on j = 0. *)
+(** At the surface no force is received: along alpha on i + j = k, along beta on i = 0, along gamma on j = 0. *)
 Theorem surface : forall s i j k,
   (brought s i j (i + j)).(alpha) == 0 /\ (brought s 0 j k).(beta) == 0 /\ (brought s i 0 k).(gamma) == 0.
 Proof. intros. unfold brought. formulas. repeat split; ring. Qed.
@@ -91,7 +93,7 @@ Proof.
           intros (a & b & c); destruct N as [_ N]; destruct N as (x & y & z)]; repeat split; lra.
 Qed.
 
-(** What the closed form brings is what arrives by recursion, if those above pass on the closed form. *)
+(** The closed form is the force received by the recursion, if the spheres above transmit the closed form. *)
 Lemma received_of_closed_form : forall s f k i j, occupied k i j = true ->
   (forall m a b, (m < k)%nat -> occupied m a b = true -> f m a b =3= closed_form s (q a) (q b) (n_of m)) ->
   received f k i j =3= brought s (q i) (q j) (n_of k).
@@ -120,8 +122,8 @@ Proof.
     exact (conj (A Alpha) (conj (A Beta) (A Gamma))).
 Qed.
 
-(** Every sphere of L layers is in balance if and only if all forces are those of the closed form: it solves the
-    recursion, and nothing else does. *)
+(** Every sphere of L layers is in balance if and only if all forces are those of the closed form: it is the only
+    solution of the recursion. *)
 Theorem closed_form_is_the_only_solution : forall s f L, ~ 1 + s == 0 ->
   ((forall k i j, (k < L)%nat -> occupied k i j = true -> balanced s f k i j)
    <->
@@ -141,7 +143,7 @@ Proof.
     rewrite a, b, c. repeat split; reflexivity.
 Qed.
 
-(** With 0 < s < 1 the forces are positive: the straight pile stands. *)
+(** For 0 < s < 1 the forces are positive: the straight pile is stable. *)
 Theorem straight_piles_stand : forall s k i j d, 0 < s -> occupied k i j = true ->
   0 < on d (closed_form s (q i) (q j) (n_of k)).
 Proof.

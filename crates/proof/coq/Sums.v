@@ -40,8 +40,8 @@ Qed.
 
 (** ** Closed forms
 
-    A sum over 0 <= x < n is P n, if P 0 = 0 and P (x+1) - P x is its term: so sums of polynomials are polynomials, for
-    every n (Faulhaber). *)
+    A sum over 0 <= x < n is P n, if P 0 = 0 and P (x+1) - P x is its term. So sums of polynomials are polynomials,
+    for every n (Faulhaber). *)
 
 Definition respects (P : Q -> Q) : Prop := forall x y, x == y -> P x == P y.
 
@@ -56,7 +56,7 @@ Proof.
     + rewrite <- H. apply HP. symmetry. apply n_of_S.
 Qed.
 
-(** Over layer k: row j has the sum R j (k+1-j), and the rows before y have S y. *)
+(** Over layer k: row j has the sum R j (k+1-j), and the rows before y have the sum S y. *)
 Theorem total_over_layer_is : forall (f : Q -> Q -> Q) (R : Q -> Q -> Q) (S : Q -> Q) (k : nat),
   (forall j, respects (R j)) -> (forall j, R j 0 == 0) -> (forall j x, R j (x + 1) == R j x + f x j) ->
   respects S -> S 0 == 0 -> (forall y, S (y + 1) == S y + R y (n_of k + 1 - y)) ->
@@ -73,7 +73,7 @@ Proof.
     + apply HS. apply n_of_S.
 Qed.
 
-(** Over L layers, of which layer k has the sum U k. *)
+(** Over L layers, where layer k has the sum U k. *)
 Theorem total_over_pile_is : forall (f : Q -> Q -> Q -> Q) (U T : Q -> Q),
   (forall k : nat, total_over_layer k (fun i j => f i j (n_of k)) == U (n_of k)) ->
   respects T -> T 0 == 0 -> (forall x, T (x + 1) == T x + U x) ->
@@ -85,7 +85,7 @@ Proof.
   - exact (total_is U T HT HT0 HT1 L).
 Qed.
 
-(** Equal parts, equal wholes. *)
+(** Sums of equal terms are equal. *)
 Ltac congruent :=
   repeat first [assumption
                | match goal with |- ?a == ?a => reflexivity end

@@ -1,4 +1,5 @@
-(** Virtual work of a whole pile with horizontal contacts, and what follows: bounds by fields, and the elastic state. *)
+(** Virtual work of a whole pile with horizontal contacts, and its consequences: bounds by fields, and the elastic
+    state. *)
 
 From Coq Require Import ZArith QArith Qfield Setoid Morphisms Lia Lqa Bool List.
 From Cannonpile Require Import Directions Sums Formulas Balance Straight Stackings Horizontal.
@@ -6,12 +7,12 @@ From Cannonpile Require Import Directions Sums Formulas Balance Straight Stackin
 Import ListNotations.
 Open Scope Q_scope.
 
-(* Within sections too a statement is what it says, whatever its proof uses. *)
+(* Statements in sections depend only on the variables of their types, not on those of their proofs. *)
 Set Default Proof Using "Type".
 
 (** ** Sums over spheres *)
 
-(** The sum over what a list holds. *)
+(** The sum over the elements of a list. *)
 Fixpoint over {A} (l : list A) (f : A -> Q) : Q :=
   match l with
   | [] => 0
@@ -61,7 +62,7 @@ Definition holds (l : list site) (p : site) : bool := member l (fst p) (snd p).
 Lemma holds_iff : forall l p, holds l p = true <-> In p l.
 Proof. intros l [i j]. apply member_iff. Qed.
 
-(** One term alone. *)
+(** A single term. *)
 Lemma over_one : forall (l : list site) p f, NoDup l ->
   over l (fun r => if same_site r p then f r else 0) == if holds l p then f p else 0.
 Proof.
@@ -75,7 +76,7 @@ Proof.
       apply eq_true_iff_eq. rewrite !holds_iff. simpl. tauto.
 Qed.
 
-(** What pairs of sites add, one [there] of the other, is summed over either. *)
+(** Sums over pairs of sites, one a neighbour [there] of the other, can be taken over either member. *)
 Lemma over_moved : forall (l m : list site) there back f, NoDup l -> NoDup m ->
   (forall p r : site, there r = p <-> r = back p) ->
   over l (fun p => if holds m (back p) then f (back p) p else 0)
@@ -93,8 +94,8 @@ Qed.
 
 (** ** The pile
 
-    Any stacking below any finite top layer (Stackings.v), with forces f of the sloping contacts and X of the horizontal
-    ones: X k x i j is the force with which (i, j) of layer k and the next sphere along the axis x press each other. *)
+    Any stacking below any finite top layer (Stackings.v), with forces f of the sloping contacts and X of the
+    horizontal ones: X k x i j is the force between (i, j) of layer k and its next sphere along the axis x. *)
 Inductive axis := AB | AG | GB.
 
 Definition from (x : axis) : direction := match x with AB | AG => Alpha | GB => Gamma end.
@@ -136,18 +137,18 @@ Variable f : nat -> Z -> Z -> three Q.
 Variable X : nat -> axis -> Z -> Z -> Q.
 Variable w : nat -> Z -> Z -> Q.
 
-(** Two spheres of a layer touch if both are there. *)
+(** Two spheres of a layer touch if both exist. *)
 Definition touches (k : nat) (x : axis) (i j : Z) : bool := holds (layer top step k) (next x (i, j)).
 
-(** With what the next sphere along an axis pushes, and the last. *)
+(** The forces of the next sphere and of the previous sphere along an axis. *)
 Definition by_next (k : nat) (i j : Z) (x : axis) : Q := if touches k x i j then X k x i j else 0.
 Definition by_last (k : nat) (i j : Z) (x : axis) : Q :=
   let p := last x (i, j) in if holds (layer top step k) p then X k x (fst p) (snd p) else 0.
 
 Definition six (by_axis : axis -> Q) : pushes := {| ab := by_axis AB; ag := by_axis AG; gb := by_axis GB |}.
 
-(** Newton's law for a sphere of weight w mg: what its supports, the spheres above, its weight and its neighbours push it
-    with is nothing, in all components. *)
+(** Newton's law for a sphere of weight w mg: the forces of its supports, of the spheres above, of its neighbours and
+    its weight sum to zero in all components. *)
 Definition in_balance_beside (k : nat) (i j : Z) : Prop :=
   plus_vector
     (unbalanced (f k i j) (directions_under (1 # 2) (step k)) (arriving top step f k i j)
@@ -158,12 +159,12 @@ Definition in_balance_beside (k : nat) (i j : Z) : Prop :=
 Definition equilibrium (L : nat) : Prop :=
   forall k i j, (k < L)%nat -> In (i, j) (layer top step k) -> in_balance_beside k i j.
 
-(** No contact pulls. *)
+(** No contact is tensile. *)
 Definition no_pull (L : nat) : Prop :=
   forall k i j, (k < L)%nat -> In (i, j) (layer top step k) ->
     (forall d, 0 <= on d (f k i j)) /\ (forall x, touches k x i j = true -> 0 <= X k x i j).
 
-(** What a sphere passes on, from its balance. *)
+(** The forces that a sphere transmits, from its balance. *)
 Lemma newton_beside : forall sigma tau g n up x y,
   plus_vector
     (unbalanced up (directions_under (1 # 2) tau) g (directions_under (1 # 2) sigma)
@@ -180,13 +181,13 @@ Proof.
     formulas_in H; destruct H as (Hx & Hy & Hz); formulas; repeat split; lra.
 Qed.
 
-(** ** The sum of all works
+(** ** The sum of all virtual works
 
-    For any numbers phi: D of a sphere's contacts, Tphi being taken off of their supports, and c of its contacts with the
-    next ones. *)
+    For any numbers phi: D of the contacts of a sphere, with Tphi of its supports subtracted, and c of its contacts
+    with the next spheres. *)
 Variable phi : nat -> Z -> Z -> three Q.
 
-(** T phi: what phi is for the contacts above a sphere. *)
+(** T phi: the field phi resolved along the contacts above a sphere. *)
 Definition felt (k : nat) (p : site) : three Q :=
   transferred (step_above step k) (step k) (phi k (fst p) (snd p)).
 
@@ -204,11 +205,11 @@ Definition horizontal_work (k : nat) (i j : Z) : Q := of_axis k AB i j + of_axis
 
 Definition work_of_weight (k : nat) (i j : Z) : Q := w k i j * sum (phi k i j).
 
-(** What the forces that arrive on a layer do there. *)
+(** The virtual work of the forces that a layer receives. *)
 Definition arriving_work (k : nat) : Q :=
   over (spheres k) (fun p => dot (arriving top step f k (fst p) (snd p)) (felt k p)).
 
-(** The horizontal contacts of a layer along an axis: what they do at their two spheres is X c. *)
+(** The horizontal contacts of a layer along an axis: their virtual work at both spheres is X c. *)
 Lemma work_along_an_axis : forall k x,
   over (spheres k) (fun p => times (step k)
     (dot (phi k (fst p) (snd p)) (pushed (by_next k (fst p) (snd p) x) (from x) (to x) true)
@@ -235,7 +236,7 @@ Proof.
     + destruct (step k), x; unfold times, dot; cbn [from to]; formulas; ring.
 Qed.
 
-(** Of one sphere. *)
+(** One sphere. *)
 Lemma work_of_six : forall sigma psi x y,
   times sigma (dot psi (pushed_by (six x) (six y))) ==
   times sigma (dot psi (pushed (x AB) Alpha Beta true) + dot psi (pushed (y AB) Alpha Beta false))
@@ -246,7 +247,7 @@ Proof. intros [] [] x y; unfold times, dot, pushed_by, six, plus_three; cbn [ab 
 Lemma dot_of_same : forall psi g h, g =3= h -> dot psi g == dot psi h.
 Proof. intros psi g h (A & B & C). unfold dot. formulas. rewrite A, B, C. reflexivity. Qed.
 
-(** A layer: its balances times phi. *)
+(** A layer: its balance equations times phi. *)
 Lemma work_of_a_layer : forall k,
   (forall i j, In (i, j) (layer top step k) -> in_balance_beside k i j) ->
   over (spheres k) (fun p => dot (phi k (fst p) (snd p)) (f k (fst p) (snd p)))
@@ -262,7 +263,7 @@ Proof.
   rewrite (dot_of_same _ _ _ H). rewrite work_of_six. reflexivity.
 Qed.
 
-(** What arrives from a layer along a line. *)
+(** The forces received from a layer along a line. *)
 Definition arriving_along (k : nat) (d : direction) : Q :=
   over (spheres (S k)) (fun p => on d (arriving top step f (S k) (fst p) (snd p)) * on d (felt (S k) p)).
 
@@ -285,7 +286,7 @@ Proof.
   destruct d; [left | right; left | right; right; left]; reflexivity.
 Qed.
 
-(** It is what the contacts above give. *)
+(** They equal the forces of the contacts above. *)
 Lemma arriving_is_given : forall k d, arriving_along k d ==
   over (spheres k) (fun r => on d (f k (fst r) (snd r)) * on d (felt (S k) (support (step k) r d))).
 Proof.
@@ -306,7 +307,7 @@ Proof.
     symmetry. apply holds_iff. apply supports_are_there. apply spheres_are. exact H.
 Qed.
 
-(** The sloping contacts of a layer: what is given above less what arrives below. *)
+(** The sloping contacts of a layer: the work transmitted above minus the work received below. *)
 Lemma work_of_slopes : forall k,
   over (spheres k) (fun p => sloping_work k (fst p) (snd p)) + arriving_work (S k)
   == over (spheres k) (fun p => dot (phi k (fst p) (snd p)) (f k (fst p) (snd p))).
@@ -321,8 +322,8 @@ Proof.
   unfold dot. cbn [arriving]. formulas. ring.
 Qed.
 
-(** Virtual work, for any phi and any forces in equilibrium under any weights: the work of all sloping contacts, of all
-    horizontal ones, and of what arrives on the floor, is the work of the weights. *)
+(** Virtual work, for any phi and any forces in equilibrium under any weights: the work of all sloping contacts, of
+    all horizontal ones, and of the forces on the floor equals the work of the weights. *)
 Theorem work_on_the_floor : forall L, equilibrium L ->
   over_spheres L sloping_work + over_spheres L horizontal_work + arriving_work L == over_spheres L work_of_weight.
 Proof.
@@ -366,8 +367,8 @@ Proof.
   rewrite E. ring.
 Qed.
 
-(** Where no contact pulls, and no D and no c is negative, what arrives works no more than the weights; and no less, where
-    none is positive. *)
+(** If no contact is tensile, and no D and no c is negative, the work of the forces on the floor is at most that of
+    the weights; it is at least that if none is positive. *)
 Theorem no_more_than_the_weights : forall L, equilibrium L -> no_pull L ->
   (forall k i j d, (k < L)%nat -> In (i, j) (layer top step k) -> 0 <= drop k i j d) ->
   (forall k i j x, (k < L)%nat -> In (i, j) (layer top step k) -> touches k x i j = true -> 0 <= squeeze k x i j) ->
@@ -414,8 +415,8 @@ Qed.
 
 End Pile.
 
-(** With phi = 1 everywhere nothing is lowered or squeezed: whatever the horizontal contacts push, in any stacking, the floor
-    bears the weight, 3 f0 for a sphere of mg. *)
+(** With phi = 1 everywhere D and c are zero. For all horizontal forces, in any stacking, the floor carries the
+    weight, 3 f0 for a sphere of mg. *)
 Theorem the_weight_arrives_beside : forall top step f X w L, equilibrium top step f X w L ->
   over (spheres top step L) (fun p => sum (arriving top step f L (fst p) (snd p)))
   == over_spheres top step L (fun k i j => 3 * w k i j).
@@ -445,7 +446,7 @@ Proof.
     apply total_of_same. intros k _. apply over_of_same. intros p _. unfold work_of_weight. formulas. ring.
 Qed.
 
-(** ** Bounds of what rests on a sphere of the floor *)
+(** ** Bounds of the load on a bottom sphere *)
 
 Section Bound.
 Variable top : list site.
@@ -459,14 +460,14 @@ Hypothesis on_the_floor : In p (layer top step K).
 Hypothesis in_equilibrium : equilibrium top step f X w K.
 Hypothesis nothing_pulls : no_pull top step f X K.
 
-(** What rests on it: what the spheres of the last free layer pass on to it. *)
+(** The load: the forces that the spheres of the last free layer transmit to it. *)
 Definition rests : Q := sum (arriving top step f K (fst p) (snd p)).
 
 Definition truth (b : bool) : Q := if b then 1 else 0.
 Definition is_at (p r : site) : bool := if same_site r p then true else false.
 
-(** A field on the free spheres, K layers of them, is a certificate if D of its contacts is at least (at most) 1 where they
-    lead to p, 0 elsewhere, and no c is negative (positive). *)
+(** A field on the free spheres of K layers is a certificate if D is at least (at most) 1 at the contacts with p and
+    0 at others, and no c is negative (positive). *)
 Variable psi : nat -> Z -> Z -> three Q.
 
 Definition excess (k : nat) (i j : Z) (d : direction) : Q :=
@@ -477,7 +478,7 @@ Definition certifies (sigma : sign) : Prop :=
   (forall k i j x, (k < K)%nat -> In (i, j) (layer top step k) -> touches top step k x i j = true ->
     0 <= times sigma (squeeze step psi k x i j)).
 
-(** That p sinks by 1 with the field is the same. *)
+(** Equivalently, p sinks by 1 with the field. *)
 Definition with_floor (k : nat) (i j : Z) : three Q :=
   if (k =? K)%nat then each (truth (is_at p (i, j))) else psi k i j.
 
@@ -523,7 +524,7 @@ Proof using on_the_floor.
     symmetry. rewrite holds_spheres. apply holds_iff. exact on_the_floor.
 Qed.
 
-(** Weak duality: no more than the work of the weights rests on p. *)
+(** Weak duality: the load on p is at most the work of the weights. *)
 Theorem at_most_the_weights : certifies Plus -> rests <= over_spheres top step K (work_of_weight w psi).
 Proof using on_the_floor in_equilibrium nothing_pulls.
   intros [D C]. rewrite <- weights_with_floor, <- what_rests.
@@ -532,7 +533,7 @@ Proof using on_the_floor in_equilibrium nothing_pulls.
   - intros. rewrite squeeze_with_floor by assumption. apply (C k i j x); assumption.
 Qed.
 
-(** And no less. *)
+(** The same as a lower bound. *)
 Theorem at_least_the_weights : certifies Minus -> over_spheres top step K (work_of_weight w psi) <= rests.
 Proof using on_the_floor in_equilibrium nothing_pulls.
   intros [D C]. rewrite <- weights_with_floor, <- what_rests.
@@ -572,11 +573,11 @@ Qed.
 Lemma holds_straight : forall k p, holds (layer apex straight k) p = occupied k (fst p) (snd p).
 Proof. intros k [i j]. apply eq_true_iff_eq. rewrite holds_iff. apply layers_of_straight. Qed.
 
-(** Forces that balance K layers of it above a floor, of which none pulls. *)
+(** Forces without tension that balance K layers of it above a floor. *)
 Definition balanced_beside (f : nat -> Z -> Z -> three Q) (X : nat -> axis -> Z -> Z -> Q) (K : nat) : Prop :=
   equilibrium apex straight f X mg K /\ no_pull apex straight f X K.
 
-(** What rests on a sphere of its floor, in f0. *)
+(** The load on a bottom sphere, in f0. *)
 Definition rests_on (f : nat -> Z -> Z -> three Q) (K : nat) (p : site) : Q := rests apex straight f K p.
 
 Definition sum_of (K : nat) (psi : nat -> Z -> Z -> three Q) : Q :=
@@ -585,7 +586,7 @@ Definition sum_of (K : nat) (psi : nat -> Z -> Z -> three Q) : Q :=
 Lemma truth_is_not_negative : forall a, 0 <= truth a.
 Proof. intros []; cbn [truth]; lra. Qed.
 
-(** A certificate of a straight pile, and what it bounds. *)
+(** A certificate of a straight pile, and its bound. *)
 Definition lowers (K : nat) (p : site) (psi : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) (d : direction) : Q :=
   let r := support Plus (i, j) d in
   on d (psi k i j) - if (S k =? K)%nat then truth (is_at p r) else on d (psi (S k) (fst r) (snd r)).
@@ -634,9 +635,9 @@ Proof.
   - apply certificates_certify. exact C.
 Qed.
 
-(** ** There are such forces
+(** ** Such forces exist
 
-    What balances the spheres of the straight pile beside their neighbours. *)
+    Forces that balance the spheres of the straight pile with their neighbours. *)
 Lemma arriving_is_received : forall f k i j, arriving apex straight f k i j = received f k i j.
 Proof.
   intros f [|m] i j; [reflexivity|].
@@ -668,7 +669,7 @@ Proof.
   apply unbalanced_of_same; [exact H | reflexivity | reflexivity].
 Qed.
 
-(** Nobody pushes: the paper's closed form is one such state, so that no bound is about nothing. *)
+(** Without horizontal forces the paper's closed form is one such state, so the bounds are not vacuous. *)
 Definition paper_forces (k : nat) (i j : Z) : three Q := closed_form (1 # 2) (q i) (q j) (n_of k).
 Definition no_push (k : nat) (x : axis) (i j : Z) : Q := 0.
 
@@ -708,7 +709,8 @@ Qed.
 
 (** ** The elastic state
 
-    The energy of a state, in f0^2 over twice the stiffness of sloping contacts: the sum of f^2 and, r times, of X^2. *)
+    The energy of a state, in f0^2 over twice the stiffness of sloping contacts: the sum of f^2 plus r times the sum
+    of X^2. *)
 Definition pressed_along (X : nat -> axis -> Z -> Z -> Q) (by_force : nat -> Q -> Q) (k : nat) (i j : Z) : Q :=
   let part x := if touches apex straight k x i j then by_force k (X k x i j) else 0 in part AB + part AG + part GB.
 
@@ -763,8 +765,8 @@ Qed.
 Definition difference (f : nat -> Z -> Z -> three Q) (k : nat) (i j : Z) : three Q :=
   minus_three (f k i j) (paper_forces k i j).
 
-(** Any state, whether its contacts pull or not, has the energy of the closed form; that of what its forces differ by; that
-    of its horizontal contacts; and 4d X of each, d layers above the floor. *)
+(** The energy of any state, tensile or not, is the sum of: the energy of the closed form, that of the difference of
+    its forces, that of its horizontal contacts, and 4d X for each of these, d layers above the floor. *)
 Theorem energy_of_a_state : forall r f X K, equilibrium apex straight f X mg K ->
   energy r f X K == energy r paper_forces no_push K
     + over_spheres apex straight K (fun k i j => dot (difference f k i j) (difference f k i j))
@@ -825,8 +827,8 @@ Proof.
   unfold pressed_along. assert (A := T AB). assert (B := T AG). assert (C := T GB). lra.
 Qed.
 
-(** So the closed form is the elastic state: of all states in which no horizontal contact pulls it has the least energy, for
-    every stiffness of horizontal contacts. *)
+(** So the closed form is the elastic state: of all states without tensile horizontal contacts it has the least
+    energy, for every stiffness of horizontal contacts. *)
 Theorem closed_form_is_the_elastic_state : forall r f X K, 0 <= r -> balanced_beside f X K ->
   energy r paper_forces no_push K <= energy r f X K.
 Proof.
@@ -838,7 +840,7 @@ Proof.
   lra.
 Qed.
 
-(** And no other state has as little. *)
+(** It is the only state with this energy. *)
 Lemma over_nothing_negative : forall A (l : list A) F, (forall x, In x l -> 0 <= F x) -> over l F <= 0 ->
   forall x, In x l -> F x == 0.
 Proof.

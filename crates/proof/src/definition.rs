@@ -1,39 +1,39 @@
-//! A formula as a definition: its parameters, and what it returns, in no particular language.
+//! A formula as a definition: its parameters and its result, independent of a target language.
 
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Sign};
 
 use crate::Expression;
 
-/// Of which kind a parameter or a result is.
+/// The type of a parameter or a result.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Kind {
-    /// A rational; among integers, an integer.
+    /// A rational number, or an integer in definitions over integers.
     Number,
     /// Two numbers.
     Pair,
-    /// Numbers by direction α, β, γ; of bounds, those of i, j and i+j.
+    /// Three numbers by direction α, β, γ, or bounds of i, j and i+j.
     Three,
-    /// Four numbers by direction.
+    /// Four numbers for each direction.
     Fours,
     /// A vector by its components.
     Vector,
-    /// ê_a, ê_b, ê_c.
+    /// The unit vectors ê_a, ê_b, ê_c.
     Directions,
-    /// Δi and Δj, integers.
+    /// The integers Δi and Δj.
     Site,
     /// α, β or γ.
     Direction,
     /// + or −.
     Sign,
-    /// Yes or no.
+    /// A truth value.
     Truth,
 }
 
-/// What a definition returns.
+/// The result of a definition.
 pub(super) enum Value {
     Number(Expression),
-    /// Several in brackets, numbers all.
+    /// A tuple of numbers.
     Several(Vec<Expression>),
     Three([Expression; 3]),
     Fours(Box<[[Expression; 4]; 3]>),
@@ -56,9 +56,9 @@ impl Value {
     }
 }
 
-/// What a parameter is asked for in a case: a direction, a sign, or yes or no.
+/// The value of a parameter in one case of a definition by cases.
 #[derive(Clone, Copy)]
-pub(super) enum Asked {
+pub(super) enum CaseValue {
     Direction(Direction),
     Sign(Sign),
     Truth(bool),
@@ -67,15 +67,15 @@ pub(super) enum Asked {
 /// The body of a definition.
 pub(super) enum Body {
     Value(Value),
-    /// By cases of these parameters, all of them.
+    /// A definition by cases of the parameters `of`, with all combinations of their values.
     Cases {
         of: Vec<&'static str>,
-        cases: Vec<(Vec<Asked>, Value)>,
+        cases: Vec<(Vec<CaseValue>, Value)>,
     },
 }
 
 impl Body {
-    /// What it returns is of one kind in all cases.
+    /// Returns the type of the result, which is the same in all cases.
     pub(super) fn kind(&self) -> Option<Kind> {
         match self {
             Self::Value(value) => Some(value.kind()),
@@ -84,11 +84,11 @@ impl Body {
     }
 }
 
-/// A formula as it ran on symbols.
+/// A formula recorded on symbols.
 pub(super) struct Definition {
-    /// As in the library; with the dimension, if it is one of several.
+    /// The name in the library, with the dimension appended if there are several.
     pub(super) name: String,
-    /// What it returns.
+    /// A description of the result, for the comment in Coq.
     pub(super) about: &'static str,
     pub(super) parameters: Vec<(&'static str, Kind)>,
     pub(super) body: Body,

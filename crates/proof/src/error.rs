@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Why a file or a value is not returned.
+/// The reason why a file or a value cannot be returned.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -21,7 +21,8 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            // The message is the inner one, so the chain goes on below it.
+            // The message is that of the inner error, so the chain of sources continues with the source of the
+            // inner error.
             Self::Core(error) => error.source(),
         }
     }

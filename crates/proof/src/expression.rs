@@ -1,4 +1,4 @@
-//! Expressions as they were formed: the scalar that records.
+//! A scalar that records its operations.
 
 use core::fmt;
 use core::num::NonZeroI64;
@@ -12,10 +12,12 @@ use num_traits::{One, Signed, Zero};
 
 use crate::Error;
 
-/// What was done to numbers, in the order in which it was done: a formula that is run on symbols is written down as it runs.
+/// The operations on a scalar in the order of their execution. A generic formula that runs on symbols records
+/// itself.
 ///
-/// Nothing is simplified. Two expressions are equal if they are the same [polynomial](Self::to_polynomial), however they were formed. An
-/// expression is as long as it was formed, without anything in common: it is for formulas, not for sweeps over layers.
+/// Nothing is simplified. Two expressions are equal if they are the same [polynomial](Self::to_polynomial). Common
+/// parts are not shared, so the length of an expression is the number of its operations. It is suitable for
+/// formulas, but not for sweeps over layers.
 ///
 /// # Examples
 /// ```
@@ -34,7 +36,7 @@ use crate::Error;
 #[derive(Clone)]
 pub struct Expression(Vec<Step>);
 
-/// One step: it takes what the last steps have left, and leaves its result.
+/// An operation in postfix order: it pops its operands from a stack and pushes its result.
 #[derive(Clone)]
 enum Step {
     Symbol(Symbol),
@@ -46,7 +48,8 @@ enum Step {
     Quotient(NonZeroI64),
 }
 
-/// One operation of an [`Expression`], on operands of any kind: numbers to evaluate it, texts to write it.
+/// An operation of an [`Expression`] on operands of any type, for example numbers for evaluation or texts for
+/// printing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation<V> {
     /// A symbol.
@@ -66,10 +69,10 @@ pub enum Operation<V> {
 }
 
 impl Expression {
-    /// Returns what `with` makes of the whole, given what it made of the parts.
+    /// Evaluates the expression with `with`, which receives each operation with its evaluated operands.
     ///
     /// # Errors
-    /// [`Bug`](cannonpile::Error::Bug) for an expression that was not formed by operations, of which there is none.
+    /// [`Bug`](cannonpile::Error::Bug) for a malformed expression. No operation produces one.
     ///
     /// # Examples
     /// ```
@@ -86,19 +89,19 @@ impl Expression {
     /// # Ok::<(), cannonpile_proof::Error>(())
     /// ```
     pub fn fold<V>(&self, mut with: impl FnMut(Operation<V>) -> V) -> Result<V, Error> {
-        let unformed = || bug("each operation of an expression finds its operands");
+        let malformed = || bug("each operation of an expression has its operands");
         let mut left = Vec::new();
         for step in &self.0 {
             let operation = match step {
                 Step::Symbol(symbol) => Operation::Symbol(*symbol),
                 Step::Number(number) => Operation::Number(number.clone()),
                 step => {
-                    let last = left.pop().ok_or_else(unformed)?;
+                    let last = left.pop().ok_or_else(malformed)?;
                     match step {
                         Step::Negative => Operation::Negative(last),
                         Step::Quotient(n) => Operation::Quotient(last, *n),
                         step => {
-                            let first = left.pop().ok_or_else(unformed)?;
+                            let first = left.pop().ok_or_else(malformed)?;
                             match step {
                                 Step::Sum => Operation::Sum(first, last),
                                 Step::Difference => Operation::Difference(first, last),
@@ -110,13 +113,13 @@ impl Expression {
             };
             left.push(with(operation));
         }
-        Ok(left.pop().ok_or_else(unformed)?)
+        Ok(left.pop().ok_or_else(malformed)?)
     }
 
-    /// Returns the value for these values of the symbols, in any scalar; `None` if a symbol has none.
+    /// Returns the value for given values of the symbols, in any scalar, or `None` if a symbol has no value.
     ///
     /// # Errors
-    /// That of [`fold`](Self::fold).
+    /// Returns the errors of [`fold`](Self::fold).
     ///
     /// # Examples
     /// ```
@@ -144,10 +147,10 @@ impl Expression {
         })
     }
 
-    /// Returns the polynomial that the expression is.
+    /// Returns the expression as a polynomial.
     ///
     /// # Errors
-    /// That of [`fold`](Self::fold).
+    /// Returns the errors of [`fold`](Self::fold).
     ///
     /// # Examples
     /// ```
@@ -189,31 +192,31 @@ impl From<Symbol> for Expression {
 }
 
 impl fmt::Display for Expression {
-    /// Writes it as it was formed, from left to right, brackets only where they are needed.
+    /// Writes the expression from left to right, as it was recorded, with brackets only where they are needed.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// How firmly a text holds together: as a sum, as a product, or by itself.
+        /// Binding strengths of an expression: sum, product, atom.
         const SUM: u8 = 0;
         const PRODUCT: u8 = 1;
         const ATOM: u8 = 2;
-        let within = |(text, firm): (String, u8), least: u8| {
-            if firm < least {
+        let within = |(text, strength): (String, u8), least: u8| {
+            if strength < least {
                 format!("({text})")
             } else {
                 text
             }
         };
-        let joined = |a, sign, b, firm| {
+        let joined = |a, sign, b, strength| {
             (
-                format!("{} {sign} {}", within(a, firm), within(b, firm + 1)),
-                firm,
+                format!("{} {sign} {}", within(a, strength), within(b, strength + 1)),
+                strength,
             )
         };
         let written = self.fold(|operation| match operation {
             Operation::Symbol(symbol) => (symbol.0.to_string(), ATOM),
             Operation::Number(number) => {
-                let firm = if number.is_integer() { ATOM } else { PRODUCT };
-                let firm = if number.is_negative() { SUM } else { firm };
-                (number.to_string(), firm)
+                let strength = if number.is_integer() { ATOM } else { PRODUCT };
+                let strength = if number.is_negative() { SUM } else { strength };
+                (number.to_string(), strength)
             }
             Operation::Negative(a) => (format!("-{}", within(a, ATOM)), SUM),
             Operation::Sum(a, b) => joined(a, '+', b, SUM),
@@ -331,7 +334,7 @@ impl Algebra for Expression {
 }
 
 impl OwnNumerators for Expression {
-    /// Returns `n / d` for a number d; `None` for zero, and for what has symbols in it.
+    /// Returns `n / d` for a constant d; `None` if d is zero or contains symbols.
     fn ratio(n: Self, d: &Self) -> Option<Self> {
         let divisor = d.to_polynomial().ok()?.to_constant()?;
         if divisor.is_zero() {

@@ -1,12 +1,12 @@
-//! The formulas that theorems of all crates are about.
+//! The formulas of the theorems of all crates.
 
 use cannonpile::scalar::{Algebra, Polynomial};
 use cannonpile::theorem::Library;
 
-/// The formulas of the core, of horizontal contacts and of random stackings, over any scalar `P` that is its own ring of
-/// numerators.
+/// The formulas of the core, of horizontal contacts and of random stackings, as functions on a scalar `P` that is
+/// its own ring of numerators.
 ///
-/// The formulas of the core are there twice. [`Theorem::prove_for`](crate::Theorem::prove_for) and
+/// The formulas of the core occur twice. [`Theorem::prove_for`](crate::Theorem::prove_for) and
 /// [`files_of`](crate::files_of) use those in `horizontal` for the theorems of the core.
 ///
 /// # Examples
@@ -26,7 +26,7 @@ pub struct Formulas<P = Polynomial> {
     pub disorder: cannonpile_disorder::theorem::Formulas<P>,
 }
 
-// A derive would demand `P: Clone`.
+// A derived implementation would require `P: Clone`.
 impl<P> Clone for Formulas<P> {
     fn clone(&self) -> Self {
         *self
@@ -36,7 +36,7 @@ impl<P> Clone for Formulas<P> {
 impl<P> Copy for Formulas<P> {}
 
 impl<P: Algebra<Numerator = P>> Formulas<P> {
-    /// The functions that engines and answers call.
+    /// The functions that the library calls for its results.
     pub const LIBRARY: Self = Self {
         horizontal: Library::LIBRARY,
         disorder: Library::LIBRARY,

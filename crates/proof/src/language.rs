@@ -1,4 +1,4 @@
-//! How a definition is written in Coq.
+//! The syntax of a definition in Coq.
 
 use cannonpile::engine::bug;
 use cannonpile::lattice::{Direction, Sign};
@@ -6,7 +6,7 @@ use cannonpile::scalar::Symbol;
 use num_bigint::BigInt;
 use num_traits::Signed;
 
-use crate::definition::{Asked, Body, Definition, Kind, Value};
+use crate::definition::{Body, CaseValue, Definition, Kind, Value};
 use crate::{Error, Expression, Operation};
 
 /// The type of the numbers in a definition.
@@ -16,19 +16,19 @@ pub(crate) enum Carrier {
     Integers,
 }
 
-/// How firmly a text holds together: as a sum, as a product, or by itself.
+/// Binding strengths of an expression: sum, product, atom.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Firm {
+enum Strength {
     Sum,
     Product,
     Atom,
 }
 
-/// Columns of a line, over which parts go on lines of their own.
+/// The maximum line width. Longer parts are written on separate lines.
 const WIDTH: usize = 100;
 
 impl Carrier {
-    /// A definition with its comment.
+    /// Returns a definition with its comment.
     pub(crate) fn definition(self, definition: &Definition) -> Result<String, Error> {
         let Definition {
             name,
@@ -38,7 +38,7 @@ impl Carrier {
         } = definition;
         let kind = body
             .kind()
-            .ok_or_else(|| bug("a definition has a case at least"))?;
+            .ok_or_else(|| bug("a definition has at least one case"))?;
         let of = |(name, kind): &(&str, Kind)| format!(" ({name} : {})", self.kind(*kind));
         let parameters = parameters.iter().map(of).collect::<Vec<_>>().concat();
         let (kind, body) = (self.kind(kind), body_of(body)?);
@@ -74,57 +74,57 @@ fn body_of(body: &Body) -> Result<String, Error> {
         Body::Cases { of, cases } => (of, cases),
     };
     let mut text = format!("match {} with\n", of.join(", "));
-    for (asked, value) in cases {
-        let asked: Vec<_> = asked.iter().map(|asked| constructor(*asked)).collect();
+    for (case, value) in cases {
+        let case: Vec<_> = case.iter().map(|value| constructor(*value)).collect();
         let value = value_of(value, 6)?;
-        text.extend(["  | ", &asked.join(", "), " => ", &value, "\n"]);
+        text.extend(["  | ", &case.join(", "), " => ", &value, "\n"]);
     }
     text += "  end";
     Ok(text)
 }
 
-const fn constructor(asked: Asked) -> &'static str {
-    match asked {
-        Asked::Direction(Direction::Alpha) => "Alpha",
-        Asked::Direction(Direction::Beta) => "Beta",
-        Asked::Direction(Direction::Gamma) => "Gamma",
-        Asked::Sign(Sign::Plus) => "Plus",
-        Asked::Sign(Sign::Minus) => "Minus",
-        Asked::Truth(true) => "true",
-        Asked::Truth(false) => "false",
+const fn constructor(value: CaseValue) -> &'static str {
+    match value {
+        CaseValue::Direction(Direction::Alpha) => "Alpha",
+        CaseValue::Direction(Direction::Beta) => "Beta",
+        CaseValue::Direction(Direction::Gamma) => "Gamma",
+        CaseValue::Sign(Sign::Plus) => "Plus",
+        CaseValue::Sign(Sign::Minus) => "Minus",
+        CaseValue::Truth(true) => "true",
+        CaseValue::Truth(false) => "false",
     }
 }
 
-/// A value. Its parts are on lines of their own if they are long, indented by so many spaces.
+/// Returns a value as text. Long parts are written on separate lines with the given indentation.
 fn value_of(value: &Value, indent: usize) -> Result<String, Error> {
     Ok(match value {
         Value::Number(number) => written(number)?.0,
         Value::Several(numbers) => several(numbers)?,
         Value::Three(numbers) => {
             let parts = numbers.iter().map(part);
-            made("Three", &parts.collect::<Result<Vec<_>, _>>()?, indent)
+            constructed("Three", &parts.collect::<Result<Vec<_>, _>>()?, indent)
         }
         Value::Fours(fours) => {
             let parts = fours.iter().map(|four| several(four));
-            made("Three", &parts.collect::<Result<Vec<_>, _>>()?, indent)
+            constructed("Three", &parts.collect::<Result<Vec<_>, _>>()?, indent)
         }
         Value::Vector(v) => {
             let parts = [&v.x, &v.y, &v.z].into_iter().map(part);
-            made("Vector", &parts.collect::<Result<Vec<_>, _>>()?, indent)
+            constructed("Vector", &parts.collect::<Result<Vec<_>, _>>()?, indent)
         }
         Value::Directions(directions) => {
             let parts = directions.iter().map(|v| {
                 let whole = value_of(&Value::Vector(v.clone()), indent + 2)?;
                 Ok::<_, Error>(format!("({whole})"))
             });
-            made("Three", &parts.collect::<Result<Vec<_>, _>>()?, indent)
+            constructed("Three", &parts.collect::<Result<Vec<_>, _>>()?, indent)
         }
         Value::Site([i, j]) => format!("({i}, {j})%Z"),
     })
 }
 
-/// What a constructor makes of its parts.
-fn made(constructor: &str, parts: &[String], indent: usize) -> String {
+/// Returns a constructor applied to its parts.
+fn constructed(constructor: &str, parts: &[String], indent: usize) -> String {
     let length: usize = parts.iter().map(|part| part.chars().count() + 2).sum();
     if length + indent + constructor.len() <= WIDTH {
         return format!("{constructor} {}", parts.join(" "));
@@ -133,12 +133,12 @@ fn made(constructor: &str, parts: &[String], indent: usize) -> String {
     format!("{constructor}{apart}{}", parts.join(&apart))
 }
 
-/// An argument of a constructor.
+/// Returns an argument of a constructor.
 fn part(number: &Expression) -> Result<String, Error> {
-    let (text, firm) = written(number)?;
-    Ok(match firm {
-        Firm::Sum | Firm::Product => format!("({text})"),
-        Firm::Atom => text,
+    let (text, strength) = written(number)?;
+    Ok(match strength {
+        Strength::Sum | Strength::Product => format!("({text})"),
+        Strength::Atom => text,
     })
 }
 
@@ -150,10 +150,10 @@ fn several(numbers: &[Expression]) -> Result<String, Error> {
     Ok(format!("({})", parts.join(", ")))
 }
 
-/// An expression as it was formed, from left to right.
-fn written(expression: &Expression) -> Result<(String, Firm), Error> {
-    let within = |(text, firm): (String, Firm), least: Firm| {
-        if firm < least {
+/// Returns an expression as text, from left to right as it was recorded.
+fn written(expression: &Expression) -> Result<(String, Strength), Error> {
+    let within = |(text, strength): (String, Strength), least: Strength| {
+        if strength < least {
             format!("({text})")
         } else {
             text
@@ -162,38 +162,38 @@ fn written(expression: &Expression) -> Result<(String, Firm), Error> {
     let sum = |a, sign, b| {
         let text = format!(
             "{} {sign} {}",
-            within(a, Firm::Sum),
-            within(b, Firm::Product)
+            within(a, Strength::Sum),
+            within(b, Strength::Product)
         );
-        (text, Firm::Sum)
+        (text, Strength::Sum)
     };
     let product = |a, sign, b| {
         let text = format!(
             "{} {sign} {}",
-            within(a, Firm::Product),
-            within(b, Firm::Atom)
+            within(a, Strength::Product),
+            within(b, Strength::Atom)
         );
-        (text, Firm::Product)
+        (text, Strength::Product)
     };
     expression.fold(|operation| match operation {
-        Operation::Symbol(Symbol(name)) => (symbol(name), Firm::Atom),
-        Operation::Number(number) => (fraction(number.numer(), number.denom()), Firm::Atom),
-        Operation::Negative(a) => (format!("(- {})", within(a, Firm::Atom)), Firm::Atom),
+        Operation::Symbol(Symbol(name)) => (symbol(name), Strength::Atom),
+        Operation::Number(number) => (fraction(number.numer(), number.denom()), Strength::Atom),
+        Operation::Negative(a) => (format!("(- {})", within(a, Strength::Atom)), Strength::Atom),
         Operation::Sum(a, b) => sum(a, '+', b),
         Operation::Difference(a, b) => sum(a, '-', b),
         Operation::Product(a, b) => product(a, '*', b),
         Operation::Quotient(a, n) => {
             let part = BigInt::from(n.get().signum());
             let inverse = fraction(&part, &BigInt::from(n.get()).abs());
-            product(a, '*', (inverse, Firm::Atom))
+            product(a, '*', (inverse, Strength::Atom))
         }
     })
 }
 
-/// `g.alpha` is a part of the parameter g.
+/// Returns a symbol as text: `g.alpha` becomes a projection of the parameter g.
 fn symbol(name: &str) -> String {
     let mut parts = name.split('.');
-    // Not a default: the first part is there, of an empty name too.
+    // `split` yields at least one part, also for an empty name.
     let whole = parts.next().unwrap_or(name);
     parts.fold(whole.into(), |whole, part| format!("{whole}.({part})"))
 }
@@ -212,20 +212,23 @@ mod tests {
     use super::*;
     use cannonpile::geometry::Vector;
 
-    /// Name, parts with two more columns each, and what is left of it: a hundred columns, and one more.
+    /// The constructor, the parts with two more columns each, and the indentation: a hundred columns, and one more.
     #[test]
-    fn what_is_wider_than_a_line_is_broken() {
+    fn long_values_are_broken_into_lines() {
         let parts = |last: usize| ["a".repeat(40), "b".repeat(30), "c".repeat(last)];
-        // 5 of `Three`, 4 of the indent, 40 + 30 + 15 and three times two.
+        // 5 columns of `Three`, 4 of indentation, 40 + 30 + 15 of the parts and three times two.
         let [a, b, c] = parts(15);
-        assert_eq!(made("Three", &parts(15), 4), format!("Three {a} {b} {c}"));
+        assert_eq!(
+            constructed("Three", &parts(15), 4),
+            format!("Three {a} {b} {c}")
+        );
         let c = "c".repeat(16);
         let broken = format!("Three\n      {a}\n      {b}\n      {c}");
-        assert_eq!(made("Three", &parts(16), 4), broken);
+        assert_eq!(constructed("Three", &parts(16), 4), broken);
     }
 
     #[test]
-    fn parts_of_parts_stand_further_in() {
+    fn nested_parts_are_indented() {
         let long: Expression = Symbol("a_symbol_of_more_than_thirty_letters").into();
         let vector = || Vector {
             x: long.clone(),
@@ -242,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn negative_numbers_have_brackets() {
+    fn negative_numbers_are_bracketed() {
         let fraction = |n: i64, d: i64| fraction(&n.into(), &d.into());
         assert_eq!(fraction(-2, 1), "(-2)");
         assert_eq!(fraction(2, 1), "2");

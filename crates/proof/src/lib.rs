@@ -1,9 +1,10 @@
-//! The formulas and theorems of cannonpile, written for Coq to check.
+//! The formulas and theorems of cannonpile, exported to the proof assistant Coq.
 //!
-//! [`cannonpile::theorem`] proves theorems with polynomials. This crate writes the same formulas for Coq: it runs
-//! [`Formulas::LIBRARY`] on [`Expression`]s, which record each operation, and turns every record into a definition. The
-//! theorems in the folder `coq` are about these definitions, not about a copy of them: balance of a sphere, action and
-//! reaction, the pile by recursion on its layers, sums by induction. Coq's kernel accepts them without axioms.
+//! [`cannonpile::theorem`] proves theorems with polynomials. This crate exports the same formulas to Coq. It runs
+//! [`Formulas::LIBRARY`] on [`Expression`]s, which record each operation, and turns every record into a definition.
+//! The theorems in the folder `coq` are about these definitions, not about a copy of the formulas. They cover the
+//! balance of a sphere, action and reaction, the pile by recursion on its layers, and sums by induction. Coq's
+//! kernel accepts them without axioms.
 //!
 //! # Examples
 //! ```
@@ -16,21 +17,21 @@
 //! ```
 //!
 //! # Map
-//! | item | what it is |
+//! | item | contents |
 //! |---|---|
 //! | [`Expression`], [`Operation`] | a scalar that records the operations on it |
-//! | [`Formulas`] | the formulas of all crates that theorems are about |
+//! | [`Formulas`] | the formulas in the theorems of all crates |
 //! | [`Theorem`], [`all`], [`find`] | the theorems of all crates, each with its names in Coq |
 //! | [`Listing`] | a theorem and its proof as text |
 //! | [`files`], [`files_of`], [`ProofFile`] | the files for Coq |
 //! | [`commands`] | the shell commands that check them |
-//! | [`Error`] | why a file or a value is not returned |
+//! | [`Error`] | the errors of this crate |
 //!
 //! # Limits
-//! * The recorded expression is what the library computes with every exact scalar, because each formula has one generic
-//!   body. Nobody has proved that rustc compiles this body as it is written.
-//! * The proofs do not cover how an engine finds the spheres on a line and where it stores a number. Tests compare the
-//!   engines.
+//! * The recorded expression is the computation of the library in every exact scalar, because each formula has one
+//!   generic body. It is not proved that rustc compiles this body as written.
+//! * The proofs do not cover how an engine finds the spheres on a line, or where it stores a number. Tests compare
+//!   the engines.
 //! * Floats are rounded, and nothing is proved about them.
 
 mod coq;

@@ -1,9 +1,10 @@
-//! The names in Coq of the theorems that are listed.
+//! The names of the theorems in Coq.
 
-/// Returns the names in Coq of a theorem, each with its file: none for a theorem that is not in Coq.
+/// Returns the names of a theorem in Coq, each with its file. The list is empty for a theorem without a proof in
+/// Coq.
 pub(crate) fn in_coq(theorem: &str) -> &'static [&'static str] {
     let found = NAMES.iter().find(|(name, _)| *name == theorem);
-    // Not a default: a theorem outside the list has no proof in Coq.
+    // Theorems outside the list have no proof in Coq.
     found.map_or(&[], |(_, names)| names)
 }
 

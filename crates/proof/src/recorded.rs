@@ -1,9 +1,9 @@
-//! The formulas of the library, run on symbols, each as a definition.
+//! The formulas of the library as definitions, recorded by running them on symbols.
 
 use cannonpile::lattice::Sign;
 use cannonpile::scalar::Symbol;
 
-use crate::definition::{Asked, Body, Definition, Kind, Value};
+use crate::definition::{Body, CaseValue, Definition, Kind, Value};
 use crate::{Expression, Formulas};
 
 type E = Expression;
@@ -12,7 +12,7 @@ fn symbol(name: &'static str) -> E {
     Symbol(name).into()
 }
 
-/// The numbers of a parameter by direction.
+/// Expands to the three numbers of a parameter, by direction.
 macro_rules! three {
     ($name:literal) => {
         [
@@ -24,7 +24,7 @@ macro_rules! three {
     };
 }
 
-/// The components of a parameter that is a vector.
+/// Expands to the components of a vector parameter.
 macro_rules! vector {
     ($name:expr) => {
         Vector {
@@ -35,7 +35,7 @@ macro_rules! vector {
     };
 }
 
-/// The components of a parameter that is three vectors.
+/// Expands to the components of a parameter of three vectors.
 macro_rules! vectors {
     ($name:literal) => {
         [
@@ -58,7 +58,7 @@ use places::{above, bounds_above, counts, descent, places};
 
 const SIGNS: [Sign; 2] = [Sign::Plus, Sign::Minus];
 
-/// A formula of one case.
+/// Returns the definition of a formula without cases.
 fn plain(
     name: &str,
     about: &'static str,
@@ -73,7 +73,7 @@ fn plain(
     }
 }
 
-/// A formula of numbers.
+/// Returns the definition of a formula whose parameters are numbers.
 fn of_numbers(
     name: &str,
     about: &'static str,
@@ -87,15 +87,17 @@ fn of_numbers(
     plain(name, about, &parameters, value)
 }
 
-/// A formula of several cases.
+/// Returns the definition of a formula with cases.
 fn by_cases(
     name: &str,
     about: &'static str,
     parameters: &[(&'static str, Kind)],
-    cases: Vec<(Vec<Asked>, Value)>,
+    cases: Vec<(Vec<CaseValue>, Value)>,
 ) -> Definition {
-    let asked = [Kind::Direction, Kind::Sign, Kind::Truth];
-    let of = parameters.iter().filter(|(_, kind)| asked.contains(kind));
+    let case_kinds = [Kind::Direction, Kind::Sign, Kind::Truth];
+    let of = parameters
+        .iter()
+        .filter(|(_, kind)| case_kinds.contains(kind));
     Definition {
         name: name.into(),
         about,
@@ -107,7 +109,7 @@ fn by_cases(
     }
 }
 
-/// Over integers, as the engines run them where no fraction is needed.
+/// Returns the definitions over integers, for the formulas that the engines run without fractions.
 pub(super) fn over_integers(f: &Formulas<E>) -> Vec<Definition> {
     let f = &f.horizontal.core;
     vec![
@@ -118,7 +120,7 @@ pub(super) fn over_integers(f: &Formulas<E>) -> Vec<Definition> {
     ]
 }
 
-/// Over rationals: all of them.
+/// Returns all definitions over rationals.
 pub(super) fn over_rationals(f: &Formulas<E>) -> Vec<Definition> {
     let Formulas {
         horizontal: f,

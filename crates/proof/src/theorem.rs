@@ -13,15 +13,15 @@ use crate::{Formulas, names};
 pub struct Theorem {
     /// A short name.
     pub name: &'static str,
-    /// What is proved, in words and formulas.
+    /// The statement, in words and formulas.
     pub statement: &'static str,
-    /// The values of the symbols for which it holds.
+    /// The values of the symbols for which the theorem holds.
     pub hypotheses: &'static str,
-    /// How it is proved.
+    /// The method of proof.
     pub method: ProofKind,
-    /// The symbols in it.
+    /// The symbols of the statement.
     pub symbols: &'static str,
-    /// The names of its proofs in Coq, each with its file; empty if there is none.
+    /// The names of its proofs in Coq, each with its file; empty without a proof in Coq.
     pub coq: &'static [&'static str],
     source: Source,
 }
@@ -47,7 +47,7 @@ impl Theorem {
         }
     }
 
-    /// Returns the proof for the library's own formulas.
+    /// Returns the proof for the formulas of the library.
     ///
     /// # Examples
     /// ```
@@ -79,8 +79,7 @@ impl Theorem {
     }
 }
 
-/// Returns every theorem, in reading order: those of the core first, then those on horizontal contacts and on random
-/// stackings.
+/// Returns all theorems in reading order: those of the core, of horizontal contacts and of random stackings.
 ///
 /// # Examples
 /// ```
@@ -98,7 +97,7 @@ pub fn all() -> impl Iterator<Item = Theorem> {
     core.chain(horizontal).chain(disorder)
 }
 
-/// Returns the theorem of this name.
+/// Returns the theorem with a given name.
 ///
 /// # Examples
 /// ```
@@ -126,7 +125,8 @@ pub struct Listing<'a> {
     pub theorem: &'a Theorem,
     /// Its proof.
     pub proof: &'a Proof,
-    /// Whether to write the whole derivation: hypotheses, symbols, each side on a line.
+    /// `true` writes the whole derivation: hypotheses, symbols, and the two sides of each equation on separate
+    /// lines.
     pub whole: bool,
 }
 

@@ -1,10 +1,11 @@
-//! The claims about recorded formulas on random input: deterministic, from the generators that fuzzing shares.
+//! Claims about recorded formulas on random input. The test is deterministic, and its generators are those of the
+//! fuzz targets.
 //!
-//! Each claim is a function of bytes; its planted faults stand beside it in `cannonpile_testkit`. A failure prints the
-//! shortest bytes that proptest could find, and the claim's own witness.
+//! Each claim is a function of bytes. `cannonpile_testkit` defines it next to its mutants, which it must reject. A
+//! failure prints the shortest input that proptest finds, and the counterexample of the claim.
 
 use cannonpile_testkit::{claims, properties};
 
 properties! {
-    what_coq_reads_are_the_formulas: claims::recorded::any_values, 1024;
+    exported_formulas_match_library: claims::recorded::any_values, 1024;
 }

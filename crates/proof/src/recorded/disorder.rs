@@ -10,19 +10,19 @@ pub(super) fn disorder(f: &Formulas<E>) -> Vec<Definition> {
     vec![
         of_numbers(
             "third_moment",
-            "What the sign of step s makes of the third moment of a unit load at depth n.",
+            "The contribution of the sign of step s to the third moment of a unit load at depth n.",
             &["n", "s"],
             Value::Number((f.third_moment)(&n, &s)),
         ),
         of_numbers(
             "fourth_moment",
-            "What all signs have in common of the fourth moment of a unit load at depth n.",
+            "The part of the fourth moment of a unit load at depth n that does not depend on signs.",
             &["n"],
             Value::Number((f.fourth_moment)(&n)),
         ),
         of_numbers(
             "fourth_moment_of_pair",
-            "What the signs of steps s < t add to it, times their product.",
+            "The coefficient of the product of the signs of steps s < t in it.",
             &["n", "s", "t"],
             Value::Number((f.fourth_moment_of_pair)(&n, &s, &t)),
         ),
@@ -34,7 +34,7 @@ pub(super) fn disorder(f: &Formulas<E>) -> Vec<Definition> {
         ),
         of_numbers(
             "mean_fourth_moment_of_pairs",
-            "The mean of what pairs of signs add to the fourth moment, times (1-mu)^4; power is mu^n.",
+            "The mean contribution of pairs of signs to the fourth moment, times (1-mu)^4; power is mu^n.",
             &["n", "mu", "power"],
             Value::Number((f.mean_fourth_moment_of_pairs)(&n, &mu, &power)),
         ),
@@ -46,7 +46,7 @@ pub(super) fn disorder(f: &Formulas<E>) -> Vec<Definition> {
         ),
         of_numbers(
             "registry_excess",
-            "By how much the probability of a registry exceeds 1/3 one layer further down.",
+            "The excess of the probability of a registry over 1/3, one layer further down.",
             &["x", "y", "q"],
             Value::Number((f.registry_excess)(&x, &y, &q)),
         ),

@@ -1,4 +1,4 @@
-//! Forces: what a sphere receives, adds and passes on.
+//! Forces of a sphere: received, added and transmitted.
 
 use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
@@ -18,19 +18,19 @@ pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
     vec![
         of_numbers(
             "increments",
-            "What a sphere adds to its three lines of contacts, (6).",
+            "The force increments of a sphere along its three lines of contacts, (6).",
             &["s"],
             Value::Three((f.increments)(&s)),
         ),
         of_numbers(
             "force",
-            "What n spheres on a line add to it, (8).",
+            "The force of n spheres on a line, (8).",
             &["n", "increment"],
             Value::Number((f.force)(n, &increment)),
         ),
         of_numbers(
             "passed_on",
-            "What a line carries below a sphere that receives so much on it and adds its own, (10).",
+            "The force along a line below a sphere: the force received and its own increment, (10).",
             &["received", "own"],
             Value::Number((f.passed_on)(received, &own)),
         ),
@@ -42,7 +42,7 @@ pub(super) fn forces(f: &Formulas<E>) -> Vec<Definition> {
         ),
         plain(
             "handed_on",
-            "What a sphere presses with on what it stands on, (11).",
+            "The force of a sphere on its three supports, (11).",
             &whole,
             Value::Vector((f.handed_on)(&from_above, &e, &weight)),
         ),
@@ -107,7 +107,7 @@ pub(super) fn turns(f: &Formulas<E>) -> Vec<Definition> {
     vec![
         plain(
             "half_turn",
-            "What a sphere at a change of sign passes on of the forces that it receives: G g.",
+            "The transfer of the received forces at a sign change: G g.",
             &[("g", Kind::Three)],
             Value::Three((f.half_turn)(&three!("g"))),
         ),

@@ -4,40 +4,48 @@ use cannonpile::lattice::Direction;
 use cannonpile_horizontal::theorem::Formulas;
 
 use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
-use crate::definition::{Asked, Definition, Kind, Value};
+use crate::definition::{CaseValue, Definition, Kind, Value};
 
-/// What horizontal contacts do to the balance of a sphere, and what fields make of them.
+/// Returns the formulas of a sphere with horizontal contacts: its balance, drops and compressions.
 pub(super) fn horizontal(f: &Formulas<E>) -> Vec<Definition> {
     let [x, received, own, pushed, below, phi] =
         ["x", "received", "own", "pushed", "below", "phi"].map(symbol);
     let ends = [("a", Kind::Direction), ("b", Kind::Direction)];
     let pushes = pairs().flat_map(|[a, b]| {
         [true, false].map(|away| {
-            let asked = vec![Asked::Direction(a), Asked::Direction(b), Asked::Truth(away)];
-            (asked, Value::Three((f.core.pushed)(&x, [a, b], away)))
+            let case = vec![
+                CaseValue::Direction(a),
+                CaseValue::Direction(b),
+                CaseValue::Truth(away),
+            ];
+            (case, Value::Three((f.core.pushed)(&x, [a, b], away)))
         })
     });
     let compressions = pairs().flat_map(|[a, b]| {
         SIGNS.map(|sign| {
-            let asked = vec![Asked::Direction(a), Asked::Direction(b), Asked::Sign(sign)];
+            let case = vec![
+                CaseValue::Direction(a),
+                CaseValue::Direction(b),
+                CaseValue::Sign(sign),
+            ];
             let value = (f.compression)(&three!("phi"), &three!("there"), [a, b], sign);
-            (asked, Value::Number(value))
+            (case, Value::Number(value))
         })
     });
     let beside = SIGNS.map(|sign| {
         let value = (f.core.beside)(received.clone(), &own, &pushed, sign);
-        (vec![Asked::Sign(sign)], Value::Number(value))
+        (vec![CaseValue::Sign(sign)], Value::Number(value))
     });
     vec![
         by_cases(
             "pushed",
-            "What a horizontal contact of force x between p and p + d_b - d_a adds to H of a sphere, p if it leads away.",
+            "The contribution to H of a horizontal contact of force x from p to p + d_b - d_a; `away` is true for p.",
             &[("x", Kind::Number), ends[0], ends[1], ("away", Kind::Truth)],
             pushes.collect(),
         ),
         by_cases(
             "beside",
-            "What a line carries below a sphere with horizontal contacts.",
+            "The force along a line below a sphere with horizontal contacts.",
             &[
                 ("received", Kind::Number),
                 ("own", Kind::Number),
@@ -48,13 +56,13 @@ pub(super) fn horizontal(f: &Formulas<E>) -> Vec<Definition> {
         ),
         of_numbers(
             "lowered",
-            "D of the contact of a sphere with its support.",
+            "The drop D of the contact of a sphere with its support.",
             &["phi", "below"],
             Value::Number((f.lowered)(phi, &below)),
         ),
         by_cases(
             "compression",
-            "c of the horizontal contact of p and p + d_b - d_a.",
+            "The compression c of the horizontal contact of p and p + d_b - d_a.",
             &[
                 ("phi", Kind::Three),
                 ("there", Kind::Three),
@@ -72,8 +80,8 @@ pub(super) fn with_horizontal_contacts(f: &Formulas<E>) -> Vec<Definition> {
     let [n, d, k, j, c] = ["n", "d", "k", "j", "c"].map(symbol);
     let corners = Direction::ALL.into_iter().flat_map(|edge| {
         [true, false].map(|all| {
-            let asked = vec![Asked::Direction(edge), Asked::Truth(all)];
-            (asked, Value::Three((f.corner_field)(edge, all)))
+            let case = vec![CaseValue::Direction(edge), CaseValue::Truth(all)];
+            (case, Value::Three((f.corner_field)(edge, all)))
         })
     });
     vec![
@@ -85,37 +93,37 @@ pub(super) fn with_horizontal_contacts(f: &Formulas<E>) -> Vec<Definition> {
         ),
         by_cases(
             "corner_field",
-            "The field on an edge that proves what can rest on the corner below it.",
+            "The field on an edge that proves a bound for the corner below it.",
             &[("edge", Kind::Direction), ("all", Kind::Truth)],
             corners.collect(),
         ),
         of_numbers(
             "least_on_corner",
-            "The least that can rest on a corner below k layers.",
+            "The smallest load on a corner below k layers.",
             &["k"],
             Value::Number((f.least_on_corner)(&k)),
         ),
         of_numbers(
             "greatest_on_corner",
-            "The greatest that can rest on a corner below k layers.",
+            "The largest load on a corner below k layers.",
             &["k"],
             Value::Number((f.greatest_on_corner)(&k)),
         ),
         plain(
             "greatest_inside",
-            "A bound of what can rest on a bottom sphere.",
+            "An upper bound of the load on a bottom sphere.",
             &[("n", Kind::Three)],
             Value::Number((f.greatest_inside)(&three!("n"))),
         ),
         of_numbers(
             "greatest_on_edge",
-            "A bound of what can rest on a bottom sphere of an edge.",
+            "An upper bound of the load on a bottom sphere on an edge.",
             &["k", "j", "c"],
             Value::Number((f.greatest_on_edge)(&k, &j, &c)),
         ),
         plain(
             "arch",
-            "How three spheres press each other so that nothing rests on the one below them.",
+            "The horizontal forces between three spheres that unload the sphere below them.",
             &[("nu", Kind::Three)],
             Value::Three((f.arch)(&three!("nu"))),
         ),

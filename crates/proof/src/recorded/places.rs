@@ -1,17 +1,17 @@
-//! How many, and where.
+//! Counts and positions: numbers of spheres and contacts, sites, and vectors.
 
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::Direction;
 use cannonpile::theorem::Formulas;
 
 use super::{E, SIGNS, by_cases, of_numbers, plain, symbol};
-use crate::definition::{Asked, Definition, Kind, Value};
+use crate::definition::{CaseValue, Definition, Kind, Value};
 
 pub(super) fn above(f: &Formulas<E>) -> Definition {
     let [i, j, k] = ["i", "j", "k"].map(symbol);
     of_numbers(
         "above",
-        "How many spheres lie above (i, j, k) on its lines of contacts.",
+        "The numbers of spheres above (i, j, k) on its lines of contacts.",
         &["i", "j", "k"],
         Value::Three((f.above)(&i, &j, &k)),
     )
@@ -23,7 +23,7 @@ pub(super) fn bounds_above(f: &Formulas<E>) -> Definition {
     let bounds = |sign| (f.bounds_above)(&i, &j, &lower, &upper, &steps, sign);
     by_cases(
         "bounds_above",
-        "What bounds the number of spheres above (i, j) on its lines: it is the least of each four.",
+        "Four bounds for each number of spheres above (i, j) on its lines; the number is their minimum.",
         &[
             ("i", Kind::Number),
             ("j", Kind::Number),
@@ -33,7 +33,12 @@ pub(super) fn bounds_above(f: &Formulas<E>) -> Definition {
             ("sign", Kind::Sign),
         ],
         SIGNS
-            .map(|sign| (vec![Asked::Sign(sign)], Value::Fours(bounds(sign).into())))
+            .map(|sign| {
+                (
+                    vec![CaseValue::Sign(sign)],
+                    Value::Fours(bounds(sign).into()),
+                )
+            })
             .into(),
     )
 }
@@ -43,7 +48,7 @@ pub(super) fn descent(f: &Formulas<E>) -> Definition {
         Direction::ALL.map(|direction| {
             let step = (f.descent)(sign, direction);
             (
-                vec![Asked::Sign(sign), Asked::Direction(direction)],
+                vec![CaseValue::Sign(sign), CaseValue::Direction(direction)],
                 Value::Site(step),
             )
         })
@@ -63,25 +68,25 @@ pub(super) fn counts(f: &Formulas<E>) -> Vec<Definition> {
         all.extend([
             of_numbers(
                 &format!("spheres_{d}"),
-                "How many spheres a straight pile has, in so many dimensions.",
+                "The number of spheres of a straight pile, by dimension.",
                 &["layers"],
                 Value::Number((f.spheres)(&layers, d)),
             ),
             of_numbers(
                 &format!("spheres_in_layer_{d}"),
-                "How many spheres layer k has, in so many dimensions.",
+                "The number of spheres of layer k, by dimension.",
                 &["k"],
                 Value::Number((f.spheres_in_layer)(&k, d)),
             ),
             of_numbers(
                 &format!("contacts_{d}"),
-                "How many contacts a straight pile has, in so many dimensions.",
+                "The number of contacts of a straight pile, by dimension.",
                 &["layers"],
                 Value::Number((f.contacts)(&layers, d)),
             ),
             of_numbers(
                 &format!("contacts_of_strength_{d}"),
-                "How many contacts of one direction carry n increments.",
+                "The number of contacts of one direction with a force of n increments.",
                 &["layers", "n"],
                 Value::Number((f.contacts_of_strength)(&layers, &n, d)),
             ),
@@ -107,7 +112,7 @@ pub(super) fn places(f: &Formulas<E>) -> Vec<Definition> {
         ),
         plain(
             "turned_about_z",
-            "A vector after a half-turn about the vertical.",
+            "A vector after a half-turn about the vertical axis.",
             &[("v", Kind::Vector)],
             Value::Vector((f.turned_about_z)(vector!("v"))),
         ),
@@ -119,7 +124,7 @@ pub(super) fn places(f: &Formulas<E>) -> Vec<Definition> {
         ),
         plain(
             "squared_distance",
-            "The squared distance over 4R² of centres that are n_a e_a + n_b e_b + n_c e_c apart.",
+            "The squared distance of two centres over 4R², for the difference n_a e_a + n_b e_b + n_c e_c.",
             &[
                 ("n", Kind::Three),
                 ("s", Kind::Number),

@@ -1,4 +1,4 @@
-//! Expressions are evaluated, written and compared as they were formed.
+//! Evaluation, printing and comparison of expressions.
 
 use core::num::NonZeroI64;
 
@@ -22,7 +22,7 @@ fn over(dividend: Expression, n: i64) -> Expression {
 }
 
 #[test]
-fn each_operation_has_its_value() {
+fn operations_evaluate() {
     let [x, y] = symbols();
     let values = [(Symbol("x"), ratio(3, 2)), (Symbol("y"), ratio(-5, 7))];
     for (expression, value) in [
@@ -48,7 +48,7 @@ fn each_operation_has_its_value() {
 }
 
 #[test]
-fn brackets_stand_where_they_are_needed() {
+fn brackets_are_minimal() {
     let [x, y] = symbols();
     let sum = || x.clone() + &y;
     for (expression, text) in [
@@ -76,7 +76,7 @@ fn brackets_stand_where_they_are_needed() {
 }
 
 #[test]
-fn what_is_the_same_polynomial_is_equal() {
+fn equal_polynomials_are_equal_expressions() {
     let [x, y] = symbols();
     assert_eq!(x.clone() + &y, y.clone() + &x);
     assert_eq!(over(x.clone() + &x, 2), x);
@@ -87,7 +87,7 @@ fn what_is_the_same_polynomial_is_equal() {
 }
 
 #[test]
-fn quotients_are_by_numbers_and_not_by_zero() {
+fn division_needs_nonzero_constant() {
     let [x, y] = symbols();
     let quotient = |d: &Expression| Expression::from_ratio(x.clone(), d);
     assert_eq!(quotient(&number(-4, 3)), Some(number(-3, 4) * &x));

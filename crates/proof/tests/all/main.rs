@@ -1,6 +1,6 @@
-//! The tests of what is written for Coq, and of the theorems of all crates in one list.
+//! Tests of the files for Coq, and of the list of theorems of all crates.
 //!
-//! Random tests are in `tests/properties.rs`. The folder `coq` is checked by Coq itself.
+//! Random tests are in `tests/properties.rs`. Coq itself checks the folder `coq`.
 
 mod expression;
 mod proof;

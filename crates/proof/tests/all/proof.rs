@@ -1,4 +1,4 @@
-//! What is written for Coq to check.
+//! The files for Coq.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ fn files() -> Vec<ProofFile> {
     cannonpile_proof::files().expect("files")
 }
 
-/// Theorems and lemmas of a file, as `File.name`.
+/// Returns the theorems and lemmas of a file, as `File.name`.
 fn stated(file: &ProofFile) -> impl Iterator<Item = String> {
     let module = file.name().strip_suffix(".v").unwrap_or_default();
     let lines = file.text().lines();
@@ -19,7 +19,7 @@ fn stated(file: &ProofFile) -> impl Iterator<Item = String> {
 }
 
 #[test]
-fn what_is_listed_is_stated() {
+fn listed_theorems_are_stated() {
     let files = files();
     let stated: BTreeSet<_> = files.iter().flat_map(stated).collect();
     assert!(stated.len() > 100, "{}", stated.len());
@@ -28,13 +28,13 @@ fn what_is_listed_is_stated() {
             assert!(stated.contains(*name), "{}: {name}", theorem.name);
         }
     }
-    // What the paper says of its pile, and of runs, is in Coq.
+    // The theorems about the paper's pile and about runs are proved in Coq.
     let in_coq = cannonpile_proof::all().filter(|theorem| !theorem.coq.is_empty());
     assert!(in_coq.count() >= 50);
 }
 
 #[test]
-fn nothing_is_assumed() {
+fn no_file_contains_axioms() {
     for file in files() {
         for word in ["Admitted", "admit", "Axiom", "Parameter", "Conjecture"] {
             let mut words = file.text().split(|c: char| !c.is_alphanumeric());
@@ -43,9 +43,9 @@ fn nothing_is_assumed() {
     }
 }
 
-/// Every formula is written, and one that runs otherwise is written otherwise.
+/// Every formula is exported, and a changed formula changes the export.
 #[test]
-fn formulas_are_written_as_they_run() {
+fn formulas_are_exported_as_executed() {
     let written = |formulas: &Formulas<_>| {
         let files = cannonpile_proof::files_of(formulas).expect("files");
         let file = files.into_iter().find(|file| file.name() == "Formulas.v");
@@ -61,7 +61,7 @@ fn formulas_are_written_as_they_run() {
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
-    // All that theorems are about.
+    // The definitions include all formulas of the theorems.
     let debug = format!("{:?}", Formulas::<Expression>::LIBRARY);
     let names = debug
         .split(": 0x")
@@ -82,7 +82,7 @@ fn formulas_are_written_as_they_run() {
 }
 
 #[test]
-fn theorems_are_listed_under_what_proves_them() {
+fn theorems_are_listed_with_proofs() {
     let named = |name| {
         let found = cannonpile_proof::find(name);
         found.expect("a theorem").coq
@@ -97,9 +97,9 @@ fn theorems_are_listed_under_what_proves_them() {
     assert_eq!(named("faults"), faults);
 }
 
-/// The file of all theorems asks Coq for each of what is listed, and for nothing twice.
+/// The list of theorems checks each name, and none twice.
 #[test]
-fn every_listed_proof_is_asked_for() {
+fn every_listed_proof_is_checked() {
     let files = files();
     let mut asked: Vec<&str> = Vec::new();
     for line in files.iter().flat_map(|file| file.text().lines()) {
@@ -121,9 +121,9 @@ fn every_listed_proof_is_asked_for() {
     );
 }
 
-/// Over integers with their own division.
+/// Definitions over integers, with their own arithmetic.
 #[test]
-fn integers_have_their_own_formulas() {
+fn integer_formulas_are_exported() {
     let files = files();
     let formulas = files.iter().find(|file| file.name() == "Formulas.v");
     let (rationals, integers) = formulas

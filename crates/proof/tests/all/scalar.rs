@@ -24,13 +24,13 @@ fn expressions() {
     ]);
     obeys_integers::<Expression>();
     keeps_numerators::<Expression>(&wide());
-    // A quotient by what has symbols is none.
+    // Division by an expression with symbols is undefined.
     assert!(Expression::from_ratio(x.clone() * &x, &x).is_none());
 }
 
-/// Closed forms are worked out by themselves, not as sums over lines.
+/// Closed forms are evaluated directly, not as sums over lines.
 #[test]
-fn closed_forms_are_recorded_as_they_are() {
+fn closed_forms_are_recorded_directly() {
     let site = Site { i: 1, j: 2, k: 5 };
     let contact = |pile: &Pile, site| {
         let forces = pile.forces::<Expression>();
@@ -41,7 +41,7 @@ fn closed_forms_are_recorded_as_they_are() {
     assert_eq!(contact(&pile, site), "3 * 1");
     let [above, ..] = pile.forces::<Expression>().from_above(site).unwrap();
     assert_eq!(above.to_string(), "2 * 1");
-    // A load elsewhere adds nothing, not even zero.
+    // A load elsewhere adds no term, not even zero.
     let loaded = pile
         .with_load(Site { i: 0, j: 0, k: 7 }, ratio(1, 1))
         .unwrap();

@@ -18,9 +18,9 @@ fn names_are_unique_and_found() {
     assert!(cannonpile_proof::find("").is_none());
 }
 
-/// Those of the core, of horizontal contacts and of random stackings, in this order; each with its own proof.
+/// The list contains the theorems of the core, of horizontal contacts and of random stackings, in this order.
 #[test]
-fn none_is_left_out() {
+fn list_is_complete_and_ordered() {
     let core = theorem::all().map(|found| (found.name, found.prove()));
     let horizontal = cannonpile_horizontal::theorem::all();
     let horizontal = horizontal.map(|found| (found.name, found.prove()));
@@ -32,10 +32,10 @@ fn none_is_left_out() {
     assert!(listed.eq(expected));
 }
 
-/// A wrong formula of each crate, and a theorem that refuses this one of the three. The core's theorems are about
+/// One mutant for each crate, and a theorem that rejects only this one of the three. The theorems of the core use
 /// `horizontal.core`.
 #[test]
-fn wrong_formulas_are_refused() {
+fn wrong_formulas_are_rejected() {
     let mut core: Formulas = Formulas::LIBRARY;
     core.horizontal.core.passed_on = |received, own| received - own;
     let mut horizontal: Formulas = Formulas::LIBRARY;
@@ -64,10 +64,10 @@ fn wrong_formulas_are_refused() {
     }
 }
 
-/// Each crate tries the wrong formulas of the core on its own theorems; here all that are said to refuse one are found, in
-/// the order of the list.
+/// Each crate tests the mutants of the core on its own theorems. Here all listed theorems that reject a mutant are
+/// found, in the order of the list.
 #[test]
-fn theorems_that_refuse_a_fault_are_listed() {
+fn mutants_list_rejecting_theorems() {
     let names: Vec<_> = cannonpile_proof::all().map(|found| found.name).collect();
     for fault in proofs::of_the_core() {
         let place = |name: &&str| names.iter().position(|listed| listed == name);
