@@ -37,7 +37,7 @@
 //! that overhangs its base and 1/0 are refused. So are keys that are not known, and two weights of one sphere. Formats that do not describe themselves (postcard, bincode) serve as well as JSON.
 //!
 //! What is written is read back, with two exceptions: exact numbers of more than
-//! [`MOST_DIGITS`](crate::scalar::parse::MOST_DIGITS), which a sum of loads or the forces after thousands of changes of sign
+//! [`MAX_DIGITS`](crate::scalar::parse::MAX_DIGITS), which a sum of loads or the forces after thousands of changes of sign
 //! can have, and in JSON an `f32` or `f64` that is not finite, for which it has no word. Both are errors when they are read.
 //!
 //! Not data, and not here: what borrows a pile ([`Forces`](crate::Forces), [`Packing`](crate::Packing), sweeps),

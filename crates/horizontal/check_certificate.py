@@ -22,7 +22,7 @@ from fractions import Fraction
 OFFSETS = {"alpha": (0, 0), "beta": (1, 0), "gamma": (0, 1)}
 AXES = {"alpha-beta": ("alpha", "beta"), "alpha-gamma": ("alpha", "gamma"), "gamma-beta": ("gamma", "beta")}
 MOST_SPHERES = 1_000_000
-MOST_DIGITS = 5_000
+MAX_DIGITS = 5_000
 
 
 class Unreadable(Exception):
@@ -56,8 +56,8 @@ def matched(pattern, given, what):
 
 
 def number(given):
-    digits = r"\d{1,%d}" % MOST_DIGITS
-    matched(rf"-?{digits}(/0*[1-9]\d{{0,{MOST_DIGITS - 1}}})?", given, "a number such as -7/3")
+    digits = r"\d{1,%d}" % MAX_DIGITS
+    matched(rf"-?{digits}(/0*[1-9]\d{{0,{MAX_DIGITS - 1}}})?", given, "a number such as -7/3")
     return Fraction(given)
 
 

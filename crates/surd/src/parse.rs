@@ -1,6 +1,6 @@
 //! Exact parsing of rationals and integers.
 //!
-//! All parsers share one limit on the number of digits, [`MOST_DIGITS`]. Hence the printed form of every
+//! All parsers share one limit on the number of digits, [`MAX_DIGITS`]. Hence the printed form of every
 //! parsed number can be parsed again.
 
 use core::str::FromStr;
@@ -14,7 +14,7 @@ use crate::{Error, Surd};
 /// The maximum number of digits of an integer, a numerator or a denominator: 5,000.
 ///
 /// Powers of ten count: `1e4999` is accepted and `1e5000` is rejected.
-pub const MOST_DIGITS: usize = 5_000;
+pub const MAX_DIGITS: usize = 5_000;
 
 /// A description of the expected text, which completes "… is not".
 type Expected = &'static str;
@@ -25,7 +25,7 @@ const SHORTER: Expected = "a number of at most 5000 digits";
 /// Parses a rational: `6/5`, `-3`, or a decimal such as `1.2`, `.5` or `1e-3`, which is read exactly.
 ///
 /// # Errors
-/// Returns [`Error::Syntax`] if `text` is not a rational, or has more than [`MOST_DIGITS`] digits.
+/// Returns [`Error::Syntax`] if `text` is not a rational, or has more than [`MAX_DIGITS`] digits.
 ///
 /// # Examples
 /// ```
@@ -51,7 +51,7 @@ pub fn rational(text: &str) -> Result<BigRational, Error> {
 /// Parses an integer: `-12`, or with a power of ten, `1e36`, `2.5e3`.
 ///
 /// # Errors
-/// Returns [`Error::Syntax`] if `text` is not an integer, or has more than [`MOST_DIGITS`] digits.
+/// Returns [`Error::Syntax`] if `text` is not an integer, or has more than [`MAX_DIGITS`] digits.
 ///
 /// # Examples
 /// ```
@@ -125,7 +125,7 @@ impl Surd {
     /// The normal form of `text` can have more digits than its parts: √(a/b) is stored as √(ab)/b.
     ///
     /// # Errors
-    /// Returns [`Error::Syntax`], which quotes `text`, if a part has more than [`MOST_DIGITS`] digits.
+    /// Returns [`Error::Syntax`], which quotes `text`, if a part has more than [`MAX_DIGITS`] digits.
     #[doc(hidden)]
     pub fn if_short(self, text: &str) -> Result<Self, Error> {
         let coefficient = self.coefficient();
@@ -138,10 +138,10 @@ impl Surd {
     }
 }
 
-/// Returns whether an integer has at most [`MOST_DIGITS`] digits.
+/// Returns whether an integer has at most [`MAX_DIGITS`] digits.
 fn is_short(n: &BigUint) -> bool {
     // One decimal digit is more than three bits, so this cheap test suffices for most numbers.
-    n.bits() <= 3 * MOST_DIGITS as u64 || *n < Pow::pow(BigUint::from(10_u32), MOST_DIGITS)
+    n.bits() <= 3 * MAX_DIGITS as u64 || *n < Pow::pow(BigUint::from(10_u32), MAX_DIGITS)
 }
 
 fn fraction(numer: &str, denom: &str) -> Result<BigRational, Expected> {
@@ -156,7 +156,7 @@ fn decimal(text: &str) -> Result<BigRational, Expected> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (negative, mantissa) = sign(mantissa);
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    if whole.len() + fraction.len() > MOST_DIGITS {
+    if whole.len() + fraction.len() > MAX_DIGITS {
         // The error says "too many digits" only if the text is otherwise a number.
         let digits = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
         let number = digits(whole) && digits(fraction);
@@ -170,7 +170,7 @@ fn decimal(text: &str) -> Result<BigRational, Expected> {
     } else {
         whole.len() + fraction.len()
     };
-    if usize::from(power) + others > MOST_DIGITS {
+    if usize::from(power) + others > MAX_DIGITS {
         return Err(SHORTER);
     }
     let scale = Pow::pow(BigInt::from(10), power);
@@ -202,7 +202,7 @@ fn unsigned(text: &str) -> Result<BigInt, Expected> {
     if text.is_empty() || !text.bytes().all(|b| b.is_ascii_digit()) {
         return Err(NUMBER);
     }
-    if text.len() > MOST_DIGITS {
+    if text.len() > MAX_DIGITS {
         return Err(SHORTER);
     }
     BigInt::parse_bytes(text.as_bytes(), 10).ok_or(NUMBER)
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn all_parsers_share_digit_limit() {
         let nines = |n: usize| "9".repeat(n);
-        let most = MOST_DIGITS;
+        let most = MAX_DIGITS;
         for read in [
             nines(most),
             format!("-{}/{}", nines(most), nines(most - 1)),
@@ -263,13 +263,13 @@ mod tests {
         }
         // The first coefficient has 5000 digits, the second 5001.
         let times_ten = |digits: &str| format!("{digits}*sqrt(100)").parse::<Surd>();
-        assert!(times_ten(&"9".repeat(MOST_DIGITS - 1)).is_ok());
-        assert!(times_ten(&ends_in(MOST_DIGITS - 2, '0')).is_err());
+        assert!(times_ten(&"9".repeat(MAX_DIGITS - 1)).is_ok());
+        assert!(times_ten(&ends_in(MAX_DIGITS - 2, '0')).is_err());
     }
 
     #[test]
     fn too_many_digits_is_reported_for_numbers_only() {
-        let long = "9".repeat(MOST_DIGITS + 1);
+        let long = "9".repeat(MAX_DIGITS + 1);
         for text in [
             format!("x{long}"),
             format!("{long}.x"),

@@ -8,7 +8,7 @@ use num_bigint::BigInt;
 
 use crate::Error;
 use crate::error::quoted;
-use cannonpile::scalar::parse::MOST_DIGITS;
+use cannonpile::scalar::parse::MAX_DIGITS;
 
 /// A value under a key.
 pub(super) struct Value<'a> {
@@ -119,7 +119,7 @@ impl<'a> Value<'a> {
 /// The integer in decimal digits.
 fn digits<'a>(integer: &'a DeInteger<'_>) -> Cow<'a, str> {
     let digits = integer.as_str();
-    if integer.radix() == 10 || digits.len() > MOST_DIGITS {
+    if integer.radix() == 10 || digits.len() > MAX_DIGITS {
         return Cow::Borrowed(digits);
     }
     let value = BigInt::parse_bytes(digits.as_bytes(), integer.radix());
