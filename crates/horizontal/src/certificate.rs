@@ -59,7 +59,7 @@ mod record;
 mod refusal;
 
 pub use file::{
-    MOST_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
+    MAX_BYTES, read_certificate, read_certificates, write_certificate, write_certificates,
 };
 pub use refusal::{Refusal, Relation};
 

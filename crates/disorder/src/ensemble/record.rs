@@ -12,7 +12,7 @@ use super::{By, Choice, Ensemble, Shard, Tally, Unmergeable, WithFaults};
 use crate::Error;
 
 /// The most bytes of a tally that is read: 512 MiB.
-const MOST_BYTES: u64 = 512 << 20;
+const MAX_BYTES: u64 = 512 << 20;
 
 /// A number of stackings, as the records of this crate write it.
 #[derive(Serialize)]
@@ -216,7 +216,7 @@ impl TallyRecord {
     /// assert!(TallyRecord::read(&b"{}"[..]).is_err());
     /// ```
     pub fn read(input: impl Read) -> io::Result<Self> {
-        let input = BufReader::new(input.take(MOST_BYTES));
+        let input = BufReader::new(input.take(MAX_BYTES));
         let parts: Parts = serde_json::from_reader(input)?;
         let Parts {
             cannonpile: version,

@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::certificate::Certificate;
 
 /// The maximum size of a certificate file: 512 MiB.
-pub const MOST_BYTES: u64 = 512 << 20;
+pub const MAX_BYTES: u64 = 512 << 20;
 
 /// Reads a file with one certificate or an array of certificates.
 ///
@@ -36,7 +36,7 @@ pub fn read_certificates(input: impl Read) -> io::Result<Vec<Certificate>> {
 }
 
 /// Reads a certificate from JSON, as a stream. The memory needed is a few times the size of the file, which is
-/// limited to [`MOST_BYTES`].
+/// limited to [`MAX_BYTES`].
 ///
 /// # Errors
 /// * The errors of `input`.
@@ -68,7 +68,7 @@ pub fn read_certificate(input: impl Read) -> io::Result<Certificate> {
 fn read<T: for<'de> Deserialize<'de>>(input: impl Read) -> io::Result<T> {
     let input = Limited {
         input,
-        left: MOST_BYTES,
+        left: MAX_BYTES,
     };
     Ok(serde_json::from_reader(BufReader::new(input))?)
 }
@@ -199,7 +199,7 @@ impl<R: Read> Read for Limited<R> {
         let left = self.left.checked_sub(read as u64);
         self.left = left.ok_or_else(|| {
             let message =
-                format!("the certificate has more than {MOST_BYTES} bytes; certify a smaller pile");
+                format!("the certificate has more than {MAX_BYTES} bytes; certify a smaller pile");
             io::Error::new(io::ErrorKind::FileTooLarge, message)
         })?;
         Ok(read)

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::{Ladder, Refinement, Rung};
 
 /// The most bytes of a record that is read: 16 MiB.
-const MOST_BYTES: u64 = 16 << 20;
+const MAX_BYTES: u64 = 16 << 20;
 
 impl Ladder {
     /// Reads a ladder from the json of a [`LadderReport`](super::LadderReport): an object with `refinement` and `rungs`, or
@@ -34,9 +34,9 @@ impl Ladder {
     /// ```
     pub fn read(input: impl Read) -> io::Result<Self> {
         let mut bytes = Vec::new();
-        input.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-        if bytes.len() as u64 > MOST_BYTES {
-            let error = format!("more than {MOST_BYTES} bytes");
+        input.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > MAX_BYTES {
+            let error = format!("more than {MAX_BYTES} bytes");
             return Err(io::Error::new(ErrorKind::FileTooLarge, error));
         }
         let value: Value = serde_json::from_slice(&bytes)?;
