@@ -17,7 +17,7 @@ use crate::Error;
 use crate::error::bug;
 
 /// The most words of 64 bits that a walk keeps: the numbers of a layer for each layer.
-const MOST_WORDS: u64 = 50_000_000;
+const MAX_WORDS: u64 = 50_000_000;
 
 /// The most bins from the least force that there may be to the greatest.
 pub(super) const MOST_BINS: u64 = 100_000;
@@ -220,7 +220,7 @@ fn refuse_too_many(words: &BigUint) -> Result<(), Error> {
     refuse_beyond_memory(
         "the layers of one stacking",
         words,
-        (MOST_WORDS, size_of::<u64>()),
+        (MAX_WORDS, size_of::<u64>()),
         "use fewer layers, or a smaller top",
     )?;
     Ok(())

@@ -14,7 +14,7 @@ use super::{Certificate, Claim, Extreme, Refusal, Relation};
 use crate::formula;
 
 /// The largest total size of the numbers of one direction, in words of 64 bits.
-const MOST_WORDS: u64 = 4_000_000;
+const MAX_WORDS: u64 = 4_000_000;
 
 /// Three numbers of a sphere, indexed by direction.
 type Triple = [BigRational; 3];
@@ -107,7 +107,7 @@ impl Certificate {
             refuse_beyond_memory(
                 "a check of every sphere",
                 &needed,
-                (MOST_WORDS, size_of::<u64>()),
+                (MAX_WORDS, size_of::<u64>()),
                 "certify a smaller pile, or use shorter numbers",
             )?;
         }
