@@ -11,7 +11,7 @@ use num_traits::Zero;
 use crate::Error;
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::edge::Edge;
-use crate::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
+use crate::network::{MAX_EQUATIONS, MOST_CERTIFIED, Network};
 use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::stand::unsolved;
 use crate::straight::{End, Straight};
@@ -177,7 +177,7 @@ impl<'p> Solver<'p> {
 
     /// Returns the balance equations, or `None` if they are too many and a formula gives an outer bound instead.
     fn network(&self) -> Result<Option<Network<'p>>, Error> {
-        match Network::above(self.pile, self.pile.layers() - 1, MOST_EQUATIONS) {
+        match Network::above(self.pile, self.pile.layers() - 1, MAX_EQUATIONS) {
             Err(cannonpile::Error::TooLarge { .. }) if self.straight.is_some() => Ok(None),
             network => Ok(Some(network?)),
         }
@@ -356,7 +356,7 @@ mod tests {
                 site: Site { i, j: 0, k },
                 straight: None,
             };
-            let network = Network::above(&pile, k, MOST_EQUATIONS).unwrap();
+            let network = Network::above(&pile, k, MAX_EQUATIONS).unwrap();
             for (end, normal) in [(End::Least, 1), (End::Greatest, most)] {
                 let field = trivial_field(&network, end);
                 let bound = solver.normal_of(&field);

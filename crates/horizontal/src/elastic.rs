@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::certificate::{Certificate, Claim};
-use crate::network::{MOST_CERTIFIED, MOST_EQUATIONS, Network};
+use crate::network::{MAX_EQUATIONS, MOST_CERTIFIED, Network};
 use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::springs::{Springs, State};
 use crate::stand::cannot_stand;
@@ -144,7 +144,7 @@ fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, 
     // If a contact is tensile without horizontal forces, these forces are needed, and with them a program.
     let is_tensile = pile.first_failure()?.is_some();
     let most = if is_tensile {
-        MOST_EQUATIONS
+        MAX_EQUATIONS
     } else {
         most_certified(pile.dimension())
     };

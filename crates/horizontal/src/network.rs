@@ -15,7 +15,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 
 /// The maximum number of equations of a program that is solved: 31 layers under one sphere have 14,880.
-pub(crate) const MOST_EQUATIONS: u64 = 15_000;
+pub(crate) const MAX_EQUATIONS: u64 = 15_000;
 
 /// The memory of a program for each equation, mainly for its factors: 118 MB for 14,880 equations without symmetry.
 const BYTES_AN_EQUATION: usize = 8_000;
@@ -85,7 +85,7 @@ impl<'p> Network<'p> {
 
     /// Checks that a program with these equations is small enough to be solved.
     pub(crate) fn check_size(&self) -> Result<(), Error> {
-        fits(&self.weights.len().into(), MOST_EQUATIONS)
+        fits(&self.weights.len().into(), MAX_EQUATIONS)
     }
 
     fn all_columns(&self) -> Result<Vec<Column>, Error> {

@@ -14,7 +14,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use crate::Error;
 use crate::certificate::{Certificate, Refusal};
 use crate::exact::{Equation, near};
-use crate::network::{Column, MOST_EQUATIONS};
+use crate::network::{Column, MAX_EQUATIONS};
 
 /// A program: minimise the objective over x ≥ 0 with Σ column · x = sums.
 pub(crate) struct Program<'n> {
@@ -263,7 +263,7 @@ pub(crate) fn accepted(
 /// [`Bug`](cannonpile::Error::Bug) if the checker rejects it.
 pub(crate) fn of_formulas(certificate: Certificate) -> Result<Certificate, cannonpile::Error> {
     let directions = certificate.pile.dimension().number();
-    let is_small = certificate.pile.sphere_count() * directions <= MOST_EQUATIONS.into();
+    let is_small = certificate.pile.sphere_count() * directions <= MAX_EQUATIONS.into();
     if is_small && certificate.check().is_err() {
         return Err(bug("the checker accepts certificates of formulas"));
     }

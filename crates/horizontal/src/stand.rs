@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 use crate::Error;
 use crate::beginning::{beginning, certified, certified_down_to};
 use crate::certificate::{Certificate, Claim};
-use crate::network::{Column, MOST_EQUATIONS, Network};
+use crate::network::{Column, MAX_EQUATIONS, Network};
 use crate::program::{Objective, Program, Tolerance, accepted};
 use crate::run::{run_starts, too_long_run};
 
@@ -166,7 +166,7 @@ pub(crate) fn unsolved(pile: &Pile, equations: usize) -> Error {
 /// solution is a Farkas certificate. `is_whole` says that the pile below has no further sign change, so the result
 /// holds for all of it.
 fn equilibrium_above(pile: &Pile, floor: i128, is_whole: bool) -> Result<Certificate, Error> {
-    let network = Network::above(pile, floor, MOST_EQUATIONS)?;
+    let network = Network::above(pile, floor, MAX_EQUATIONS)?;
     let (equations, unknowns) = (network.weights.len(), network.columns.len());
     let not_solved = || Error::NotSolved { equations };
     let tension = network.columns[..equations].iter();

@@ -203,13 +203,13 @@ fn least(images: impl Iterator<Item = Result<usize, Error>>) -> Result<usize, Er
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::network::MOST_EQUATIONS;
+    use crate::network::MAX_EQUATIONS;
 
     /// Returns the numbers of equations and unknowns that remain for a bottom sphere of a straight pile of four
     /// layers.
     fn left(i: i128, j: i128) -> Result<Option<[usize; 2]>, Error> {
         let pile = Pile::triangular(4)?;
-        let network = Network::above(&pile, 3, MOST_EQUATIONS)?;
+        let network = Network::above(&pile, 3, MAX_EQUATIONS)?;
         let orbits = Orbits::of(&network, Site { i, j, k: 3 })?;
         Ok(orbits.map(|orbits| [orbits.equations.first.len(), orbits.unknowns.first.len()]))
     }
@@ -229,7 +229,7 @@ mod tests {
     fn load_off_axis_breaks_symmetry() -> Result<(), Error> {
         let site = Site { i: 1, j: 0, k: 1 };
         let pile = Pile::triangular(4)?.with_load(site, BigRational::from_integer(1.into()))?;
-        let network = Network::above(&pile, 3, MOST_EQUATIONS)?;
+        let network = Network::above(&pile, 3, MAX_EQUATIONS)?;
         assert!(Orbits::of(&network, Site { i: 1, j: 1, k: 3 })?.is_none());
         Ok(())
     }
