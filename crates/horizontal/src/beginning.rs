@@ -7,12 +7,12 @@ use cannonpile::shape::Anchor;
 use cannonpile::stacking::{Run, Stacking};
 
 use crate::certificate::{Certificate, Claim};
-use crate::network::MOST_CERTIFIED;
+use crate::network::MAX_CERTIFIED;
 
 /// Returns the pile itself if a certificate for all its spheres is small enough, and its layers 0 … `floor`
 /// otherwise.
 pub(crate) fn certified_down_to(pile: &Pile, floor: i128) -> Result<Pile, cannonpile::Error> {
-    if pile.sphere_count() <= MOST_CERTIFIED.into() {
+    if pile.sphere_count() <= MAX_CERTIFIED.into() {
         Ok(pile.clone())
     } else {
         beginning(pile, floor)

@@ -11,7 +11,7 @@ use num_traits::Zero;
 use crate::Error;
 use crate::certificate::{Certificate, Claim, Extreme};
 use crate::edge::Edge;
-use crate::network::{MAX_EQUATIONS, MOST_CERTIFIED, Network};
+use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
 use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::stand::unsolved;
 use crate::straight::{End, Straight};
@@ -147,7 +147,7 @@ impl<'p> Solver<'p> {
         let Some((straight, normal)) = self.straight.and_then(|s| Some((s, s.bound(end)?))) else {
             return Ok(None);
         };
-        let is_small = self.pile.sphere_count() <= MOST_CERTIFIED.into();
+        let is_small = self.pile.sphere_count() <= MAX_CERTIFIED.into();
         let certificate = is_small.then(|| {
             let (forces, field) = (straight.forces(end), straight.field(end));
             of_formulas(self.certificate(end, normal.clone(), Some(forces), field))
@@ -162,7 +162,7 @@ impl<'p> Solver<'p> {
 
     /// Returns the upper bound on an edge if its certificate is accepted.
     fn on_edge(&self, edge: &Edge) -> Option<NormalBound> {
-        if self.pile.sphere_count() > MOST_CERTIFIED.into() {
+        if self.pile.sphere_count() > MAX_CERTIFIED.into() {
             return None;
         }
         let normal = edge.bound();

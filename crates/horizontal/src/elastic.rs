@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::certificate::{Certificate, Claim};
-use crate::network::{MAX_EQUATIONS, MOST_CERTIFIED, Network};
+use crate::network::{MAX_CERTIFIED, MAX_EQUATIONS, Network};
 use crate::program::{Objective, Program, Tolerance, accepted, of_formulas};
 use crate::springs::{Springs, State};
 use crate::stand::cannot_stand;
@@ -133,12 +133,12 @@ impl ElasticState {
 
 /// Returns the maximum number of equations of a pile that gets a certificate.
 fn most_certified(dimension: Dimension) -> u64 {
-    u64::from(MOST_CERTIFIED * dimension.number())
+    u64::from(MAX_CERTIFIED * dimension.number())
 }
 
 /// Computes the elastic state and returns its certificate.
 fn certified(pile: &Pile, stiffness_ratio: &BigRational) -> Result<Certificate, Error> {
-    if pile.is_paper_pile() && pile.sphere_count() <= MOST_CERTIFIED.into() {
+    if pile.is_paper_pile() && pile.sphere_count() <= MAX_CERTIFIED.into() {
         return Ok(of_formulas(of_straight(pile, stiffness_ratio))?);
     }
     // If a contact is tensile without horizontal forces, these forces are needed, and with them a program.

@@ -21,7 +21,7 @@ pub(crate) const MAX_EQUATIONS: u64 = 15_000;
 const BYTES_AN_EQUATION: usize = 8_000;
 
 /// The maximum number of spheres in a certificate that lists all of them, if a shorter proof exists.
-pub(crate) const MOST_CERTIFIED: u32 = 100_000;
+pub(crate) const MAX_CERTIFIED: u32 = 100_000;
 
 /// The coefficients of an unknown force, with the numbers of their equations.
 pub(crate) type Column = Vec<(usize, BigRational)>;
