@@ -243,7 +243,7 @@ impl<'p, F: NearestFloat> NearestLayers<'p, F> {
     pub fn keeps_digits(&self) -> bool {
         let denominator = self.layers.lowest_denominator();
         let least = Unit::new(self.units.contact.clone(), denominator);
-        let normal = F::LEAST_EXPONENT + i64::from(F::PRECISION) - 1;
+        let normal = F::MIN_EXPONENT + i64::from(F::PRECISION) - 1;
         least.exceeds_power_of_two(normal)
     }
 

@@ -21,7 +21,7 @@ mod sealed {
         /// Returns the float ±`significand` · 2^`exponent`, or `None` if it overflows.
         ///
         /// The significand has at most one bit more than the format, and the exponent is at least
-        /// `LEAST_EXPONENT`.
+        /// `MIN_EXPONENT`.
         fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
 
         /// Returns the float to which every number between `ends[0]`·2^`exponent` and
@@ -42,7 +42,7 @@ pub trait NearestFloat: Assemble + Copy + Send + Sync {
     const PRECISION: u32;
 
     /// The exponent of the last bit of a subnormal: the smallest positive float is 2 to this power.
-    const LEAST_EXPONENT: i64;
+    const MIN_EXPONENT: i64;
 
     /// Returns the float nearest to `r`, ties to even, or `None` if it overflows.
     ///
@@ -114,7 +114,7 @@ macro_rules! nearest_float {
     ($float:ident, $bits:ident, $ends:expr) => {
         impl NearestFloat for $float {
             const PRECISION: u32 = $float::MANTISSA_DIGITS;
-            const LEAST_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
+            const MIN_EXPONENT: i64 = $float::MIN_EXP as i64 - $float::MANTISSA_DIGITS as i64;
         }
 
         impl Assemble for $float {
@@ -131,7 +131,7 @@ macro_rules! nearest_float {
                     0
                 } else {
                     exponent
-                        .saturating_sub(Self::LEAST_EXPONENT)
+                        .saturating_sub(Self::MIN_EXPONENT)
                         .saturating_add(1)
                 };
                 let largest = i64::from($float::MAX_EXP) - i64::from($float::MIN_EXP) + 1;
@@ -199,9 +199,9 @@ fn shifted_quotient(n: &BigUint, d: &BigUint, shift: i64) -> (BigUint, BigUint) 
 /// If `sticky` is true, m must have at least two bits more than the significand.
 fn round<F: NearestFloat>(negative: bool, m: &BigUint, sticky: bool, exponent: i64) -> Option<F> {
     if m.is_zero() && !sticky {
-        return F::assemble(false, 0, F::LEAST_EXPONENT);
+        return F::assemble(false, 0, F::MIN_EXPONENT);
     }
-    let last_bit = (bits(m) + exponent - i64::from(F::PRECISION)).max(F::LEAST_EXPONENT);
+    let last_bit = (bits(m) + exponent - i64::from(F::PRECISION)).max(F::MIN_EXPONENT);
     let dropped = last_bit - exponent;
     let Ok(dropped @ 1..) = u64::try_from(dropped) else {
         // All bits are kept, with zeros appended.

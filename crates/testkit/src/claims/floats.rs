@@ -153,7 +153,7 @@ struct Bound {
 impl Bound {
     fn of<F: NearestFloat>(pile: &Pile) -> Self {
         let precision = i32::try_from(F::PRECISION).expect("a few dozen");
-        let least = i32::try_from(F::LEAST_EXPONENT).expect("about a thousand");
+        let least = i32::try_from(F::MIN_EXPONENT).expect("about a thousand");
         Self {
             relative: number::power(2, -precision) * BigInt::from(ROUNDINGS),
             absolute: number::power(2, least) * BigInt::from(4 * pile.layers()),

@@ -70,7 +70,7 @@ impl Random {
     /// subnormal, about the greatest or moderate.
     pub fn critical<F: NearestFloat>(&mut self) -> BigRational {
         let precision = i64::from(F::PRECISION);
-        let (least, greatest) = (F::LEAST_EXPONENT, 3 - F::LEAST_EXPONENT - 2 * precision);
+        let (least, greatest) = (F::MIN_EXPONENT, 3 - F::MIN_EXPONENT - 2 * precision);
         let any = (1 << (precision - 1)) | (self.bits() >> (65 - precision));
         let short = self.bits() >> self.within(64 - precision..63);
         let m = self.of(&[
