@@ -20,9 +20,9 @@ use crate::TWO;
 ///
 /// # Examples
 /// ```
-/// assert_eq!(cannonpile_horizontal::formula::lowered(5.0, &3.0), 2.0);
+/// assert_eq!(cannonpile_horizontal::formula::contact_drop(5.0, &3.0), 2.0);
 /// ```
-pub fn lowered<T: Ring>(here: T, below: &T) -> T {
+pub fn contact_drop<T: Ring>(here: T, below: &T) -> T {
     here - below
 }
 

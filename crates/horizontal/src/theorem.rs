@@ -325,7 +325,7 @@ fn virtual_work(f: &Formulas) -> Vec<Step> {
     let h = symbols(["h_1", "h_2", "h_3"]);
     let [w, force, x] = symbols(["w", "f", "X"]);
     let [here, below] = [&phi[0], &other[0]];
-    let drop = (f.lowered)(here.clone(), below);
+    let drop = (f.contact_drop)(here.clone(), below);
     let mut steps = equations! {
         "a sloping contact: f D": force.clone() * &drop => force.clone() * here - &(force * below),
     };
@@ -374,7 +374,7 @@ fn elastic_straight(f: &Formulas) -> Vec<Step> {
             let [di, dj] = (f.core.descent)(Sign::Plus, *direction).map(int);
             let below = (f.core.above)(&(i.clone() + &di), &(j.clone() + &dj), &next);
             let below = (f.elastic_field)(&below[l], &lower);
-            let drop = (f.lowered)(phi[l].clone(), &below);
+            let drop = (f.contact_drop)(phi[l].clone(), &below);
             let claim = format!("{name}: D along {direction} is the force");
             steps.extend(equations! { (claim): drop => forces[l].clone() });
         }
@@ -471,7 +471,7 @@ fn no_dip(f: &Formulas) -> Vec<Step> {
 
 /// Returns the drops D of a sphere, from its field and the field of the spheres below.
 fn drops(f: &Formulas, here: &[P; 3], below: &[P; 3]) -> [P; 3] {
-    let of_line = |l: usize| (f.lowered)(here[l].clone(), &below[l]);
+    let of_line = |l: usize| (f.contact_drop)(here[l].clone(), &below[l]);
     Direction::ALL.map(Direction::index).map(of_line)
 }
 

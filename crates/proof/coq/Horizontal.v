@@ -71,7 +71,7 @@ Theorem work_of_a_sphere : forall from to phi g n h,
   dot phi f + times to (dot phi h) == dot g (transferred from to phi) + n * sum phi.
 Proof. intros [] [] [] [] n []; unfold transferred, dot, times; formulas; ring. Qed.
 
-Theorem work_of_a_sloping_contact : forall f phi below, f * lowered phi below == f * phi - f * below.
+Theorem work_of_a_sloping_contact : forall f phi below, f * contact_drop phi below == f * phi - f * below.
 Proof. intros. formulas. ring. Qed.
 
 Theorem work_of_a_horizontal_contact : forall a b sigma phi there x, a <> b ->
@@ -88,7 +88,7 @@ Proof. intros. formulas. ring. Qed.
 (** D of every sloping contact is its force. *)
 Theorem field_lowers_by_the_force : forall i j k d l,
   let (di, dj) := descent Plus l in
-  lowered (on l (field (above i j k) d)) (on l (field (above (i + q di) (j + q dj) (k + 1)) (d - 1)))
+  contact_drop (on l (field (above i j k) d)) (on l (field (above (i + q di) (j + q dj) (k + 1)) (d - 1)))
   == on l (closed_form (1 # 2) i j k).
 Proof. intros i j k d []; cbn [descent]; unfold closed_form, brought, field; cbn [q]; formulas; ring. Qed.
 
@@ -164,14 +164,14 @@ Proof. intros. unfold w, phi, d, field. repeat split; formulas; ring. Qed.
 
 (** The same for discs. *)
 Theorem field_of_discs : forall i k d,
-  lowered (elastic_field (k - i) d) (elastic_field (k + 1 - i) (d - 1)) == k - i + 1 /\
-  lowered (elastic_field i d) (elastic_field (i + 1) (d - 1)) == i + 1 /\
+  contact_drop (elastic_field (k - i) d) (elastic_field (k + 1 - i) (d - 1)) == k - i + 1 /\
+  contact_drop (elastic_field i d) (elastic_field (i + 1) (d - 1)) == i + 1 /\
   compression (field (above i 0 k) d) (field (above (i + 1) 0 k) d) Alpha Beta Plus == - 2 * d.
 Proof. intros. unfold field. repeat split; formulas; ring. Qed.
 
 (** ** The corners *)
 
-Definition drops (here below : three Q) : three Q := by_line lowered here below.
+Definition drops (here below : three Q) : three Q := by_line contact_drop here below.
 
 Definition other (edge l : direction) : Prop := edge <> l.
 

@@ -192,7 +192,7 @@ Definition felt (k : nat) (p : site) : three Q :=
   transferred (step_above step k) (step k) (phi k (fst p) (snd p)).
 
 Definition drop (k : nat) (i j : Z) (d : direction) : Q :=
-  lowered (on d (phi k i j)) (on d (felt (S k) (support (step k) (i, j) d))).
+  contact_drop (on d (phi k i j)) (on d (felt (S k) (support (step k) (i, j) d))).
 
 Definition squeeze (k : nat) (x : axis) (i j : Z) : Q :=
   let p := next x (i, j) in compression (phi k i j) (phi k (fst p) (snd p)) (from x) (to x) (step k).
@@ -471,7 +471,7 @@ Definition is_at (p r : site) : bool := if same_site r p then true else false.
 Variable psi : nat -> Z -> Z -> three Q.
 
 Definition excess (k : nat) (i j : Z) (d : direction) : Q :=
-  if (S k =? K)%nat then lowered (on d (psi k i j)) (truth (is_at p (support (step k) (i, j) d))) else drop step psi k i j d.
+  if (S k =? K)%nat then contact_drop (on d (psi k i j)) (truth (is_at p (support (step k) (i, j) d))) else drop step psi k i j d.
 
 Definition certifies (sigma : sign) : Prop :=
   (forall k i j d, (k < K)%nat -> In (i, j) (layer top step k) -> 0 <= times sigma (excess k i j d)) /\
@@ -498,7 +498,7 @@ Proof.
     by (unfold with_floor; destruct (Nat.eqb_spec k K); [lia | reflexivity]).
   rewrite E. destruct (Nat.eqb_spec (S k) K) as [F | F].
   - rewrite F. destruct (felt_of_floor (support (step k) (i, j) d)) as (a & b & c).
-    unfold lowered. apply Qplus_comp; [reflexivity|]. apply Qopp_comp. destruct d; cbn [on]; assumption.
+    unfold contact_drop. apply Qplus_comp; [reflexivity|]. apply Qopp_comp. destruct d; cbn [on]; assumption.
   - unfold felt, with_floor. destruct (Nat.eqb_spec (S k) K); [contradiction | reflexivity].
 Qed.
 
@@ -605,7 +605,7 @@ Lemma certificates_certify : forall sigma K p psi,
 Proof.
   intros sigma K p psi [D C]. split.
   - intros k i j d Hk H. apply layers_of_straight in H. specialize (D k i j d Hk H).
-    unfold excess, drop, lowers, felt, lowered in *. destruct (S k =? K)%nat; exact D.
+    unfold excess, drop, lowers, felt, contact_drop in *. destruct (S k =? K)%nat; exact D.
   - intros k i j x Hk H T. apply layers_of_straight in H. specialize (C k i j x Hk H).
     unfold touches in T. rewrite holds_straight in T.
     specialize (C T). clear T. unfold squeeze, presses, straight in *.

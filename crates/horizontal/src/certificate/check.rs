@@ -174,7 +174,7 @@ impl Certificate {
             if let Some(support) = pile.shape().below(site, *direction) {
                 let l = direction.index();
                 let below = turned(pile, support.k, &self.field(support));
-                drops[l] = formula::lowered(drops[l].clone(), &below[l]);
+                drops[l] = formula::contact_drop(drops[l].clone(), &below[l]);
             }
         }
         drops

@@ -31,8 +31,8 @@ type Three<P> = [P; 3];
 pub struct Formulas<P = Polynomial> {
     /// The formulas of the core.
     pub core: cannonpile::theorem::Formulas<P>,
-    /// [`formula::lowered`].
-    pub lowered: fn(P, &P) -> P,
+    /// [`formula::contact_drop`].
+    pub contact_drop: fn(P, &P) -> P,
     /// [`formula::compression`].
     pub compression: fn(&Three<P>, &Three<P>, [Direction; 2], Sign) -> P,
     /// [`formula::elastic_field`].
@@ -64,7 +64,7 @@ impl<P: Algebra<Numerator = P>> Formulas<P> {
     /// The functions that this crate calls for its results.
     pub const LIBRARY: Self = Self {
         core: cannonpile::theorem::Formulas::LIBRARY,
-        lowered: formula::lowered,
+        contact_drop: formula::contact_drop,
         compression: formula::compression,
         elastic_field: formula::elastic_field,
         corner_field: formula::corner_field,

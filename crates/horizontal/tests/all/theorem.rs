@@ -86,7 +86,7 @@ macro_rules! fields {
 #[test]
 fn every_formula_has_a_mutant() {
     let fields = fields! {
-        lowered compression elastic_field corner_field least_on_corner greatest_on_corner greatest_inside greatest_on_edge arch
+        contact_drop compression elastic_field corner_field least_on_corner greatest_on_corner greatest_inside greatest_on_edge arch
     };
     let wrong: BTreeSet<_> = faults::own().iter().map(|fault| fault.field).collect();
     assert_eq!(wrong, BTreeSet::from(fields));

@@ -55,10 +55,10 @@ pub(super) fn horizontal(f: &Formulas<E>) -> Vec<Definition> {
             beside.into(),
         ),
         of_numbers(
-            "lowered",
+            "contact_drop",
             "The drop D of the contact of a sphere with its support.",
             &["phi", "below"],
-            Value::Number((f.lowered)(phi, &below)),
+            Value::Number((f.contact_drop)(phi, &below)),
         ),
         by_cases(
             "compression",

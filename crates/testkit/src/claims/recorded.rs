@@ -97,8 +97,8 @@ const ORACLES: &[(&str, Oracle)] = &[
     ("tripled_apart", |v| {
         formula::tripled_apart(&three(v)).into()
     }),
-    ("lowered", |v| {
-        vec![horizontal::lowered(v[0].clone(), &v[1])]
+    ("contact_drop", |v| {
+        vec![horizontal::contact_drop(v[0].clone(), &v[1])]
     }),
     ("elastic_field", |v| {
         vec![horizontal::elastic_field(&v[0], &v[1])]

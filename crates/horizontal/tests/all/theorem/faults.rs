@@ -29,11 +29,11 @@ pub(super) fn all() -> impl Iterator<Item = Fault<Formulas>> {
 /// Returns the mutants of the formulas of this crate.
 pub(super) fn own() -> Vec<Fault<Formulas>> {
     faults! {
-        "the floor sinks too": lowered = |here, _| here => ["virtual-work", "elastic-straight", "corner-least",
+        "the floor sinks too": contact_drop = |here, _| here => ["virtual-work", "elastic-straight", "corner-least",
                 "corner-greatest"];
-        "raised": lowered = |here, below| below.clone() - &here => ["virtual-work", "elastic-straight",
+        "raised": contact_drop = |here, below| below.clone() - &here => ["virtual-work", "elastic-straight",
                 "corner-least", "corner-greatest"];
-        "a step too much": lowered = |here, below| here - below + &P::one() => ["virtual-work", "elastic-straight",
+        "a step too much": contact_drop = |here, below| here - below + &P::one() => ["virtual-work", "elastic-straight",
                 "corner-least", "corner-greatest"];
 
         "spheres move apart": compression = |here, there, ends, sign| (RIGHT.compression)(there, here, ends, sign) => [
