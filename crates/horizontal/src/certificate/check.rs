@@ -59,7 +59,7 @@ impl Certificate {
             }
             if force.is_negative() {
                 let (contact, force) = (*contact, force.clone());
-                return Err(Box::new(Refusal::HorizontalPulls { contact, force }));
+                return Err(Box::new(Refusal::HorizontalTension { contact, force }));
             }
         }
         let outside = |site: &&Site| !pile.shape().contains(**site) || site.k == floor;

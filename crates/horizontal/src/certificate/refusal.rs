@@ -98,7 +98,7 @@ pub enum Refusal {
         site: Site,
     },
     /// The force of a horizontal contact is tensile.
-    HorizontalPulls {
+    HorizontalTension {
         /// The contact.
         contact: HorizontalContact,
         /// Its force.
@@ -187,7 +187,7 @@ impl fmt::Display for Refusal {
             }
             Self::NoSphere { site } => write!(f, "there is no sphere {site} above the floor"),
             Self::NotOnFloor { site } => write!(f, "there is no sphere {site} on the floor"),
-            Self::HorizontalPulls { contact, force } => write!(
+            Self::HorizontalTension { contact, force } => write!(
                 f,
                 "the horizontal contact {contact} is tensile: its force is {force}"
             ),

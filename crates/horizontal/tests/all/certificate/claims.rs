@@ -60,7 +60,7 @@ fn horizontal_forces_stabilise_pile() {
     let force = ratio(-1, 2);
     assert_eq!(
         *pulled.check().unwrap_err(),
-        Refusal::HorizontalPulls { contact, force }
+        Refusal::HorizontalTension { contact, force }
     );
 }
 

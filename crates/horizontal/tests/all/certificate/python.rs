@@ -58,8 +58,8 @@ fn agreed(certificate: &Certificate) -> bool {
     assert_eq!(status, 1, "{refusal}: {}", context());
     // Both checkers proceed from the top, row by row, so they stop at the same number if only forces are wrong.
     let number = match &*refusal {
-        Refusal::HorizontalPulls { .. } if certificate.horizontal.len() > 1 => return false,
-        Refusal::Pulls { force, .. } | Refusal::HorizontalPulls { force, .. } => force,
+        Refusal::HorizontalTension { .. } if certificate.horizontal.len() > 1 => return false,
+        Refusal::Pulls { force, .. } | Refusal::HorizontalTension { force, .. } => force,
         Refusal::Work { work } => work,
         Refusal::Bound { proved, .. } => proved,
         Refusal::Attained { attained, .. } => attained,
