@@ -80,13 +80,13 @@ fn note_if_it_falls(pile: &Pile) {
 
 /// What the rows of a table say of whether the pile stands, where the question is of a part of it: that of the whole may
 /// take much longer.
-struct Pulls {
+struct Tension {
     /// The column with the force, positive for a push.
     column: &'static str,
     seen: std::cell::Cell<bool>,
 }
 
-impl Pulls {
+impl Tension {
     const fn in_column(column: &'static str) -> Self {
         Self {
             column,

@@ -10,7 +10,7 @@ use cannonpile_dem::table::{Table, Units};
 use cannonpile_horizontal::certificate::{Certificate, write_certificate};
 use clap::Args;
 
-use super::Pulls;
+use super::Tension;
 use crate::Culprit;
 use crate::args::{BaseAt, ByMethod, Numbers, Output, Part, SceneOptions, narrower, spheres};
 use crate::output::{Failure, Refused, write_to};
@@ -105,7 +105,7 @@ impl<P: Args> Forces<P> {
                 Ok(write_certificate(certificate, &mut out)?)
             })?;
         }
-        let pulls = Pulls::in_column(asked.column);
+        let pulls = Tension::in_column(asked.column);
         self.output
             .write_table(pulls.watch(table), self.numbers.number, &progress)?;
         drop(progress);

@@ -124,7 +124,7 @@ impl Certificate {
                 let force = &transmitted[direction.index()];
                 if force.is_negative() {
                     let (direction, force) = (*direction, force.clone());
-                    return Err(Box::new(Refusal::Pulls {
+                    return Err(Box::new(Refusal::Tension {
                         site,
                         direction,
                         force,

@@ -61,7 +61,7 @@ impl fmt::Display for Relation {
 /// use num_rational::BigRational;
 ///
 /// let force = BigRational::from_integer((-2).into());
-/// let refusal = Refusal::Pulls { site: Site::APEX, direction: Direction::Beta, force };
+/// let refusal = Refusal::Tension { site: Site::APEX, direction: Direction::Beta, force };
 /// assert_eq!(refusal.to_string(), "the contact (0,0,0) beta is tensile: its force is -2");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,7 +105,7 @@ pub enum Refusal {
         force: BigRational,
     },
     /// The force of a sloping contact is tensile.
-    Pulls {
+    Tension {
         /// The upper sphere.
         site: Site,
         /// The direction of the contact.
@@ -191,7 +191,7 @@ impl fmt::Display for Refusal {
                 f,
                 "the horizontal contact {contact} is tensile: its force is {force}"
             ),
-            Self::Pulls {
+            Self::Tension {
                 site,
                 direction,
                 force,

@@ -32,14 +32,14 @@ fn spreading_pile_is_unstable() {
     unstable.claim = Claim::Stands;
     assert!(matches!(
         *unstable.check().unwrap_err(),
-        Refusal::Pulls { .. }
+        Refusal::Tension { .. }
     ));
 }
 
 #[test]
 fn horizontal_forces_stabilise_pile() {
     let without = held_together(8, (0, 1)).check().unwrap_err();
-    let refusal = Refusal::Pulls {
+    let refusal = Refusal::Tension {
         site: at(0, 0, 1),
         direction: Direction::Alpha,
         force: ratio(-2, 3),

@@ -59,7 +59,7 @@ fn agreed(certificate: &Certificate) -> bool {
     // Both checkers proceed from the top, row by row, so they stop at the same number if only forces are wrong.
     let number = match &*refusal {
         Refusal::HorizontalTension { .. } if certificate.horizontal.len() > 1 => return false,
-        Refusal::Pulls { force, .. } | Refusal::HorizontalTension { force, .. } => force,
+        Refusal::Tension { force, .. } | Refusal::HorizontalTension { force, .. } => force,
         Refusal::Work { work } => work,
         Refusal::Bound { proved, .. } => proved,
         Refusal::Attained { attained, .. } => attained,
