@@ -44,7 +44,7 @@ impl Certificate {
         let pile = &self.pile;
         if !pile.is_regular() {
             let sin_phi = pile.sin_phi().clone();
-            return Err(Box::new(Refusal::NoSuchPile { sin_phi }));
+            return Err(Box::new(Refusal::NoTouchingNeighbours { sin_phi }));
         }
         if let Some((contact, _)) = pile.horizontal_forces().next() {
             return Err(Box::new(Refusal::GivenForces { contact }));

@@ -68,7 +68,7 @@ impl fmt::Display for Relation {
 #[non_exhaustive]
 pub enum Refusal {
     /// The pile has no horizontal contacts: sin φ is neither 1/2 nor that of discs.
-    NoSuchPile {
+    NoTouchingNeighbours {
         /// sin φ.
         sin_phi: BigRational,
     },
@@ -169,7 +169,7 @@ impl From<Error> for Box<Refusal> {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoSuchPile { sin_phi } => f.write_str(&shortened(&format!(
+            Self::NoTouchingNeighbours { sin_phi } => f.write_str(&shortened(&format!(
                 "the neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
             ))),
             Self::GivenForces { contact } => write!(

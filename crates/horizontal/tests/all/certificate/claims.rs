@@ -114,7 +114,7 @@ fn certificate_must_match_its_pile() {
     let sin_phi = ratio(1, 3);
     assert_eq!(
         *bare(sharp, Claim::Stands).check().unwrap_err(),
-        Refusal::NoSuchPile { sin_phi }
+        Refusal::NoTouchingNeighbours { sin_phi }
     );
     for given in [ratio(0, 1), ratio(-1, 2)] {
         let certificate = springs(Pile::triangular(3).unwrap(), given.clone());
