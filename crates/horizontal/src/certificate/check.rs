@@ -47,7 +47,7 @@ impl Certificate {
             return Err(Box::new(Refusal::NoTouchingNeighbours { sin_phi }));
         }
         if let Some((contact, _)) = pile.horizontal_forces().next() {
-            return Err(Box::new(Refusal::GivenForces { contact }));
+            return Err(Box::new(Refusal::ForcesInPile { contact }));
         }
         self.fits()?;
         let floor = pile.layers() - 1;

@@ -73,7 +73,7 @@ pub enum Refusal {
         sin_phi: BigRational,
     },
     /// The pile itself has horizontal forces. They belong in the certificate.
-    GivenForces {
+    ForcesInPile {
         /// The first such contact.
         contact: HorizontalContact,
     },
@@ -172,7 +172,7 @@ impl fmt::Display for Refusal {
             Self::NoTouchingNeighbours { sin_phi } => f.write_str(&shortened(&format!(
                 "the neighbours of a layer touch at a = R only if sin phi is 1/2, not {sin_phi}"
             ))),
-            Self::GivenForces { contact } => write!(
+            Self::ForcesInPile { contact } => write!(
                 f,
                 "the pile itself has a force in the horizontal contact {contact}; remove it there"
             ),

@@ -294,7 +294,7 @@ fn certificate_with_forces_in_pile_is_refused() {
     };
     assert_eq!(
         *invalid.check().unwrap_err(),
-        Refusal::GivenForces { contact }
+        Refusal::ForcesInPile { contact }
     );
 }
 
