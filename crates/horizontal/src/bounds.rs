@@ -74,10 +74,14 @@ pub struct NormalBound {
 
 /// Returns the smallest and the largest normal force of a bottom sphere at a = R, in mg, with horizontal contacts.
 ///
-/// For a straight pile of equal spheres under one sphere, formulas give: both bounds at a corner; the lower bound
-/// elsewhere; the upper bound on an edge for up to 82 layers, with a checked certificate. Above 31 layers a formula
-/// gives an upper bound that may not be attained. In all other cases a linear program over the forces of all
-/// contacts is solved, and its solution is made exact and certified.
+/// For a straight pile of equal spheres under one sphere, formulas give these bounds:
+/// * At a corner both bounds.
+/// * Elsewhere the lower bound.
+/// * On an edge the upper bound for up to 82 layers, with a checked certificate.
+/// * Above 31 layers an upper bound that may not be attained.
+///
+/// In all other cases a linear program over the forces of all contacts is solved. Its solution is made exact and
+/// certified.
 ///
 /// Horizontal forces that were assigned to the pile are ignored.
 ///

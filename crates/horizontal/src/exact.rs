@@ -1,9 +1,8 @@
 //! Exact solution of sparse linear equations near a float solution.
 //!
 //! Example: the equation x + y = 1 with the float solution (0.3333, 0.6667) leaves one unknown free, say y. It is
-//! rounded to fractions with growing denominators, and x follows exactly: (0, 1), then (1/2, 1/2), then (1/3, 2/3),
-//! and so on. The first solution that the caller accepts is returned, for instance the first one without a negative
-//! entry.
+//! rounded to fractions with growing denominators, and x follows exactly: first (0, 1), then (1/3, 2/3). The first
+//! solution that the caller accepts is returned.
 
 use core::mem;
 use core::num::NonZeroI64;

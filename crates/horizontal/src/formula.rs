@@ -116,7 +116,7 @@ pub fn greatest_inside<T: Algebra>(n: &[T; 3]) -> T {
 
 /// Returns an upper bound of the load on the bottom sphere (k, j, 0), on an edge of a pile under one sphere, in f₀.
 ///
-/// It is 2k − 1 + (c−1)² + 2j(k−c) + j² for k ≥ j ≥ 1 and c = min(j+1, k): that is 2(j+1)(k−1) + 1 for k > j, and
+/// It is 2k − 1 + (c−1)² + 2j(k−c) + j² for k ≥ j ≥ 1 and c = min(j+1, k). This equals 2(j+1)(k−1) + 1 for k > j, and
 /// 2k² for k = j. The bound may not be attained.
 ///
 /// # Examples

@@ -30,7 +30,7 @@ pub enum Error {
     Syntax {
         /// The text, shortened if it is long.
         text: String,
-        /// What was expected in its place.
+        /// The expected form of the text.
         expected: &'static str,
     },
 }

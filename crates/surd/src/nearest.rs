@@ -24,8 +24,8 @@ mod sealed {
         /// `MIN_EXPONENT`.
         fn assemble(negative: bool, significand: u64, exponent: i64) -> Option<Self>;
 
-        /// Returns the float to which every number between `ends[0]`·2^`exponent` and
-        /// `ends[1]`·2^`exponent` rounds, or `None` if the two ends round differently.
+        /// Returns the common rounding of all numbers between `ends[0]`·2^`exponent` and `ends[1]`·2^`exponent`, or
+        /// `None` if the two ends round differently.
         fn between(negative: bool, ends: [f64; 2], exponent: i32) -> Option<Self>;
     }
 }
@@ -96,7 +96,7 @@ pub(crate) fn screened<F: NearestFloat>(
     F::between(negative, ends, exponent)
 }
 
-/// Returns the float to which both `ends`, times 2^`exponent`, round, or `None` if they round differently.
+/// Returns the common rounding of both `ends` times 2^`exponent`, or `None` if they round differently.
 ///
 /// Both ends must lie between 2^−20 and 2^20. The result is also `None` if an `f64` near the ends is not
 /// normal.
