@@ -1,4 +1,4 @@
-//! The options that commands share.
+//! Options that several commands share.
 
 mod scene;
 mod stackings;
@@ -15,33 +15,33 @@ use cannonpile_dem::table::{FileFormat, NumberFormat, Table, Units, WriteError};
 use clap::{Args, ValueEnum};
 use num_bigint::BigUint;
 
-use crate::output::{Failure, Refused, write_to};
+use crate::output::{Failure, InputError, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
 pub(crate) use scene::SceneOptions;
-pub(crate) use stackings::PilesOfStackings;
+pub(crate) use stackings::RandomSceneOptions;
 
-/// One sphere of the base.
+/// The option `--at`, for one sphere of the base.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
-pub(crate) struct BaseAt {
-    /// One bottom sphere only: I,J, or K,I,J with k counted from 0 at the top (discs: I or K,I)
+pub(crate) struct BasePart {
+    /// One bottom sphere: I,J or K,I,J with k from 0 at the top (discs: I or K,I) [default: all]
     #[arg(long, value_name = "I,J", allow_hyphen_values = true)]
     at: Option<String>,
 }
 
-impl BaseAt {
-    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Refused> {
-        let site = one(self.at.as_deref(), pile)?;
+impl BasePart {
+    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, InputError> {
+        let site = parse_site(self.at.as_deref(), pile)?;
         Ok(site.map_or(Selection::Base, Selection::One))
     }
 }
 
-/// A part of the pile.
+/// The options `--at` and `--layer`, which select a part of the pile.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Part {
-    /// One sphere only: K,I,J with k counted from 0 at the top, or I,J on the base (discs: K,I or I)
+    /// One sphere: K,I,J with k from 0 at the top, or I,J on the base (discs: K,I or I) [default: all]
     #[arg(
         long,
         value_name = "K,I,J",
@@ -49,20 +49,20 @@ pub(crate) struct Part {
         conflicts_with = "layer"
     )]
     at: Option<String>,
-    /// One layer only, counted from 0 at the top
+    /// One layer, counted from 0 at the top [default: all]
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer)]
     layer: Option<i128>,
 }
 
 impl Part {
-    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, Refused> {
+    pub(crate) fn selection(&self, pile: &Pile) -> Result<Selection, InputError> {
         let whole = self.layer.map_or(Selection::All, Selection::Layer);
-        let site = one(self.at.as_deref(), pile)?;
+        let site = parse_site(self.at.as_deref(), pile)?;
         Ok(site.map_or(whole, Selection::One))
     }
 }
 
-/// Returns how many spheres a part has.
+/// Returns the number of spheres in a part of the pile.
 pub(crate) fn spheres(pile: &Pile, selection: Selection) -> Result<BigUint, Error> {
     Ok(match selection {
         Selection::All => pile.sphere_count(),
@@ -72,49 +72,49 @@ pub(crate) fn spheres(pile: &Pile, selection: Selection) -> Result<BigUint, Erro
     })
 }
 
-/// Returns the sphere that `--at` names.
-pub(crate) fn one(at: Option<&str>, pile: &Pile) -> Result<Option<Site>, Refused> {
+/// Parses the value of `--at` and checks that the pile has this sphere.
+pub(crate) fn parse_site(at: Option<&str>, pile: &Pile) -> Result<Option<Site>, InputError> {
     let Some(text) = at else { return Ok(None) };
     let at = parse::at(text, pile.dimension());
-    let at = at.map_err(|error| Refused::of(Culprit::Site, error))?;
+    let at = at.map_err(|error| InputError::of(Culprit::Site, error))?;
     let site = pile.shape().check(at.site(pile.layers()));
-    let site = site.map_err(|error| Refused::of(Culprit::Site, error))?;
+    let site = site.map_err(|error| InputError::of(Culprit::Site, error))?;
     Ok(Some(site))
 }
 
-/// Adds to a refusal of too many rows the options that ask for fewer.
-pub(crate) fn narrower(error: impl Into<Error>, selection: Selection) -> Refused {
+/// Adds the options that select fewer rows to an error about too many rows.
+pub(crate) fn with_row_options(error: impl Into<Error>, selection: Selection) -> InputError {
     match selection {
-        Selection::All => Refused::of_rows(error, "--layer or --at"),
-        Selection::Layer(_) | Selection::Base => Refused::of_rows(error, "--at"),
-        Selection::One(_) => Refused::from(error),
+        Selection::All => InputError::of_rows(error, "--layer or --at"),
+        Selection::Layer(_) | Selection::Base => InputError::of_rows(error, "--at"),
+        Selection::One(_) => InputError::from(error),
     }
 }
 
-/// How the numbers of a pile are shown.
+/// The options `--number` and `--units`.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Numbers {
-    /// How numbers are printed
+    /// Format of numbers
     #[arg(long, value_enum, default_value = "exact")]
     pub(crate) number: Number,
-    /// The units of forces and lengths
+    /// Units of forces and lengths
     #[arg(long, value_enum, default_value = "pile")]
     pub(crate) units: UnitSystem,
 }
 
-/// How forces are found.
+/// The option `--method`.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
-pub(crate) struct ByMethod {
-    /// How forces are found [default: the cheapest way]
+pub(crate) struct MethodOption {
+    /// Method that computes the forces [default: the cheapest one]
     #[arg(long, value_enum)]
     method: Option<MethodName>,
 }
 
-impl ByMethod {
-    /// Returns the units, with answers found so.
-    pub(crate) fn of<'p>(&self, units: Units<'p>) -> Result<Units<'p>, Error> {
+impl MethodOption {
+    /// Selects this method in `units`.
+    pub(crate) fn apply<'p>(&self, units: Units<'p>) -> Result<Units<'p>, Error> {
         match self.method {
             None => Ok(units),
             Some(method) => Ok(units.with_method(method.into())?),
@@ -124,11 +124,11 @@ impl ByMethod {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
-    /// By counting spheres on lines; for straight stackings
+    /// Closed form: counts spheres on contact lines; straight stackings only
     Closed,
-    /// From the lines above each sphere
+    /// Follows the contact lines above each sphere
     Tree,
-    /// Layer after layer
+    /// Computes layer after layer, from the top
     Sweep,
 }
 
@@ -142,25 +142,25 @@ impl From<MethodName> for Method {
     }
 }
 
-/// Where a table goes, and in which format.
+/// The options `--format` and `--output` of a table.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct Output {
-    /// How the table is written [default: by the ending of --output, .csv or .json; else table]
+    /// Format of the table [default: csv or json if --output ends so, otherwise table]
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write to a file, which is replaced only when all is written
+    /// File for the table, written atomically [default: stdout]
     #[arg(long = "output", value_name = "FILE")]
     file: Option<PathBuf>,
 }
 
 impl Output {
-    /// Returns the format asked for, or that of the ending of the file; the two must agree.
+    /// Returns the format of `--format`, or of the file name extension. The two must agree.
     pub(crate) fn format(&self) -> Result<Format, Failure> {
-        agreed("format", self.format, "output", self.file.as_deref())
+        resolve_format("format", self.format, "output", self.file.as_deref())
     }
 
-    /// Writes a table; its rows are counted.
+    /// Writes a table and shows its progress in rows.
     pub(crate) fn write_table(
         &self,
         table: Table<'_>,
@@ -173,7 +173,7 @@ impl Output {
         })
     }
 
-    /// Writes to the file or to stdout; lines are counted as rows.
+    /// Writes to the file or to stdout and shows the progress, one row a line.
     pub(crate) fn write(
         &self,
         progress: &Progress,
@@ -186,20 +186,25 @@ impl Output {
     }
 }
 
-/// Returns the format that an option asks for, or that of the ending of the file that another names; the two must agree.
-pub(crate) fn agreed(
+/// Returns the format that `format_option` gives, or that of the extension of the file that `file_option` names.
+///
+/// # Errors
+/// The two differ.
+pub(crate) fn resolve_format(
     format_option: &str,
     format: Option<Format>,
     file_option: &str,
     file: Option<&Path>,
 ) -> Result<Format, Failure> {
-    let ending = file.and_then(Path::extension).and_then(Format::of_ending);
+    let ending = file
+        .and_then(Path::extension)
+        .and_then(Format::from_extension);
     match (format, ending) {
         (Some(format), Some(ending)) if format != ending => {
             let (format, ending) = (format.name(), ending.name());
             Err(Failure::Message(format!(
-                "--{format_option}: {format} is not what the ending of --{file_option} says, {ending}: leave --{format_option} \
-                 out, or give the file another ending"
+                "--{format_option}: {format} differs from {ending}, the extension of --{file_option}: leave --{format_option} \
+                 out, or change the extension"
             )))
         }
         (format, ending) => Ok(format.or(ending).unwrap_or(Format::Table)),
@@ -210,11 +215,11 @@ pub(crate) fn agreed(
 pub(crate) enum Number {
     /// Rationals and roots: 7/3, 2*sqrt(3)
     Exact,
-    /// The nearest double-precision float
+    /// Double-precision floats, correctly rounded
     F64,
-    /// The nearest single-precision float
+    /// Single-precision floats, correctly rounded
     F32,
-    /// The double-precision floats on both sides, in columns ..._lo and ..._hi
+    /// Double-precision lower and upper bounds, in columns ..._lo and ..._hi
     Interval,
 }
 
@@ -231,14 +236,14 @@ impl From<Number> for NumberFormat {
 
 #[derive(Clone, Copy, ValueEnum)]
 pub(crate) enum UnitSystem {
-    /// Between spheres mg/(3cosθ); on the floor mg, and mg·tanθ along x, √3·mg·tanθ along y
+    /// Contact forces in mg/(3cosθ), base normals in mg, base shears in mg·tanθ (x) and √3·mg·tanθ (y)
     Pile,
-    /// N and m, for a radius in m, mass in kg and gravity in m/s², each 1 unless it is given
+    /// N and m, with --radius in m, --mass in kg and --gravity in m/s²
     Si,
 }
 
 impl UnitSystem {
-    /// Returns the pile in these units.
+    /// Returns `pile` in these units.
     pub(crate) fn of<'p>(self, scene: &Scene, pile: &'p Pile) -> Result<Units<'p>, Error> {
         Ok(match self {
             Self::Pile => Units::of_pile(pile),
@@ -253,13 +258,13 @@ pub(crate) enum Format {
     Table,
     /// Comma-separated values
     Csv,
-    /// An array of objects
+    /// Array of objects
     Json,
 }
 
 impl Format {
-    /// Returns the format that a file with this ending is expected to be in, if any.
-    fn of_ending(ending: &OsStr) -> Option<Self> {
+    /// Returns the format that a file name extension stands for, if any.
+    fn from_extension(ending: &OsStr) -> Option<Self> {
         [Self::Csv, Self::Json]
             .into_iter()
             .find(|format| ending.eq_ignore_ascii_case(format.name()))

@@ -1,4 +1,4 @@
-//! The commands, one a file, and what they have in common.
+//! The commands, one a file, and their common functions.
 
 pub(crate) mod bounds;
 pub(crate) mod cases;
@@ -28,18 +28,22 @@ use num_rational::BigRational;
 use num_traits::One;
 
 use crate::Error;
-use crate::output::{Failure, complain};
+use crate::output::{Failure, print_message};
 use crate::progress::Progress;
 
-/// Reads the probability of a change of sign.
+/// Parses the probability of a sign change.
 fn fault_probability(text: &str) -> Result<BigRational, Error> {
     let q = parse::rational(text)?;
     check_fault_probability(&q)?;
     Ok(q)
 }
 
-/// Whether neighbours of a layer touch, at the spacing that is given for all stackings of some layers; or why nothing is said of
-/// which stand at it. A pile of them with a change of sign leaves the least room.
+/// Returns whether neighbours in a layer touch at this spacing, a = R.
+///
+/// `with_a_change` returns a pile with a sign change, which has the smallest gaps of all stackings.
+///
+/// # Errors
+/// The spacing is too wide for this pile, or spheres two layers apart touch, so that stability is undetermined.
 fn has_horizontal_contacts(
     spacing: Option<&BigRational>,
     with_a_change: impl FnOnce() -> Result<Pile, cannonpile::Error>,
@@ -53,40 +57,41 @@ fn has_horizontal_contacts(
         return Ok(false);
     }
     Err(Failure::Message(format!(
-        "--spacing {spacing}: where the sign changes spheres two layers apart touch, and whether they hold what pulls is \
-         not decided: use 1, or more than 1 and less than 3/2"
+        "--spacing {spacing}: at a sign change spheres two layers apart touch, so that stability is undetermined: use 1, or \
+         more than 1 and less than 3/2"
     )))
 }
 
-/// Says in one line on stderr that no pile can bear such forces, if that is so.
-fn note_if_it_falls(pile: &Pile) {
+/// Prints a note on stderr if the pile is unstable.
+fn note_instability(pile: &Pile) {
     if pile.is_weightless() {
         return;
     }
-    let progress = Progress::begin("finding out whether the pile stands");
+    let progress = Progress::begin("checking the stability of the pile");
     let failure = pile.first_failure();
     drop(progress);
     match failure {
         Ok(None) => {}
-        Ok(Some(layer)) => complain(&format!(
-            "note: this pile does not stand without further contacts: below layer k = {layer} spheres would have to pull; \
-             no other forces of these contacts are in balance"
+        Ok(Some(layer)) => print_message(&format!(
+            "note: this pile is unstable without further contacts: below layer k = {layer} some contact needs tension; these \
+             forces are the only ones in equilibrium"
         )),
-        Err(error) => complain(&format!(
-            "note: whether this pile stands is not known: {error}"
+        Err(error) => print_message(&format!(
+            "note: the stability of this pile is unknown: {error}"
         )),
     }
 }
 
-/// What the rows of a table say of whether the pile stands, where the question is of a part of it: that of the whole may
-/// take much longer.
-struct Tension {
-    /// The column with the force, positive for a push.
+/// Finds tensile forces in the rows of a table.
+///
+/// For a part of a pile this replaces the check of the whole pile, which may take much longer.
+struct TensionCheck {
+    /// The column with the force, positive in compression.
     column: &'static str,
     seen: std::cell::Cell<bool>,
 }
 
-impl Tension {
+impl TensionCheck {
     const fn in_column(column: &'static str) -> Self {
         Self {
             column,
@@ -94,7 +99,7 @@ impl Tension {
         }
     }
 
-    /// Looks at the rows as they are written.
+    /// Watches the rows while they are written.
     fn watch<'t>(&'t self, table: Table<'t>) -> Table<'t> {
         let mut columns = table.columns().iter();
         let Some(place) = columns.position(|column| column.name == self.column) else {
@@ -107,14 +112,14 @@ impl Tension {
         })
     }
 
-    /// Says in one line on stderr that no pile can bear such forces: of the whole pile, or for what was seen of a part.
+    /// Prints a note on stderr if the pile is unstable. For a part of it, only the rows written so far count.
     fn note(&self, pile: &Pile, selection: Selection) {
         match selection {
-            Selection::All | Selection::Base => note_if_it_falls(pile),
+            Selection::All | Selection::Base => note_instability(pile),
             Selection::Layer(_) | Selection::One(_) if self.seen.get() && !pile.is_weightless() => {
-                complain(
-                    "note: this pile does not stand without further contacts: spheres would have to pull here; no other \
-                     forces of these contacts are in balance",
+                print_message(
+                    "note: this pile is unstable without further contacts: some contact here needs tension; these forces are \
+                     the only ones in equilibrium",
                 );
             }
             Selection::Layer(_) | Selection::One(_) => {}

@@ -1,4 +1,4 @@
-//! The input to blame for an error of any crate.
+//! The input that causes an error, for the errors of all crates.
 
 use core::fmt;
 
@@ -6,27 +6,27 @@ use cannonpile_dem::Key;
 
 use crate::Error;
 
-/// An input that was given, or left to its default, and has to be changed after an [`Error`].
+/// The input to change after an [`Error`], given by the user or left to its default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Culprit {
-    /// A key of a scene, which is an option of the same name.
+    /// A key of a scene, which is also an option.
     Key(Key),
-    /// The sphere in question.
+    /// The selected sphere.
     Site,
-    /// The layer in question.
+    /// The selected layer.
     Layer,
-    /// The way to the answer.
+    /// The method that computes the forces.
     Method,
-    /// The type of number of the answer.
+    /// The number format of the output.
     Number,
     /// The text of a file.
     File,
-    /// The probability of a change of sign.
+    /// The probability of a sign change.
     FaultProbability,
 }
 
 impl Culprit {
-    /// Returns its word: `layers`, `sin-phi`, `site`.
+    /// Returns the name of the input: `layers`, `sin-phi`, `site`.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Key(key) => key.name(),
@@ -39,7 +39,7 @@ impl Culprit {
         }
     }
 
-    /// Returns the option that gives the input, if it is an option.
+    /// Returns the option that gives the input, if there is one.
     pub(crate) const fn option(self) -> Option<&'static str> {
         match self {
             Self::Site => Some("at"),
@@ -62,11 +62,10 @@ impl fmt::Display for Culprit {
 }
 
 impl Error {
-    /// Returns the input to change, if it is known. It is `None` for a bug, and for a text or a region that is refused
-    /// whatever it was meant for.
+    /// Returns the input to change, if the error determines it.
     ///
-    /// An answer that does not fit is blamed on the type of number. A figure with too many marks is blamed on the number
-    /// of layers, also where it shows a single layer.
+    /// The result is `None` for a bug, and for a text or region whose option only the caller knows. An overflow gives the
+    /// number format. A figure with too many glyphs gives the number of layers, even if it shows a single layer.
     pub(crate) fn culprit(&self) -> Option<Culprit> {
         match self {
             Self::Core(error) => of_core(error),
@@ -78,7 +77,7 @@ impl Error {
         }
     }
 
-    /// Returns the other of two inputs that exclude each other. To leave out either is a remedy.
+    /// Returns the second of two inputs that exclude each other. Leaving out either one is a remedy.
     pub(crate) const fn conflicts_with(&self) -> Option<Key> {
         use cannonpile::Error as Core;
         use cannonpile_dem::Error as Dem;
@@ -195,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_blamed_by_name() {
+    fn errors_of_sizes() {
         let pile = Pile::triangular(3).unwrap();
         let packing = Packing::new(&pile, &"6/5".parse().unwrap()).unwrap();
         for given in [ratio(0, 1), ratio(-6, 5)] {
@@ -274,7 +273,7 @@ mod tests {
                 .and_then(|()| scene.pile().map(drop))
                 .unwrap_err(),
         );
-        // In a file: what its value would be blamed on, or the file.
+        // An error in a file gives the input of its value, or the file itself.
         let layers = Scene::from_toml("layers = 0").unwrap_err();
         blames(Culprit::Key(Key::Layers), layers);
         for text in ["layers = ", "leyers = 3", "top = \"site\""] {
@@ -290,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_of_tests_of_suites() {
+    fn errors_of_test_exports() {
         let refused = |scene: &Scene, file| {
             let pile = scene.pile().unwrap();
             let packing = scene.packing(&pile).unwrap();
@@ -326,7 +325,7 @@ mod tests {
         let many = stackings(10_001).unwrap();
         blames(Culprit::Key(Key::Layers), many.registry(&0.5).unwrap_err());
 
-        // Loads where no sphere is certain, negative ones, and those on a base.
+        // A load on a position without a certain sphere, a negative load, and a load on a base.
         let heavy = RandomPiles::under(Region::SITE, four());
         let on = RandomPiles::on(Region::triangle(4).unwrap(), four());
         let below = Site { i: 0, j: 0, k: 1 };
@@ -338,7 +337,7 @@ mod tests {
             blames(Culprit::Key(Key::Load), refused.unwrap_err());
         }
 
-        // A plane bears loads alone, and a response is one to loads.
+        // A plane and a response need weightless spheres with loads.
         let plane = RandomPiles::plane(four());
         let loaded = plane.clone().with_load(Site::APEX, one()).unwrap();
         let weightless = plane.clone().weightless();
@@ -383,7 +382,7 @@ mod tests {
             blames(Culprit::Key(Key::Layers), error);
         }
 
-        // A base carries no stacking so high, or none that begins so.
+        // The base supports no stacking of this height, or none with this first sign.
         let base = Region::triangle(4).unwrap();
         let minus = RandomStackings::new(4, FirstSign::Minus).unwrap();
         for piles in [

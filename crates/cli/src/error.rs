@@ -1,10 +1,10 @@
-//! The error of any crate.
+//! The errors of all crates, in one type.
 
 use core::fmt;
 
-/// Why a crate refused a question.
+/// An error of one of the crates below the command line.
 ///
-/// An error of the core that another crate wraps is [`Core`](Self::Core), and so on: there is one way to match each.
+/// The conversions unwrap nested errors: an error of the core is always [`Core`](Self::Core), whatever crate returned it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Error {
     Core(cannonpile::Error),

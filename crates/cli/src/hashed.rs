@@ -1,11 +1,11 @@
-//! A file that is hashed while it is read.
+//! A reader that computes the SHA-256 of its input.
 
 use std::fmt::Write;
 use std::io::{self, BufRead, Read};
 
 use sha2::{Digest, Sha256};
 
-/// What is read, and the SHA-256 of what has been.
+/// A reader with the SHA-256 of the bytes read so far.
 pub(crate) struct Hashed<R> {
     input: R,
     digest: Sha256,
@@ -21,11 +21,11 @@ impl<R: BufRead> Hashed<R> {
         }
     }
 
-    /// Returns how many bytes have been read, and their hash in hexadecimal digits.
+    /// Returns the number of bytes read, and their hash in hexadecimal digits.
     pub(crate) fn finish(self) -> (u64, String) {
         let mut digits = String::new();
         for byte in self.digest.finalize() {
-            // Writing to a String does not fail.
+            // Writing to a `String` never fails.
             let _ = write!(digits, "{byte:02x}");
         }
         (self.bytes, digits)
@@ -47,7 +47,7 @@ impl<R: BufRead> BufRead for Hashed<R> {
     }
 
     fn consume(&mut self, amount: usize) {
-        // What is buffered is given again, without another read.
+        // The buffer is full, so this call returns it again without another read.
         if let Ok(given) = self.input.fill_buf() {
             self.digest.update(given.get(..amount).unwrap_or(given));
         }

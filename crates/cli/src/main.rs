@@ -1,4 +1,4 @@
-//! The command line: parse, call, print. No mathematics.
+//! The command line: parses arguments, calls the other crates, prints the results.
 
 mod args;
 mod command;
@@ -24,19 +24,20 @@ use command::{
 };
 use culprit::Culprit;
 use error::Error;
-use output::{Failure, complain};
+use output::{Failure, print_message};
 
 const START: &str = "\
 Examples:
-  cannonpile base --layers 10              the force of each bottom sphere on the floor
-  cannonpile summary --stacking hcp        whether ten layers of HCP stand
-  cannonpile export pile --to lammps       input for LAMMPS, and
-  cannonpile verify pile/forces.dump       what it measured against the exact forces
+  cannonpile base --layers 10              list the force of each bottom sphere on the floor
+  cannonpile summary --stacking hcp        check the stability of ten layers of HCP
+  cannonpile export pile --to lammps       write input for LAMMPS
+  cannonpile verify pile/forces.dump       compare the forces of LAMMPS with the exact ones
 
-'cannonpile COMMAND --help' says more about each. Exit status: 0; 1 if the answer is no; 2 for bad use, with one line on
-stderr.";
+'cannonpile COMMAND --help' explains a command.
 
-/// Exact contact forces in regular piles of spheres: the stack of cannonballs, in rationals, roots and floats
+Exit status: 0 success; 1 the answer is no (unstable, different, rejected); 2 usage error, with one line on stderr.";
+
+/// Exact contact forces in regular piles of spheres
 #[derive(Parser)]
 #[command(name = "cannonpile", version, max_term_width = 100, arg_required_else_help = true, after_help = START)]
 struct Arguments {
@@ -46,51 +47,51 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// The pile in one row: counts, weight, extreme forces
+    /// Summarise a pile in one row: counts, weight, stability, extreme forces
     Summary(summary::Summary),
-    /// The force of each bottom sphere on the floor
+    /// List the force of each bottom sphere on the floor
     #[command(after_help = Base::HELP)]
     Base(Base),
-    /// The force of each contact between two spheres
+    /// List the force of each contact between two spheres
     #[command(after_help = Contacts::HELP)]
     Contacts(Contacts),
-    /// What each bottom sphere can bear at least and at most at a = R, horizontal contacts included
+    /// Bound the base normal forces at a = R, with horizontal contacts
     Bounds(bounds::Bounds),
-    /// The place, size and mass of each sphere, in SI units
+    /// List the position, radius and mass of each sphere, in SI units
     Spheres(spheres::Spheres),
-    /// Which stackings stand, under one sphere or on a base
+    /// List the stable and unstable stackings, under one sphere or on a base
     Census(census::Census),
-    /// What the base bears in the mean over random stackings
+    /// Average the base forces over random stackings
     Mean(mean::Mean),
-    /// Random stackings one by one: how many stand, and how their forces are distributed
-    Ensemble(ensemble::EnsembleOf),
-    /// Parts of an ensemble, counted apart, put together
+    /// Count stable stackings and collect force distributions over random stackings
+    Ensemble(ensemble::RunEnsemble),
+    /// Merge the parts of an ensemble
     Merge(ensemble::Merge),
-    /// How a question would be answered, what that takes at most, and what it took
+    /// Show the method and the cost of a computation
     Explain(explain::Explain),
-    /// The whole pile as files: tables, input for LAMMPS and YADE, geometry for ParaView; in SI units
+    /// Write a pile as files: tables, input for LAMMPS and YADE, geometry for ParaView
     Export(export::Export),
-    /// The benchmark cases, with names that others can quote
+    /// List the benchmark cases
     Cases(cases::Cases),
-    /// The scene as a TOML file, which --scene reads
+    /// Write the scene options as a TOML file, which --scene reads
     Scene(scene::WriteScene),
-    /// What is proved for every pile, with the proofs; exit status 1 if one fails
+    /// Prove the theorems behind the formulas, for every pile
     Prove(prove::Prove),
-    /// Measured contact forces against the exact ones; exit status 1 if they differ
+    /// Compare measured contact forces with the exact ones; exit status 1 if they differ
     Verify(verify::Verify),
-    /// A certificate of what a pile with horizontal contacts bears; exit status 1 if it is refused
+    /// Check a certificate; exit status 1 if it is rejected
     Check(check::Check),
-    /// A figure, as SVG
+    /// Draw a figure as SVG
     #[command(subcommand, arg_required_else_help = true)]
     Plot(plot::Plot),
-    /// A script with which a shell completes commands and options
+    /// Print a completion script for a shell
     Completions(completions::Completions),
-    /// Pages of the manual, which man shows, one for each command
+    /// Write the manual pages, one for each command
     Man(man::Man),
 }
 
 impl Command {
-    /// Answers, and returns whether the answer is yes.
+    /// Runs the command, and returns whether its answer is yes.
     fn run(&self) -> Result<bool, Failure> {
         match self {
             Self::Summary(command) => command.run(),
@@ -115,7 +116,7 @@ impl Command {
         }
     }
 
-    /// Returns the scene options, of a command that has them.
+    /// Returns the scene options, if the command has them.
     const fn scene(&self) -> Option<&SceneOptions> {
         Some(match self {
             Self::Summary(command) => &command.scene,
@@ -141,14 +142,14 @@ impl Command {
     }
 }
 
-/// The answer is no.
+/// The exit status if the answer is no.
 const NO: u8 = 1;
 
-/// Bad use: nothing on stdout, one line on stderr.
-const BAD_USE: u8 = 2;
+/// The exit status of a usage error, with one line on stderr and nothing on stdout.
+const USAGE_ERROR: u8 = 2;
 
 fn main() -> ExitCode {
-    signals::clean_up_after();
+    signals::remove_files_on_signal();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
@@ -156,24 +157,24 @@ fn main() -> ExitCode {
     match arguments.command.run() {
         Ok(true) | Err(Failure::Closed) => return ExitCode::SUCCESS,
         Ok(false) => return ExitCode::from(NO),
-        Err(Failure::Refused(refused)) => {
+        Err(Failure::Input(refused)) => {
             let message = SceneOptions::message(arguments.command.scene(), &refused);
-            complain(&format!("error: {message}"));
+            print_message(&format!("error: {message}"));
         }
-        Err(Failure::Message(message)) => complain(&format!("error: {message}")),
+        Err(Failure::Message(message)) => print_message(&format!("error: {message}")),
     }
-    ExitCode::from(BAD_USE)
+    ExitCode::from(USAGE_ERROR)
 }
 
-/// Prints what clap has to say: help and version as they are, an error in one line with a remedy.
+/// Prints a message of clap: help and version unchanged, an error in one line with a remedy.
 fn usage(error: &clap::Error) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            // Into a closed pipe there is nothing to say.
+            // Printing into a closed pipe is not an error here.
             let _ = error.print();
             return ExitCode::SUCCESS;
         }
-        // A bare command asks for its help: no error, and on stdout.
+        // A command without arguments prints its help on stdout, and succeeds.
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             let _ = io::Write::write_all(&mut io::stdout(), error.to_string().as_bytes());
             return ExitCode::SUCCESS;
@@ -182,38 +183,38 @@ fn usage(error: &clap::Error) -> ExitCode {
     }
     let text = error.to_string();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-    let said: Vec<&str> = lines
+    let message: Vec<&str> = lines
         .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
         .collect();
-    let said = said.join(" ").replace(" tip: ", "; tip: ");
-    // Clap has a remedy where it knows a similar word, or all words there are.
-    let advised = [
+    let message = message.join(" ").replace(" tip: ", "; tip: ");
+    // Clap adds a remedy if it suggests a similar word or lists the valid ones.
+    let has_remedy = [
         ContextKind::SuggestedArg,
         ContextKind::SuggestedSubcommand,
         ContextKind::SuggestedValue,
         ContextKind::ValidValue,
         ContextKind::ValidSubcommand,
     ];
-    let advised = advised.into_iter().any(|kind| match error.get(kind) {
+    let has_remedy = has_remedy.into_iter().any(|kind| match error.get(kind) {
         Some(ContextValue::Strings(words)) => !words.is_empty(),
         known => known.is_some(),
     });
     let remedy = match error.kind() {
-        _ if advised => String::new(),
+        _ if has_remedy => String::new(),
         ErrorKind::ArgumentConflict => ": leave one of the two out".into(),
         ErrorKind::UnknownArgument
         | ErrorKind::InvalidSubcommand
         | ErrorKind::InvalidValue
         | ErrorKind::MissingRequiredArgument
         | ErrorKind::TooManyValues
-        | ErrorKind::NoEquals => format!("; '{} --help' lists what there is", named_command()),
+        | ErrorKind::NoEquals => format!("; see '{} --help'", named_command()),
         _ => String::new(),
     };
-    complain(&format!("{said}{remedy}"));
-    ExitCode::from(BAD_USE)
+    print_message(&format!("{message}{remedy}"));
+    ExitCode::from(USAGE_ERROR)
 }
 
-/// Returns the command that the line begins with, as far as there is one.
+/// Returns the longest command that the arguments begin with.
 fn named_command() -> String {
     let mut command = Arguments::command();
     let mut names = String::from("cannonpile");

@@ -1,4 +1,4 @@
-//! What is printed: answers on stdout or into a file, refusals and notes on stderr.
+//! Output: results on stdout or to a file, errors and notes on stderr.
 
 use core::fmt::Display;
 use std::fs::File;
@@ -9,30 +9,30 @@ use cannonpile_dem::table::{WriteError, write_aside};
 
 use crate::{Culprit, Error};
 
-/// Why there is no answer.
+/// The reason why a command has no result.
 pub(crate) enum Failure {
-    /// The library refused what was given.
-    Refused(Refused),
-    /// The command line did: the option, what is wrong with it, and the remedy.
+    /// A library crate returned an error.
+    Input(InputError),
+    /// The command line found an error. The text names the option, the reason and the remedy.
     Message(String),
-    /// The reader has seen enough.
+    /// The reader of stdout closed the pipe.
     Closed,
 }
 
-impl From<Refused> for Failure {
-    fn from(refused: Refused) -> Self {
-        Self::Refused(refused)
+impl From<InputError> for Failure {
+    fn from(refused: InputError) -> Self {
+        Self::Input(refused)
     }
 }
 
 impl<E: Into<Error>> From<E> for Failure {
     fn from(error: E) -> Self {
-        Self::Refused(Refused::from(error))
+        Self::Input(InputError::from(error))
     }
 }
 
 impl Failure {
-    /// Returns why nothing was written to the file that this option names, or to stdout.
+    /// Converts an error of writing to stdout, or to the file that `option` names.
     pub(crate) fn of_writing(error: WriteError, option: &str, file: Option<&Path>) -> Self {
         let file = file.map(|path| format!("--{option} {}", path.display()));
         let target = file.unwrap_or_else(|| "to stdout".into());
@@ -41,28 +41,28 @@ impl Failure {
             WriteError::Io(error) if error.kind() == io::ErrorKind::BrokenPipe => {
                 return Self::Closed;
             }
-            // The text of an error may name the file written aside; its kind does not.
+            // The text of an I/O error may contain the name of the temporary file, so only its kind is printed.
             WriteError::Io(error) => (target, reason(&error)),
             WriteError::File { path, error } => (path.display().to_string(), reason(&error)),
             error => (target, error.to_string()),
         };
         Self::Message(format!(
-            "cannot write {target}: {reason}; choose a place that exists, can be written and has room"
+            "cannot write {target}: {reason}; choose an existing, writable folder with free space"
         ))
     }
 }
 
-/// A refusal, with the input to blame and the options that are its remedy.
+/// A library error, with the input that causes it and the options that are its remedy.
 #[derive(Debug)]
-pub(crate) struct Refused {
+pub(crate) struct InputError {
     pub(crate) error: Box<Error>,
     pub(crate) culprit: Option<Culprit>,
-    /// Options that ask what the message advises.
+    /// The options that do what the message advises.
     pub(crate) remedy: Option<&'static str>,
 }
 
-impl Refused {
-    /// Puts the blame on another input than the error does, where it is known better.
+impl InputError {
+    /// Attributes an error to an input that the caller knows better than the error.
     pub(crate) fn of(culprit: impl Into<Culprit>, error: impl Into<Error>) -> Self {
         Self {
             culprit: Some(culprit.into()),
@@ -70,7 +70,7 @@ impl Refused {
         }
     }
 
-    /// Adds to a refusal of too many rows the options that ask for fewer.
+    /// Adds the options that select fewer rows to an error about too many rows.
     pub(crate) fn of_rows(error: impl Into<Error>, remedy: &'static str) -> Self {
         let error = error.into();
         let too_many = matches!(error, Error::Core(cannonpile::Error::TooManyRows { .. }));
@@ -81,7 +81,7 @@ impl Refused {
     }
 }
 
-impl<E: Into<Error>> From<E> for Refused {
+impl<E: Into<Error>> From<E> for InputError {
     fn from(error: E) -> Self {
         let error = error.into();
         Self {
@@ -92,22 +92,22 @@ impl<E: Into<Error>> From<E> for Refused {
     }
 }
 
-/// What may be named instead of a file that cannot be read.
-pub(crate) const A_FILE: &str = "name a file that is there";
-pub(crate) const A_FILE_OR_STDIN: &str = "name a file that is there, or - for stdin";
+/// The remedy for a file that cannot be read.
+pub(crate) const READABLE_FILE: &str = "give a readable file";
+pub(crate) const READABLE_FILE_OR_STDIN: &str = "give a readable file, or - for stdin";
 
-/// Returns why FILE is not read.
+/// Returns the error that FILE cannot be read.
 pub(crate) fn unreadable(name: impl Display, error: &io::Error, remedy: &str) -> Failure {
     let reason = reason(error);
     Failure::Message(format!("FILE: {name} cannot be read: {reason}; {remedy}"))
 }
 
-/// Opens FILE, which is not stdin.
+/// Opens FILE. The name `-` is not special.
 pub(crate) fn open(path: &Path) -> Result<File, Failure> {
-    File::open(path).map_err(|error| unreadable(path.display(), &error, A_FILE))
+    File::open(path).map_err(|error| unreadable(path.display(), &error, READABLE_FILE))
 }
 
-/// Returns why a file could not be read or written, without the number that the system gives it.
+/// Returns the reason of an I/O error, without the error number of the system.
 pub(crate) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file or folder".into(),
@@ -115,7 +115,7 @@ pub(crate) fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Writes to the file that this option names, whole or not at all, or to stdout.
+/// Writes to stdout, or atomically to the file that `option` names.
 pub(crate) fn write_to(
     option: &str,
     file: Option<&Path>,
@@ -136,8 +136,8 @@ fn write_out(
     Ok(out.flush()?)
 }
 
-/// Prints one line on stderr, whatever the text; if even that is closed, the exit status has to say it.
-pub(crate) fn complain(message: &str) {
+/// Prints a message as one line on stderr. If stderr is closed, only the exit status reports the failure.
+pub(crate) fn print_message(message: &str) {
     let line: String = message
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })

@@ -1,4 +1,4 @@
-//! How far a long command has come: a line on stderr, if that is a terminal, from the first second on.
+//! The progress line of a long command: on stderr, if it is a terminal, after the first second.
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -7,38 +7,38 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// What is done in less is not spoken of.
-const SHORT: Duration = Duration::from_secs(1);
+/// The delay before the line appears.
+const DELAY: Duration = Duration::from_secs(1);
 
-/// How often the line is drawn.
+/// The time between two updates of the line.
 const TICK: Duration = Duration::from_millis(100);
 
 const OF_ROWS: &str =
     "{spinner} {msg} {bar:30} {percent}% of {human_len} rows, {per_sec}, {eta} left";
 const OF_STACKINGS: &str =
     "{spinner} {msg} {bar:30} {percent}% of {human_len}, {per_sec}, {eta} left";
-const WITHOUT_END: &str = "{spinner} {msg}, {elapsed}";
+const OF_UNKNOWN_LENGTH: &str = "{spinner} {msg}, {elapsed}";
 
-/// A line on stderr that goes away when this is dropped.
+/// A progress line on stderr. Dropping this value removes the line.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    /// None if there is no terminal.
-    late: Option<Late>,
+    /// `None` if stderr is not a terminal.
+    line: Option<DelayedLine>,
 }
 
-/// What shows the line after a while: a thread, and a channel whose end ends it.
-struct Late {
+/// The thread that shows the line after the delay. Closing the channel ends the thread.
+struct DelayedLine {
     ended: Sender<()>,
     thread: JoinHandle<()>,
 }
 
 impl Progress {
-    /// Begins something of unknown length; `doing` says what, as in `finding the extreme forces`.
+    /// Begins an action of unknown length. `doing` describes it: `computing the extreme forces`.
     pub(crate) fn begin(doing: &'static str) -> Self {
-        Self::new(ProgressBar::no_length(), WITHOUT_END, doing)
+        Self::new(ProgressBar::no_length(), OF_UNKNOWN_LENGTH, doing)
     }
 
-    /// Begins something that takes so many rows, as far as that is known.
+    /// Begins an action with this number of rows, if it is known.
     pub(crate) fn of_rows(doing: &'static str, rows: Option<u64>) -> Self {
         match rows {
             Some(rows) => Self::new(ProgressBar::new(rows), OF_ROWS, doing),
@@ -46,7 +46,7 @@ impl Progress {
         }
     }
 
-    /// Begins something that goes through so many stackings.
+    /// Begins an action on this number of stackings.
     pub(crate) fn of_stackings(doing: &'static str, stackings: u64) -> Self {
         Self::new(ProgressBar::new(stackings), OF_STACKINGS, doing)
     }
@@ -54,9 +54,9 @@ impl Progress {
     fn new(bar: ProgressBar, template: &str, doing: &'static str) -> Self {
         bar.set_draw_target(ProgressDrawTarget::hidden());
         if !io::stderr().is_terminal() {
-            return Self { bar, late: None };
+            return Self { bar, line: None };
         }
-        // The templates are ours; without one there is still a bar.
+        // The templates above are valid. An invalid one would leave the default style.
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
@@ -64,28 +64,28 @@ impl Progress {
         let (ended, wait) = mpsc::channel();
         let shown = bar.clone();
         let thread = thread::spawn(move || {
-            if wait.recv_timeout(SHORT) == Err(RecvTimeoutError::Timeout) && !shown.is_finished() {
+            if wait.recv_timeout(DELAY) == Err(RecvTimeoutError::Timeout) && !shown.is_finished() {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
                 shown.enable_steady_tick(TICK);
             }
         });
-        let late = Some(Late { ended, thread });
-        Self { bar, late }
+        let line = Some(DelayedLine { ended, thread });
+        Self { bar, line }
     }
 
-    /// Notes that so many rows more are done.
-    pub(crate) fn advance(&self, rows: u64) {
-        self.bar.inc(rows);
+    /// Adds `count` rows or stackings to the progress.
+    pub(crate) fn advance(&self, count: u64) {
+        self.bar.inc(count);
     }
 
-    /// Writes what `content` writes, and counts its lines as rows; to a terminal the rows themselves show how far it is.
+    /// Calls `content`, and counts its lines as rows. If stdout is a terminal, the line disappears at the first row.
     pub(crate) fn count<R>(
         &self,
         out: &mut dyn Write,
         to_stdout: bool,
         content: impl FnOnce(&mut dyn Write) -> R,
     ) -> R {
-        if self.late.is_none() {
+        if self.line.is_none() {
             return content(out);
         }
         content(&mut Counting {
@@ -98,9 +98,9 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(Late { ended, thread }) = self.late.take() {
+        if let Some(DelayedLine { ended, thread }) = self.line.take() {
             drop(ended);
-            // It does nothing that could fail.
+            // The thread never panics.
             let _ = thread.join();
         }
         self.bar.finish_and_clear();
@@ -111,7 +111,7 @@ impl Drop for Progress {
 struct Counting<'a> {
     out: &'a mut dyn Write,
     bar: &'a ProgressBar,
-    /// Whether the lines are seen as they are written.
+    /// True if the output appears on a terminal.
     shown: bool,
 }
 

@@ -1,13 +1,14 @@
-//! A signal that ends the command takes away what it was writing aside.
+//! Removal of temporary files when a signal ends the command.
 
-/// Removes the files written aside when SIGINT or SIGTERM arrives, and exits with 130 or 143, as a shell reports these
-/// signals.
+/// Installs a handler of SIGINT and SIGTERM, which removes temporary files.
+///
+/// The handler exits with status 130 or 143, as a shell reports these signals.
 #[cfg(unix)]
-pub(crate) fn clean_up_after() {
+pub(crate) fn remove_files_on_signal() {
     use signal_hook::consts::{SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
-    // Without a handler the next command that writes there still finds what was left.
+    // Without a handler the next command that writes to the same folder removes the leftover files.
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
         return;
     };
@@ -19,6 +20,6 @@ pub(crate) fn clean_up_after() {
     });
 }
 
-/// Leaves signals as they are, where there are none.
+/// Does nothing: other systems have no such signals.
 #[cfg(not(unix))]
-pub(crate) const fn clean_up_after() {}
+pub(crate) const fn remove_files_on_signal() {}

@@ -1,4 +1,4 @@
-//! The tables that only the command line has: bounds, the census, random stackings, theorems, cases, plans.
+//! Tables of the command line: bounds, the census, random stackings, theorems, cases, plans.
 
 mod bounds;
 mod cases;
@@ -18,7 +18,7 @@ pub(crate) use theorems::{in_coq, theorems};
 
 #[cfg(test)]
 mod test {
-    //! What the tests of all tables need.
+    //! Functions that the tests of all tables share.
 
     use cannonpile_dem::table::{FileFormat, NumberFormat, Table};
     use num_rational::BigRational;
@@ -27,7 +27,7 @@ mod test {
         BigRational::new(n.into(), d.into())
     }
 
-    /// The table as csv, in exact numbers.
+    /// Returns the table as csv, in exact numbers.
     pub(super) fn csv(table: Table<'_>) -> String {
         let mut csv = Vec::new();
         let written = table.write(FileFormat::Csv, NumberFormat::Exact, &mut csv);

@@ -1,4 +1,4 @@
-//! The scene options, on the line and in a file.
+//! Scene options, from the command line and from a file.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -11,17 +11,17 @@ use cannonpile_dem::scene::{Anchor, Case, Scene, SceneFile, State, parse};
 use clap::Args;
 use num_rational::BigRational;
 
-use crate::output::{Failure, Refused, reason};
+use crate::output::{Failure, InputError, reason};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
 
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
 pub(crate) struct SceneOptions {
-    /// Read these options from a TOML file, - for stdin; options on the command line win over it
+    /// TOML file with these options, - for stdin; the command line overrides it
     #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
     scene_file: Option<NamedFile>,
-    /// The scene of a benchmark case, C1, C2, …, which 'cannonpile cases' lists; beside it only --state
+    /// Benchmark case, as listed by 'cannonpile cases'; excludes all scene options but --state
     #[arg(
         long,
         value_name = "NAME",
@@ -32,32 +32,31 @@ pub(crate) struct SceneOptions {
         ]
     )]
     case: Option<NamedFile>,
-    /// Number of layers, 1 to 10^36 [default: 10; as many as a stacking that is spelled out has, or as a base carries]
+    /// Number of layers, 1 to 10^36 [default: from a spelled-out --stacking or --base, otherwise 10]
     #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
     layers: Option<i128>,
-    /// How the layers are stacked: fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh or (2,1,1); read from the top, or with
-    /// --base from the base up [default: fcc]
+    /// Stacking, from the top (with --base from the base): fcc, hcp, dhcp, or spelled out as ++-+, ABCBC, chh, (2,1,1) [default: fcc]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = str::parse::<Pattern>)]
     stacking: Option<Pattern>,
-    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
+    /// Top layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1 [default: one sphere]
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "base")]
     top: Option<Region>,
-    /// Grow up from this layer, instead of down from --top
+    /// Bottom layer, with the pile above it; shapes as for --top
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
     base: Option<Region>,
-    /// 2 for discs, 3 for spheres [default: 3]
+    /// Dimension: 2 for discs, 3 for spheres [default: 3]
     #[arg(long, value_name = "D", allow_hyphen_values = true, value_parser = str::parse::<Dimension>)]
     dimension: Option<Dimension>,
-    /// Sine of the azimuth phi of the base triangle, between 0 and 1; without --stacking, --top and --base [default: 1/2, equilateral]
+    /// Sine of the azimuth phi of the base triangle, between 0 and 1; excludes --stacking, --top, --base [default: 1/2, equilateral]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = parse::rational)]
     sin_phi: Option<BigRational>,
-    /// A vertical load W on one sphere, in mg; I,J=W on the base; may be repeated; takes the place of all loads of a file
+    /// Vertical load W on a sphere, in mg; I,J=W on the base; repeatable; replaces the loads of a file
     #[arg(long, value_name = "K,I,J=W", allow_hyphen_values = true)]
     load: Vec<String>,
-    /// The spheres weigh nothing: only the loads act; --weightless=false overrides a file
+    /// Spheres without weight, so that only the loads act; --weightless=false overrides a file
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
-    /// Half the distance of horizontal neighbours over the radius, a/R [default: 6/5 where it is needed; 1 for the elastic state]
+    /// Half the distance between horizontal neighbours over the radius, a/R [default: 6/5; 1 with --state elastic]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
     spacing: Option<BigRational>,
     /// Radius R of a sphere, in m [default: 1]
@@ -69,38 +68,40 @@ pub(crate) struct SceneOptions {
     /// Gravity g, in m/s² [default: 1]
     #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse::rational)]
     gravity: Option<BigRational>,
-    /// Which forces are meant, isostatic or elastic: without horizontal contacts, or those of springs that only push, at a = R;
-    /// for base, contacts, export, verify, plot network and plot base [default: isostatic]
+    /// Equilibrium state: isostatic (no horizontal contacts) or elastic (compressive springs, at a = R) [default: isostatic]
     #[arg(long, value_name = "STATE", value_parser = str::parse::<State>)]
     state: Option<State>,
-    /// Stiffness of horizontal contacts over that of sloping ones, of the elastic state [default: 1]
+    /// Stiffness of horizontal contacts over that of sloping ones, with --state elastic [default: 1]
     #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::rational)]
     stiffness_ratio: Option<BigRational>,
 }
 
 impl SceneOptions {
-    /// Returns the scene described, and its pile.
+    /// Returns the scene and its pile, in the isostatic state.
     ///
-    /// Sizes and weights are checked here: a value that is given is wrong whether it is used or not.
-    /// Nothing but [`read_state`](Self::read_state) knows of another state than the isostatic one.
+    /// This function checks sizes and weights even if the command does not use them.
+    ///
+    /// # Errors
+    /// The options select the elastic state, which only [`read_state`](Self::read_state) and [`read_whole`](Self::read_whole)
+    /// accept.
     pub(crate) fn read(&self) -> Result<(Scene, Pile), Failure> {
-        Ok(checked(self.isostatic()?)?)
+        Ok(check_scene(self.isostatic()?)?)
     }
 
-    /// Returns the scene described, and its pile with the horizontal forces of its state.
+    /// Returns the scene and its pile, with the horizontal forces of its state.
     pub(crate) fn read_state(&self) -> Result<(Scene, Pile), Failure> {
         let (scene, pile) = self.read_whole()?;
-        let progress = Progress::begin("finding the elastic state");
+        let progress = Progress::begin("computing the elastic state");
         let pile = scene.in_state(pile)?;
         drop(progress);
         Ok((scene, pile))
     }
 
-    /// Returns the scene described, with its state, and its pile, of whose horizontal contacts nothing is known.
+    /// Returns the scene with its state, and its pile without horizontal forces.
     pub(crate) fn read_whole(&self) -> Result<(Scene, Pile), Failure> {
         let scene = self.scene()?;
         self.check_ratio(&scene)?;
-        Ok(checked(scene)?)
+        Ok(check_scene(scene)?)
     }
 
     fn check_ratio(&self, scene: &Scene) -> Result<(), Failure> {
@@ -108,7 +109,7 @@ impl SceneOptions {
             return Ok(());
         }
         Err(Failure::Message(
-            "--stiffness-ratio: it is that of springs: give --state elastic, or leave it out"
+            "--stiffness-ratio: only the elastic state has springs: add --state elastic, or leave it out"
                 .to_owned(),
         ))
     }
@@ -121,43 +122,45 @@ impl SceneOptions {
         }
         let place = self.place(Key::State);
         let remedy = match self.case {
-            Some(_) => "give --state isostatic beside it",
+            Some(_) => "add --state isostatic",
             None => "leave it out, or use isostatic",
         };
         Err(Failure::Message(format!(
-            "{place}: the elastic state is that of base, contacts, export, verify, plot network and plot base: {remedy}"
+            "{place}: only base, contacts, export, verify, plot network and plot base support the elastic state: {remedy}"
         )))
     }
 
-    /// Returns the scene described, of which every stacking is meant: the layer on top, and what is put on it.
-    pub(crate) fn of_all_stackings(&self) -> Result<Scene, Failure> {
+    /// Returns a scene that fits every stacking: a top layer and loads on it.
+    ///
+    /// # Errors
+    /// The options fix a stacking, or depend on one.
+    pub(crate) fn read_for_all_stackings(&self) -> Result<Scene, Failure> {
         let scene = self.isostatic()?;
         let refused = [
             (
                 scene.stacking.is_some(),
                 Key::Stacking,
-                "every stacking is meant: leave it out",
+                "this command covers every stacking: leave it out",
             ),
             (
                 matches!(scene.anchor, Some(Anchor::Base(_))),
                 Key::Base,
-                "which layers a base carries depends on the stacking, and they are not gone through from there: use --top, or \
-                 census --base",
+                "the layers above a base depend on the stacking: use --top, or the command census --base",
             ),
             (
                 scene.dimension == Dimension::Two,
                 Key::Dimension,
-                "discs have one stacking only: use 3",
+                "discs have only one stacking: use 3",
             ),
             (
                 scene.sin_phi.is_some(),
                 Key::SinPhi,
-                "other stackings than the paper's have an equilateral base: leave it out",
+                "only the straight triangular pile can have an isosceles base: leave it out",
             ),
             (
                 scene.loads.iter().any(|(at, _)| at.layer != Some(0)),
                 Key::Load,
-                "a sphere below the top layer is another one in another stacking: put loads on the top layer, 0,I,J=W",
+                "the position of a sphere below the top layer depends on the stacking: put loads on the top layer, 0,I,J=W",
             ),
         ];
         for (is_given, key, why) in refused {
@@ -170,9 +173,12 @@ impl SceneOptions {
         Ok(scene)
     }
 
-    /// Returns how many layers there are below a wide top, whatever their stacking, and one load on it.
-    pub(crate) fn of_wide_layers(&self) -> Result<i128, Failure> {
-        let scene = self.of_all_stackings()?;
+    /// Returns the number of layers below a wide top with one load of 1 mg, for every stacking.
+    ///
+    /// # Errors
+    /// The options give another top or other loads.
+    pub(crate) fn read_wide_layers(&self) -> Result<i128, Failure> {
+        let scene = self.read_for_all_stackings()?;
         let refused = [
             (scene.anchor.is_some(), Key::Top),
             (!scene.loads.is_empty(), Key::Load),
@@ -181,14 +187,14 @@ impl SceneOptions {
             if is_given {
                 let place = self.place(key);
                 return Err(Failure::Message(format!(
-                    "{place}: with --fault-probability the load is 1 mg on a wide top: leave it out, or use mean"
+                    "{place}: --fault-probability always uses a load of 1 mg on a wide top: leave it out, or use the command mean"
                 )));
             }
         }
         Ok(scene.layers.unwrap_or(Scene::LAYERS))
     }
 
-    /// Returns the scene described and its pile, with a stacking that another option spells out.
+    /// Returns the scene and its pile, with the stacking that `--faults` gives.
     pub(crate) fn read_stacked(&self, stacking: Pattern) -> Result<(Scene, Pile), Failure> {
         let mut scene = self.isostatic()?;
         let given = [
@@ -198,41 +204,41 @@ impl SceneOptions {
         if let Some((_, key)) = given.into_iter().find(|(is_given, _)| *is_given) {
             let place = self.place(key);
             return Err(Failure::Message(format!(
-                "{place}: --faults spells out the stacking, and with it the layers: leave out one of them"
+                "{place}: --faults already gives the stacking and the number of layers: leave one of the two out"
             )));
         }
         scene.stacking = Some(stacking);
-        Ok(checked(scene)?)
+        Ok(check_scene(scene)?)
     }
 
-    /// Returns the scene described and its pile, of this many layers where nothing says how many.
+    /// Returns the scene and its pile, with `layers` as the default number of layers.
     pub(crate) fn read_or(&self, layers: i128) -> Result<(Scene, Pile), Failure> {
         let mut scene = self.isostatic()?;
         let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
         if spelled.is_none() && !matches!(scene.anchor, Some(Anchor::Base(_))) {
             scene.layers = scene.layers.or(Some(layers));
         }
-        Ok(checked(scene)?)
+        Ok(check_scene(scene)?)
     }
 
-    /// The file or the case that options on the line win over.
+    /// Returns the file or the benchmark case that the command line overrides.
     fn file(&self) -> Option<&NamedFile> {
         self.scene_file.as_ref().or(self.case.as_ref())
     }
 
-    /// Returns the case that was asked for, if the scene is that of the case.
+    /// Returns the benchmark case of `--case`, if no option changes its scene.
     pub(crate) fn case(&self, scene: &Scene) -> Option<&'static Case> {
         let named = self.case.as_ref()?;
         named.case.filter(|_| named.content.scene() == scene)
     }
 
-    /// That of the file, with the options on the line in place of its own.
-    fn scene(&self) -> Result<Scene, Refused> {
+    /// Returns the scene of the file, overridden by the options of the command line.
+    fn scene(&self) -> Result<Scene, InputError> {
         let file = self.file().map(|file| file.content.scene().clone());
         let file = file.unwrap_or_default();
         let dimension = self.dimension.unwrap_or(file.dimension);
         let load = |text: &String| {
-            parse::load(text, dimension).map_err(|error| Refused::of(Key::Load, error))
+            parse::load(text, dimension).map_err(|error| InputError::of(Key::Load, error))
         };
         let loads: Vec<_> = self.load.iter().map(load).collect::<Result<_, _>>()?;
         let anchor = self.top.map(Anchor::Top).or(self.base.map(Anchor::Base));
@@ -253,15 +259,17 @@ impl SceneOptions {
         })
     }
 
-    /// Whether the file took all of stdin.
+    /// Returns whether the scene file is read from stdin.
     pub(crate) fn is_from_stdin(&self) -> bool {
         self.scene_file
             .as_ref()
             .is_some_and(|file| file.name == "-")
     }
 
-    /// Returns the failure of a command whose numbers are floats: what does not fit there comes of the sizes.
-    pub(crate) fn beyond_floats(&self, refused: Refused, scene: &Scene) -> Failure {
+    /// Converts an error of a command that always computes in floats.
+    ///
+    /// The sizes cause an overflow there, so the message names the size that is farthest from 1.
+    pub(crate) fn overflow_failure(&self, refused: InputError, scene: &Scene) -> Failure {
         let Error::Core(cannonpile::Error::Overflow {
             quantity, scalar, ..
         }) = &*refused.error
@@ -280,26 +288,26 @@ impl SceneOptions {
         ))
     }
 
-    /// Returns the size of a scene to change where a number does not fit, on the line or in the file.
+    /// Returns the option, or the line of the file, of the size to change after an overflow.
     pub(crate) fn place_of_size(&self, scene: &Scene) -> String {
         self.place(farthest_from_one(scene))
     }
 
-    /// Returns the option, or where it is in the file.
+    /// Returns the option as the user gave it: `--option`, or its line in the file.
     fn place(&self, key: Key) -> String {
         let option = key.name();
         self.line_of(option)
             .unwrap_or_else(|| format!("--{option}"))
     }
 
-    /// Returns where the file gives an option that the line does not.
+    /// Returns the line of the file that gives an option, unless the command line overrides it.
     pub(crate) fn line_of(&self, option: &str) -> Option<String> {
         let file = self.file()?;
         file.place_of(option).filter(|_| !self.gives(option))
     }
 
-    /// Returns the refusal as a message: the option or the line of the file to change, what is wrong, and the remedy.
-    pub(crate) fn message(scene: Option<&Self>, refused: &Refused) -> String {
+    /// Formats an error: the option or the line of the file to change, the reason, and the remedy.
+    pub(crate) fn message(scene: Option<&Self>, refused: &InputError) -> String {
         let line_of = |option| scene.and_then(|scene| scene.line_of(option));
         let error = &refused.error;
         let place = refused.culprit.and_then(Culprit::option).map(|option| {
@@ -307,14 +315,14 @@ impl SceneOptions {
             line.unwrap_or_else(|| format!("--{option}")) + ": "
         });
         let place = place.unwrap_or_default();
-        // Where the other of two inputs that exclude each other is, if it is in the file.
+        // If two options exclude each other, the message also names the line of the other one in the file.
         let other = error.conflicts_with().map(Key::name).and_then(line_of);
         let notes = other.or(refused.remedy.map(str::to_owned));
         let notes = notes.map_or_else(String::new, |notes| format!(" ({notes})"));
         format!("{place}{error}{notes}")
     }
 
-    /// Whether the option, or one in whose place it would be, is on the line.
+    /// Returns whether the command line gives this option, or one that replaces it.
     fn gives(&self, option: &str) -> bool {
         match option {
             "layers" => self.layers.is_some(),
@@ -335,7 +343,7 @@ impl SceneOptions {
     }
 }
 
-/// Returns the size that is farthest from 1; the radius only if its cube leaves the floats.
+/// Returns the size that is farthest from 1. The radius counts only if its cube overflows.
 fn farthest_from_one(scene: &Scene) -> Key {
     const FLOATS: u64 = f64::MAX_EXP.unsigned_abs() as u64;
     let distance = |size: &BigRational| size.numer().bits().abs_diff(size.denom().bits());
@@ -352,20 +360,20 @@ fn farthest_from_one(scene: &Scene) -> Key {
     farthest.map_or(Key::Mass, |(key, _)| key)
 }
 
-/// A scene whose sizes are right, and its pile.
-fn checked(scene: Scene) -> Result<(Scene, Pile), Refused> {
+/// Checks the sizes of a scene, and returns it with its pile.
+fn check_scene(scene: Scene) -> Result<(Scene, Pile), InputError> {
     scene.check_sizes()?;
     let pile = scene.pile().map_err(|error| match error.into() {
-        // The only sites of a scene.
+        // The loads contain the only sites of a scene.
         error @ Error::Core(
             cannonpile::Error::SiteOutside { .. } | cannonpile::Error::LayerOutside { .. },
-        ) => Refused::of(Key::Load, error),
+        ) => InputError::of(Key::Load, error),
         error => error.into(),
     })?;
     Ok((scene, pile))
 }
 
-/// A scene file, and what it was called on the line; or a case.
+/// A scene file with its name on the command line, or a benchmark case.
 #[derive(Clone)]
 pub(super) struct NamedFile {
     name: String,
@@ -374,12 +382,12 @@ pub(super) struct NamedFile {
 }
 
 impl NamedFile {
-    /// Returns the scene of the file.
+    /// Returns the scene.
     pub(super) const fn scene(&self) -> &Scene {
         self.content.scene()
     }
 
-    /// Returns where the file gives an option.
+    /// Returns the position of an option: the file, the line and the name.
     pub(super) fn place_of(&self, option: &str) -> Option<String> {
         let line = self.content.line(option)?;
         if let Some(case) = self.case {
@@ -394,7 +402,7 @@ impl NamedFile {
                 io::ErrorKind::InvalidData => "not text in UTF-8".into(),
                 _ => reason(&error),
             };
-            format!("{reason}; name a TOML file that can be read, or - for stdin")
+            format!("{reason}; give a readable TOML file, or - for stdin")
         })?;
         let content = text.parse::<SceneFile>();
         let content = content.map_err(|error| error.to_string())?;
@@ -415,18 +423,23 @@ impl NamedFile {
     }
 }
 
-/// More than any scene that is read: its length is then refused.
-const LONGEST: u64 = 32 << 20;
+/// The largest number of bytes to read. It is above the limit of a scene file, so a longer file is rejected.
+const MAX_SCENE_BYTES: u64 = 32 << 20;
 
 fn text_of(name: &str) -> io::Result<String> {
     let mut bytes = Vec::new();
     let read = if name == "-" {
-        io::stdin().lock().take(LONGEST).read_to_end(&mut bytes)?
+        io::stdin()
+            .lock()
+            .take(MAX_SCENE_BYTES)
+            .read_to_end(&mut bytes)?
     } else {
-        File::open(name)?.take(LONGEST).read_to_end(&mut bytes)?
+        File::open(name)?
+            .take(MAX_SCENE_BYTES)
+            .read_to_end(&mut bytes)?
     };
-    // What is cut within a character is too long, not wrong.
-    if read as u64 == LONGEST {
+    // A text of this length is too long. The cut may split a character, which is not an error of the text.
+    if read as u64 == MAX_SCENE_BYTES {
         return Ok(String::from_utf8_lossy(&bytes).into_owned());
     }
     String::from_utf8(bytes).map_err(|_| io::ErrorKind::InvalidData.into())

@@ -1,4 +1,4 @@
-//! The options of a scene that is the same in every stacking.
+//! Options of `mean`: a scene that does not depend on the stacking.
 
 use cannonpile::lattice::{Dimension, Region};
 use cannonpile_dem::Key;
@@ -10,9 +10,9 @@ use num_rational::BigRational;
 
 use super::scene::NamedFile;
 use crate::Culprit;
-use crate::output::{Failure, Refused};
+use crate::output::{Failure, InputError};
 
-/// What piles of random stackings grow from: a layer, or one that fills the plane.
+/// The top layer of random stackings: a region, or the whole plane.
 #[derive(Clone, Copy)]
 enum Top {
     Plane,
@@ -31,36 +31,36 @@ impl Top {
 
 #[derive(Args)]
 #[command(next_help_heading = "Scene")]
-pub(crate) struct PilesOfStackings {
-    /// Read layers, top or base, loads and weightless from a TOML file, - for stdin; options on the command line win over it
+pub(crate) struct RandomSceneOptions {
+    /// TOML file with layers, top or base, load and weightless, - for stdin; the command line overrides it
     #[arg(long = "scene", value_name = "FILE", allow_hyphen_values = true, value_parser = NamedFile::read)]
     scene_file: Option<NamedFile>,
-    /// Number of layers [default: 10; to be given with --base]
+    /// Number of layers, 1 to 10^36; required with --base [default: 10]
     #[arg(long, value_name = "L", allow_hyphen_values = true, value_parser = parse::layers)]
     layers: Option<i128>,
-    /// Grow down from this layer: hexagon:P,Q, hexagon:N, triangle:N or region:x0..x1,y0..y1,s0..s1; or plane, for layers
-    /// without end, with --weightless and --load [default: one sphere]
+    /// Top layer: hexagon:P,Q, hexagon:N, triangle:N, region:x0..x1,y0..y1,s0..s1, or plane (infinite; requires --weightless
+    /// and --load) [default: one sphere]
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = Top::read, conflicts_with = "base")]
     top: Option<Top>,
-    /// Grow up from this layer, instead of down from --top; a stacking that it does not carry so high counts as none
+    /// Bottom layer, with the pile above it; shapes as for --top
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>)]
     base: Option<Region>,
-    /// A vertical load W on one sphere of the top layer, in mg; may be repeated; takes the place of all loads of a file
+    /// Vertical load W on a sphere of the top layer, in mg; repeatable; replaces the loads of a file
     #[arg(long, value_name = "0,I,J=W", allow_hyphen_values = true)]
     load: Vec<String>,
-    /// The spheres weigh nothing: only the loads act; --weightless=false overrides a file
+    /// Spheres without weight, so that only the loads act; --weightless=false overrides a file
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", hide_possible_values = true)]
     weightless: Option<bool>,
-    /// The sign of the first step, below the top layer: +, - or random, each with probability 1/2
+    /// Sign of the first step, below the top layer: +, - or random (probability 1/2 each)
     #[arg(long, value_name = "SIGN", default_value = "+", allow_hyphen_values = true, value_parser = str::parse::<FirstSign>)]
     first: FirstSign,
     #[command(flatten)]
-    without: Without,
+    unsupported: UnsupportedOptions,
 }
 
-/// Options of scenes that have no meaning here: each is refused with the reason.
+/// Scene options that `mean` does not support. Each is rejected with the reason.
 #[derive(Args)]
-struct Without {
+struct UnsupportedOptions {
     #[arg(long, hide = true, allow_hyphen_values = true)]
     stacking: Option<String>,
     #[arg(long, hide = true, allow_hyphen_values = true)]
@@ -81,7 +81,7 @@ struct Without {
     gravity: Option<String>,
 }
 
-impl Without {
+impl UnsupportedOptions {
     fn given(&self) -> Option<Key> {
         let options = [
             (Key::Stacking, &self.stacking),
@@ -99,8 +99,8 @@ impl Without {
     }
 }
 
-/// What of a scene in a file has no meaning here. Sizes have none either, but do no harm.
-fn meaningless(scene: &Scene) -> Option<Key> {
+/// Returns a key of a scene file that `mean` does not support. Sizes are ignored.
+fn unsupported_key(scene: &Scene) -> Option<Key> {
     if scene.stacking.is_some() {
         Some(Key::Stacking)
     } else if scene.dimension != Dimension::Three {
@@ -116,41 +116,39 @@ fn meaningless(scene: &Scene) -> Option<Key> {
     }
 }
 
-/// Why an option has no meaning here, and the remedy.
+/// Returns the reason why `mean` does not support an option, and the remedy.
 const fn reason(key: Key) -> &'static str {
     match key {
-        Key::Stacking => {
-            "the answer is over all stackings: leave it out, or ask base for one of them"
-        }
+        Key::Stacking => "the mean is over all stackings: leave it out, or use the command base",
         Key::Dimension | Key::SinPhi => {
-            "random stackings are of spheres on an equilateral lattice: leave it out"
+            "random stackings consist of spheres on an equilateral lattice: leave it out"
         }
         Key::Spacing | Key::State | Key::StiffnessRatio => {
-            "random stackings are looked at without horizontal contacts, for which no spacing is needed: leave it out"
+            "mean does not include horizontal contacts, and its forces do not depend on the spacing: leave it out"
         }
-        _ => "the answer is in multiples of mg: leave it out",
+        _ => "the mean is in multiples of mg: leave it out",
     }
 }
 
-impl PilesOfStackings {
-    /// Returns the piles described.
+impl RandomSceneOptions {
+    /// Returns the random piles that the options describe.
     pub(crate) fn read(&self) -> Result<RandomPiles, Failure> {
-        if let Some(key) = self.without.given() {
+        if let Some(key) = self.unsupported.given() {
             return Err(Failure::Message(format!("--{key}: {}", reason(key))));
         }
         let file = self.scene_file.as_ref().map(NamedFile::scene);
-        if let Some(key) = file.and_then(meaningless) {
+        if let Some(key) = file.and_then(unsupported_key) {
             let place = self.place(key.into());
             return Err(Failure::Message(format!("{place}: {}", reason(key))));
         }
         let piles = self.piles(file)?;
         let loads = self.loads(file)?;
-        let blamed = |error| self.refused(Refused::of(Key::Load, error));
+        let blamed = |error| self.refused(InputError::of(Key::Load, error));
         let layers = piles.stackings().layers();
         let piles = loads.into_iter().try_fold(piles, |piles, (at, load)| {
             piles.with_load(at.site(layers), load).map_err(blamed)
         })?;
-        // Not a default: without an option and a file spheres have weight.
+        // Spheres have weight unless an option or a file says otherwise.
         let weightless = self
             .weightless
             .or(file.map(|scene| scene.weightless))
@@ -162,7 +160,7 @@ impl PilesOfStackings {
         })
     }
 
-    /// The piles, without what acts on them.
+    /// Returns the piles without loads.
     fn piles(&self, file: Option<&Scene>) -> Result<RandomPiles, Failure> {
         let of_file = file
             .and_then(|scene| scene.anchor)
@@ -178,7 +176,7 @@ impl PilesOfStackings {
             (None, None) => 10,
             (None, Some(_)) => {
                 return Err(Failure::Message(
-                    "--base: its stackings are not all of one height: give --layers".to_owned(),
+                    "--base: the height depends on the stacking: add --layers".to_owned(),
                 ));
             }
         };
@@ -191,17 +189,17 @@ impl PilesOfStackings {
         })
     }
 
-    fn loads(&self, file: Option<&Scene>) -> Result<Vec<(At, BigRational)>, Refused> {
+    fn loads(&self, file: Option<&Scene>) -> Result<Vec<(At, BigRational)>, InputError> {
         if self.load.is_empty() {
             return Ok(file.map_or_else(Vec::new, |scene| scene.loads.clone()));
         }
         let load = |text: &String| parse::load(text, Dimension::Three);
         let loads: Result<_, _> = self.load.iter().map(load).collect();
-        loads.map_err(|error| Refused::of(Key::Load, error))
+        loads.map_err(|error| InputError::of(Key::Load, error))
     }
 
-    /// Returns a refusal as a message, with the line of the file to change where it has the option.
-    pub(crate) fn refused(&self, refused: impl Into<Refused>) -> Failure {
+    /// Formats an error with the option to change, or with its line in the scene file.
+    pub(crate) fn refused(&self, refused: impl Into<InputError>) -> Failure {
         let refused = refused.into();
         let option = refused.culprit.filter(|culprit| culprit.option().is_some());
         match option {
@@ -212,7 +210,7 @@ impl PilesOfStackings {
         }
     }
 
-    /// The option, or where it is in the file.
+    /// Returns the option as the user gave it: `--option`, or its line in the file.
     fn place(&self, culprit: Culprit) -> String {
         let on_line = match culprit {
             Culprit::Key(Key::Layers) => self.layers.is_some(),

@@ -1,4 +1,4 @@
-//! `bounds`: what bottom spheres can bear with horizontal contacts.
+//! `bounds`: the range of each base normal force, with horizontal contacts.
 
 use std::iter::once;
 use std::path::{Path, PathBuf};
@@ -8,15 +8,21 @@ use cannonpile_horizontal::certificate::write_certificates;
 use cannonpile_horizontal::{NormalBounds, bounds};
 use clap::Args;
 
-use crate::args::{BaseAt, Number, Output, SceneOptions, narrower};
+use crate::args::{BasePart, Number, Output, SceneOptions, with_row_options};
 use crate::output::{Failure, write_to};
 use crate::progress::Progress;
 use crate::tables;
 
 const HELP: &str = "\
-At a = R neighbours of a layer touch, and the forces are no longer unique. Columns: i, j; normal_min and normal_max, the
-least and the greatest normal force in mg that forces can give which balance the pile and only push; proved, 'yes' if both
-are attained, else no forces pass them. Answers are formulas proved for all L, of straight piles, or were checked exactly.
+At a = R neighbours in a layer touch, and the contact forces are no longer unique. All compressive forces in equilibrium
+give a range of base normal forces.
+
+Columns:
+  i, j                    bottom sphere
+  normal_min, normal_max  ends of the range, in mg
+  proved                  yes: both ends are attained; no: they are certified outer bounds
+
+For straight piles the bounds are formulas, proved for every L. For other piles an exact certificate proves each bound.
 
 Examples:
   cannonpile bounds --layers 10
@@ -29,13 +35,13 @@ pub(crate) struct Bounds {
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
     #[command(flatten)]
-    part: BaseAt,
-    /// How numbers are printed
+    part: BasePart,
+    /// Format of numbers
     #[arg(long, value_enum, default_value = "exact", help_heading = "Output")]
     number: Number,
     #[command(flatten)]
     output: Output,
-    /// Write the proofs of both bounds to this file, for the command check; with --at
+    /// File for the certificates of both bounds, which the command check reads; requires --at
     #[arg(long, value_name = "FILE", help_heading = "Output", requires = "at")]
     certificate: Option<PathBuf>,
 }
@@ -46,14 +52,15 @@ impl Bounds {
         scene.check_touching()?;
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
-        let progress = Progress::begin("bounds of bottom spheres");
+        let progress = Progress::begin("computing the bounds");
         let table = match (&self.certificate, selection) {
             (Some(file), Selection::One(site)) => {
                 let found = bounds(&pile, site)?;
                 write_proofs(&found, file)?;
                 tables::bounds_of(&pile, once(Ok((site, found))))
             }
-            _ => tables::bounds(&pile, selection).map_err(|error| narrower(error, selection))?,
+            _ => tables::bounds(&pile, selection)
+                .map_err(|error| with_row_options(error, selection))?,
         };
         self.output.write_table(table, self.number, &progress)?;
         Ok(true)
@@ -65,8 +72,8 @@ fn write_proofs(bounds: &NormalBounds, file: &Path) -> Result<(), Failure> {
     let both: Option<Vec<_>> = both.into_iter().collect();
     let both = both.ok_or_else(|| {
         Failure::Message(
-            "--certificate: these bounds are formulas proved for all L, and a file for this pile would be too long: leave it \
-             out, or use fewer layers"
+            "--certificate: the certificate of this pile would be too large (the bounds of straight piles are proved for \
+             every L): leave it out, or use fewer layers"
                 .to_owned(),
         )
     })?;

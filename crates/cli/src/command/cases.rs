@@ -9,11 +9,14 @@ use crate::progress::Progress;
 use crate::tables;
 
 const HELP: &str = "\
-Each has a name that others can quote: a case that was published is never altered, and new ones get new names. --case NAME
-is a scene option of every command. stands is 'no' where contacts must be lost, and empty where the spheres weigh
-nothing; it counts horizontal contacts in where they are meant, at a = R. contacts are those between layers. The
-command of the last column writes the scene, the answers, and a card (card.md, card.json) that says what the case tests and what a
-code must satisfy.
+The name of a case can be cited: a published case never changes. Other commands take a case as --case NAME.
+
+Columns:
+  name, title         the case
+  dimension, layers   2 for discs, 3 for spheres; number of layers
+  spheres, contacts   numbers of spheres, and of contacts between layers
+  stands              yes if the pile is stable; no if contacts must open; empty for spheres without weight
+  command             writes the scene, the exact forces, and a card with the purpose and the acceptance criteria
 
 Examples:
   cannonpile cases

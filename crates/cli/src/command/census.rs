@@ -1,4 +1,4 @@
-//! `census`: which stackings stand.
+//! `census`: the stable stackings.
 
 use cannonpile::Pile;
 use cannonpile::census;
@@ -15,21 +15,31 @@ use num_rational::BigRational;
 use super::has_horizontal_contacts;
 use crate::Error;
 use crate::args::{Number, Output};
-use crate::output::{Failure, Refused};
+use crate::output::{Failure, InputError};
 use crate::progress::Progress;
 use crate::tables;
 
 const HELP: &str = "\
-Of two mirror images one is listed. A stacking that fails is listed once, at the number of layers at which it first does,
-with the contact that would have to pull. With these a census of L layers has 11L − 50 rows, from six layers on, and takes
-a time that grows like L³.
+The census lists one of two mirror images. An unstable stacking is listed once, at the number of layers where it first
+becomes unstable, with the tensile contact. For L >= 6 there are 11L - 50 rows, and the time grows like L^3.
 
-With --spacing 1 horizontal contacts are counted in, and there is no 'undetermined': each verdict has a proof, and
-decided_by says which: 'sloping', without them no contact pulls; 'horizontal', their forces hold the pile; 'run', one of more
-than 3 steps from the top, or 4 after a change of sign, cannot end; 'work', other virtual displacements forbid it. Without --standing there are 12L − 56 rows, from six layers on. min_contact and all after it are without horizontal contacts. The proof itself:
+Columns:
+  stacking, layers         Hägg signs from the top; number of layers
+  stands                   yes if the pile is stable
+  min_contact              smallest contact force, in mg/(3cosθ)
+  base_spheres             number of bottom spheres
+  normal_min, normal_max   range of the base normal forces, in mg; empty for unstable stackings
+  k, i, j, direction       contact with the smallest force
+
+With --spacing 1 horizontal contacts may support the pile, and decided_by names the proof:
+  sloping     no contact between layers needs tension
+  horizontal  horizontal forces make all contacts compressive
+  run         more than 3 equal signs from the top, or 4 after a sign change, then another sign change: unstable
+  work        another virtual displacement proves that the pile is unstable
+The columns after decided_by are without horizontal contacts. For L >= 6 there are 12L - 56 rows. To write the proof:
   cannonpile summary --spacing 1 --stacking=STACKING --certificate FILE
-Above 1 and below 3/2 nothing else touches, as without --spacing; at 3/2 spheres two layers apart do where the sign changes,
-and there is no census, nor above it, where they overlap.
+
+A spacing above 1 and below 3/2 adds no contacts. There is no census from 3/2 on: spheres two layers apart touch there.
 
 Examples:
   cannonpile census --layers 6
@@ -43,18 +53,17 @@ pub(crate) struct Census {
     /// Number of layers, 1 to 10^36
     #[arg(long, value_name = "L", default_value = "10", allow_hyphen_values = true, value_parser = parse::layers)]
     layers: i128,
-    /// Every stacking of this base, carried as high as it goes: hexagon:P,Q, hexagon:N, triangle:N or
-    /// region:x0..x1,y0..y1,s0..s1
+    /// Bottom layer, for all its stackings up to the greatest height: hexagon:P,Q, hexagon:N, triangle:N or
+    /// region:x0..x1,y0..y1,s0..s1 [default: piles under one sphere]
     #[arg(long, value_name = "SHAPE", allow_hyphen_values = true, value_parser = str::parse::<Region>, conflicts_with = "layers")]
     base: Option<Region>,
-    /// a/R: at 1 neighbours of a layer touch, and horizontal contacts are counted in; above 1 and below 3/2 nothing but the
-    /// contacts touches, as without this option
+    /// Half the distance between horizontal neighbours over the radius, a/R: 1 includes horizontal contacts [default: no horizontal contacts]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = parse::rational)]
     spacing: Option<BigRational>,
-    /// Only those that stand
+    /// List the stable stackings only
     #[arg(long)]
     standing: bool,
-    /// How numbers are printed
+    /// Format of numbers
     #[arg(long, value_enum, default_value = "exact", help_heading = "Output")]
     number: Number,
     #[command(flatten)]
@@ -90,9 +99,9 @@ impl Census {
         entries.filter(move |entry| all || entry.as_ref().map_or(true, &stands))
     }
 
-    /// Whether neighbours of a layer touch, at the spacing that is given; or why there is no census at it.
+    /// Returns whether neighbours in a layer touch at `--spacing`.
     fn has_horizontal_contacts(&self) -> Result<bool, Failure> {
-        // Not every base carries a change of sign.
+        // Some bases support no pile with a sign change.
         let pile = |layers| {
             let stacking = Stacking::hcp(layers)?;
             match self.base {
@@ -107,17 +116,17 @@ impl Census {
     }
 
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let progress = Progress::begin("trying stackings");
+        let progress = Progress::begin("checking stackings");
         self.output
             .write_table(self.table()?, self.number, &progress)?;
         Ok(true)
     }
 }
 
-fn of_base(error: impl Into<Error>) -> Refused {
-    Refused::of(Key::Base, error)
+fn of_base(error: impl Into<Error>) -> InputError {
+    InputError::of(Key::Base, error)
 }
 
-fn too_many(error: impl Into<Error>) -> Refused {
-    Refused::of_rows(error, "--standing")
+fn too_many(error: impl Into<Error>) -> InputError {
+    InputError::of_rows(error, "--standing")
 }

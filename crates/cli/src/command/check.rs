@@ -1,4 +1,4 @@
-//! `check`: a certificate, checked anew.
+//! `check`: verifies a certificate.
 
 use core::fmt::Display;
 use std::fs::File;
@@ -8,15 +8,15 @@ use std::path::{Path, PathBuf};
 use cannonpile_horizontal::certificate::{Certificate, Refusal, read_certificates};
 use clap::Args;
 
-use crate::output::{A_FILE_OR_STDIN, Failure, unreadable, write_to};
+use crate::output::{Failure, READABLE_FILE_OR_STDIN, unreadable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-A certificate says what a pile bears at a = R, where the spheres of a layer touch, and has all that is needed to check it:
-forces of horizontal contacts, in mg/(3 cosθ), a field with three numbers for each sphere above the floor, or both. It is
-accepted if these forces and those that balance them push, and the field proves that no others do better; if it is refused,
-the exit status is 1, and the first equation that does not hold is named. The equations are in the documentation of the
-module 'certificate'; crates/horizontal/check_certificate.py is another program that checks them.
+A certificate claims a property of a pile at a = R, where the spheres of a layer touch, and contains its proof: the forces
+of the horizontal contacts in mg/(3cosθ), a virtual displacement field with three numbers for each sphere above the floor,
+or both. The check accepts the claim if all contact forces are compressive and the field proves that the claim is optimal.
+If it rejects the claim, it prints the first violated equation, and the exit status is 1. The documentation of the module
+'certificate' lists the equations. A second checker is crates/horizontal/check_certificate.py.
 
   {
     \"pile\": {\"dimension\": 3, \"sin_phi\": \"1/2\", \"stacking\": \"++\", \"anchor\": {\"top\": \"hexagon:1\"},
@@ -37,16 +37,18 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Check {
-    /// A certificate, or an array of them, as JSON; - for stdin
+    /// Certificate, or array of certificates, as JSON; - for stdin
     #[arg(value_name = "FILE")]
     certificate: PathBuf,
 }
 
 impl Check {
-    /// Checks, and returns whether all certificates are accepted.
+    /// Checks the certificates and returns whether all are accepted.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let progress = Progress::begin("reading FILE");
-        let certificates = self.read().map_err(|error| self.unread(&error))?;
+        let certificates = self
+            .read()
+            .map_err(|error| self.unreadable_certificate(&error))?;
         drop(progress);
         let mut all = true;
         for certificate in certificates {
@@ -55,7 +57,7 @@ impl Check {
         Ok(all)
     }
 
-    /// Says what is claimed, and whether it is accepted.
+    /// Prints the claim and the verdict.
     fn judge(&self, certificate: &Certificate) -> Result<bool, Failure> {
         let progress = Progress::begin("checking");
         let checked = certificate.check();
@@ -97,21 +99,21 @@ impl Check {
         }
     }
 
-    /// Says why there is no certificate to check.
-    fn unread(&self, error: &io::Error) -> Failure {
+    /// Returns the reason why the file contains no certificate.
+    fn unreadable_certificate(&self, error: &io::Error) -> Failure {
         let name = self.name();
         Failure::Message(match error.kind() {
             io::ErrorKind::FileTooLarge => format!("FILE: {name}: {error}"),
             io::ErrorKind::InvalidData | io::ErrorKind::UnexpectedEof => {
                 format!(
-                    "FILE: {name} is no certificate: {error}; 'cannonpile check --help' shows one"
+                    "FILE: {name} is not a certificate: {error}; 'cannonpile check --help' shows one"
                 )
             }
-            _ => return unreadable(name, error, A_FILE_OR_STDIN),
+            _ => return unreadable(name, error, READABLE_FILE_OR_STDIN),
         })
     }
 
-    /// Says why the pile is not asked.
+    /// Returns the reason why the pile of a certificate is invalid.
     fn refused(&self, error: &impl Display) -> Failure {
         Failure::Message(format!("FILE: {}: {error}", self.name()))
     }

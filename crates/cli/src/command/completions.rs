@@ -1,14 +1,19 @@
-//! Completions for shells, on stdout.
+//! `completions`: shell completions, on stdout.
 
 use clap::Args;
 use clap_complete::Shell;
 
 use crate::output::{Failure, write_to};
 
-/// `completions`: bash has them after `source <(cannonpile completions bash)`.
+const HELP: &str = "\
+Example:
+  source <(cannonpile completions bash)";
+
+/// The command `completions`.
 #[derive(Args)]
+#[command(after_help = HELP)]
 pub(crate) struct Completions {
-    /// The shell that is to complete commands and options
+    /// Shell that completes commands and options
     #[arg(
         value_enum,
         value_name = "bash|zsh|fish|elvish|powershell",

@@ -1,4 +1,4 @@
-//! `ensemble` and `merge`: random stackings one by one, and in parts.
+//! `ensemble` and `merge`: statistics over random stackings, computed in parts if needed.
 
 use core::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -19,28 +19,29 @@ use num_rational::BigRational;
 
 use super::{fault_probability, has_horizontal_contacts};
 use crate::args::{Format, Number, Output, SceneOptions};
-use crate::output::{Failure, Refused, open, write_to};
+use crate::output::{Failure, InputError, open, write_to};
 use crate::progress::Progress;
 use crate::{Error, tables};
 
 const HELP: &str = "\
-Every stacking of the layers below a top layer: its first sign is --first, each later one differs from the one before
-with the fault probability q, a fault. What is not linear in the stackings is counted, exactly and by number of faults: how
-many stand, the least and greatest contact force, in mg/(3cosθ), and normal force of a bottom sphere, in mg, and their
-histograms. --all goes through all of them, at most 2^24 at a time; the counts then hold for any q. --samples draws some with
-their probabilities; sample n depends on --seed and n alone.
+The ensemble consists of random stackings below a top layer. The first sign is --first. Each later sign differs from the
+one before with the fault probability q; such a sign change is a fault. --all enumerates all stackings (at most 2^24 in one
+run), and its counts hold for every q. --samples draws random ones; sample n depends only on --seed and n.
 
-stand: no contact pulls. held: with --spacing 1, those that stand with horizontal contacts. standing_probability is exact;
-of samples there is Wilson's 95 % interval, in floats. Columns of all stackings include those of which some contact pulls:
-only a prestressed pile can have such forces. Of a weightless pile stand means that none of its contacts pulls.
+Columns, a row for each number of faults:
+  faults, stackings           number of faults, and number of stackings with them
+  stand                       stable stackings: no contact needs tension
+  held                        with --spacing 1: stackings that are stable with horizontal contacts
+  min_contact, max_contact    range of the contact forces, in mg/(3cosθ), over all stackings
+  normal_min, normal_max      range of the base normal forces, in mg, over all stackings
+  standing_...                the same ranges over the stable stackings
+  stacking                    first stacking with the smallest contact force
+The ranges over all stackings include unstable ones: only a prestressed pile can have their tensile forces.
 
-  rows                   faults, stackings, stand, held, least and greatest forces of all and of those that stand, and the
-                         first stacking that has the least contact force
-  --histogram            from, to, all, standing: the mean number of forces in a pile with from <= f < to, at the fault
-                         probability; of all piles, and of those that stand
-  --format json          the whole record, with all counts: what merge reads
-
-The same bytes come out however the work is cut up: --shard I/N is one of N parts, and merge puts them together.
+standing_probability is exact with --all. With --samples there is Wilson's 95 % interval, in floats.
+--histogram prints the mean number of forces in each bin, from <= f < to, over all piles and over the stable ones.
+--format json prints the whole record, which merge and plot distribution read.
+--shard I/N computes one of N parts. merge joins them into the same bytes as one run.
 
 Examples:
   cannonpile ensemble --layers 12 --all
@@ -50,76 +51,76 @@ Examples:
 
 #[derive(Args)]
 #[command(after_help = HELP, group = ArgGroup::new("choice").required(true))]
-pub(crate) struct EnsembleOf {
+pub(crate) struct RunEnsemble {
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
-    /// Every stacking
+    /// Enumerate all stackings
     #[arg(long, group = "choice")]
     all: bool,
-    /// So many stackings, drawn at random
+    /// Number of stackings to draw at random
     #[arg(long, value_name = "N", group = "choice", allow_hyphen_values = true, value_parser = natural)]
     samples: Option<u64>,
-    /// What the samples depend on, beside their number [default: 1]
+    /// Seed of the samples, 0 to 2^64 - 1 [default: 1]
     #[arg(long, value_name = "S", conflicts_with = "all", allow_hyphen_values = true, value_parser = natural)]
     seed: Option<u64>,
-    /// The probability q that a sign differs from the one before
+    /// Probability q that a sign differs from the one before
     #[arg(long, value_name = "Q", default_value = "1/2", allow_hyphen_values = true, value_parser = fault_probability)]
     fault_probability: BigRational,
-    /// The sign of the first step: +, - or random
+    /// Sign of the first step: +, - or random
     #[arg(long, value_name = "SIGN", default_value = "+", allow_hyphen_values = true, value_parser = str::parse::<FirstSign>)]
     first: FirstSign,
-    /// The width of the bins, in mg/(3cosθ) of contact forces, in mg of normal forces
+    /// Width of the histogram bins: in mg/(3cosθ) for contact forces, in mg for normal forces
     #[arg(long, value_name = "W", default_value = "1/3", allow_hyphen_values = true, value_parser = parse::rational)]
     bins: BigRational,
-    /// One of N parts, I from 1 to N
+    /// Part I of N, with I from 1 to N
     #[arg(long, value_name = "I/N", default_value = "1/1", allow_hyphen_values = true, value_parser = str::parse::<Shard>)]
     shard: Shard,
-    /// The histogram of these forces, in place of a row for each number of faults
+    /// Print a histogram of these forces instead
     #[arg(long, value_enum, help_heading = "Output")]
-    histogram: Option<Measured>,
-    /// How numbers are printed; json is always exact
+    histogram: Option<HistogramForces>,
+    /// Format of numbers; json is always exact
     #[arg(long, value_enum, default_value = "exact", help_heading = "Output")]
     number: Number,
     #[command(flatten)]
     output: Output,
 }
 
-/// Forces that have a histogram.
+/// The forces of a histogram.
 #[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum Measured {
-    /// Of contacts between spheres
+pub(crate) enum HistogramForces {
+    /// Contact forces between spheres
     Forces,
-    /// Of bottom spheres on the floor
+    /// Base normal forces
     Normals,
 }
 
-impl From<Measured> for Binned {
-    fn from(measured: Measured) -> Self {
+impl From<HistogramForces> for Binned {
+    fn from(measured: HistogramForces) -> Self {
         match measured {
-            Measured::Forces => Self::Forces,
-            Measured::Normals => Self::Normals,
+            HistogramForces::Forces => Self::Forces,
+            HistogramForces::Normals => Self::Normals,
         }
     }
 }
 
-/// Reads an integer that is not negative and below 2⁶⁴, `1e6` too.
+/// Parses an integer from 0 to 2⁶⁴ − 1, such as `1e6`.
 fn natural(text: &str) -> Result<u64, Error> {
     let number = parse::integer(text)?;
     let expected = "a number from 0 to 2^64 - 1";
     u64::try_from(number).map_err(|_| cannonpile::Error::syntax(text, expected).into())
 }
 
-/// Whether a pile stands with horizontal contacts.
+/// Returns whether a pile is stable with horizontal contacts.
 fn stands(pile: &Pile) -> Result<bool, Error> {
     Ok(equilibrium(pile)?.claim == Claim::Stands)
 }
 
-/// Says which option is refused.
+/// Prefixes an error with its option.
 fn of_option<E: Display>(option: &'static str) -> impl Fn(E) -> Failure {
     move |error| Failure::Message(format!("--{option}: {error}"))
 }
 
-impl EnsembleOf {
+impl RunEnsemble {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let format = self.output.format()?;
         self.check_histogram(format)?;
@@ -139,9 +140,9 @@ impl EnsembleOf {
             }
         };
         let tally = {
-            // Before they are gone through.
+            // Fails here if there are too many stackings, before the progress line appears.
             let part = ensemble.size(&choice, self.shard)?;
-            let progress = Progress::of_stackings("going through stackings", part);
+            let progress = Progress::of_stackings("analysing stackings", part);
             ensemble.run_judged(&choice, self.shard, &|more| progress.advance(more), &stands)?
         };
         let record = TallyRecord::new(tally, q.clone()).map_err(of_option("fault-probability"))?;
@@ -179,7 +180,7 @@ impl EnsembleOf {
         }
         if format == Format::Json {
             return Err(Failure::Message(
-                "--histogram: json is the whole record, with both histograms: leave it out, or use csv".to_owned(),
+                "--histogram: the json record already has both histograms: leave it out, or use csv".to_owned(),
             ));
         }
         if self.shard != Shard::WHOLE {
@@ -190,13 +191,13 @@ impl EnsembleOf {
 
     fn of_a_part() -> Failure {
         Failure::Message(
-            "--histogram: means are those of the whole, and this is a part: leave out --shard, or write json and merge it"
+            "--histogram: a part of an ensemble has no means: leave out --shard, or write json and merge the parts"
                 .to_owned(),
         )
     }
 
     fn ensemble(&self) -> Result<Ensemble, Failure> {
-        let scene = self.scene.of_all_stackings()?;
+        let scene = self.scene.read_for_all_stackings()?;
         let top = match scene.anchor {
             Some(Anchor::Top(top)) => top,
             _ => Region::SITE,
@@ -208,18 +209,18 @@ impl EnsembleOf {
             .map_err(of_option("bins"))?;
         for (at, load) in &scene.loads {
             let loaded = ensemble.with_load([at.i, at.j], load.clone());
-            ensemble = loaded.map_err(|error| Refused::of(Key::Load, error))?;
+            ensemble = loaded.map_err(|error| InputError::of(Key::Load, error))?;
         }
         if scene.weightless {
             ensemble = ensemble.weightless();
         }
-        // A pile with a change of sign leaves the least room.
+        // A pile with a sign change has the smallest gaps.
         let with_a_change = || Pile::under(top, Stacking::hcp(layers.min(3))?);
         if has_horizontal_contacts(scene.spacing.as_ref(), with_a_change)? {
             if scene.weightless {
                 return Err(Failure::Message(
-                    "--weightless: which piles stand with horizontal contacts is asked of spheres that weigh something: leave it \
-                     out, or --spacing 1"
+                    "--weightless: stability with horizontal contacts needs the weight of the spheres: leave it out, or leave \
+                     out --spacing 1"
                         .to_owned(),
                 ));
             }
@@ -230,9 +231,8 @@ impl EnsembleOf {
 }
 
 const MERGE_HELP: &str = "\
-Each file is json that ensemble --shard I/N has written; they may come in any order. A part of another scene, seed, version or
-width of bins is refused by name, and so is one that is there twice; if parts are missing, it says which. The record is that
-of ensemble without --shard, byte for byte.
+Each file is the JSON record of ensemble --shard I/N; the order does not matter. All parts must have the same scene, seed,
+bins and version, each exactly once. The merged record equals that of ensemble without --shard, byte for byte.
 
 Examples:
   cannonpile merge part1.json part2.json part3.json --output whole.json";
@@ -240,10 +240,10 @@ Examples:
 #[derive(Args)]
 #[command(after_help = MERGE_HELP)]
 pub(crate) struct Merge {
-    /// The parts, as JSON
+    /// Parts of the ensemble, as JSON
     #[arg(value_name = "FILE", required = true)]
     parts: Vec<PathBuf>,
-    /// Write to a file, which is replaced only when all is written
+    /// File for the record, written atomically [default: stdout]
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     output: Option<PathBuf>,
 }
@@ -260,7 +260,7 @@ impl Merge {
         Ok(true)
     }
 
-    /// Says which file is to blame.
+    /// Prefixes an error with the file that causes it.
     fn message(&self, refused: &Unmergeable) -> Failure {
         let place = match refused {
             Unmergeable::Other { place, .. }
@@ -277,7 +277,7 @@ pub(super) fn read(path: &Path) -> Result<TallyRecord, Failure> {
     let name = path.display();
     TallyRecord::read(open(path)?).map_err(|error| {
         Failure::Message(format!(
-            "FILE: {name} is no part of an ensemble: {error}; 'cannonpile ensemble --shard I/N --format json' writes one"
+            "FILE: {name} is not part of an ensemble: {error}; 'cannonpile ensemble --shard I/N --format json' writes one"
         ))
     })
 }

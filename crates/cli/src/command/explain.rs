@@ -1,26 +1,31 @@
-//! `explain`: how a question is answered, and what that takes.
+//! `explain`: the plan of a computation, and its counted cost.
 
 use cannonpile::shape::Selection;
 use cannonpile::{Pile, Quantity};
 use cannonpile_dem::table::{NumberFormat, Table, WriteError};
 use clap::{Args, ValueEnum};
 
-use crate::args::{ByMethod, Format, Output, Part, SceneOptions, UnitSystem};
-use crate::output::{Failure, Refused};
+use crate::args::{Format, MethodOption, Output, Part, SceneOptions, UnitSystem};
+use crate::output::{Failure, InputError};
 use crate::progress::Progress;
 use crate::tables::Explanation;
 use crate::{Culprit, Error};
 
 const HELP: &str = "\
-Rows of the plan, which are bounds:
-  quantity  what is asked             runs      runs of equal steps that matter
-  method    how it is answered        visited   spheres whose forces are found
-  turned    those of them that are below a change of sign
+The plan. All numbers are upper bounds:
+  quantity  computed quantity
+  method    closed, tree or sweep
+  runs      runs of equal Hägg signs above the selected spheres
+  visited   spheres whose forces are computed
+  turned    visited spheres at sign changes
   passes    steps from a layer to the next
-  numbers   numbers kept at a time    bits      bits of the widest of them
-  planes    machine words for each    roots     square roots taken
-  rows      rows of the answer        bytes     memory for the numbers
-counted_visited, counted_turned, … say what the run took.
+  numbers   numbers in memory at a time
+  bits      bits of the widest number
+  planes    machine words of each number
+  roots     square roots
+  rows      rows of the result
+  bytes     memory for the numbers
+The rows counted_visited, counted_turned, counted_passes and counted_rows give the counts of a run.
 
 Examples:
   cannonpile explain --stacking hcp --layers 30
@@ -31,38 +36,38 @@ Examples:
 pub(crate) struct Explain {
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
-    /// What is asked of the spheres
+    /// Quantity to compute
     #[arg(long, value_enum, default_value = "contacts", help_heading = "Output")]
-    of: Asked,
+    of: QuantityName,
     #[command(flatten)]
     part: Part,
-    /// The units of forces
+    /// Units of forces
     #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
     units: UnitSystem,
     #[command(flatten)]
-    method: ByMethod,
-    /// The plan only: nothing is run
+    method: MethodOption,
+    /// Print the plan only, without a run
     #[arg(long, help_heading = "Output")]
     no_run: bool,
     #[command(flatten)]
     output: Output,
 }
 
-/// What is asked of spheres.
+/// The quantity to explain.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Asked {
-    /// What `contacts` prints
+enum QuantityName {
+    /// Contact forces, as of the command contacts
     Contacts,
-    /// The magnitudes alone; in SI
+    /// Magnitudes of the contact forces, in SI
     Magnitudes,
-    /// What `base` prints
+    /// Base forces, as of the command base
     Base,
-    /// What `spheres` prints: places, in SI
+    /// Positions, as of the command spheres, in SI
     Spheres,
 }
 
-impl Asked {
-    /// Returns the quantity, and the units that it is in: magnitudes and places are in SI.
+impl QuantityName {
+    /// Returns the quantity and its units. Magnitudes and positions are in SI.
     const fn quantity(self, units: UnitSystem) -> (Quantity, UnitSystem) {
         match (self, units) {
             (Self::Contacts, UnitSystem::Pile) => (Quantity::ContactMultiples, units),
@@ -74,7 +79,7 @@ impl Asked {
         }
     }
 
-    /// Returns the part that is asked about: on the floor there is but the base.
+    /// Returns the selected part. For base forces the whole pile means the base.
     fn part(self, part: Selection, pile: &Pile) -> Selection {
         match part {
             Selection::All if self == Self::Base => Selection::Base,
@@ -89,24 +94,24 @@ impl Explain {
         let (scene, pile) = self.scene.read()?;
         let part = self.of.part(self.part.selection(&pile)?, &pile);
         let (quantity, system) = self.of.quantity(self.units);
-        let units = self.method.of(system.of(&scene, &pile)?)?;
+        let units = self.method.apply(system.of(&scene, &pile)?)?;
         let explanation = Explanation::new(&units, quantity, part);
-        // Where a layer was named, no sphere was.
+        // The user gave --layer, so the message must not name a sphere.
         self.write(&explanation.map_err(|error| match (part, error.into()) {
             (Selection::Layer(_), error @ Error::Core(cannonpile::Error::NotOnFloor { .. })) => {
-                Refused::of(Culprit::Layer, error)
+                InputError::of(Culprit::Layer, error)
             }
             (_, error) => error.into(),
         })?)?;
         Ok(true)
     }
 
-    /// Writes the plan, before anything is run, and then what was counted.
+    /// Writes the plan, then runs it and writes the counters.
     fn write(&self, explanation: &Explanation<'_>) -> Result<(), Failure> {
         let format = self.output.format()?;
         if !self.no_run {
-            let asked = explanation.check();
-            asked.map_err(|error| Refused::of_rows(error, "--layer, --at or --no-run"))?;
+            let checked = explanation.check();
+            checked.map_err(|error| InputError::of_rows(error, "--layer, --at or --no-run"))?;
         }
         let progress = Progress::begin("counting");
         self.output.write(&progress, |out| {

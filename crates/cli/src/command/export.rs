@@ -1,4 +1,4 @@
-//! `export`: a whole pile as files.
+//! `export`: writes a pile as files.
 
 use std::io::{self, IsTerminal, Write};
 use std::path::{self, Path, PathBuf};
@@ -12,22 +12,20 @@ use cannonpile_figure::viewer::Page;
 use clap::{Args, ValueEnum};
 use num_traits::One;
 
-use super::note_if_it_falls;
-use crate::args::{Format, SceneOptions, agreed};
-use crate::output::{Failure, complain, write_to};
+use super::note_instability;
+use crate::args::{Format, SceneOptions, resolve_format};
+use crate::output::{Failure, print_message, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-All numbers are in SI, for R = 1 m, m = 1 kg and g = 1 m/s² unless these are given. scene.toml describes it, for
---scene. Files are written under other names, and renamed when all are complete.
+All numbers are in SI. Each export also writes scene.toml, which --scene reads. All files appear together, when all are
+complete.
 
-A card is a benchmark on a page: what the pile is, the exact answers, what springs may be off by, what a code must satisfy and
-how that is checked, how to cite. Long lists are left to the files of csv. lammps-test and yade-check are to be put among the
-tests of these codes: they hold the pile and its answers, and fail with the worst place.
+A card is a benchmark on one page: the pile, the exact forces, the error of springs, the acceptance criteria, and how to
+cite it. lammps-test and yade-check are regression tests for the test suites of these codes, with the exact forces inside.
 
-A page is one file, which a browser opens without a network: the pile to be turned, cut and asked for its forces. With a
-name that ends in .html it is written alone, and needs no folder; where neighbours of a layer touch, --state elastic shows
-both states beside each other.
+The HTML viewer is one file that a browser opens offline. It rotates and cuts the pile and shows the forces. If DIR ends in
+.html, only this file is written. With --state elastic it shows the isostatic and the elastic state.
 
 Examples:
   cannonpile export pile --to lammps --layers 10 --spacing 1.2
@@ -39,10 +37,10 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Export {
-    /// The folder, created if it is missing; other files in it stay as they are. Of --to html alone also a file, FILE.html
+    /// Folder for the files, created if it is missing; for --to html alone also a file, FILE.html
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// What the files are for; several separated by commas, or the option repeated
+    /// Formats, separated by commas; repeatable
     #[arg(
         long,
         value_enum,
@@ -53,7 +51,7 @@ pub(crate) struct Export {
     to: Vec<Target>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
-    /// Write the list of the files to this file, not to stdout
+    /// File for the list of the written files [default: stdout]
     #[arg(
         long,
         value_name = "FILE",
@@ -61,7 +59,7 @@ pub(crate) struct Export {
         help_heading = "List of the files"
     )]
     list: Option<PathBuf>,
-    /// How the list is written [default: by the ending of --list, .csv or .json; else table]
+    /// Format of the list [default: csv or json if --list ends so, otherwise table]
     #[arg(
         long,
         value_enum,
@@ -74,23 +72,23 @@ pub(crate) struct Export {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Target {
-    /// spheres.csv, contacts.csv, base.csv: spheres by number; and columns.csv, which explains their columns
+    /// Tables: spheres.csv, contacts.csv, base.csv, and columns.csv, which explains their columns
     Csv,
-    /// For LAMMPS: pile.data, and pile.in, which relaxes it and writes forces.dump
+    /// LAMMPS input: pile.data and pile.in, which relaxes the pile and writes forces.dump
     Lammps,
-    /// For ParaView: spheres.vtp, contacts.vtp
+    /// ParaView geometry: spheres.vtp and contacts.vtp
     Vtp,
-    /// For YADE: spheres.txt, and pile.py, which relaxes it and writes forces.csv
+    /// YADE input: spheres.txt and pile.py, which relaxes the pile and writes forces.csv
     Yade,
-    /// A benchmark card: card.md for people, card.json for machines, with the exact answers and what a code must satisfy
+    /// Benchmark card: card.md for people and card.json for programs
     Card,
-    /// For the suite of LAMMPS: dem-pile.yaml, in the style of unittest/granular; up to 2000 spheres that come to rest
+    /// Test for the LAMMPS suite unittest/granular: dem-pile.yaml; stable piles of at most 2000 spheres
     LammpsTest,
-    /// For the suite of YADE: checkPile.py, in the style of scripts/checks-and-tests/checks; up to 2000 spheres
+    /// Test for the YADE suite scripts/checks-and-tests/checks: checkPile.py; at most 2000 spheres
     YadeCheck,
-    /// For a browser: pile.html, a page to look into the pile, or FILE.html alone; up to 100000 spheres
+    /// HTML viewer: pile.html, or FILE.html alone; at most 100000 spheres
     Html,
-    /// csv, lammps, vtp, yade and card; not the tests of suites and the page, which are of small piles
+    /// csv, lammps, vtp, yade and card
     All,
 }
 
@@ -116,14 +114,14 @@ impl Target {
     }
 }
 
-/// The file of [`Target::Html`].
+/// The file name of [`Target::Html`].
 const PAGE: &str = "pile.html";
 
-/// From this many bytes on it is said before how much will be written.
-const MUCH: u64 = 1_000_000_000;
+/// From this number of bytes on, a note announces the size beforehand.
+const LARGE_EXPORT: u64 = 1_000_000_000;
 
 impl Export {
-    /// Writes the files, and then what they are.
+    /// Writes the files, and then their list.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
@@ -133,19 +131,19 @@ impl Export {
         let formats = self.formats();
         check_springs(&scene, &formats)?;
         let page = self.page(&packing, &scene)?;
-        self.keep_apart(&formats)?;
-        let format = agreed(
+        self.check_list_path(&formats)?;
+        let format = resolve_format(
             "list-format",
             self.list_format,
             "list",
             self.list.as_deref(),
         )?;
-        self.check_room(&export, &formats)?;
+        self.check_free_space(&export, &formats)?;
         let begun = Instant::now();
         let progress = Progress::of_rows("files", Some(rows(&export, &formats)));
         let advance = &mut |rows| progress.advance(rows);
         let written = match &page {
-            Some(page) if self.is_of_page(&formats) => {
+            Some(page) if self.is_viewer_only(&formats) => {
                 self.write_page(page).map(|written| vec![written])
             }
             Some(page) => {
@@ -157,25 +155,25 @@ impl Export {
         };
         drop(progress);
         let written = written.map_err(|error| match error {
-            WriteError::Answer(error) => self.scene.beyond_floats(error.into(), &scene),
+            WriteError::Answer(error) => self.scene.overflow_failure(error.into(), &scene),
             error => Failure::of_writing(error, "list", self.list.as_deref()),
         })?;
         write_to("list", self.list.as_deref(), |out| {
             files(&written).write(format.into(), NumberFormat::Exact, out)
         })?;
-        note_if_it_falls(&pile);
-        tell_rate(&written, begun);
+        note_instability(&pile);
+        print_rate(&written, begun);
         Ok(true)
     }
 
-    /// Returns whether the page is asked for alone, by the name of a file.
-    fn is_of_page(&self, formats: &[PileFormat]) -> bool {
+    /// Returns whether the viewer is the only file, named by the user.
+    fn is_viewer_only(&self, formats: &[PileFormat]) -> bool {
         let ending = self.folder.extension().and_then(|ending| ending.to_str());
         let is_html = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
         self.to.contains(&Target::Html) && formats.is_empty() && is_html && !self.folder.is_dir()
     }
 
-    /// Writes the page where the folder would be.
+    /// Writes the viewer to the path that otherwise names the folder.
     fn write_page(&self, page: &Page<'_>) -> Result<Written, WriteError> {
         let (path, mut bytes) = (self.folder.clone(), 0);
         let written = write_aside(&path, |out| {
@@ -196,7 +194,7 @@ impl Export {
         }
     }
 
-    /// Returns what a card says of the scene.
+    /// Returns the title of the benchmark card.
     fn title(&self, scene: &Scene) -> CardTitle {
         let ratio = (scene.state == State::Elastic).then(|| scene.stiffness_ratio.clone());
         let of_scene = CardTitle {
@@ -215,7 +213,7 @@ impl Export {
         }
     }
 
-    /// Returns the page, if it is asked for. A pile that is too large for it is refused before anything is written.
+    /// Returns the viewer, if `--to` selects it. Fails before any file is written if the pile is too large for it.
     fn page<'p>(&self, packing: &Packing<'p>, scene: &Scene) -> Result<Option<Page<'p>>, Failure> {
         if !self.to.contains(&Target::Html) {
             return Ok(None);
@@ -225,22 +223,22 @@ impl Export {
         Ok(Some(page.with_scene(scene.to_toml())))
     }
 
-    /// Returns the formats asked for, each once.
+    /// Returns the formats of `--to`, each once.
     fn formats(&self) -> Vec<PileFormat> {
         let asked: Vec<_> = self.to.iter().flat_map(|target| target.formats()).collect();
         let chosen = PileFormat::ALL.into_iter();
         chosen.filter(|format| asked.contains(&format)).collect()
     }
 
-    /// The list must not take the place of one of the files that it lists.
-    fn keep_apart(&self, formats: &[PileFormat]) -> Result<(), Failure> {
+    /// Checks that `--list` does not overwrite one of the files of the export.
+    fn check_list_path(&self, formats: &[PileFormat]) -> Result<(), Failure> {
         let Some(list) = &self.list else {
             return Ok(());
         };
         let place = |path: &Path| path::absolute(path).ok();
         let files = formats.iter().flat_map(|format| format.files());
         let page = self.to.contains(&Target::Html).then(|| {
-            if self.is_of_page(formats) {
+            if self.is_viewer_only(formats) {
                 self.folder.clone()
             } else {
                 self.folder.join(PAGE)
@@ -250,40 +248,44 @@ impl Export {
         if paths.any(|path| place(&path) == place(list)) {
             let list = list.display();
             return Err(Failure::Message(format!(
-                "--list: {list} is one of the files of the export: name another file for the list"
+                "--list: {list} is one of the exported files: give another file name"
             )));
         }
         Ok(())
     }
 
-    /// Says how much will be written, if it is much, and refuses what the disk has no room for.
-    fn check_room(&self, files: &PileExport<'_>, formats: &[PileFormat]) -> Result<(), Failure> {
+    /// Prints a note about a large export, and fails if the disk has too little space.
+    fn check_free_space(
+        &self,
+        files: &PileExport<'_>,
+        formats: &[PileFormat],
+    ) -> Result<(), Failure> {
         let all = formats.iter().flat_map(|format| format.files());
         let bytes: u64 = all.map(|file| bytes(files, *file)).sum();
-        if bytes < MUCH {
+        if bytes < LARGE_EXPORT {
             return Ok(());
         }
-        let gigabytes = bytes / MUCH;
+        let gigabytes = bytes / LARGE_EXPORT;
         let folder = self.folder.display();
         let there = path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
         let there = there.ancestors().find(|folder| folder.exists());
-        // Where this is not known, the disk will say it.
+        // If the free space is unknown, a full disk is reported while writing.
         let room = there.and_then(|folder| fs4::available_space(folder).ok());
         if let Some(room) = room.filter(|room| *room < bytes) {
             return Err(Failure::Message(format!(
-                "DIR: {folder} would take about {gigabytes} GB, and its disk has room for {}: choose another disk, fewer \
-                 formats or fewer layers",
+                "DIR: {folder} needs about {gigabytes} GB, but its disk has only {} free: use another disk, fewer formats or \
+                 fewer layers",
                 indicatif::DecimalBytes(room)
             )));
         }
-        complain(&format!(
-            "note: about {gigabytes} GB will be written into {folder}"
+        print_message(&format!(
+            "note: this export writes about {gigabytes} GB to {folder}"
         ));
         Ok(())
     }
 }
 
-/// Scripts have one stiffness for all springs.
+/// Checks that scripts for DEM codes, which have a single spring stiffness, can represent the scene.
 fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
     let scripts = [
         PileFormat::Lammps,
@@ -296,15 +298,15 @@ fn check_springs(scene: &Scene, formats: &[PileFormat]) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::Message(format!(
-        "--stiffness-ratio: the springs of LAMMPS and YADE are alike here, not {} times as stiff in horizontal contacts: use \
-         1, or --to csv,vtp",
+        "--stiffness-ratio: the scripts for LAMMPS and YADE have one stiffness for all contacts, not the ratio {}: use 1, or \
+         --to csv,vtp",
         scene.stiffness_ratio
     )))
 }
 
-/// Returns about how many bytes a file will have, rather too few than too many.
+/// Estimates the size of a file in bytes, from below.
 fn bytes(files: &PileExport<'_>, file: PileFile) -> u64 {
-    // Measured for 100 layers.
+    // Bytes a row, measured for 100 layers.
     let a_row = match file {
         PileFile::ContactsVtp => 137,
         PileFile::SpheresVtp => 104,
@@ -316,14 +318,14 @@ fn bytes(files: &PileExport<'_>, file: PileFile) -> u64 {
     files.rows(file).unwrap_or(0) * a_row
 }
 
-/// Returns the rows of all files.
+/// Returns the number of rows of all files.
 fn rows(files: &PileExport<'_>, formats: &[PileFormat]) -> u64 {
     let rows = formats.iter().flat_map(|format| format.files());
     rows.filter_map(|file| files.rows(*file)).sum()
 }
 
-/// Says in one line on stderr how fast it was, at a terminal, or if it took more than a second.
-fn tell_rate(written: &[Written], begun: Instant) {
+/// Prints the rate on stderr, at a terminal or after more than a second.
+fn print_rate(written: &[Written], begun: Instant) {
     let seconds = begun.elapsed().as_secs_f64();
     if seconds < 1.0 && !io::stderr().is_terminal() {
         return;
@@ -336,7 +338,7 @@ fn tell_rate(written: &[Written], begun: Instant) {
     )]
     let rate = rows as f64 / seconds;
     let files = written.len();
-    complain(&format!(
+    print_message(&format!(
         "{rows} rows and {bytes} bytes in {files} files in {seconds:.1} s: {rate:.0} rows/s"
     ));
 }

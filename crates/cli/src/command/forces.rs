@@ -1,4 +1,4 @@
-//! `base` and `contacts`: the forces on the floor, and those between spheres.
+//! `base` and `contacts`: base forces and contact forces.
 
 use std::path::PathBuf;
 
@@ -10,13 +10,15 @@ use cannonpile_dem::table::{Table, Units};
 use cannonpile_horizontal::certificate::{Certificate, write_certificate};
 use clap::Args;
 
-use super::Tension;
+use super::TensionCheck;
 use crate::Culprit;
-use crate::args::{BaseAt, ByMethod, Numbers, Output, Part, SceneOptions, narrower, spheres};
-use crate::output::{Failure, Refused, write_to};
+use crate::args::{
+    BasePart, MethodOption, Numbers, Output, Part, SceneOptions, spheres, with_row_options,
+};
+use crate::output::{Failure, InputError, write_to};
 use crate::progress::Progress;
 
-/// A scene, which of its spheres are asked about, and how the forces are found and shown.
+/// The options of `base` and `contacts`: scene, selection `P`, numbers, method and output.
 #[derive(Args)]
 pub(crate) struct Forces<P: Args> {
     #[command(flatten)]
@@ -26,42 +28,43 @@ pub(crate) struct Forces<P: Args> {
     #[command(flatten)]
     numbers: Numbers,
     #[command(flatten)]
-    method: ByMethod,
+    method: MethodOption,
     #[command(flatten)]
     output: Output,
-    /// Write the proof of the elastic state to this file, for the command check
+    /// File for the certificate of the elastic state, which the command check reads
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     certificate: Option<PathBuf>,
 }
 
 /// `base`: the force of each bottom sphere on the floor.
-pub(crate) type Base = Forces<BaseAt>;
+pub(crate) type Base = Forces<BasePart>;
 
 /// `contacts`: the force of each contact between two spheres.
-pub(crate) type Contacts = Forces<OfContacts>;
+pub(crate) type Contacts = Forces<ContactPart>;
 
-/// A part of the pile, and which of its contacts.
+/// The selection of `contacts`: a part of the pile, and the kinds of contacts.
 #[derive(Args)]
-pub(crate) struct OfContacts {
+pub(crate) struct ContactPart {
     #[command(flatten)]
     part: Part,
-    /// All horizontal contacts of the elastic state, also those that are open
+    /// List the open horizontal contacts too, with --state elastic
     #[arg(long, help_heading = "Output")]
     touching: bool,
 }
 
 /// A table of forces.
-struct Asked {
+struct ForceQuery {
+    /// The text of the progress line.
     doing: &'static str,
-    /// The column with the force, positive for a push.
+    /// The column with the force, positive in compression.
     column: &'static str,
-    /// How many rows a sphere has.
+    /// The number of rows of a sphere.
     rows: usize,
     table: for<'p> fn(&Units<'p>, Selection) -> Result<Table<'p>, cannonpile_dem::Error>,
 }
 
 impl<P: Args> Forces<P> {
-    /// Returns the scene, its pile with the horizontal forces of its state, and the proof of these, if it is wanted.
+    /// Returns the scene, its pile with the horizontal forces of its state, and their certificate, if `--certificate` is given.
     fn read(&self) -> Result<(Scene, Pile, Option<Certificate>), Failure> {
         if self.certificate.is_none() {
             let (scene, pile) = self.scene.read_state()?;
@@ -70,19 +73,19 @@ impl<P: Args> Forces<P> {
         let (scene, pile) = self.scene.read_whole()?;
         if scene.state == State::Isostatic {
             return Err(Failure::Message(
-                "--certificate: isostatic forces follow from balance alone and need none: give --state elastic, or leave \
+                "--certificate: isostatic forces need no certificate, because they are unique: add --state elastic, or leave \
                  it out"
                     .to_owned(),
             ));
         }
-        let progress = Progress::begin("finding the elastic state");
+        let progress = Progress::begin("computing the elastic state");
         let elastic = scene.elastic(&pile)?;
         drop(progress);
         let certificate = elastic.certificate().cloned();
         let certificate = certificate.ok_or_else(|| {
             Failure::Message(
-                "--certificate: that straight piles open is proved for all of them, and a file for this one would be too \
-                 long: leave it out, or use fewer layers"
+                "--certificate: the certificate of this pile would be too large (the elastic state of straight piles is \
+                 proved for every L): leave it out, or use fewer layers"
                     .to_owned(),
             )
         })?;
@@ -93,31 +96,36 @@ impl<P: Args> Forces<P> {
         &self,
         (scene, pile, certificate): &(Scene, Pile, Option<Certificate>),
         selection: Selection,
-        asked: &Asked,
+        query: &ForceQuery,
     ) -> Result<bool, Failure> {
         self.output.format()?;
-        let rows = spheres(pile, selection)? * asked.rows;
-        let progress = Progress::of_rows(asked.doing, rows.try_into().ok());
-        let units = self.method.of(self.numbers.units.of(scene, pile)?)?;
-        let table = (asked.table)(&units, selection).map_err(|error| narrower(error, selection))?;
+        let rows = spheres(pile, selection)? * query.rows;
+        let progress = Progress::of_rows(query.doing, rows.try_into().ok());
+        let units = self.method.apply(self.numbers.units.of(scene, pile)?)?;
+        let table =
+            (query.table)(&units, selection).map_err(|error| with_row_options(error, selection))?;
         if let Some(certificate) = certificate {
             write_to("certificate", self.certificate.as_deref(), |mut out| {
                 Ok(write_certificate(certificate, &mut out)?)
             })?;
         }
-        let pulls = Tension::in_column(asked.column);
+        let tension = TensionCheck::in_column(query.column);
         self.output
-            .write_table(pulls.watch(table), self.numbers.number, &progress)?;
+            .write_table(tension.watch(table), self.numbers.number, &progress)?;
         drop(progress);
-        pulls.note(pile, selection);
+        tension.note(pile, selection);
         Ok(true)
     }
 }
 
 impl Base {
     pub(crate) const HELP: &str = "\
-Columns: i, j; normal, downwards, in mg; shear_x in mg·tanθ and shear_y in √3·mg·tanθ (2cosφ·mg·tanθ for another base
-triangle), also in csv and json; with --units si all in N, for m = 1 kg and g = 1 m/s² unless these are given.
+Columns (force of the pile on the floor):
+  i, j      bottom sphere
+  normal    downward force, in mg
+  shear_x   horizontal force along x, in mg·tanθ
+  shear_y   horizontal force along y, in √3·mg·tanθ (in 2cosφ·mg·tanθ with --sin-phi)
+With --units si all forces are in N.
 
 Examples:
   cannonpile base --layers 10
@@ -127,23 +135,27 @@ Examples:
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let read = self.read()?;
         let selection = self.part.selection(&read.1)?;
-        let asked = Asked {
-            doing: "forces on the floor",
+        let query = ForceQuery {
+            doing: "base forces",
             column: "normal",
             rows: 1,
             table: table::base,
         };
-        self.write(&read, selection, &asked)
+        self.write(&read, selection, &query)
     }
 }
 
 impl Contacts {
     pub(crate) const HELP: &str = "\
-Each row is a sphere (k, i, j), counted from k = 0 at the top, and its contact with the sphere below it in one direction.
-The force is positive for a push, in mg/(3cosθ); with --units si in N and m, for R = 1 m, m = 1 kg and g = 1 m/s² unless
-these are given, with the force on the upper sphere fx, fy, fz and the point of contact x, y, z. With --state elastic rows
-of horizontal contacts that bear a force follow those of their sphere (k, i, j), whose neighbour is (i+1, j) for the
-direction alpha-beta, (i, j+1) for alpha-gamma, (i+1, j-1) for gamma-beta; the neighbour has no row of its own for it.
+Columns:
+  k, i, j      upper sphere of the contact, with k = 0 at the top
+  direction    direction to the lower sphere: alpha, beta or gamma
+  force        contact force, positive in compression, in mg/(3cosθ); in N with --units si
+  fx, fy, fz   with --units si: force on the upper sphere, in N
+  x, y, z      with --units si: contact point, in m
+
+With --state elastic closed horizontal contacts have rows too, once for each pair. Their direction gives the neighbour:
+  alpha-beta (i+1, j)    alpha-gamma (i, j+1)    gamma-beta (i+1, j-1)
 
 Examples:
   cannonpile contacts --layers 4
@@ -157,20 +169,20 @@ Examples:
         let selection = self.part.part.selection(pile)?;
         if self.part.touching && scene.state == State::Isostatic {
             return Err(Failure::Message(
-                "--touching: horizontal contacts are those of the elastic state: give --state elastic, or leave it out"
+                "--touching: only the elastic state has horizontal contacts: add --state elastic, or leave it out"
                     .to_owned(),
             ));
         }
         if let Selection::One(site) = selection
             && site.k == pile.layers() - 1
         {
-            return Err(Refused {
+            return Err(InputError {
                 remedy: Some("the command base"),
-                ..Refused::of(Culprit::Site, cannonpile::Error::on_floor(site))
+                ..InputError::of(Culprit::Site, cannonpile::Error::on_floor(site))
             }
             .into());
         }
-        let asked = Asked {
+        let query = ForceQuery {
             doing: "contact forces",
             column: "force",
             rows: pile.dimension().directions().len(),
@@ -180,6 +192,6 @@ Examples:
                 table::contacts
             },
         };
-        self.write(&read, selection, &asked)
+        self.write(&read, selection, &query)
     }
 }

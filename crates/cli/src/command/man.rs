@@ -1,4 +1,4 @@
-//! Pages of the manual, a file for each command.
+//! `man`: writes the manual pages, a file for each command.
 
 use std::path::PathBuf;
 
@@ -8,27 +8,26 @@ use clap::{Args, Command};
 use crate::output::{Failure, write_to};
 
 const HELP: &str = "\
-The pages say what --help says. The folder is created if it is missing; all pages are written under other names, and
-renamed when the last is complete.
+Each page contains the text of --help. The pages appear together, when all are complete.
 
 Examples:
   cannonpile man man1
   man -l man1/cannonpile-base.1";
 
-/// `man`: packages install its pages, `man` shows them.
+/// The command `man`, for packages that install manual pages.
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Man {
-    /// The folder to write cannonpile.1, cannonpile-base.1 and the others into
+    /// Folder for cannonpile.1, cannonpile-base.1 and the other pages, created if it is missing
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }
 
 impl Man {
-    /// Writes the pages of the whole command line, and lists their files.
+    /// Writes the pages of all commands and lists their files.
     pub(crate) fn write(&self, line: Command) -> Result<bool, Failure> {
         let mut line = line.disable_help_subcommand(true);
-        // Commands below others have their whole names then.
+        // This gives subcommands their full names.
         line.build();
         let pages = pages(&line);
         let pages = pages.into_iter();
@@ -47,7 +46,7 @@ impl Man {
     }
 }
 
-/// Returns the page of a command, and those of the commands below it.
+/// Returns the page of a command, and those of its subcommands.
 fn pages(command: &Command) -> Vec<clap_mangen::Man> {
     let below = command.get_subcommands().flat_map(pages);
     let own = clap_mangen::Man::new(command.clone());

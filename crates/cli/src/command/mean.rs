@@ -1,4 +1,4 @@
-//! `mean`: what the base bears in the mean over random stackings.
+//! `mean`: base forces, averaged over random stackings.
 
 use cannonpile::scalar::Algebra;
 use cannonpile_dem::table::{NumberFormat, Table};
@@ -7,32 +7,40 @@ use clap::{Args, ValueEnum};
 use num_rational::BigRational;
 
 use super::fault_probability;
-use crate::args::{Output, PilesOfStackings};
-use crate::output::{Failure, complain};
+use crate::args::{Output, RandomSceneOptions};
+use crate::output::{Failure, print_message};
 use crate::progress::Progress;
 use crate::tables;
 
 const HELP: &str = "\
-Of the L - 1 steps from layer to layer the first has the sign of --first; each later one differs from the one before with
-the fault probability q, independently: q = 0 is FCC, q = 1 is HCP, and at q = 1/2 all stackings are equally likely. The mean
-is over all of them, those included that cannot stand. So it is that of prestressed piles, whose contacts can pull because
-they are glued, or pressed together by more than these forces; a negative normal is of such piles alone.
+The first sign of a stacking is --first. Each later sign differs from the one before with the fault probability q: q = 0
+gives FCC, q = 1 gives HCP, and with q = 1/2 all stackings are equally likely.
 
-Columns, a row for each place of the bottom layer where some stacking has a sphere (in the plane: within reach of a load):
-  a, b         the place a u_beta + b u_gamma, from that of the sphere (0,0) of the top layer (with --base: of the base); u_beta
-               and u_gamma are the horizontal parts of the contacts beta and gamma below a + step, at 120 degrees, of the length
-               2R sin(theta). The sphere (i,j) of a layer, s net + steps further down, is at a = 2i + j - s, b = i + 2j - s: a
-               place has a sphere only in layers with s = a + b modulo 3
-  probability  that a sphere is there
-  normal       mean normal force on the floor in mg, its own weight included; a stacking without a sphere there counts as 0,
-               with --given sphere it does not count
-  shear_x      mean shear in mg tan(theta) along x, and
-  shear_y      in sqrt(3) mg tan(theta) along y, as in the command base
-With --by faults: faults, the number d of changes of sign; stackings, how many of those with d faults have a sphere there;
-normal, the sum over these. The mean is the sum of normal q^d (1-q)^(L-2-d) over d, half that if the first sign is random.
+The mean is over all stackings, unstable ones included. Their tensile forces need a prestressed pile: one that is glued, or
+compressed by larger forces. A negative normal force occurs in prestressed piles only.
 
-With --base a stacking that the base does not carry to L layers counts as one without spheres.
-The time grows like L^3 (exact numbers, also longer), with --symbolic and --by faults like L^4, with --base like one power more.
+Columns, a row for each position of the bottom layer where some stacking has a sphere. With --top plane only positions that
+a load reaches have rows:
+  a, b         horizontal position a u_beta + b u_gamma, from the sphere (0,0) of the top layer (with --base: of the base);
+               u_beta and u_gamma are the horizontal parts of the contact directions beta and gamma below a + step. Their
+               length is 2R sin(theta), and their angle is 120 degrees
+  probability  probability of a sphere at this position
+  normal       mean base normal force, in mg, with the weight of the sphere. A stacking without a sphere at this position
+               counts as 0; with --given sphere it does not count
+  shear_x      mean shear force along x, in mg tan(theta)
+  shear_y      mean shear force along y, in sqrt(3) mg tan(theta)
+The sphere (i,j) of a layer, s net + steps further down, is at a = 2i + j - s, b = i + 2j - s. So a layer has spheres only
+at positions with s = a + b modulo 3.
+
+Columns of --by faults:
+  faults       number d of faults (sign changes)
+  stackings    number of stackings with d faults and a sphere at this position
+  normal       sum of the base normal force over these stackings. The mean is the sum over d of normal q^d (1-q)^(L-2-d);
+               half of it with --first random
+
+With --base a stacking that the base cannot support up to L layers counts as one without spheres.
+The time grows like L^3 for floats, and faster for exact numbers. It has another factor of L with --symbolic, with --by
+faults, and with --base.
 
 Examples:
   cannonpile mean --top plane --weightless --load 0,0,0=1 --layers 5 --symbolic
@@ -44,14 +52,14 @@ Examples:
 #[command(after_help = HELP)]
 pub(crate) struct Mean {
     #[command(flatten)]
-    scene: PilesOfStackings,
-    /// The probability q that the sign changes, between 0 and 1 [default: 1/2]
+    scene: RandomSceneOptions,
+    /// Probability q that a sign differs from the one before, 0 to 1 [default: 1/2]
     #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability, conflicts_with_all = ["symbolic", "by"], help_heading = "Random stackings")]
     fault_probability: Option<BigRational>,
-    /// Polynomials in q, for every fault probability
+    /// Print polynomials in q, valid for every fault probability
     #[arg(long, conflicts_with = "by", help_heading = "Random stackings")]
     symbolic: bool,
-    /// By the number of faults: sums over the stackings with so many
+    /// Print sums over stackings, grouped by this number
     #[arg(
         long,
         value_enum,
@@ -59,10 +67,10 @@ pub(crate) struct Mean {
         help_heading = "Random stackings"
     )]
     by: Option<By>,
-    /// Means over those stackings alone that have a sphere at the place
+    /// Average only over stackings with this property
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with_all = ["symbolic", "by"], help_heading = "Random stackings")]
     given: Option<Given>,
-    /// How numbers are found and printed
+    /// Format of numbers, in computation and output
     #[arg(long, value_enum, default_value = "exact", help_heading = "Output")]
     number: Number,
     #[command(flatten)]
@@ -71,13 +79,13 @@ pub(crate) struct Mean {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum By {
-    /// Changes of sign
+    /// Number of faults (sign changes)
     Faults,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Given {
-    /// That a sphere is there
+    /// A sphere at the position
     Sphere,
 }
 
@@ -85,7 +93,7 @@ enum Given {
 enum Number {
     /// Rationals: 7/3
     Exact,
-    /// Double-precision floats, to some 15 digits; with --by faults the nearest
+    /// Double-precision floats with about 15 correct digits; with --by faults correctly rounded
     F64,
 }
 
@@ -102,7 +110,7 @@ impl Mean {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let piles = self.scene.read()?;
         self.output.format()?;
-        let progress = Progress::begin("adding up stackings");
+        let progress = Progress::begin("averaging over stackings");
         if self.by.is_some() {
             let by_faults = piles
                 .by_faults()
@@ -112,7 +120,7 @@ impl Mean {
             self.write(self.table(&piles)?, &progress)?;
         }
         drop(progress);
-        complain(
+        print_message(
             "note: this is over all stackings, those that cannot stand included; where a normal is negative it is that of \
              prestressed piles alone, glued or pressed together",
         );
@@ -128,7 +136,7 @@ impl Mean {
         if self.symbolic {
             if self.number == Number::F64 {
                 return Err(Failure::Message(
-                    "--number f64: polynomials have exact coefficients: leave it out, or use --fault-probability".to_owned(),
+                    "--number f64: polynomials always have exact coefficients: leave it out, or use --fault-probability".to_owned(),
                 ));
             }
             let polynomials = piles

@@ -1,4 +1,4 @@
-//! `plot KIND`: the figures.
+//! `plot KIND`: draws figures.
 
 use std::path::{Path, PathBuf};
 
@@ -14,15 +14,15 @@ use clap::{Args, Subcommand};
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::ensemble::Measured as Histogram;
+use super::ensemble::HistogramForces;
 use super::fault_probability;
-use crate::args::{SceneOptions, UnitSystem, one};
-use crate::output::{Failure, Refused, complain, open, write_to};
+use crate::args::{SceneOptions, UnitSystem, parse_site};
+use crate::output::{Failure, InputError, open, print_message, write_to};
 use crate::progress::Progress;
 use crate::{Culprit, Error};
 
 const HELP: &str = "\
-z points up in figures, as in exported files.
+In figures z points up, as in exported files.
 
 Examples:
   cannonpile plot shear --output shear.svg
@@ -39,21 +39,21 @@ Examples:
 #[derive(Subcommand)]
 #[command(after_help = HELP)]
 pub(crate) enum Plot {
-    /// The pile in perspective, of four layers unless the scene says how many
-    Pile(Of),
-    /// The indices i and j of the spheres of a layer
+    /// Draw the pile in perspective, with four layers by default
+    Pile(PileFigure),
+    /// Draw the indices i, j of the spheres of a layer
     Indexing {
         #[command(flatten)]
-        of: Of,
-        /// The layer, counted from 0 at the top [default: 3, or the bottom layer if there are fewer]
+        of: PileFigure,
+        /// Layer, counted from 0 at the top [default: 3, or the bottom layer if it is higher]
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
-    /// The forces on one sphere
+    /// Draw the forces on one sphere
     Sphere {
         #[command(flatten)]
-        of: Measured,
-        /// The sphere: K,I,J with k counted from 0 at the top, or I,J on the base (discs: K,I or I) [default: in the middle]
+        of: ForceFigure,
+        /// Sphere: K,I,J with k from 0 at the top, or I,J on the base (discs: K,I or I) [default: in the middle]
         #[arg(
             long,
             value_name = "K,I,J",
@@ -62,28 +62,28 @@ pub(crate) enum Plot {
         )]
         at: Option<String>,
     },
-    /// The shear force on the floor, as arrows
-    Shear(Measured),
-    /// The normal force on the floor, as a map
-    Base(Measured),
-    /// What each bottom sphere can bear at a = R, at least and at most, as a map
-    Bounds(Measured),
-    /// The contact forces as lines, in a vertical section through the middle
+    /// Draw the base shear forces as arrows
+    Shear(ForceFigure),
+    /// Map the base normal forces
+    Base(ForceFigure),
+    /// Map the bounds of the base normal forces at a = R
+    Bounds(ForceFigure),
+    /// Draw the contact forces as lines, in a vertical section through the middle
     Network {
         #[command(flatten)]
-        of: Measured,
-        /// Instead, the forces of this layer on the next, seen from above; counted from 0 at the top
+        of: ForceFigure,
+        /// Layer whose forces on the next one are drawn from above, counted from 0 at the top [default: a vertical section]
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
     },
-    /// The vertical force in a layer of weightless spheres, as a map: of --load, or of 1 mg on the middle of a wide top
+    /// Map the response of a layer to --load, or to 1 mg on the middle of a wide top
     Response {
         #[command(flatten)]
-        of: Measured,
-        /// The layer, counted from 0 at the top [default: the bottom layer]
+        of: ForceFigure,
+        /// Layer, counted from 0 at the top [default: the bottom layer]
         #[arg(long, value_name = "K", allow_hyphen_values = true, value_parser = parse::integer, help_heading = "Output")]
         layer: Option<i128>,
-        /// The steps between faults, from the top: 2,3 is ++---; in place of --stacking and --layers
+        /// Stacking, as numbers of steps between faults from the top: 2,3 is ++---; excludes --stacking and --layers
         #[arg(
             long,
             value_name = "M,N,...",
@@ -91,80 +91,79 @@ pub(crate) enum Plot {
             conflicts_with = "fault_probability"
         )]
         faults: Option<String>,
-        /// Instead, the mean over random stackings below a wide top that begin with + and change with these probabilities,
-        /// a map for each
+        /// Fault probabilities of random stackings that begin with +; draws the mean response, a map for each
         #[arg(long, value_name = "Q,...", allow_hyphen_values = true, value_delimiter = ',', value_parser = fault_probability, conflicts_with = "layer")]
         fault_probability: Vec<BigRational>,
-        /// Of these means the sum over rings, as curves over the distance from the load's line
+        /// Draw ring sums of the mean response, as curves over the distance from the load axis
         #[arg(long, requires = "fault_probability")]
         profile: bool,
     },
-    /// How forces are distributed over random stackings: the histogram of an ensemble
+    /// Draw the force distribution of an ensemble
     Distribution {
-        /// A record of ensemble or merge, in json
+        /// JSON record of ensemble or merge
         #[arg(value_name = "FILE")]
         record: PathBuf,
-        /// Of which forces
+        /// Forces of the histogram
         #[arg(long, value_enum, default_value = "forces")]
-        histogram: Histogram,
-        /// The probability q that a sign differs from the one before [default: that of the record]
+        histogram: HistogramForces,
+        /// Probability q that a sign differs from the one before [default: that of the record]
         #[arg(long, value_name = "Q", allow_hyphen_values = true, value_parser = fault_probability)]
         fault_probability: Option<BigRational>,
         #[command(flatten)]
-        output: ToFile,
+        output: FigureOutput,
     },
-    /// The errors of a code at several stiffnesses or time steps, and the order in which they vanish
+    /// Draw the errors of a refinement study and their order of accuracy
     Ladder {
-        /// A record of verify --ladder, in json
+        /// JSON record of verify --ladder
         #[arg(value_name = "FILE")]
         record: PathBuf,
         #[command(flatten)]
-        output: ToFile,
+        output: FigureOutput,
     },
 }
 
-/// A pile, whose figure has no forces.
+/// The options of a figure without forces.
 #[derive(Args)]
-pub(crate) struct Of {
+pub(crate) struct PileFigure {
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
     #[command(flatten)]
-    output: ToFile,
+    output: FigureOutput,
 }
 
-/// A pile and its forces.
+/// The options of a figure with forces.
 #[derive(Args)]
-pub(crate) struct Measured {
+pub(crate) struct ForceFigure {
     #[command(flatten)]
-    of: Of,
-    /// The units of forces and lengths; with pile, lengths are in R
+    of: PileFigure,
+    /// Units of forces and lengths; with pile, lengths are in R
     #[arg(long, value_enum, default_value = "pile", help_heading = "Output")]
     units: UnitSystem,
 }
 
-/// Where a figure goes.
+/// The output options of a figure.
 #[derive(Args)]
 #[command(next_help_heading = "Output")]
-pub(crate) struct ToFile {
-    /// Write to an SVG file, which is replaced only when all is written [default: stdout]
+pub(crate) struct FigureOutput {
+    /// SVG file, written atomically [default: stdout]
     #[arg(long = "output", value_name = "FILE.svg")]
     file: Option<PathBuf>,
-    /// The width of the figure, in pixels; everything in it is scaled with it
+    /// Width of the figure, in pixels, 1 to 100000; scales everything in it
     #[arg(long, value_name = "PIXELS", default_value_t = 800, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     width: u32,
-    /// Leave out the title and the line below it
+    /// Omit the title and the caption
     #[arg(long)]
     no_title: bool,
 }
 
 impl Plot {
     pub(crate) fn run(&self) -> Result<bool, Failure> {
-        let ToFile {
+        let FigureOutput {
             file,
             width,
             no_title,
         } = self.parts().1;
-        keep_to_svg(file.as_deref())?;
+        check_extension(file.as_deref())?;
         let figure = self.draw()?.laid_out(Layout {
             width: f64::from(*width),
             title: !no_title,
@@ -173,7 +172,7 @@ impl Plot {
             figure.write(out).map_err(WriteError::from)
         })?;
         if let Some(note) = figure.note() {
-            complain(&format!("note: {note}"));
+            print_message(&format!("note: {note}"));
         }
         Ok(true)
     }
@@ -183,14 +182,14 @@ impl Plot {
     }
 }
 
-/// Figures are written in one format, and a file should not say that it is in another.
-fn keep_to_svg(file: Option<&Path>) -> Result<(), Failure> {
+/// Checks that the file name does not promise another format than SVG.
+fn check_extension(file: Option<&Path>) -> Result<(), Failure> {
     let Some(file) = file else { return Ok(()) };
     match file.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("svg") => {
             let svg = file.with_extension("svg");
             Err(Failure::Message(format!(
-                "--output: a figure is written as SVG, not in the format of {}: name the file {}, and convert it",
+                "--output: figures are SVG, which the extension of {} is not: write to {}, and convert it",
                 file.display(),
                 svg.display()
             )))
@@ -199,18 +198,18 @@ fn keep_to_svg(file: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
-/// The layers of the picture of a pile, as in the paper.
-const PICTURED: i128 = 4;
+/// The default number of layers of `plot pile`, as in the paper.
+const PILE_LAYERS: i128 = 4;
 
-/// The layer whose indices are shown, as in the paper.
-const INDEXED: i128 = 3;
+/// The default layer of `plot indexing`, as in the paper.
+const INDEXING_LAYER: i128 = 3;
 
-/// The side of the top under which a response is shown: the load is seen to spread from its middle.
-const WIDE: i128 = 4;
+/// The side of the default top of `plot response`. It is wide enough to show how the load spreads.
+const RESPONSE_SIDE: i128 = 4;
 
 impl Plot {
-    /// The scene that is drawn, if it is one, and where the figure goes.
-    const fn parts(&self) -> (Option<&SceneOptions>, &ToFile) {
+    /// Returns the scene options, if the figure has them, and the output options.
+    const fn parts(&self) -> (Option<&SceneOptions>, &FigureOutput) {
         let of = match self {
             Self::Distribution { output, .. } | Self::Ladder { output, .. } => {
                 return (None, output);
@@ -229,18 +228,18 @@ impl Plot {
     fn draw(&self) -> Result<Figure, Failure> {
         match self {
             Self::Pile(of) => {
-                let (scene, pile) = of.scene.read_or(PICTURED)?;
+                let (scene, pile) = of.scene.read_or(PILE_LAYERS)?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
                 Ok(figure::pile(&subject)?)
             }
             Self::Indexing { of, layer } => {
                 let (scene, pile) = of.scene.read()?;
                 let subject = Subject::of_pile(&pile, &scene.spacing()?)?;
-                let layer = layer.unwrap_or_else(|| INDEXED.min(pile.layers() - 1));
+                let layer = layer.unwrap_or_else(|| INDEXING_LAYER.min(pile.layers() - 1));
                 Ok(figure::indexing(&subject, layer).map_err(of_layer)?)
             }
             Self::Sphere { of, at } => of.draw(|subject, pile| {
-                let site = match one(at.as_deref(), pile)? {
+                let site = match parse_site(at.as_deref(), pile)? {
                     Some(site) => site,
                     None => figure::example(pile)?,
                 };
@@ -264,7 +263,7 @@ impl Plot {
                 profile,
                 ..
             } if !fault_probability.is_empty() => {
-                let layers = of.of.scene.of_wide_layers()?;
+                let layers = of.of.scene.read_wide_layers()?;
                 let progress = Progress::begin("drawing");
                 let drawn = if *profile {
                     figure::mean_profile(layers, fault_probability)
@@ -282,7 +281,8 @@ impl Plot {
                     Some(faults) => of.of.scene.read_stacked(runs(faults)?)?,
                 };
                 if needs_a_top(&scene) {
-                    scene.anchor = Some(Anchor::Top(Region::hexagon(WIDE, WIDE)?));
+                    scene.anchor =
+                        Some(Anchor::Top(Region::hexagon(RESPONSE_SIDE, RESPONSE_SIDE)?));
                     pile = scene.pile()?;
                 }
                 let pile = figure::of_unit_load(pile)?;
@@ -303,7 +303,7 @@ impl Plot {
                 let figure = figure::distribution(record.tally(), (*histogram).into(), q)?;
                 figure.ok_or_else(|| {
                     Failure::Message(format!(
-                        "{}: this is a part of an ensemble: merge it with the others first",
+                        "FILE: {} is only a part of an ensemble: merge it with the others first",
                         file.display()
                     ))
                 })
@@ -313,36 +313,36 @@ impl Plot {
     }
 }
 
-/// The ladder of a record.
+/// Reads the record of a refinement study.
 fn read_ladder(path: &Path) -> Result<Ladder, Failure> {
     let name = path.display();
     Ladder::read(open(path)?).map_err(|error| {
         Failure::Message(format!(
-            "FILE: {name} is no ladder: {error}; 'cannonpile verify --ladder K1=FILE1,K2=FILE2 --format json' writes one"
+            "FILE: {name} is not a ladder: {error}; 'cannonpile verify --ladder K1=FILE1,K2=FILE2 --format json' writes one"
         ))
     })
 }
 
-/// Runs of + and − steps, + first.
+/// Parses the lengths of runs of equal signs, + first.
 fn runs(text: &str) -> Result<Pattern, Failure> {
     let pattern = format!("({text})").parse();
     pattern.map_err(|_| {
         Failure::Message(format!(
-            "--faults: {text} is no list of steps: give the steps between faults, each 1 or more, as 2,3"
+            "--faults: {text} is not a list of numbers of steps: give numbers of at least 1, such as 2,3"
         ))
     })
 }
 
-/// Blames the layer that was to be drawn, not the number of layers.
-fn of_layer(error: figure::Error) -> Refused {
+/// Attributes an error to `--layer` instead of `--layers`.
+fn of_layer(error: figure::Error) -> InputError {
     match error.into() {
         error @ (Error::Figure(figure::Error::TooManyMarks { .. })
-        | Error::Core(cannonpile::Error::OnFloor { .. })) => Refused::of(Culprit::Layer, error),
+        | Error::Core(cannonpile::Error::OnFloor { .. })) => InputError::of(Culprit::Layer, error),
         error => error.into(),
     }
 }
 
-/// Whether a load is to be put on a top that nobody described.
+/// Returns whether the scene gives neither a top nor loads, so that `plot response` uses its defaults.
 fn needs_a_top(scene: &Scene) -> bool {
     scene.anchor.is_none()
         && scene.loads.is_empty()
@@ -350,19 +350,19 @@ fn needs_a_top(scene: &Scene) -> bool {
         && scene.dimension == Dimension::Three
 }
 
-impl Measured {
+impl ForceFigure {
     fn draw(
         &self,
-        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, InputError>,
     ) -> Result<Figure, Failure> {
         let (scene, pile) = self.of.scene.read()?;
         self.draw_pile(&scene, &pile, draw)
     }
 
-    /// Of the state that is meant.
+    /// Draws a figure of the state that `--state` selects.
     fn draw_state(
         &self,
-        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, InputError>,
     ) -> Result<Figure, Failure> {
         let (scene, pile) = self.of.scene.read_state()?;
         self.draw_pile(&scene, &pile, |subject, pile| {
@@ -378,7 +378,7 @@ impl Measured {
         &self,
         scene: &Scene,
         pile: &Pile,
-        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, Refused>,
+        draw: impl FnOnce(&Subject<'_>, &Pile) -> Result<Figure, InputError>,
     ) -> Result<Figure, Failure> {
         let subject = match self.units {
             UnitSystem::Pile => Subject::of_pile(pile, &scene.spacing()?)?,
@@ -387,7 +387,7 @@ impl Measured {
         let progress = Progress::begin("drawing");
         let drawn = draw(&subject, pile);
         drop(progress);
-        // A figure has no other numbers than floats.
-        drawn.map_err(|refused| self.of.scene.beyond_floats(refused, scene))
+        // Figures use floats only.
+        drawn.map_err(|refused| self.of.scene.overflow_failure(refused, scene))
     }
 }

@@ -1,4 +1,4 @@
-//! `prove`: what is proved for every pile.
+//! `prove`: theorems that hold for every pile.
 
 use std::path::{Path, PathBuf};
 
@@ -13,10 +13,12 @@ use crate::progress::Progress;
 use crate::tables;
 
 const HELP: &str = "\
---to writes the same formulas, as they run and unsimplified, as definitions that another program reads, and with them laws
-and proofs written by hand: files to check, and a table of which listed theorem is proved there under which name. Coq checks
-all of it, for every number of layers by induction where the statement says so, and coqchk finds no axiom. Files are written
-under other names, and renamed when all are complete; other files in the folder stay as they are.
+Without --to this command proves each theorem and prints its statement, its method and its result. The exit status is 1 if
+a theorem fails.
+
+--to coq writes the formulas, exactly as they run, as Coq definitions, together with hand-written laws and proofs. It
+prints the Coq name of each theorem and the commands that check the files. Coq then checks every proof, by induction where
+the statement covers every number of layers, and coqchk finds no axiom. The files appear together, when all are complete.
 
 Examples:
   cannonpile prove
@@ -26,10 +28,10 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Prove {
-    /// One theorem only, with its whole derivation
+    /// Theorem to prove, with its full derivation [default: all, without derivations]
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(all().map(|t| t.name)))]
     theorem: Option<String>,
-    /// Write formulas, laws and proofs for this program to check, into the folder DIR
+    /// Proof assistant; writes the formulas and proofs for it into DIR
     #[arg(
         long,
         value_enum,
@@ -38,7 +40,7 @@ pub(crate) struct Prove {
         conflicts_with = "theorem"
     )]
     to: Option<Target>,
-    /// The folder for --to, created if it is missing
+    /// Folder for --to, created if it is missing
     #[arg(value_name = "DIR", requires = "to")]
     folder: Option<PathBuf>,
     #[command(flatten)]
@@ -88,7 +90,7 @@ impl Prove {
         Ok(all_hold)
     }
 
-    /// Writes the files, and then what they prove, and how they are checked.
+    /// Writes the files, then prints the theorems and the commands that check them.
     fn write_for_coq(&self, folder: &Path, format: Format) -> Result<bool, Failure> {
         let files = files()?;
         let files = files

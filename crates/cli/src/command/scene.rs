@@ -1,4 +1,4 @@
-//! `scene`: what the options describe, as a file.
+//! `scene`: writes the scene options as a file.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ Examples:
 pub(crate) struct WriteScene {
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
-    /// Write to a file, which is replaced only when all is written
+    /// File for the scene, written atomically [default: stdout]
     #[arg(long = "output", value_name = "FILE", help_heading = "Output")]
     file: Option<PathBuf>,
 }

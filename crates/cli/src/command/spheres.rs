@@ -1,17 +1,21 @@
-//! `spheres`: the place, size and mass of each sphere.
+//! `spheres`: the position, radius and mass of each sphere.
 
 use cannonpile::shape::Selection;
 use cannonpile_dem::table;
 use clap::Args;
 
-use super::note_if_it_falls;
-use crate::args::{Numbers, Output, Part, SceneOptions, narrower, spheres};
+use super::note_instability;
+use crate::args::{Numbers, Output, Part, SceneOptions, spheres, with_row_options};
 use crate::output::Failure;
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Spheres are numbered from 1, row by row from the top, as export and verify number them. z points up. R = 1 m and m = 1 kg,
-unless these are given.
+Columns:
+  id             number of the sphere, from 1 at the top, as in export and verify
+  k, i, j        layer, from 0 at the top, and indices in the layer
+  x, y, z        centre, in m; z points up
+  radius, mass   in m and kg
+  fixed          1 in the bottom layer, otherwise 0
 
 Examples:
   cannonpile spheres --layers 4
@@ -36,15 +40,15 @@ impl Spheres {
         let selection = self.part.selection(&pile)?;
         self.output.format()?;
         let rows = spheres(&pile, selection)?;
-        let progress = Progress::of_rows("places", rows.try_into().ok());
+        let progress = Progress::of_rows("positions", rows.try_into().ok());
         let table = table::spheres(&scene.packing(&pile)?, selection)
-            .map_err(|error| narrower(error, selection))?;
+            .map_err(|error| with_row_options(error, selection))?;
         self.output
             .write_table(table, self.numbers.number, &progress)?;
         drop(progress);
-        // The verdict on the pile would take longer than the places of a part of it.
+        // The stability check takes longer than the positions of a part of the pile.
         if selection == Selection::All {
-            note_if_it_falls(&pile);
+            note_instability(&pile);
         }
         Ok(true)
     }

@@ -1,4 +1,4 @@
-//! `summary`: the pile in one row.
+//! `summary`: one pile in one row.
 
 use std::path::PathBuf;
 
@@ -10,15 +10,24 @@ use cannonpile_horizontal::equilibrium;
 use clap::Args;
 
 use crate::args::{Numbers, Output, SceneOptions};
-use crate::output::{Failure, complain, write_to};
+use crate::output::{Failure, print_message, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-stands is 'no' if a contact would have to pull. Where spheres touch besides, at --spacing, 'touching' says where they are:
-if they are neighbours of a layer, a = R, stands says whether the pile is held with them, and min_contact is without; if
-they are others, which may hold the pile, it is 'undetermined'. Exit status 1 unless it stands. A force that would take too
-long to find is shown as -, and a note says why. With --units si forces are in N, for R = 1 m, m = 1 kg and g = 1 m/s²
-unless these are given.
+Columns:
+  layers, stacking           number of layers; Hägg signs or name of the stacking
+  spheres, contacts, weight  of the whole pile; the weight in mg
+  stands                     yes: stable; no: some contact needs tension; undetermined: further contacts may support the pile
+  min_contact                smallest force between layers, in mg/(3cosθ), without horizontal contacts
+  base_spheres               number of bottom spheres
+  normal_min, normal_max     range of the base normal forces, in mg
+  max_shear_ratio            largest ratio of shear to normal force at the base
+  touching                   spheres that touch at --spacing in addition to those of adjacent layers
+  plan                       method that computes the forces
+
+At a = R neighbours in a layer touch, and stands takes these horizontal contacts into account. The exit status is 1 unless
+the pile is stable. The table shows - for a value that takes too long to compute, and a note gives the reason. With
+--units si forces are in N.
 
 Examples:
   cannonpile summary --stacking hcp --layers 7
@@ -34,7 +43,7 @@ pub(crate) struct Summary {
     numbers: Numbers,
     #[command(flatten)]
     output: Output,
-    /// Write the proof that the pile stands at a = R, or cannot, to this file, for the command check
+    /// File for the certificate that the pile is stable or unstable at a = R, which the command check reads
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     certificate: Option<PathBuf>,
 }
@@ -44,15 +53,15 @@ impl Summary {
         let (scene, pile) = self.scene.read()?;
         self.output.format()?;
         let units = self.numbers.units.of(&scene, &pile)?;
-        // At the default spacing, where none is given: if that fits.
+        // The default spacing may be invalid for this pile.
         let touching = pile.clearance().check(&scene.spacing()?);
         if self.certificate.is_some() && touching.as_deref() != Ok(&[LayerGap { layers: 0 }]) {
             return Err(Failure::Message(
-                "--certificate: a proof is about horizontal contacts, and the row would not be: give --spacing 1, a = R"
+                "--certificate: certificates are for horizontal contacts, at a = R: add --spacing 1"
                     .to_owned(),
             ));
         }
-        let progress = Progress::begin("finding the extreme forces");
+        let progress = Progress::begin("computing the extreme forces");
         let summary = table::Summary::new(&units, touching.clone().ok())?;
         if let Some(file) = &self.certificate {
             let known = summary.certificate().cloned();
@@ -67,7 +76,7 @@ impl Summary {
         drop(progress);
         let touching = touching.err().map(|error| ("touching", error.to_string()));
         for (columns, reason) in summary.left_out().into_iter().chain(touching) {
-            complain(&format!("note: no {columns}: {reason}"));
+            print_message(&format!("note: no {columns}: {reason}"));
         }
         Ok(matches!(summary.verdict(), None | Some(Verdict::Yes)))
     }

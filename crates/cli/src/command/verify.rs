@@ -1,4 +1,4 @@
-//! `verify`: measured forces against the exact ones.
+//! `verify`: compares measured contact forces with the exact ones.
 
 mod ladder;
 
@@ -14,22 +14,28 @@ use cannonpile_dem::verify::{
 };
 use clap::{Args, ValueEnum};
 
-use super::note_if_it_falls;
+use super::note_instability;
 use crate::args::{Format, Output, SceneOptions};
 use crate::hashed::Hashed;
-use crate::output::{A_FILE_OR_STDIN, Failure, complain, unreadable, write_to};
+use crate::output::{Failure, READABLE_FILE_OR_STDIN, print_message, unreadable, write_to};
 use crate::progress::Progress;
 
 const HELP: &str = "\
-Errors are relative to the exact force of the contact; where that is 0, to the largest exact force. Pairs that are no
-contact are extra, or noise if their force is below --accept times the largest; pairs of bottom spheres are fixed, and not
-judged. Findings name what all differences have in common. As json the report is a record to keep: with the scene, the
-file's SHA-256 and this version.
+Error of a contact: relative to its exact force, or to the largest exact force if its own is 0.
 
-Columns are separated by commas, semicolons, tabs or blanks; a column is a name of the header, or #3 in a table without
-one, and may have a sign, a factor and others added: fx=-#10-#13, force=1e7*overlap. kind=contact_type:SS reads the rows
-with SS there; the others are contacts with walls. By place, fx,fy,fz without force are those on the first of two centres;
-at a contact point they push, unless force is negative.
+Pairs of spheres without an exact contact are extra, or noise if their force is below --accept times the largest force.
+Pairs of bottom spheres are fixed, and not compared.
+
+Findings explain the differences: a constant factor, swapped axes, a missing layer, and so on. The json report also records
+the scene, the SHA-256 of the file and the version of this program.
+
+Columns of the table are separated by commas, semicolons, tabs or blanks. --columns takes names of the header, or #N for
+the N-th column. It accepts signs, factors and sums: fx=-#10-#13, force=1e7*overlap. kind=contact_type:SS reads only rows
+with SS in this column; the other rows are contacts with walls. With two centres x1…z2, fx,fy,fz is the force on the first
+sphere. With a contact point x,y,z, the force is compressive unless force is negative.
+
+Refinement study: --ladder takes a file for each stiffness or time step. It prints the error of each level, the observed
+order of accuracy and the extrapolated error. The exit status is 1 if the errors show no order.
 
 Examples:
   cannonpile verify pile/forces.dump --layers 10 --spacing 1.2
@@ -42,12 +48,11 @@ Examples:
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(crate) struct Verify {
-    /// A table with columns id1, id2, force, and fx, fy, fz if there are vectors; a LAMMPS dump local file with these columns,
-    /// of which the last snapshot counts; or VTK's XML, lines with data (.vtp, .vtu); - for stdin
+    /// Table with columns id1, id2, force or fx, fy, fz; LAMMPS dump local file (the last snapshot); or VTK lines (.vtp, .vtu);
+    /// - for stdin
     #[arg(value_name = "FILE", required_unless_present = "ladder")]
     measured: Option<PathBuf>,
-    /// Instead, one file for each of several stiffnesses of the springs, or time steps: the errors, their observed order, and what
-    /// remains of them; exit 1 if there is no order
+    /// Refinement study: a file for each stiffness or time step, in place of FILE
     #[arg(
         long,
         value_name = "K1=FILE1,K2=FILE2,...",
@@ -55,15 +60,15 @@ pub(crate) struct Verify {
         help_heading = "Ladder"
     )]
     ladder: Option<LadderFiles>,
-    /// What the numbers of --ladder are [default: stiffness]
+    /// Refinement parameter of --ladder [default: stiffness]
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Ladder")]
     refine: Option<Refine>,
     #[command(flatten)]
     pub(crate) scene: SceneOptions,
-    /// The greatest relative error accepted; 0 for forces that are the nearest floats
+    /// Largest accepted relative error; 0 requires correctly rounded forces
     #[arg(long, value_name = "E", default_value = "1e-6", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Output")]
     accept: f64,
-    /// Which columns hold what: id1, id2, force, fx, fy, fz, x1 … z2 (the centres), x, y, z (the contact point), kind
+    /// Columns for id1, id2, force, fx, fy, fz, x1 … z2 (centres), x, y, z (contact point) and kind
     #[arg(
         long,
         value_name = "QUANTITY=COLUMN,...",
@@ -71,72 +76,77 @@ pub(crate) struct Verify {
         help_heading = "Table"
     )]
     columns: Option<Columns>,
-    /// The columns of a known code: lammps, yade, exadem, exadem-vtp, dem-engine, mddem, lethe; --columns names others
+    /// Columns of a known code: lammps, yade, exadem, exadem-vtp, dem-engine, mddem or lethe; --columns overrides them
     #[arg(long, value_name = "CODE", help_heading = "Table")]
     preset: Option<Preset>,
-    /// How the table's contacts are found in the scene [default: numbers, or as the preset does]
+    /// Matching of the contacts of table and scene [default: numbers, or that of the preset]
     #[arg(long = "match", value_enum, value_name = "BY", help_heading = "Table")]
     matching: Option<Matching>,
-    /// How far from its exact place a sphere may be, in R, by place [default: 0.1]
+    /// Largest distance of a sphere from its exact position, in R, for --match place [default: 0.1]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = tolerance, help_heading = "Table")]
     within: Option<f64>,
-    /// The number of the first sphere [default: 1, or that of the preset]
+    /// Number of the first sphere [default: 1, or that of the preset]
     #[arg(long, value_name = "N", help_heading = "Table")]
     first_id: Option<u64>,
-    /// Write the force that is left on each sphere above the floor, in N, to this file: csv, or json by its ending
+    /// File for the residual force on each sphere above the floor, in N: csv, or json if it ends so
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     unbalanced: Option<PathBuf>,
     #[command(flatten)]
     output: Output,
 }
 
-/// What is refined from rung to rung of a ladder.
+/// The parameter of a refinement study.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Refine {
-    /// The stiffness of the springs, in N/m: errors fall as 1/k
+    /// Spring stiffness k, in N/m; errors fall as 1/k
     Stiffness,
-    /// The time step, in s
+    /// Time step, in s
     TimeStep,
 }
 
-/// How contacts are found.
+/// The method that matches contacts.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Matching {
-    /// By the numbers of the two spheres, in the order of the exports
+    /// Numbers of the two spheres, in the order of the exports
     Numbers,
-    /// By where they are: both centres, or the contact point; the frame is found
+    /// Positions: both centres or the contact point, in any rotated, reflected or shifted frame
     Place,
 }
 
 impl Verify {
-    /// Compares, and returns whether the file is accepted, or the ladder has an order.
+    /// Returns whether the file is accepted, or whether the errors of the refinement study show an order.
     pub(crate) fn run(&self) -> Result<bool, Failure> {
         let is_stdin = |path: &PathBuf| path == Path::new("-");
         if self.measured.as_ref().is_some_and(is_stdin) && self.scene.is_from_stdin() {
-            let reason = "FILE and --scene are both -: only one of them can come from stdin, name a file for the other";
+            let reason = "FILE and --scene are both -: only one of them can come from stdin, give a file for the other";
             return Err(Failure::Message(reason.into()));
         }
         if self.refine.is_some() && self.ladder.is_none() {
-            let reason = "--refine is of --ladder: name its files, or leave it out";
+            let reason = "--refine requires --ladder: add it, or leave out --refine";
             return Err(Failure::Message(reason.into()));
         }
         let (scene, pile) = self.scene.read_state()?;
         let packing = scene.packing(&pile)?;
         let verdict = match (&self.measured, &self.ladder) {
-            (Some(path), _) => self.one(path, &scene, &packing)?,
-            (None, Some(files)) => self.climb(files, &scene, &packing)?,
-            // One of the two is required.
+            (Some(path), _) => self.compare_file(path, &scene, &packing)?,
+            (None, Some(files)) => self.compare_ladder(files, &scene, &packing)?,
+            // The parser requires one of the two.
             (None, None) => false,
         };
-        note_if_it_falls(&pile);
+        note_instability(&pile);
         Ok(verdict)
     }
 
     /// Compares one file.
-    fn one(&self, path: &Path, scene: &Scene, packing: &Packing<'_>) -> Result<bool, Failure> {
+    fn compare_file(
+        &self,
+        path: &Path,
+        scene: &Scene,
+        packing: &Packing<'_>,
+    ) -> Result<bool, Failure> {
         let format = self.output.format()?;
         let reader = self.reader()?;
-        let progress = Progress::begin("reading FILE, and comparing it with the exact forces");
+        let progress = Progress::begin("comparing FILE with the exact forces");
         let read = compare(&reader, packing, path, format);
         let (read, source) = read.map_err(|refusal| self.refused(refusal, path, scene))?;
         let source = source.map(|source| Source {
@@ -153,19 +163,19 @@ impl Verify {
         if let (Some(file), Some(unbalanced)) = (&self.unbalanced, &read.unbalanced) {
             let table = unbalanced.table(packing)?;
             write_to("unbalanced", Some(file), |out| {
-                table.write(of_ending(file), NumberFormat::F64, out)
+                table.write(format_of_extension(file), NumberFormat::F64, out)
             })?;
         }
         drop(progress);
         if read.snapshots > 1 {
-            complain(&format!("note: {}", judged(path, &read)));
+            print_message(&format!("note: {}", judged(path, &read)));
         }
         Ok(read.comparison.accepted(self.accept))
     }
 }
 
 impl Verify {
-    /// Returns how the file is read.
+    /// Returns the reader that the options describe.
     fn reader(&self) -> Result<Reader, Failure> {
         let mut columns = self.preset.map_or_else(Columns::default, Preset::columns);
         if let Some(named) = &self.columns {
@@ -179,11 +189,11 @@ impl Verify {
             Some(matching) => matching == Matching::Place,
         };
         if !by_place && self.within.is_some() {
-            let reason = "--within is of --match place: leave it out, or name places";
+            let reason = "--within requires --match place: add it, or leave out --within";
             return Err(Failure::Message(reason.into()));
         }
         if by_place && self.first_id.is_some() {
-            let reason = "--first-id is of --match numbers: by place no numbers are read";
+            let reason = "--first-id requires --match numbers: add it, or leave out --first-id";
             return Err(Failure::Message(reason.into()));
         }
         let reader = Reader::new().with_columns(columns);
@@ -204,19 +214,19 @@ impl Verify {
         Failure::Message(match refusal {
             Refusal::Scene(error) => return error.into(),
             Refusal::OutOfRange => format!("{}: {refusal}", self.scene.place_of_size(scene)),
-            Refusal::Io(error) => return unreadable(name, &error, A_FILE_OR_STDIN),
+            Refusal::Io(error) => return unreadable(name, &error, READABLE_FILE_OR_STDIN),
             refusal @ Refusal::Line {
                 fault: Fault::NoColumn { .. } | Fault::NoNamedColumn { .. },
                 ..
             } => {
-                format!("FILE: {name}, {refusal}; --columns says which they are")
+                format!("FILE: {name}, {refusal}; --columns can name them")
             }
             refusal => format!("FILE: {name}, {refusal}"),
         })
     }
 }
 
-/// Reads a file, or stdin, and compares it; says what was read where the answer is a record.
+/// Reads a file or stdin and compares it. For json output the result includes the source of the data.
 fn compare(
     reader: &Reader,
     packing: &Packing<'_>,
@@ -255,13 +265,13 @@ fn judged(path: &Path, read: &Compared) -> String {
     let (name, snapshots) = (name(path), read.snapshots);
     let step = read
         .timestep
-        .map(|step| format!(", of time step {step},"))
+        .map(|step| format!(", time step {step}"))
         .unwrap_or_default();
-    format!("{name} has {snapshots} snapshots; the last{step} is judged")
+    format!("{name} has {snapshots} snapshots; this report is about the last{step}")
 }
 
-/// The format that a file's ending asks for.
-fn of_ending(file: &Path) -> FileFormat {
+/// Returns the format that the file name extension stands for: JSON or CSV.
+fn format_of_extension(file: &Path) -> FileFormat {
     let is_json = file.extension().is_some_and(|ending| ending == "json");
     if is_json {
         FileFormat::Json
@@ -270,10 +280,10 @@ fn of_ending(file: &Path) -> FileFormat {
     }
 }
 
-/// An accepted error.
+/// Parses a relative error that is finite and not negative.
 fn tolerance(text: &str) -> Result<f64, String> {
     let given = text.parse::<f64>().ok();
-    // Not -0 either: it would be shown.
+    // -0 is rejected too, because the report would print it.
     let given = given.filter(|error| error.is_finite() && error.is_sign_positive());
     given.ok_or_else(|| "not a relative error such as 1e-6, or 0".to_owned())
 }

@@ -1,4 +1,4 @@
-//! What bottom spheres can bear at a = R.
+//! The table of bounds of base normal forces, at a = R.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
@@ -8,10 +8,10 @@ use cannonpile_horizontal::{NormalBounds, base_bounds};
 
 use crate::Error;
 
-/// The least and the greatest normal force of bottom spheres at a = R, horizontal contacts included: `i, j, normal_min,
-/// normal_max, proved`.
+/// Returns the smallest and largest normal force of each bottom sphere, in mg, with horizontal contacts at a = R.
 ///
-/// `proved` says that both are attained; else they are bounds that no forces pass.
+/// The columns are `i, j, normal_min, normal_max, proved`. If both bounds are attained, `proved` is `yes`. Otherwise they are
+/// certified outer bounds.
 ///
 /// # Errors
 /// Those of [`base_bounds`]; [`TooManyRows`](cannonpile::Error::TooManyRows).
@@ -21,7 +21,7 @@ pub(crate) fn bounds(pile: &Pile, selection: Selection) -> Result<Table<'_>, Err
     Ok(bounds_of(pile, base_bounds(pile, selection)?))
 }
 
-/// The table of [`bounds`] that are found already.
+/// Returns the table of [`bounds`] for computed bounds.
 pub(crate) fn bounds_of<'p>(
     pile: &'p Pile,
     bounds: impl Iterator<Item = Result<(Site, NormalBounds), cannonpile_horizontal::Error>> + 'p,
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_that_are_found_already() {
+    fn bounds_of_one_sphere() {
         let (pile, site) = (Pile::triangular(3).unwrap(), Site { i: 0, j: 0, k: 2 });
         let found = cannonpile_horizontal::bounds(&pile, site).unwrap();
         let table = bounds_of(&pile, [Ok((site, found))].into_iter());

@@ -1,13 +1,13 @@
-//! The benchmark cases.
+//! The table of the benchmark cases.
 
 use cannonpile_dem::Error;
 use cannonpile_dem::scene::{Case, cases as all_cases};
 use cannonpile_dem::table::{Cell, Column, Row, Table};
 
-/// The benchmark cases, one a row: `name, title, dimension, layers, spheres, contacts, stands, command`.
+/// Returns the benchmark cases, a row each: `name, title, dimension, layers, spheres, contacts, stands, command`.
 ///
-/// `stands` is empty where the spheres weigh nothing, and it is not asked; `command` exports the case. What a case tests is
-/// in its [`purpose`](Case::purpose), and in the card that `command` writes.
+/// `stands` is empty for spheres without weight. `command` exports the case, with a card that explains its
+/// [`purpose`](Case::purpose).
 #[must_use]
 pub(crate) fn cases() -> Table<'static> {
     let names = [
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_case_has_the_command_that_exports_it() {
+    fn each_case_has_its_export_command() {
         let csv = csv(cases());
         let discs = "\nC13,\"Discs in a plane, eight layers\",2,8,36,56,yes,\"cannonpile export C13 --case C13";
         assert!(csv.contains(discs), "{csv}");

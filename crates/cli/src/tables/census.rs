@@ -1,18 +1,18 @@
-//! Stackings, and whether they stand.
+//! The tables of the census: stackings and their stability.
 
 use cannonpile::census::Entry;
 use cannonpile::{ContactForce, Error, Pile, Standing, Verdict};
 use cannonpile_dem::table::{Cell, Column, Row, Table, steps};
 use cannonpile_horizontal::census as horizontal;
 
-/// The most layers of a stacking with a change of sign whose normal forces a census has.
+/// The largest number of layers of a stacking with a sign change for which a census computes base normal forces.
 const MOST_LAYERS: i128 = 100_000;
 
-/// Stackings and whether they stand, one a row: `stacking, layers, stands, min_contact, base_spheres, normal_min,
-/// normal_max`, and where the least contact is, `k, i, j, direction`.
+/// Returns a row for each stacking: `stacking, layers, stands, min_contact, base_spheres, normal_min, normal_max`, and the
+/// contact with the smallest force, `k, i, j, direction`.
 ///
-/// The normal forces of those that do not stand are left out, and those of more than 100,000 layers where the sign
-/// changes, as every row of the base would be looked at.
+/// The normal forces are empty for unstable stackings. They are also empty for more than 100,000 layers with a sign change,
+/// where every row of the base would have to be computed.
 pub(crate) fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + 't) -> Table<'t> {
     let row = |entry: Result<Entry, Error>| -> Row {
         let Entry { pile, standing, .. } = entry?;
@@ -23,11 +23,11 @@ pub(crate) fn census<'t>(entries: impl Iterator<Item = Result<Entry, Error>> + '
     Table::of_rows(columns(&[]), "stackings", entries.map(row))
 }
 
-/// Stackings and whether they stand at a = R, one a row: as [`census`], and `decided_by`, the
-/// [reason](cannonpile_horizontal::census::DecidedBy), after `stands`.
+/// Returns a row for each stacking at a = R: the columns of [`census`], and after `stands` the
+/// [reason](cannonpile_horizontal::census::DecidedBy), `decided_by`.
 ///
-/// All columns after `decided_by` are of the forces without horizontal contacts; the least is left out where it would take
-/// too long to find.
+/// The columns after `decided_by` are without horizontal contacts. The smallest force is empty if it takes too long to
+/// compute.
 pub(crate) fn horizontal_census<'t>(
     entries: impl Iterator<Item = Result<horizontal::Entry, cannonpile_horizontal::Error>> + 't,
 ) -> Table<'t> {
@@ -50,7 +50,7 @@ pub(crate) fn horizontal_census<'t>(
     Table::of_rows(columns(&["decided_by"]), "stackings", entries.map(row))
 }
 
-/// The columns of a census; `more` after the verdict.
+/// Returns the columns of a census, with `more` after the verdict.
 fn columns(more: &[&'static str]) -> Vec<Column> {
     let names = ["stacking", "layers", "stands"].iter().chain(more);
     let mut columns: Vec<Column> = names.map(|name| Column::plain(name)).collect();
@@ -69,7 +69,7 @@ fn judged(pile: &Pile, verdict: Verdict) -> Vec<Cell> {
     ]
 }
 
-/// The cells after the verdict; of the forces as far as they are known.
+/// Returns the cells after the verdict. Forces that were not computed are empty.
 fn without_horizontal_contacts(
     pile: &Pile,
     standing: Option<&Standing>,
@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_census_of_three_layers() {
+    fn census_of_three_layers() {
         let found = cannonpile::census::under_one_sphere(3, false).unwrap();
         assert_eq!(
             csv(census(found)),
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn horizontal_contacts_hold_what_pulls() {
+    fn horizontal_contacts_stabilise_hcp() {
         let found = horizontal::under_one_sphere(6, false).unwrap();
         let csv = csv(horizontal_census(found));
         assert!(csv.contains("\n+-+-+,6,yes,horizontal,-22/81,27,,,4,1,-2,gamma\n"));

@@ -1,4 +1,4 @@
-//! What the base bears in the mean over random stackings.
+//! The tables of mean base forces over random stackings.
 
 use cannonpile::engine::bug;
 use cannonpile::scalar::{Algebra, Exactness, Polynomial};
@@ -6,24 +6,24 @@ use cannonpile_dem::table::{Cell, Column, Row, Table};
 use cannonpile_disorder::{ByFaults, Error, FaultForce, Mean, MeanForce};
 use num_bigint::BigInt;
 
-/// Of which stackings a mean is.
+/// The stackings that a mean covers: all, or those with a sphere at the position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Over {
     All,
     Some,
 }
 
-/// The mean over random stackings, a place a row: `a, b, probability, normal, shear_x, shear_y`.
+/// Returns the means over random stackings, a row for each position: `a, b, probability, normal, shear_x, shear_y`.
 ///
-/// [`Place`](cannonpile_disorder::Place) says what a and b are. Below stand the totals of what is exact; none if `given_sphere` says
-/// that the means are [over the stackings that have a sphere there](Mean::given_sphere), whose totals mean nothing.
+/// [`Place`](cannonpile_disorder::Place) defines a and b. Exact means have totals. With `given_sphere`, the means cover only
+/// the stackings with [a sphere at the position](Mean::given_sphere), and have no totals.
 #[must_use]
 pub(crate) fn mean<T: Algebra + Into<Cell> + 'static>(
     mean: Mean<T>,
     given_sphere: bool,
 ) -> Table<'static> {
     let over = if given_sphere { Over::Some } else { Over::All };
-    // Floats are shown, not summed.
+    // Floats have no totals, because a sum of rounded values is not correctly rounded.
     let exact = T::EXACTNESS == Exactness::Exact;
     let table = of_rows(mean, over, exact, Into::into);
     if exact && over == Over::All {
@@ -33,7 +33,7 @@ pub(crate) fn mean<T: Algebra + Into<Cell> + 'static>(
     }
 }
 
-/// Means over random stackings as polynomials in the fault probability `q`, a place a row, with the columns of [`mean`].
+/// Returns the means as polynomials in the fault probability `q`, with the columns of [`mean`].
 #[must_use]
 pub(crate) fn mean_of_polynomials(mean: Mean<Polynomial>) -> Table<'static> {
     of_rows(mean, Over::All, false, |polynomial| {
@@ -82,8 +82,9 @@ fn of_rows<T: 'static>(
     Table::of_rows(columns, noun, rows).bounded(count, Vec::new())
 }
 
-/// The normal forces by place and number of faults, summed over the stackings with so many: `a, b, faults, stackings,
-/// normal`, with the number of those that have a sphere there.
+/// Returns the sums of normal forces, a row for each position and number of faults: `a, b, faults, stackings, normal`.
+///
+/// `stackings` is the number of stackings with this number of faults and a sphere at the position.
 #[must_use]
 pub(crate) fn by_faults(by_faults: &ByFaults) -> Table<'_> {
     let mut columns: Vec<_> = ["a", "b", "faults", "stackings"].map(Column::plain).into();
@@ -97,7 +98,7 @@ pub(crate) fn by_faults(by_faults: &ByFaults) -> Table<'_> {
             ..
         } = row.map_err(|error| match error {
             Error::Core(error) => error,
-            _ => bug("sums that are there meet no other error than one of the core"),
+            _ => bug("the rows of computed sums return only errors of the core"),
         })?;
         Ok(vec![
             place.a.into(),
@@ -125,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_of_two_layers() {
+    fn mean_of_two_layers() {
         let exact = piles(2).exact(&ratio(1, 2)).unwrap();
         assert_eq!(
             csv(mean(exact, false)),

@@ -1,4 +1,4 @@
-//! What was counted of random stackings.
+//! The tables of an ensemble of random stackings.
 
 use cannonpile_dem::table::{Cell, Column, Row, Table};
 use cannonpile_disorder::{Binned, By, Error, Extreme, Tally, WithFaults};
@@ -6,10 +6,12 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// What was counted of random stackings, a row for each number of faults: `faults, stackings, stand, held, min_contact,
-/// max_contact, normal_min, normal_max` of all of them, and the four of those that stand with `standing_` before; at last
-/// `stacking`, the first that has the least contact force. `held` is how many stand with horizontal contacts, and is left out where
-/// that was not asked.
+/// Returns the statistics of random stackings, a row for each number of faults.
+///
+/// The columns are `faults, stackings, stand, held, min_contact, max_contact, normal_min, normal_max` over all stackings, the
+/// last four again over the stable ones, with the prefix `standing_`, and `stacking`, the first one with the smallest
+/// contact force. The column `held` counts the stackings that are stable with horizontal contacts. It exists only if the
+/// ensemble includes horizontal contacts.
 #[must_use]
 pub(crate) fn ensemble(tally: &Tally) -> Table<'_> {
     let has_held = tally.ensemble.has_horizontal_contacts();
@@ -56,9 +58,11 @@ fn force(extreme: Option<&Extreme>) -> Cell {
     extreme.map_or(Cell::Missing, |extreme| extreme.force.clone().into())
 }
 
-/// What random stackings are, and how many stand, in one row: `layers, first, top, stackings, stand,
-/// standing_probability` at the fault probability q, or `standing_lo, standing_hi` of samples (Wilson's interval), and the same
-/// with `held`, where it was asked how many stand with horizontal contacts.
+/// Returns one row with the options of the ensemble and the number of stable stackings.
+///
+/// The columns are `layers, first, top, part, fault_probability, stackings, stand`, and `standing_probability` at the fault
+/// probability q. For samples, Wilson's interval `standing_lo, standing_hi` replaces the probability. With horizontal
+/// contacts the same columns follow with `held`.
 ///
 /// # Errors
 /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
@@ -107,9 +111,10 @@ pub(crate) fn ensemble_summary(tally: &Tally, q: &BigRational) -> Result<Table<'
     Ok(Table::record(entries))
 }
 
-/// How forces are distributed at the fault probability q, a bin a row: `from, to, all, standing`. Of all piles it is the mean
-/// number of forces f in one with from ≤ f < to, stackings included that cannot stand; of those that stand it is that in
-/// one of them. Of samples it is the mean over them, whatever q. `None` of a part.
+/// Returns the histogram of forces at the fault probability q, a row for each bin: `from, to, all, standing`.
+///
+/// `all` is the mean number of forces f of a pile with from ≤ f < to, over all stackings. `standing` is the mean over the
+/// stable ones. For samples both are means over the samples and do not depend on q. A part of an ensemble gives `None`.
 ///
 /// # Errors
 /// [`Error::FaultProbability`] unless 0 ≤ q ≤ 1.
@@ -130,7 +135,7 @@ pub(crate) fn histogram<'t>(
         .to_vec();
     columns.extend(["all", "standing"].map(|name| Column::measured(name, "")));
     let all = tally.faults.iter().map(|with| binned.histograms(with)[0]);
-    // The last bin may end beyond i64.
+    // The end of the last bin may exceed the range of i64.
     let bins = all.flat_map(|all| {
         let first = i128::from(all.first);
         first..first + all.counts.len() as i128
@@ -174,14 +179,14 @@ mod tests {
     }
 
     #[test]
-    fn a_row_for_each_number_of_faults() {
+    fn row_for_each_number_of_faults() {
         let csv = csv(ensemble(&tally(6)));
         let row = "4,1,0,-22/81,341/81,454/243,247/81,,,,,+-+-+";
         assert_eq!(csv.lines().nth(5), Some(row));
     }
 
     #[test]
-    fn how_many_stand() {
+    fn summary_counts_stable_stackings() {
         let summary = ensemble_summary(&tally(6), &ratio(1, 2)).unwrap();
         assert_eq!(
             csv(summary),
@@ -190,9 +195,9 @@ mod tests {
         );
     }
 
-    /// FCC has 9 of f₀ and 3 of 2 f₀; HCP 3 of 2/3, 3 of 1, 6 of 5/3.
+    /// FCC has 9 contact forces of 1 f₀ and 3 of 2 f₀. HCP has 3 of 2/3, 3 of 1 and 6 of 5/3.
     #[test]
-    fn the_histogram_of_three_layers() {
+    fn histogram_of_three_layers() {
         let tally = tally(3);
         let table = histogram(&tally, Binned::Forces, &ratio(1, 2)).unwrap();
         assert_eq!(
@@ -201,9 +206,9 @@ mod tests {
         );
     }
 
-    /// Bins that no run has are written as they are, though the last one ends beyond all that counts them.
+    /// The last bin of this artificial tally ends beyond the range of i64.
     #[test]
-    fn bins_at_the_end_of_the_numbers_are_written() {
+    fn histogram_of_bins_at_the_end_of_i64() {
         let stackings = RandomStackings::new(2, FirstSign::Random).unwrap();
         let ensemble = Ensemble::under(Region::SITE, stackings).unwrap();
         let mut tally = ensemble.run(&Choice::All, Shard::WHOLE).unwrap();
@@ -218,7 +223,7 @@ mod tests {
         let ends = [0, 1, 2].map(|n| width * BigInt::from(i128::from(i64::MAX) + n));
         let [first, middle, last] = ends.map(|end| end.to_string());
         let rows: Vec<&str> = csv.lines().skip(1).collect();
-        // Each of two stackings has half the weight, and none changes its sign.
+        // Each of the two stackings has weight 1/2, and neither has a sign change.
         let expected = [(&first, &middle), (&middle, &last)];
         let expected = expected.map(|(from, to)| format!("{from},{to},2,0"));
         assert_eq!(rows, expected);

@@ -1,4 +1,4 @@
-//! What a question takes: planned, and counted.
+//! The table of a plan and of the counters of its run.
 
 use cannonpile::engine::bug;
 use cannonpile::shape::Selection;
@@ -8,7 +8,7 @@ use cannonpile_dem::table::{Cell, Column, Table, Units, refuse_beyond};
 use num_bigint::{BigInt, BigUint};
 use num_rational::BigRational;
 
-/// A question about a pile in some units, as a table of it would put it.
+/// A query about a pile in some units, with its plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Explanation<'p> {
     units: Units<'p>,
@@ -17,7 +17,7 @@ pub(crate) struct Explanation<'p> {
 }
 
 impl<'p> Explanation<'p> {
-    /// The plan for a quantity of a part of the pile.
+    /// Plans the computation of a quantity of a part of the pile.
     ///
     /// # Errors
     /// As for [`Pile::plan`](cannonpile::Pile::plan).
@@ -35,19 +35,19 @@ impl<'p> Explanation<'p> {
         })
     }
 
-    /// That there are not too many answers to [`run`](Self::run).
+    /// Checks that [`run`](Self::run) does not compute too many rows.
     ///
     /// # Errors
-    /// [`TooManyRows`](cannonpile::Error::TooManyRows), as tables refuse them.
+    /// [`TooManyRows`](cannonpile::Error::TooManyRows), with the limit of a table.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let remedy = "ask for one layer, one sphere, or the plan only";
         refuse_beyond(&self.plan.rows, remedy)
     }
 
-    /// Answers the question, all of it, and counts what that takes.
+    /// Computes all values of the query, and counts the work.
     ///
     /// # Errors
-    /// As for [`check`](Self::check); those of the answers are handed on.
+    /// As for [`check`](Self::check), and the errors of the computation.
     pub(crate) fn run(&self) -> Result<Counters, Error> {
         self.check()?;
         let counters = Counters::default();
@@ -71,13 +71,15 @@ impl<'p> Explanation<'p> {
                     _ => multiples(packing.forces(), quantity, part)?,
                 }
             }
-            _ => return Err(bug("units are those of the pile or SI").into()),
+            _ => return Err(bug("units are pile units or SI").into()),
         }
         Ok(counters)
     }
 
-    /// One row: `quantity, method, runs, visited, turned, passes, numbers, bits, planes, roots, rows, bytes`, all at most,
-    /// and what was counted, if it was: `counted_visited, counted_turned, counted_passes, counted_rows`.
+    /// Returns one row with the plan, and with the counters if they are given.
+    ///
+    /// The columns of the plan are upper bounds: `quantity, method, runs, visited, turned, passes, numbers, bits, planes, roots,
+    /// rows, bytes`. Those of the counters are `counted_visited, counted_turned, counted_passes, counted_rows`.
     #[must_use]
     pub(crate) fn table(&self, counters: Option<&Counters>) -> Table<'static> {
         let plan = &self.plan;
@@ -102,14 +104,14 @@ impl<'p> Explanation<'p> {
         record(entries)
     }
 
-    /// What was counted, alone.
+    /// Returns one row with the counters alone.
     #[must_use]
     pub(crate) fn counted(counters: &Counters) -> Table<'static> {
         record(counted(counters).into())
     }
 }
 
-/// Answers a question in units of the pile.
+/// Computes the values of a query in pile units.
 fn multiples(
     forces: &Forces<'_, BigRational>,
     quantity: Quantity,
@@ -118,7 +120,7 @@ fn multiples(
     match quantity {
         Quantity::ContactMultiples => all(forces.contacts(part)?),
         Quantity::FloorMultiples => all(forces.base(part)?),
-        _ => Err(bug("a quantity in SI comes with units in SI")),
+        _ => Err(bug("a quantity in SI has units in SI")),
     }
 }
 
@@ -172,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_and_what_it_took() {
+    fn counters_follow_the_plan() {
         let rows = explained(10, Quantity::FloorMultiples, Selection::Base);
         assert!(rows[0].starts_with("quantity,method,runs,visited,"));
         assert!(
@@ -185,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_counted_alone() {
+    fn counters_and_plan_alone() {
         let counted = csv(Explanation::counted(&Counters::default()));
         assert!(counted.ends_with("\n0,0,0,0\n"));
         let pile = Pile::triangular(10).unwrap();
@@ -198,9 +200,9 @@ mod tests {
         );
     }
 
-    /// A layer has few answers, the whole pile 5·10¹¹, and a huge base more than anybody will wait for.
+    /// A layer has few rows. The whole pile has 5·10¹¹, and the base of the largest pile about 10⁶⁰.
     #[test]
-    fn too_many_answers_are_planned_and_not_run() {
+    fn too_many_rows_are_not_run() {
         let refused = |layers: i128, quantity, part| {
             let pile = Pile::triangular(layers).unwrap();
             let explanation = Explanation::new(&Units::of_pile(&pile), quantity, part).unwrap();
@@ -219,9 +221,9 @@ mod tests {
         ));
     }
 
-    /// Of a packing too, the multiples are counted as what they are: without a root.
+    /// A packing computes multiples of the unit force without a square root.
     #[test]
-    fn multiples_are_counted_in_si_too() {
+    fn multiples_of_a_packing_are_counted() {
         let pile = Pile::under(Region::SITE, "+-++-".parse().unwrap()).unwrap();
         let ratio = BigRational::new(6.into(), 5.into());
         let packing = Packing::new(&pile, &Spacing::new(ratio).unwrap()).unwrap();

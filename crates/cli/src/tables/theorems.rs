@@ -1,10 +1,10 @@
-//! What is proved.
+//! The tables of theorems.
 
 use cannonpile::theorem::Proof;
 use cannonpile_dem::table::{Cell, Column, Row, Table};
 use cannonpile_proof::Theorem;
 
-/// What is proved for every pile, a theorem a row: `name, statement, symbols, holds`.
+/// Returns the theorems, a row each: `name, statement, symbols, holds`.
 pub(crate) fn theorems(proved: impl Iterator<Item = (Theorem, Proof)> + 'static) -> Table<'static> {
     let columns = ["name", "statement", "symbols", "holds"].map(Column::plain);
     let row = |(theorem, proof): (Theorem, Proof)| -> Row {
@@ -18,7 +18,7 @@ pub(crate) fn theorems(proved: impl Iterator<Item = (Theorem, Proof)> + 'static)
     Table::of_rows(columns.into(), "theorems", proved.map(row))
 }
 
-/// Which theorem is proved in Coq under which names, a theorem a row: `name, coq`.
+/// Returns the names of the theorems in Coq, a row for each theorem: `name, coq`.
 pub(crate) fn in_coq() -> Table<'static> {
     let columns = ["name", "coq"].map(Column::plain);
     let row = |theorem: Theorem| -> Row {

@@ -1,4 +1,4 @@
-//! The command line as a user meets it: what it prints, what it refuses, how it ends.
+//! The command line as seen by a user: output, errors, exit status.
 
 mod cases;
 mod completions;
@@ -22,7 +22,7 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-/// A file in a folder of its own, gone when it is dropped.
+/// A file in its own temporary folder, which dropping this value removes.
 struct Temporary {
     _folder: TempDir,
     path: PathBuf,
@@ -51,7 +51,9 @@ fn cannonpile(arguments: &str) -> Output {
         .expect("the binary runs")
 }
 
-/// What is printed on success, with nothing on stderr but why columns of a summary are empty, and what means are over.
+/// Returns the output of a successful command.
+///
+/// Only two kinds of notes may appear on stderr: the reasons of empty columns of a summary, and the definition of a mean.
 fn stdout(arguments: &str) -> String {
     let output = cannonpile(arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
@@ -67,13 +69,13 @@ fn stdout(arguments: &str) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// Whether all that is said is why columns are empty.
+/// Returns whether stderr contains only the reasons of empty columns.
 fn only_reasons(stderr: &[u8]) -> bool {
     let said = String::from_utf8_lossy(stderr);
     said.lines().all(|line| line.starts_with("note: no "))
 }
 
-/// What is said on bad use: one line on stderr, nothing on stdout, status 2.
+/// Returns the error of a command: one line on stderr, with nothing on stdout and exit status 2.
 fn refusal(arguments: &str) -> String {
     let output = cannonpile(arguments);
     assert_eq!(output.status.code(), Some(2), "{arguments}: {output:?}");
@@ -84,7 +86,7 @@ fn refusal(arguments: &str) -> String {
 }
 
 #[test]
-fn the_papers_base() {
+fn base_of_the_paper() {
     let table = stdout("base --layers 10");
     let rows: Vec<Vec<&str>> = table
         .lines()
@@ -98,7 +100,7 @@ fn the_papers_base() {
 }
 
 #[test]
-fn surds_in_si() {
+fn base_forces_in_si() {
     let csv = stdout("base --layers 10 --spacing 6/5 --units si --number exact --format csv");
     assert_eq!(
         csv.lines().nth(1),
@@ -112,7 +114,7 @@ fn surds_in_si() {
 }
 
 #[test]
-fn a_pile_of_ten_to_the_thirty() {
+fn pile_of_1e30_layers() {
     let huge = "1000000000000000000000000000000";
     let csv = stdout(&format!("base --layers {huge} --at 5,7 --format csv"));
     let row = "5,7,333333333333333333333333333334,-166666666666666666666666666663,\
@@ -129,7 +131,7 @@ fn a_pile_of_ten_to_the_thirty() {
 }
 
 #[test]
-fn headers_are_those_of_the_design() {
+fn headers_of_tables() {
     for (arguments, header) in [
         (
             "summary",
@@ -152,7 +154,7 @@ fn headers_are_those_of_the_design() {
 }
 
 #[test]
-fn one_layer_has_no_contacts() {
+fn single_layer_has_no_contacts() {
     assert_eq!(
         stdout("contacts --layers 1 --format csv").lines().count(),
         1
@@ -209,7 +211,7 @@ fn selections() {
 }
 
 #[test]
-fn bad_values_are_named_with_their_remedy() {
+fn errors_name_option_and_remedy() {
     for (arguments, fragments) in [
         ("base --layers 0", ["--layers", "at least 1"]),
         ("base --layers -3", ["--layers", "not -3"]),
@@ -284,14 +286,14 @@ fn bad_values_are_named_with_their_remedy() {
 }
 
 #[test]
-fn a_file_is_whole_or_not_there() {
+fn output_file_is_written_atomically() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("base.csv");
     let target = path.display();
     assert!(stdout(&format!("base --layers 2 --format csv --output {target}")).is_empty());
     let written = fs::read_to_string(&path).expect("the file");
     assert_eq!(written, stdout("base --layers 2 --format csv"));
-    // A refused question leaves the file as it was, and nothing beside it.
+    // A failed command does not change the file, and leaves no other file.
     refusal(&format!(
         "base --mass 1e999 --units si --number f64 --output {target}"
     ));
@@ -304,7 +306,7 @@ fn a_file_is_whole_or_not_there() {
 }
 
 #[test]
-fn the_ending_of_a_file_is_its_format() {
+fn file_extension_selects_the_format() {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, option) in [
         ("base.csv", "csv"),
@@ -323,25 +325,25 @@ fn the_ending_of_a_file_is_its_format() {
 }
 
 #[test]
-fn bare_commands_ask_for_help() {
+fn bare_commands_print_help() {
     assert_eq!(stdout(""), stdout("--help"));
     assert_eq!(stdout("plot"), stdout("plot --help"));
 }
 
-/// What is asked of one sphere is answered before the verdict on a pile of millions of layers could be.
+/// A query about one sphere skips the stability check, which is slow for millions of layers.
 #[test]
-fn one_sphere_does_not_wait_for_the_pile() {
+fn single_sphere_skips_stability_check() {
     for command in ["spheres", "contacts"] {
         stdout(&format!("{command} --at 0,0,0 --stacking=(9000000,1)"));
     }
     let output = cannonpile("contacts --stacking hcp --layers 7 --layer 5");
     let note = String::from_utf8(output.stderr).expect("text");
-    assert!(note.contains("does not stand"), "{note}");
+    assert!(note.contains("unstable"), "{note}");
     stdout("contacts --stacking hcp --layers 7 --at 0,0,0");
 }
 
 #[test]
-fn a_closed_pipe_ends_quietly() {
+fn closed_pipe_is_not_an_error() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
         .args(["contacts", "--layers", "2000", "--format", "csv"])
         .stdout(Stdio::piped())

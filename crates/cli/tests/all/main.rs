@@ -1,5 +1,5 @@
-//! The tests of the command line, which run the binary.
+//! Tests of the command line, which run the binary.
 //!
-//! Which option an error is blamed on is tested beside `culprit.rs`.
+//! The tests in `culprit.rs` cover the option that causes an error.
 
 mod cli;

@@ -16,8 +16,8 @@ use crate::output::Failure;
 use crate::progress::Progress;
 
 impl Verify {
-    /// Compares the files of a ladder, and returns whether their errors have an order.
-    pub(super) fn climb(
+    /// Compares the files of a refinement study, and returns whether their errors show an order.
+    pub(super) fn compare_ladder(
         &self,
         LadderFiles(files): &LadderFiles,
         scene: &Scene,
@@ -41,7 +41,7 @@ impl Verify {
         };
         let blamed = |refusal: NoLadder| Failure::Message(format!("--ladder: {refusal}"));
         let mut ladder = Ladder::new(refinement, rungs).map_err(blamed)?;
-        // Where the theory of springs covers the scene.
+        // The spring theory predicts the errors of some scenes only.
         if refinement == Refinement::Stiffness
             && let Ok(springs) = Compliance::new(packing)
         {
@@ -64,7 +64,7 @@ impl Verify {
     }
 }
 
-/// A record to keep: the ladder, with its files and the scene.
+/// Writes the JSON record: the refinement study with its files and the scene.
 fn record(
     ladder: Value,
     sources: &[(f64, Source)],

@@ -1,4 +1,4 @@
-//! Benchmark cases: `cases`, and `--case` in place of a scene.
+//! Benchmark cases: the command `cases` and the option `--case`.
 
 use std::fs;
 use std::path::Path;
@@ -7,13 +7,13 @@ use cannonpile_dem::scene::cases;
 
 use super::{cannonpile, refusal, stdout};
 
-/// Exports, whatever is noted of a pile that falls.
+/// Runs `export`, and ignores notes about unstable piles.
 fn export(folder: &Path, arguments: &str) {
     let output = cannonpile(&format!("export {} {arguments}", folder.display()));
     assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
 }
 
-/// Every file of a folder, by name.
+/// Returns the files of a folder, sorted by name.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(folder).expect("a folder");
     let files = entries.map(|entry| {
@@ -27,7 +27,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn a_case_is_exported_as_its_scene() {
+fn case_equals_its_scene() {
     let folder = tempfile::tempdir().expect("a folder");
     for case in cases() {
         let name = case.name();
@@ -42,7 +42,7 @@ fn a_case_is_exported_as_its_scene() {
         let [of_case, of_scene] = [at("case"), at("scene")].map(|folder| files(&folder));
         assert_eq!(of_case.len(), 11, "{name}");
         assert!(of_case == of_scene, "{name}");
-        // The exact forces are what they are compared with.
+        // The exported forces are exact, so verify accepts them.
         let contacts = at("case").join("contacts.csv");
         let arguments = format!(
             "verify {} --case {name} --accept 0 --format csv",
@@ -58,7 +58,7 @@ fn a_case_is_exported_as_its_scene() {
 }
 
 #[test]
-fn the_command_of_each_row_runs() {
+fn command_of_each_case_runs() {
     let folder = tempfile::tempdir().expect("a folder");
     let csv = stdout("cases --format csv");
     let mut reader = ::csv::Reader::from_reader(csv.as_bytes());
@@ -94,7 +94,7 @@ fn the_command_of_each_row_runs() {
 }
 
 #[test]
-fn a_case_excludes_what_shapes_a_pile() {
+fn case_excludes_scene_options() {
     for option in [
         "--layers 4",
         "--stacking hcp",
@@ -147,9 +147,9 @@ fn a_case_excludes_what_shapes_a_pile() {
     assert!(!Path::new("pile").exists());
 }
 
-/// Another state than that of the case has not its name.
+/// With another `--state` the scene is not the case any more, so the card does not have its name.
 #[test]
-fn a_card_has_the_name_of_its_case_alone() {
+fn card_names_its_case() {
     let folder = tempfile::tempdir().expect("a folder");
     let head = |arguments: &str| {
         let into = folder.path().join(arguments.replace(' ', "-"));

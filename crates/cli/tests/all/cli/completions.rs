@@ -1,4 +1,4 @@
-//! Completions: every shell is told of every command and option.
+//! Shell completions: each script contains every command and option.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use super::{refusal, stdout};
 
 const SHELLS: [&str; 5] = ["bash", "zsh", "fish", "elvish", "powershell"];
 
-/// The commands that the help of a command lists, or of none.
+/// Returns the subcommands in the help of a command.
 pub(super) fn commands(above: &str) -> Vec<String> {
     let help = stdout(&format!("{above} --help"));
     let list = help.lines().skip_while(|line| *line != "Commands:").skip(1);
@@ -16,7 +16,7 @@ pub(super) fn commands(above: &str) -> Vec<String> {
         .collect()
 }
 
-/// The options that the help of a command lists.
+/// Returns the options in the help of a command.
 pub(super) fn options(command: &str) -> Vec<String> {
     let help = stdout(&format!("{command} --help"));
     let words = help.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
@@ -28,7 +28,7 @@ pub(super) fn options(command: &str) -> Vec<String> {
 }
 
 #[test]
-fn every_command_and_option_is_named() {
+fn scripts_contain_commands_and_options() {
     let commands = commands("");
     for expected in [
         "summary",
@@ -51,7 +51,7 @@ fn every_command_and_option_is_named() {
     for shell in SHELLS {
         let script = stdout(&format!("completions {shell}"));
         for name in commands.iter().chain(&options) {
-            assert!(script.contains(name), "{shell} is not told of {name}");
+            assert!(script.contains(name), "{shell}: no {name}");
         }
         assert!(!script.contains("sin-psi"), "{shell}");
     }
@@ -59,7 +59,7 @@ fn every_command_and_option_is_named() {
     assert!(refusal("completions").contains("bash"));
 }
 
-/// Where there is such a shell, it finds no fault.
+/// The shells that are installed accept the syntax of their scripts.
 #[test]
 fn shells_parse_their_scripts() {
     for shell in ["bash", "zsh"] {

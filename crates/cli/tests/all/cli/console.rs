@@ -1,15 +1,15 @@
-//! Commands and what they print, word for word: those of `commands/*.console`, and those that README shows.
+//! Snapshot tests of the output of commands, in `commands/*.console` and in README.
 //!
-//! | line | what it is |
+//! | line | meaning |
 //! |---|---|
-//! | `$ cannonpile …` | a command, in a fresh folder with the files of `commands/files`; `< FILE` is its input |
-//! | `> …` | one more in the same folder; there `cat FILE` and `ls FOLDER` can be asked too |
-//! | `? N` | the exit status, where it is not 0 |
+//! | `$ cannonpile …` | a command, run in a new folder with the files of `commands/files`; `< FILE` is its input |
+//! | `> …` | another command in the same folder; `cat FILE` and `ls FOLDER` are supported too |
+//! | `? N` | the exit status, if it is not 0 |
 //! | `! …` | a line on stderr |
-//! | `…` | any lines |
+//! | `…` | any number of lines |
 //!
-//! All else is a line on stdout. `OVERWRITE=1 cargo test -p cannonpile-cli --test all console` writes what is printed now
-//! into the files, but leaves what agrees as it is: read the difference before you commit it.
+//! All other lines are stdout. `OVERWRITE=1 cargo test -p cannonpile-cli --test all console` updates the snapshots that
+//! differ. Read the difference before you commit it.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ macro_rules! console {
         })*
 
         #[test]
-        fn every_file_of_commands_is_run() {
+        fn every_console_file_is_run() {
             let mut files: Vec<_> = fs::read_dir(folder()).expect("commands").map(|file| file.expect("a file").path()).collect();
             files.retain(|file| file.extension().is_some_and(|extension| extension == "console"));
             files.sort();
@@ -35,7 +35,7 @@ macro_rules! console {
     };
 }
 
-// Each with the number of its commands.
+// The number of commands of each file.
 console! {
     base: 89;
     bounds: 19;
@@ -59,7 +59,7 @@ console! {
     verify: 14;
 }
 
-/// A command as it is shown, with the lines shown below it.
+/// A command of a snapshot, with the lines below it.
 struct Shown<'a> {
     line: &'a str,
     below: Vec<&'a str>,
@@ -69,7 +69,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/all/cli/commands")
 }
 
-/// The commands of a text; empty lines between them are left out.
+/// Returns the commands of a text, without the empty lines between them.
 fn shown(text: &str) -> Vec<Shown<'_>> {
     let mut all: Vec<Shown<'_>> = Vec::new();
     for line in text.lines() {
@@ -88,7 +88,7 @@ fn shown(text: &str) -> Vec<Shown<'_>> {
     all
 }
 
-/// A folder with the files of `commands/files`, removed when it is dropped.
+/// Creates a temporary folder with the files of `commands/files`.
 fn fresh() -> TempDir {
     let fresh = tempfile::tempdir().expect("a folder");
     for file in fs::read_dir(folder().join("files")).expect("files") {
@@ -98,7 +98,7 @@ fn fresh() -> TempDir {
     fresh
 }
 
-/// The words of a command; quotes hold words together.
+/// Splits a command into words. A quoted text is one word.
 fn words(command: &str) -> Vec<String> {
     let mut words = Vec::new();
     let (mut word, mut quote) = (None::<String>, None);
@@ -116,7 +116,7 @@ fn words(command: &str) -> Vec<String> {
     words.into_iter().chain(word).collect()
 }
 
-/// What a command prints and how it ends, line by line as it would be shown.
+/// Runs a command and returns its output in the format of a snapshot.
 fn run(command: &str, folder: &Path) -> Vec<String> {
     let mut words = words(command);
     let mut input = Stdio::null();
@@ -167,7 +167,7 @@ fn run(command: &str, folder: &Path) -> Vec<String> {
     lines
 }
 
-/// Whether the lines are those shown, in which `…` stands for any.
+/// Returns whether the output agrees with the snapshot, where `…` matches any lines.
 fn agree(shown: &[&str], lines: &[String]) -> bool {
     let Some(gap) = shown.iter().position(|line| *line == "…") else {
         return shown == lines;
@@ -178,7 +178,7 @@ fn agree(shown: &[&str], lines: &[String]) -> bool {
         && after == &lines[lines.len() - after.len()..]
 }
 
-/// The lines as they would be shown: with the gap where it was, or a gap in what is long.
+/// Formats output as a snapshot. A gap stays at its position, and long output gets a new one.
 fn cut(shown: &[&str], lines: &[String]) -> Vec<String> {
     const LONG: usize = 30;
     let errors = |line: &str| line.starts_with("! ");
@@ -198,7 +198,7 @@ fn cut(shown: &[&str], lines: &[String]) -> Vec<String> {
     [first, &["…".to_owned()], last, &stderr].concat()
 }
 
-/// Every command of the file prints what is shown, and there are as many as that.
+/// Checks the output of every command of a file, and the number of commands.
 fn holds(name: &str, commands: usize) {
     let path = folder().join(name).with_extension("console");
     let text = fs::read_to_string(&path).expect("commands");
@@ -224,7 +224,7 @@ fn holds(name: &str, commands: usize) {
                 line,
                 "\n",
                 &lines,
-                "\nbut shown is\n",
+                "\nsnapshot:\n",
                 &below.join("\n"),
                 "\n\n",
             ]);
@@ -237,12 +237,12 @@ fn holds(name: &str, commands: usize) {
         assert_eq!(
             all.len(),
             commands,
-            "the number of commands stands in `console.rs`"
+            "update the number of commands in `console.rs`"
         );
     }
 }
 
-/// README in its blocks of one kind.
+/// Returns the code blocks of README with this language.
 fn blocks(kind: &str) -> impl Iterator<Item = &'static str> {
     let blocks = include_str!("../../../../../README.md")
         .split("\n```")
@@ -252,11 +252,11 @@ fn blocks(kind: &str) -> impl Iterator<Item = &'static str> {
 }
 
 #[test]
-fn readme_shows_what_is_printed() {
+fn readme_shows_current_output() {
     let mut commands = 0;
     for Shown { line, below } in blocks("console").flat_map(shown) {
         let lines = run(&line[2..], fresh().path());
-        // What a reader sees in a terminal; where README goes on in words, the command is run alone.
+        // A terminal shows stdout and stderr without marks. A command without output in README only has to succeed.
         let failed = lines.iter().any(|line| line.starts_with("? "));
         let seen: Vec<String> = lines
             .iter()
@@ -274,10 +274,10 @@ fn readme_shows_what_is_printed() {
     assert!(commands >= 3, "{commands}");
 }
 
-/// Commands that README only lists are run from the files.
+/// The snapshot files contain the commands that README lists without their output.
 #[test]
-fn readme_lists_no_command_that_is_not_run() {
-    // What is read was written by LAMMPS, YADE or Siconos; how long it took is printed.
+fn commands_of_readme_are_run() {
+    // Some commands read files of LAMMPS, YADE or Siconos, or print their duration.
     let elsewhere = ["forces.dump", "forces.csv", "siconos.csv", "--layers 40"];
     let mut run = String::new();
     for file in fs::read_dir(folder())
@@ -305,7 +305,7 @@ fn readme_lists_no_command_that_is_not_run() {
 }
 
 #[test]
-fn a_difference_is_seen() {
+fn snapshots_detect_differences() {
     let lines = |text: &str| -> Vec<String> { text.split(' ').map(String::from).collect() };
     for (shown, printed, holds) in [
         ("a b", "a b", true),

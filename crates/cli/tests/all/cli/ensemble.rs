@@ -1,4 +1,4 @@
-//! Ensembles on the command line: in parts and whole, and what no part is.
+//! The commands `ensemble` and `merge`: parts, merged records, invalid parts.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use super::{cannonpile, refusal, stdout};
 
-/// A folder of this test, removed when it is dropped.
+/// A temporary folder.
 struct Folder(TempDir);
 
 impl Folder {
@@ -21,7 +21,7 @@ impl Folder {
         self.0.path().join(name).to_str().expect("text").to_owned()
     }
 
-    /// Writes a part, and returns its name.
+    /// Writes a part of an ensemble, and returns its file name.
     fn part(&self, scene: &str, shard: &str, name: &str) -> String {
         let file = self.file(name);
         let said = stdout(&format!("ensemble {scene} --shard {shard} --output {file}"));
@@ -38,7 +38,7 @@ const SCENES: [&str; 4] = [
 ];
 
 #[test]
-fn three_parts_in_any_order_are_the_whole_byte_for_byte() {
+fn merged_parts_equal_the_whole_in_any_order() {
     for scene in SCENES {
         let folder = Folder::new();
         let parts = [1, 2, 3].map(|i| folder.part(scene, &format!("{i}/3"), &format!("{i}.json")));
@@ -54,7 +54,7 @@ fn three_parts_in_any_order_are_the_whole_byte_for_byte() {
             let merged = stdout(&format!("merge {} {} {}", parts[a], parts[b], parts[c]));
             assert!(merged == whole, "{scene}: {a} {b} {c}");
         }
-        // What is merged is whole, and nothing is left to do.
+        // Merging a merged record again does not change it.
         let file = folder.file("whole.json");
         assert_eq!(
             stdout(&format!(
@@ -68,7 +68,7 @@ fn three_parts_in_any_order_are_the_whole_byte_for_byte() {
 }
 
 #[test]
-fn on_one_thread_as_on_all() {
+fn result_does_not_depend_on_thread_count() {
     // Samples are drawn 8192 at a time.
     for scene in ["--layers 12 --all", "--layers 30 --samples 9000"] {
         let arguments = format!("ensemble {scene} --format json");
@@ -101,7 +101,7 @@ fn probabilities_are_exact_or_intervals() {
     }
     assert_eq!(all["ensemble"]["horizontal_contacts"], true);
     assert!(all.get("standing_interval").is_none() && all.get("held_interval").is_none());
-    // All FCC, all HCP.
+    // Only FCC for q = 0, only HCP for q = 1.
     for (q, expected) in [("0", "1"), ("1", "0")] {
         let all = record(&format!("--layers 8 --all --fault-probability {q}"));
         assert_eq!(all["standing_probability"], expected);
@@ -112,10 +112,10 @@ fn probabilities_are_exact_or_intervals() {
     let bounds = drawn["standing_interval"].as_array().expect("two floats");
     let [lower, upper] = [0, 1].map(|n| bounds[n].as_f64().expect("a float"));
     assert!(lower < 0.171_875 && 0.171_875 < upper, "{lower} {upper}");
-    // Of a part nothing is said that is of the whole.
+    // A part has no probability.
     let part = record("--layers 8 --all --shard 1/2");
     assert!(part.get("standing_probability").is_none());
-    // A histogram has as many contacts as there are.
+    // A histogram counts every contact once.
     for with in all["faults"].as_array().expect("rows") {
         let counts = with["all"]["forces"]["counts"].as_array().expect("counts");
         let counts = counts.iter().map(|n| n.as_u64().expect("a count"));
@@ -124,7 +124,7 @@ fn probabilities_are_exact_or_intervals() {
 }
 
 #[test]
-fn what_is_no_part_is_refused_by_name() {
+fn merge_rejects_parts_of_other_ensembles() {
     let folder = Folder::new();
     let scene = "--layers 6 --samples 90 --seed 7";
     let first = folder.part(scene, "1/3", "first.json");
@@ -179,7 +179,7 @@ fn what_is_no_part_is_refused_by_name() {
             "{said}"
         );
     }
-    // Of all stackings the fault probability is only that of the figures; still they are of another.
+    // With --all the counts do not depend on the fault probability, but the records differ.
     let all = folder.part("--layers 6 --all", "1/2", "all.json");
     let other = folder.part(
         "--layers 6 --all --fault-probability 1/3",
@@ -190,7 +190,7 @@ fn what_is_no_part_is_refused_by_name() {
 }
 
 #[test]
-fn what_was_changed_is_refused() {
+fn merge_rejects_modified_parts() {
     let folder = Folder::new();
     let scene = "--layers 6 --samples 90 --seed 7";
     let [first, second, third] =
@@ -223,7 +223,7 @@ fn what_was_changed_is_refused() {
     ] {
         let said = changed(from, to);
         assert!(
-            said.contains("changed.json is no part of an ensemble: "),
+            said.contains("changed.json is not part of an ensemble: "),
             "{from}: {said}"
         );
     }
@@ -240,7 +240,7 @@ fn what_was_changed_is_refused() {
         said.contains("nothing.json cannot be read: no such file"),
         "{said}"
     );
-    // Nothing was written where nothing could be.
+    // A failed merge writes no file.
     let file = folder.file("none.json");
     refusal(&format!("merge {first} {third} --output {file}"));
     assert!(!Path::new(&file).exists());

@@ -1,8 +1,8 @@
-//! Plans, counters, methods and intervals on the command line.
+//! The command `explain`, and the options `--method` and `--number interval`.
 
 use super::{refusal, stdout};
 
-/// The value after a name, in a table of names and values.
+/// Returns the value after a name, in a table of names and values.
 fn value<'t>(table: &'t str, name: &str) -> &'t str {
     let line = table
         .lines()
@@ -12,7 +12,7 @@ fn value<'t>(table: &'t str, name: &str) -> &'t str {
 }
 
 #[test]
-fn a_plan_and_what_was_counted() {
+fn counters_are_below_the_plan() {
     let table = stdout("explain --layers 10");
     assert_eq!(value(&table, "quantity"), "contact multiples");
     assert_eq!(value(&table, "method"), "closed");
@@ -28,7 +28,7 @@ fn a_plan_and_what_was_counted() {
 }
 
 #[test]
-fn one_row_for_programs() {
+fn csv_and_json_have_one_row() {
     let csv = stdout("explain --stacking hcp --layers 12 --at 5,1,1 --format csv");
     let [head, row] = [0, 1].map(|n| csv.lines().nth(n).unwrap());
     assert!(head.starts_with("quantity,method,runs,visited,turned,passes,"));
@@ -42,7 +42,7 @@ fn one_row_for_programs() {
 }
 
 #[test]
-fn a_plan_alone_is_told_of_any_pile() {
+fn no_run_plans_a_pile_of_any_size() {
     let huge = "1000000000000000000000000";
     let table = stdout(&format!("explain --layers {huge} --no-run"));
     assert!(value(&table, "rows").len() > 70);
@@ -52,7 +52,7 @@ fn a_plan_alone_is_told_of_any_pile() {
 }
 
 #[test]
-fn every_method_prints_the_same() {
+fn methods_agree() {
     for scene in ["--layers 7", "--stacking ++-++ --top hexagon:2"] {
         for command in ["contacts", "base"] {
             let cheapest = stdout(&format!("{command} {scene} --format csv"));
@@ -75,7 +75,7 @@ fn intervals_have_two_columns() {
     for line in csv.lines().skip(1) {
         let numbers: Vec<f64> = line.split(',').map(|text| text.parse().unwrap()).collect();
         for ends in numbers[2..].chunks(2) {
-            // One float, or two neighbours: 5/3 N is none, 0 is one.
+            // The bounds are equal if the value is a float, such as 0. Otherwise they are neighbours, as for 5/3 N.
             assert!([ends[0], ends[0].next_up()].contains(&ends[1]), "{line}");
         }
         let normal = [1.666_666_666_666_666_5, 1.666_666_666_666_666_7];

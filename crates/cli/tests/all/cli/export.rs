@@ -1,11 +1,11 @@
-//! `export`: which files there are, what is said of them, and what is refused.
+//! The command `export`: files, list of the files, errors.
 
 use std::fs;
 use std::path::Path;
 
 use super::{cannonpile, refusal, stdout};
 
-/// The names in a folder, hidden ones too.
+/// Returns the file names in a folder, with hidden files.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let names = entries.map(|entry| entry.expect("an entry").file_name());
@@ -75,7 +75,7 @@ fn files_by_format() {
 }
 
 #[test]
-fn the_csv_files_are_what_the_commands_print() {
+fn csv_files_equal_the_tables() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = "--top hexagon:3 --stacking=+-+ --spacing 1.1 --radius 1/2 --load 1,0,0=2";
     stdout(&format!("export {} {scene}", folder.path().display()));
@@ -101,7 +101,7 @@ fn the_csv_files_are_what_the_commands_print() {
 }
 
 #[test]
-fn a_pile_that_falls_is_exported_with_a_note() {
+fn unstable_pile_is_exported_with_a_note() {
     let folder = tempfile::tempdir().expect("a folder");
     let into = folder.path().display();
     let output = cannonpile(&format!(
@@ -110,12 +110,12 @@ fn a_pile_that_falls_is_exported_with_a_note() {
     assert_eq!(output.status.code(), Some(0));
     let note = String::from_utf8(output.stderr).expect("text");
     assert_eq!(note.lines().count(), 1);
-    assert!(note.contains("does not stand"), "{note}");
+    assert!(note.contains("unstable"), "{note}");
     assert_eq!(names(folder.path()), ["pile.data", "pile.in", "scene.toml"]);
 }
 
 #[test]
-fn what_is_refused_leaves_nothing() {
+fn failed_export_leaves_no_file() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("file"), "").expect("a file");
     let inside = folder.path().display();
@@ -154,7 +154,7 @@ fn what_is_refused_leaves_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn a_signal_removes_unfinished_files() {
+fn signals_remove_unfinished_files() {
     use std::io::Read;
     use std::process::{Command, Stdio};
     use std::thread::sleep;
@@ -188,7 +188,7 @@ fn a_signal_removes_unfinished_files() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_names_the_file() {
+fn full_disk_error_names_the_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let full = folder.path().join("contacts.csv");
     std::os::unix::fs::symlink("/dev/full", full).expect("a link");

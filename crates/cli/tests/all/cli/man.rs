@@ -1,4 +1,4 @@
-//! Pages of the manual: every command has one, which says what its help says, and `man` shows it.
+//! Manual pages: each command has one, with all its options.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,7 +7,7 @@ use std::process::Command;
 use super::{cannonpile, completions, stdout};
 
 #[test]
-fn every_command_has_its_page() {
+fn every_command_has_a_page() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path().join("share/man1");
     let listed = stdout(&format!("man {}", folder.display()));
@@ -48,7 +48,7 @@ fn every_command_has_its_page() {
     assert_eq!(written.collect::<BTreeSet<_>>(), names);
     assert_eq!(listed.lines().count(), names.len());
 
-    // Where there is groff, it has nothing to complain of, and examples keep their lines.
+    // If groff is installed, it formats the pages without a warning.
     for name in &names {
         let page = folder.join(name);
         let groff = Command::new("groff")
@@ -62,7 +62,7 @@ fn every_command_has_its_page() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_is_refused() {
+fn rejects_a_file_as_folder() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("file");
     fs::write(&file, "here").expect("written");
@@ -77,7 +77,7 @@ fn a_folder_that_cannot_be_is_refused() {
 }
 
 #[test]
-fn all_pages_are_written_or_none() {
+fn writes_all_pages_or_none() {
     let folder = tempfile::tempdir().expect("a folder");
     let taken = folder.path().join("cannonpile-verify.1");
     fs::create_dir(&taken).expect("made");

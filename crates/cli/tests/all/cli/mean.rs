@@ -1,4 +1,4 @@
-//! The command `mean`: what it prints is what all stackings say, one by one.
+//! The command `mean`, compared with an enumeration of all stackings.
 
 use cannonpile::lattice::Region;
 use cannonpile_dem::scene::parse;
@@ -11,7 +11,7 @@ use cannonpile_testkit::answers::ratio;
 use cannonpile_testkit::disorder::{Anchor, Means, Piles, alike};
 use cannonpile_testkit::oracles::one_by_one::Place;
 
-/// Piles, and the options that describe them.
+/// Returns piles with the options that describe them.
 fn described() -> Vec<(Piles, &'static str)> {
     let hexagon = Region::hexagon(2, 2).unwrap();
     let mut two = Piles::response(3, FirstSign::Minus);
@@ -46,14 +46,14 @@ fn described() -> Vec<(Piles, &'static str)> {
     ]
 }
 
-/// What is printed on success, beside the one line on stderr.
+/// Returns the output of a successful command, and ignores the note on stderr.
 fn stdout(arguments: &str) -> String {
     let output = cannonpile(arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments}: {output:?}");
     String::from_utf8(output.stdout).expect("text")
 }
 
-/// The rows of csv below their headers.
+/// Returns the rows of a csv text, after checking its header.
 fn rows(csv: &str, headers: &str) -> Vec<Vec<String>> {
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some(headers));
@@ -78,7 +78,7 @@ fn means(csv: &str) -> Means {
 }
 
 #[test]
-fn means_of_all_stackings() {
+fn means_over_all_stackings() {
     for (described, options) in described() {
         let sums = described.sums();
         for q in ["0", "1/3", "1/2", "1"] {
@@ -98,7 +98,7 @@ fn means_of_all_stackings() {
                 }
             }
         }
-        // Without the option all stackings are equally likely.
+        // The default is q = 1/2: all stackings are equally likely.
         let half = stdout(&format!("mean {options} --format csv"));
         alike(
             options,
@@ -127,7 +127,7 @@ fn sums_by_faults() {
     }
 }
 
-/// `(2 q^3 - 4 q^2)/81`, `-q/3`, `5`: as they are printed, at a value of q.
+/// Evaluates a printed polynomial such as `(2 q^3 - 4 q^2)/81`, `-q/3` or `5` at q.
 fn value(text: &str, q: &BigRational) -> BigRational {
     let (terms, denominator) = match text.rsplit_once('/') {
         Some((terms, denominator)) => (terms, number(denominator)),
@@ -158,7 +158,7 @@ fn value(text: &str, q: &BigRational) -> BigRational {
 }
 
 #[test]
-fn polynomials_have_the_values_of_all_stackings() {
+fn polynomials_equal_means_over_all_stackings() {
     assert_eq!(
         value("(-2 q^3 - 4 q^2 + 6 q)/27", &ratio(1, 2)),
         ratio(7, 108)
@@ -176,9 +176,9 @@ fn polynomials_have_the_values_of_all_stackings() {
     }
 }
 
-/// Whatever is printed, one line says of which stackings it is; help names all that is printed.
+/// A note defines the mean in every format, and the help explains every column.
 #[test]
-fn definitions_are_said() {
+fn note_and_help_define_the_mean() {
     for options in [
         "",
         "--symbolic",
@@ -224,9 +224,9 @@ fn definitions_are_said() {
     }
 }
 
-/// A row that is left out, or a number that is off in its last digit, is another answer.
+/// A missing row and a small error in a number are differences.
 #[test]
-fn planted_faults_are_found() {
+fn comparison_detects_wrong_means() {
     let (described, options) = described().swap_remove(0);
     let expected = described.means(&described.sums(), &ratio(1, 2));
     let right = means(&stdout(&format!("mean {options} --format csv")));

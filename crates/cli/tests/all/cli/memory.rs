@@ -1,9 +1,9 @@
-//! What a process may not have the memory for is refused beforehand.
+//! Commands that need more memory than the limit of the process fail before they start.
 #![cfg(target_os = "linux")]
 
 use std::process::{Command, Output};
 
-/// Of a process that may have so many kilobytes.
+/// Runs a command with this limit of its memory, in kilobytes.
 fn within(kilobytes: u32, arguments: &str) -> Output {
     Command::new("sh")
         .arg("-c")
@@ -14,7 +14,7 @@ fn within(kilobytes: u32, arguments: &str) -> Output {
 }
 
 #[test]
-fn more_than_a_process_may_have_is_refused_in_one_line() {
+fn requests_above_the_limit_fail_in_one_line() {
     for (arguments, quantity) in [
         (
             "base --stacking hcp --layers 1000 --number f64",
@@ -42,7 +42,7 @@ fn more_than_a_process_may_have_is_refused_in_one_line() {
 }
 
 #[test]
-fn a_summary_says_which_columns_it_had_no_memory_for() {
+fn summary_names_columns_without_memory() {
     let output = within(250_000, "summary --stacking hcp --layers 1000");
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let notes = String::from_utf8(output.stderr).expect("text");
@@ -59,7 +59,7 @@ fn a_summary_says_which_columns_it_had_no_memory_for() {
 }
 
 #[test]
-fn what_fits_is_answered() {
+fn requests_below_the_limit_succeed() {
     let output = within(250_000, "base --stacking hcp --layers 100 --number f64");
     assert_eq!(output.status.code(), Some(0), "{output:?}");
 }

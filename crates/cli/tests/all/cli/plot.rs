@@ -1,4 +1,4 @@
-//! `plot`: figures on stdout and in files, and what is refused.
+//! The command `plot`: figures on stdout and in files, errors.
 
 use super::{cannonpile, refusal, stdout};
 use cannonpile_dem::table::FileFormat;
@@ -10,7 +10,7 @@ const KINDS: [&str; 7] = [
 ];
 
 #[test]
-fn every_kind_is_a_figure_on_stdout() {
+fn every_kind_prints_svg() {
     for kind in KINDS {
         for scene in [
             "",
@@ -29,7 +29,7 @@ fn every_kind_is_a_figure_on_stdout() {
 }
 
 #[test]
-fn the_papers_figures_are_the_defaults() {
+fn defaults_are_the_figures_of_the_paper() {
     let pile = stdout("plot pile");
     assert!(pile.contains("4 layers, FCC, a/R = 6/5"));
     assert_eq!(pile.matches("class=\"sphere\"").count(), 20);
@@ -39,19 +39,19 @@ fn the_papers_figures_are_the_defaults() {
     let shear = stdout("plot shear");
     assert!(shear.contains("10 layers") && shear.contains("mg·tanθ"));
     assert!(stdout("plot shear --units si --gravity 9.81").contains(" N"));
-    // A stacking that is spelled out, or a base, says itself how many layers there are.
+    // A spelled-out stacking or a base determines the number of layers.
     assert!(stdout("plot pile --stacking ++-+-").contains("6 layers"));
     assert!(stdout("plot pile --base triangle:6").contains("6 layers"));
 }
 
 #[test]
-fn a_file_is_the_same_as_stdout_and_whole() {
+fn file_equals_stdout() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("shear.svg");
     let printed = stdout(&format!("plot shear --output {}", path.display()));
     assert_eq!(printed, "");
     assert_eq!(fs::read_to_string(&path).unwrap(), stdout("plot shear"));
-    // What is refused leaves it as it was.
+    // A failed command does not change the file.
     let refused = refusal(&format!(
         "plot shear --layers 9999 --output {}",
         path.display()
@@ -63,7 +63,7 @@ fn a_file_is_the_same_as_stdout_and_whole() {
 }
 
 #[test]
-fn what_nobody_could_read_is_refused() {
+fn rejects_figures_with_too_many_glyphs() {
     let huge = "1000000000000000000000000000000";
     for kind in ["pile", "shear", "base", "network", "response"] {
         let line = refusal(&format!("plot {kind} --layers {huge}"));
@@ -72,7 +72,7 @@ fn what_nobody_could_read_is_refused() {
             "{line}"
         );
     }
-    // A layer or a sphere of it can be drawn.
+    // Single layers and spheres of the same pile can be drawn.
     stdout(&format!("plot indexing --layers {huge}"));
     stdout(&format!("plot network --layers {huge} --layer 4"));
     stdout(&format!(
@@ -81,7 +81,7 @@ fn what_nobody_could_read_is_refused() {
 }
 
 #[test]
-fn refusals_name_the_option() {
+fn errors_name_the_option() {
     for (arguments, option) in [
         ("pile --spacing 1/2", "--spacing"),
         ("pile --mass 0", "--mass"),
@@ -110,7 +110,7 @@ fn refusals_name_the_option() {
 }
 
 #[test]
-fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
+fn unstable_pile_is_drawn_with_a_note() {
     for kind in ["shear", "base", "network"] {
         let output = cannonpile(&format!("plot {kind} --stacking hcp"));
         assert_eq!(output.status.code(), Some(0));
@@ -120,12 +120,12 @@ fn a_pile_that_cannot_stand_is_drawn_with_a_note() {
             "{note}"
         );
     }
-    // A response is of weightless spheres: nothing is said of standing.
+    // A response uses spheres without weight, so there is no note about stability.
     assert!(stdout("plot response --stacking hcp").contains("spheres without weight"));
 }
 
 #[test]
-fn the_page_can_be_wide_and_without_a_title() {
+fn width_and_title_options() {
     let whole = stdout("plot shear");
     assert_eq!(whole, stdout("plot shear --width 800"));
     assert!(whole.contains("width=\"800\"") && whole.contains("font-weight=\"bold\""));
@@ -134,7 +134,7 @@ fn the_page_can_be_wide_and_without_a_title() {
 }
 
 #[test]
-fn the_figures_of_readme_are_those_of_the_commands() {
+fn figures_of_readme_are_current() {
     for (command, figure) in [
         (
             "plot pile",
@@ -157,7 +157,7 @@ fn the_figures_of_readme_are_those_of_the_commands() {
             include_str!("../../../../../examples/figures/mean.svg"),
         ),
     ] {
-        assert!(stdout(command) == figure, "draw it again: {command}");
+        assert!(stdout(command) == figure, "run again: {command}");
         assert!(
             include_str!("../../../../../README.md").contains(command),
             "{command}"
@@ -166,13 +166,13 @@ fn the_figures_of_readme_are_those_of_the_commands() {
 }
 
 #[test]
-fn responses_of_random_stackings_are_maps_and_curves() {
+fn mean_responses_are_maps_and_curves() {
     let maps = stdout("plot response --fault-probability 0,1/4,0.5,1 --layers 5");
     assert!(maps.contains("q = 1/4") && maps.contains("q = 1/2"));
     assert_eq!(maps.matches("class=\"front\"").count(), 4);
     let curves = stdout("plot response --fault-probability 1/4,1/2 --layers 9 --profile");
     assert_eq!(curves.matches("class=\"curve\"").count(), 2);
-    // Two steps, a fault, three steps: the six loads and the three.
+    // Two steps, a fault, three steps: six spheres with force 2/9 and three with −1/9.
     let spots = stdout("plot response --faults 2,3");
     assert_eq!(spots, stdout("plot response --stacking ++---"));
     assert_eq!(spots.matches("data-exact=\"2/9\"").count(), 6);
@@ -194,7 +194,7 @@ fn responses_of_random_stackings_are_maps_and_curves() {
 }
 
 #[test]
-fn a_distribution_is_drawn_of_a_record() {
+fn distribution_of_a_record() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (whole, part) = (path("whole.json"), path("part.json"));
@@ -213,7 +213,7 @@ fn a_distribution_is_drawn_of_a_record() {
 }
 
 #[test]
-fn a_ladder_is_drawn_of_a_record() {
+fn ladder_of_a_record() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let rungs = [1e4, 1e5, 1e6].map(|k| Rung::of_errors(k, 30, 4.0 / k, 1.0 / k));
@@ -230,7 +230,7 @@ fn a_ladder_is_drawn_of_a_record() {
     for wrong in [&cut, "Cargo.toml"] {
         let refused = refusal(&format!("plot ladder {wrong}"));
         assert!(
-            refused.contains("is no ladder") && refused.contains("verify --ladder"),
+            refused.contains("is not a ladder") && refused.contains("verify --ladder"),
             "{refused}"
         );
     }

@@ -1,4 +1,4 @@
-//! Scenes from files: on every command, under the options of the line, and written again.
+//! Scene files: read by every command, overridden by options, written by `scene`.
 
 use std::fs;
 use std::io::Write;
@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use super::{Temporary, cannonpile, refusal, stdout};
 
-/// A scene in a file, gone when it is dropped.
+/// A scene in a temporary file.
 struct Scratch(Temporary);
 
 impl Scratch {
@@ -14,13 +14,13 @@ impl Scratch {
         Self(Temporary::new(&format!("{name}.toml"), text))
     }
 
-    /// What is printed on stdout, with or without a note beside it.
+    /// Returns stdout, and ignores notes on stderr.
     fn printed(&self, question: &str) -> String {
         printed(&self.arguments(question))
     }
 
-    /// The answer to a question that begins with the command.
-    fn asked(&self, question: &str) -> String {
+    /// Returns stdout of a command with this scene. There must be no note.
+    fn output(&self, question: &str) -> String {
         stdout(&self.arguments(question))
     }
 
@@ -46,7 +46,7 @@ const OPTIONS: &str =
     "--layers 4 --stacking hcp --top hexagon:2 --load 0,0,0=5/2 --spacing 6/5 --mass 1/10";
 
 #[test]
-fn a_file_is_as_good_as_its_options() {
+fn file_equals_options() {
     let file = Scratch::new("good", PILE);
     for command in [
         "summary --units si",
@@ -57,12 +57,12 @@ fn a_file_is_as_good_as_its_options() {
         "scene",
     ] {
         let options = format!("{command} {OPTIONS}");
-        assert_eq!(file.asked(command), stdout(&options), "{command}");
+        assert_eq!(file.output(command), stdout(&options), "{command}");
     }
 }
 
 #[test]
-fn options_on_the_line_win() {
+fn options_override_the_file() {
     let file = Scratch::new("win", PILE);
     for (more, options) in [
         (
@@ -77,7 +77,7 @@ fn options_on_the_line_win() {
             "--top triangle:2",
             "--layers 4 --stacking hcp --top triangle:2 --load 0,0,0=5/2",
         ),
-        // The base is in the place of the top, and the loads in that of the loads.
+        // The base replaces the top, and the loads replace those of the file.
         (
             "--base hexagon:6 --load 0,0,0=1 --load 3,0,0=2",
             "--layers 4 --stacking hcp --base hexagon:6 --load 0,0,0=1 --load 3,0,0=2",
@@ -103,27 +103,27 @@ fn options_on_the_line_win() {
         "weightless = true\nlayers = 2\nradius = 3\ngravity = 2\n",
     );
     assert_eq!(
-        weightless.asked("base --weightless=false"),
+        weightless.output("base --weightless=false"),
         stdout("base --layers 2")
     );
     assert_eq!(
-        weightless.asked("base"),
+        weightless.output("base"),
         stdout("base --layers 2 --weightless")
     );
     let sizes = "--radius 1 --gravity 5 --weightless=false --units si";
     assert_eq!(
-        weightless.asked(&format!("contacts {sizes}")),
+        weightless.output(&format!("contacts {sizes}")),
         stdout("contacts --layers 2 --gravity 5 --units si")
     );
     let discs = Scratch::new("discs", "dimension = 2\nlayers = 3\nload = ['2=1']\n");
     assert_eq!(
-        discs.asked("base"),
+        discs.output("base"),
         stdout("base --dimension 2 --layers 3 --load 2=1")
     );
 }
 
 #[test]
-fn a_refusal_tells_the_file_from_the_line() {
+fn errors_name_the_line_of_the_file_or_the_option() {
     let file = Scratch::new("refusal", PILE);
     let name = file.0.path().to_owned();
     for (question, parts) in [
@@ -201,7 +201,7 @@ fn a_refusal_tells_the_file_from_the_line() {
 }
 
 #[test]
-fn a_scene_is_written_and_read() {
+fn scene_is_written_and_read() {
     for options in [
         "",
         OPTIONS,
@@ -211,31 +211,31 @@ fn a_scene_is_written_and_read() {
     ] {
         let text = stdout(&format!("scene {options}"));
         let file = Scratch::new("again", &text);
-        assert_eq!(file.asked("scene"), text, "{options}");
+        assert_eq!(file.output("scene"), text, "{options}");
         assert_eq!(
-            file.asked("summary --units si"),
+            file.output("summary --units si"),
             stdout(&format!("summary --units si {options}")),
             "{options}"
         );
         let target = file.0.path.with_extension("out");
         assert!(
-            file.asked(&format!("scene --output {}", target.display()))
+            file.output(&format!("scene --output {}", target.display()))
                 .is_empty()
         );
         assert_eq!(fs::read_to_string(&target).expect("the file"), text);
         fs::remove_file(target).expect("cleaned up");
     }
-    // What is no pile is not written.
+    // An invalid scene is not written.
     assert!(refusal("scene --spacing 3").contains("--spacing"));
     assert!(refusal("scene --output /nowhere/pile.toml").contains("--output"));
 }
 
 #[test]
-fn what_is_no_text_is_refused_as_such() {
+fn rejects_files_that_are_not_utf8() {
     let file = Scratch::new("bytes", "");
     fs::write(&file.0.path, b"layers = 3 # \xff\n").expect("a file");
     assert!(file.refused("base").contains("not text in UTF-8"));
-    // An odd letter, so that two bytes each are cut in the middle.
+    // After the first byte each letter has two bytes, so the cut at an even length splits a letter.
     fs::write(&file.0.path, format!("#{}", "é".repeat(17 << 20))).expect("a file");
     assert!(file.refused("base").contains("longer than 16777216 bytes"));
 }
@@ -247,7 +247,7 @@ fn stdin_is_read_once() {
 }
 
 #[test]
-fn a_scene_comes_through_a_pipe() {
+fn scene_from_a_pipe() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
         .args(["base", "--scene", "-"])
         .stdin(Stdio::piped())

@@ -1,15 +1,15 @@
-//! Stackings, tops, bases and loads on the command line, and which piles stand.
+//! Stackings, tops, bases and loads on the command line, and the stability of piles.
 
 use super::{cannonpile, only_reasons, refusal, stdout};
 
-/// The named columns of the one row of a summary, and the exit status.
+/// Returns the named columns of a summary, and the exit status.
 fn summary(arguments: &str, names: &[&str]) -> (Vec<String>, Option<i32>) {
     let output = cannonpile(&format!("summary {arguments} --format csv"));
     let csv = String::from_utf8(output.stdout.clone()).expect("text");
     let mut reader = csv::Reader::from_reader(csv.as_bytes());
     let headers = reader.headers().expect("headers").clone();
     let row = reader.records().next().expect("a row").expect("a record");
-    // Why a column is empty is said, and nothing else.
+    // Stderr contains the reasons of empty columns, and nothing else.
     assert!(only_reasons(&output.stderr), "{arguments}: {output:?}");
     let said = String::from_utf8_lossy(&output.stderr);
     let notes = said
@@ -32,7 +32,7 @@ fn summary(arguments: &str, names: &[&str]) -> (Vec<String>, Option<i32>) {
 }
 
 #[test]
-fn the_exit_status_says_whether_it_stands() {
+fn exit_status_reports_stability() {
     for (arguments, stands, status) in [
         ("--stacking hcp --layers 5", "yes", 0),
         ("--stacking hcp --layers 6", "no", 1),
@@ -43,7 +43,7 @@ fn the_exit_status_says_whether_it_stands() {
         ("--stacking hcp --layers 6 --spacing 1", "yes", 0),
         ("--stacking hcp --layers 7 --spacing 1", "no", 1),
         ("--top hexagon:9 --layers 40", "yes", 0),
-        // Nothing is asked of spheres that weigh nothing.
+        // There is no verdict on spheres without weight.
         (
             "--stacking hcp --layers 6 --weightless --load 0,0,0=1",
             "",
@@ -60,7 +60,7 @@ fn the_exit_status_says_whether_it_stands() {
 }
 
 #[test]
-fn one_row_says_it_all() {
+fn summary_of_one_pile() {
     let names = [
         "layers",
         "stacking",
@@ -72,7 +72,7 @@ fn one_row_says_it_all() {
     ];
     let (row, _) = summary("--stacking hcp --layers 5", &names);
     assert_eq!(row[3..6], ["8/27", "19", "42"]);
-    // A load may be more than a pile can bear.
+    // This load makes the pile unstable.
     let (row, _) = summary("--stacking hcp --layers 5 --load 0,0,0=5/2", &names);
     assert_eq!(row, ["5", "hcp", "42", "-1/6", "19", "89/2", "sweep"]);
     let (row, _) = summary("--base hexagon:3 --stacking=+--", &names);
@@ -84,7 +84,7 @@ fn one_row_says_it_all() {
     assert_eq!(row[6], "tree");
 }
 
-/// Four notations for one stacking.
+/// The same stacking in several notations gives the same forces.
 #[test]
 fn notations_agree() {
     let base = stdout("base --stacking=++-+ --format csv");
@@ -97,16 +97,16 @@ fn notations_agree() {
 }
 
 #[test]
-fn a_pile_of_ten_to_the_thirty_with_two_changes() {
+fn pile_of_1e30_layers_with_two_sign_changes() {
     let csv = stdout("base --stacking (2,1,1000000000000000000000000000000) --at 5,7 --format csv");
     let row = "5,7,1000000000000000000000000000007/3,-499999999999999999999999999990/3,\
                -166666666666666666666666666664";
     assert_eq!(csv.lines().nth(1), Some(row));
 }
 
-/// Forces of a pile that falls are there, and one line says that it does.
+/// The forces of an unstable pile are printed, with a note.
 #[test]
-fn a_pile_that_falls_is_told() {
+fn unstable_pile_has_a_note() {
     for command in ["base", "contacts", "spheres"] {
         let output = cannonpile(&format!("{command} --stacking hcp --layers 7 --format csv"));
         assert_eq!(output.status.code(), Some(0), "{command}");
@@ -114,14 +114,14 @@ fn a_pile_that_falls_is_told() {
         let told = String::from_utf8(output.stderr).expect("text");
         assert_eq!(told.lines().count(), 1, "{told}");
         assert!(
-            told.contains("does not stand") && told.contains("below layer k = 4"),
+            told.contains("unstable") && told.contains("below layer k = 4"),
             "{told}"
         );
     }
 }
 
 #[test]
-fn a_census() {
+fn census_of_seven_layers() {
     let csv = stdout("census --layers 7 --standing --format csv");
     assert_eq!(
         csv.lines().next(),
@@ -146,7 +146,7 @@ fn a_census() {
 }
 
 #[test]
-fn refusals_name_the_option() {
+fn errors_name_the_option() {
     for (arguments, told) in [
         ("summary --stacking bcc", "--stacking"),
         (
@@ -184,9 +184,9 @@ fn refusals_name_the_option() {
     }
 }
 
-/// Where all forces are too much, what is known is still told: the stacking fails near the top.
+/// The pile is too large for all its forces, but its first failure near the top decides the verdict.
 #[test]
-fn a_verdict_on_what_is_too_large() {
+fn verdict_on_a_pile_that_is_too_large() {
     let (row, code) = summary(
         "--stacking hcp --layers 3000 --load 0,0,0=1",
         &["stands", "min_contact", "normal_max", "plan"],
@@ -200,9 +200,9 @@ fn a_verdict_on_what_is_too_large() {
     );
 }
 
-/// In every number format: of a layer what it shows tells, and nothing else is asked.
+/// For a single layer the note depends only on the printed forces, in every number format.
 #[test]
-fn a_layer_that_pulls_is_noted() {
+fn tensile_layer_has_a_note() {
     for number in ["exact", "f64", "f32", "interval"] {
         for (layer, pulls) in [(6, true), (2, false)] {
             for units in ["pile", "si"] {
@@ -211,15 +211,15 @@ fn a_layer_that_pulls_is_noted() {
                 );
                 let output = cannonpile(&arguments);
                 let said = String::from_utf8(output.stderr).expect("text");
-                assert_eq!(said.contains("pull here"), pulls, "{arguments}: {said}");
+                assert_eq!(said.contains("needs tension"), pulls, "{arguments}: {said}");
             }
         }
     }
 }
 
-/// Parts that fit are not refused for what the rest of the pile weighs.
+/// An overflow in another part of the pile does not matter.
 #[test]
-fn what_fits_is_not_refused() {
+fn overflow_elsewhere_is_ignored() {
     let huge = "1000000000000000000000000000000000000";
     for (arguments, row) in [
         (
@@ -242,7 +242,7 @@ fn what_fits_is_not_refused() {
         let csv = stdout(&format!("{arguments} --number f32 --format csv"));
         assert_eq!(csv.lines().nth(1), Some(row), "{arguments}");
     }
-    // Nothing is written before it is refused.
+    // An overflow in the first row leaves stdout empty.
     refusal("base --layers 4 --at 1,1 --units si --mass 1e39 --number f32 --format csv");
     refusal("contacts --layers 4 --units si --mass 1e39 --number f32 --format csv");
 }

@@ -1,4 +1,4 @@
-//! `verify` of other codes' tables: columns, presets, places, ladders; what it refuses, and the record that it keeps.
+//! The command `verify` on tables of other codes: columns, presets, positions, refinement studies, records, errors.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{cannonpile, refusal, stdout};
 
-/// A folder with the exports of ten layers at a = 1.2 R.
+/// A temporary folder with the exports of ten layers at a = 1.2 R.
 struct Exported(tempfile::TempDir);
 
 impl Exported {
@@ -23,7 +23,7 @@ impl Exported {
         self.0.path().join(name).to_str().expect("text").to_owned()
     }
 
-    /// Another file, of the lines of the contacts' table.
+    /// Writes another table, with a line for each row of contacts.csv.
     fn table(&self, name: &str, header: &str, line: impl Fn(&[&str]) -> String) -> String {
         let contacts = fs::read_to_string(self.path("pile/contacts.csv")).expect("a table");
         let rows = contacts.lines().skip(1).map(|row| {
@@ -40,7 +40,7 @@ impl Exported {
 const SCENE: &str = "--layers 10 --spacing 1.2";
 
 #[test]
-fn other_codes_tables_are_accepted() {
+fn accepts_tables_of_other_codes() {
     let exported = Exported::new();
     let counted = exported.table("a.txt", "# A B Fn", |row| {
         let less = |id: &str| id.parse::<u64>().expect("a number") - 1;
@@ -62,7 +62,7 @@ fn other_codes_tables_are_accepted() {
 }
 
 #[test]
-fn what_is_left_on_spheres_is_written_beside() {
+fn residual_forces_are_written_to_a_file() {
     let exported = Exported::new();
     let contacts = exported.path("pile/contacts.csv");
     for ending in ["csv", "json"] {
@@ -76,13 +76,13 @@ fn what_is_left_on_spheres_is_written_beside() {
                 .expect("json")
                 .len(),
         };
-        // All but the bottom layer.
+        // One row for each sphere above the bottom layer.
         assert_eq!(rows, 165);
     }
 }
 
 #[test]
-fn the_record_says_what_was_compared_with_what() {
+fn record_contains_scene_and_hash() {
     let exported = Exported::new();
     let contacts = exported.path("pile/contacts.csv");
     let json = stdout(&format!("verify {contacts} {SCENE} --format json"));
@@ -92,7 +92,7 @@ fn the_record_says_what_was_compared_with_what() {
     assert_eq!(source["file"], contacts);
     let bytes = fs::read(&contacts).expect("a file");
     assert_eq!(source["bytes"], bytes.len());
-    // The digest that sha256sum has of fourteen bytes.
+    // The digest is that of the program sha256sum.
     let header = exported.path("header.csv");
     fs::write(&header, "id1,id2,force\n").expect("written");
     let json = cannonpile(&format!("verify {header} {SCENE} --format json")).stdout;
@@ -107,7 +107,7 @@ fn the_record_says_what_was_compared_with_what() {
 }
 
 #[test]
-fn a_ladder_has_its_order_and_is_drawn() {
+fn ladder_has_an_order_and_a_figure() {
     let exported = Exported::new();
     let mut files = Vec::new();
     for stiffness in ["1e4", "1e5", "1e6", "1e7"] {
@@ -139,7 +139,7 @@ fn a_ladder_has_its_order_and_is_drawn() {
     );
     let svg = stdout(&format!("plot ladder {json}"));
     assert!(svg.starts_with("<svg"));
-    // Time steps, and errors without an order: the answer is no.
+    // Constant errors have no order, so the exit status is 1.
     let same = exported.path("1e4");
     let flat = ["1e-3", "1e-4", "1e-5"].map(|step| format!("{step}={same}"));
     let flat = flat.join(",");
@@ -150,19 +150,19 @@ fn a_ladder_has_its_order_and_is_drawn() {
 }
 
 #[test]
-fn bad_use_of_tables_is_refused_in_one_line() {
+fn usage_errors_of_tables() {
     let exported = Exported::new();
     let contacts = exported.path("pile/contacts.csv");
     for (options, said) in [
         ("--columns mass=A", "'mass' is not one of id1"),
         ("--columns id1=A", "no column 'A' for id1"),
         ("--preset matlab", "'matlab' is not lammps, yade"),
-        ("--within 0.1", "--within is of --match place"),
+        ("--within 0.1", "--within requires --match place"),
         ("--match place", "no column x, only"),
         ("--match place --within 0.7", "--within: 0.7 radii"),
         (
             "--match place --first-id 0",
-            "--first-id is of --match numbers",
+            "--first-id requires --match numbers",
         ),
         ("--refine time-step", "--ladder"),
         ("--ladder 1e5=a.csv", "cannot be used with"),

@@ -1,4 +1,4 @@
-//! `verify` on the command line: what it accepts, what it does not, and what it refuses.
+//! The command `verify`: accepted files, rejected files, usage errors.
 
 use std::fs;
 use std::io::Write;
@@ -11,7 +11,7 @@ const LAMMPS: &str = concat!(
     "/../dem/tests/all/verify/lammps.dump"
 );
 
-/// The contacts of three layers as a simulation would number them, by the tables of this program itself.
+/// Returns the exact contact forces of a scene as a table for `verify`, built from the tables of the command line.
 fn exact(scene: &str) -> String {
     let rows = |arguments: String| -> Vec<Vec<String>> {
         let csv = stdout(&format!("{arguments} {scene} --number f64 --format csv"));
@@ -52,7 +52,7 @@ fn no(arguments: &str) -> String {
     String::from_utf8(stdout).expect("text")
 }
 
-/// The value on a line, without what it means.
+/// Returns the value on a line of the report, without its explanation.
 fn value<'t>(table: &'t str, name: &str) -> &'t str {
     let line = table.lines().find(|line| line.starts_with(name));
     let value = line.map(|line| line[name.len()..].trim()).expect("a line");
@@ -63,7 +63,7 @@ fn value<'t>(table: &'t str, name: &str) -> &'t str {
 }
 
 #[test]
-fn what_the_tables_say_is_accepted_to_the_last_bit() {
+fn exact_forces_have_zero_error() {
     for scene in [
         "--layers 3",
         "--layers 4 --mass 0.3 --gravity 9.81 --radius 0.01 --spacing 5/4",
@@ -83,7 +83,7 @@ fn what_the_tables_say_is_accepted_to_the_last_bit() {
 }
 
 #[test]
-fn a_simulation_is_accepted_as_far_as_its_springs_are_stiff() {
+fn simulation_is_accepted_within_the_error_of_its_springs() {
     let Output {
         status,
         stdout,
@@ -102,7 +102,8 @@ fn a_simulation_is_accepted_as_far_as_its_springs_are_stiff() {
         "{csv}"
     );
     let note = String::from_utf8(stderr).expect("text");
-    let want = format!("note: {LAMMPS} has 2 snapshots; the last, of time step 40000, is judged\n");
+    let want =
+        format!("note: {LAMMPS} has 2 snapshots; this report is about the last, time step 40000\n");
     assert_eq!(note, want);
     let strict = cannonpile(&format!("verify {LAMMPS} --layers 4 --accept 1e-7"));
     assert_eq!(strict.status.code(), Some(1));
@@ -111,7 +112,7 @@ fn a_simulation_is_accepted_as_far_as_its_springs_are_stiff() {
 }
 
 #[test]
-fn a_wrong_a_missing_and_an_extra_contact_are_named() {
+fn wrong_missing_and_extra_contacts_are_named() {
     let csv = exact("--layers 3").replace("\n1,4,0.46225016352102427,", "\n1,4,0.5,");
     let file = Temporary::new("wrong.csv", &csv);
     let table = no(&format!("verify {} --layers 3", file.path()));
@@ -150,7 +151,7 @@ fn a_wrong_a_missing_and_an_extra_contact_are_named() {
 }
 
 #[test]
-fn another_gravity_is_named_as_a_factor() {
+fn wrong_gravity_is_reported_as_a_factor() {
     let file = Temporary::new("g.csv", &exact("--layers 3 --gravity 9.81"));
     let table = no(&format!("verify {} --layers 3", file.path()));
     assert_eq!(value(&table, "beyond"), value(&table, "contacts"));
@@ -164,7 +165,7 @@ fn another_gravity_is_named_as_a_factor() {
 }
 
 #[test]
-fn an_endless_list_is_refused_where_it_repeats_itself() {
+fn infinite_table_is_rejected_at_the_first_repeated_pair() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
         .args(["verify", "-"])
         .stdin(Stdio::piped())
@@ -173,7 +174,7 @@ fn an_endless_list_is_refused_where_it_repeats_itself() {
         .expect("the binary runs");
     let mut stdin = child.stdin.take().expect("piped");
     stdin.write_all(b"id1,id2,force\n").expect("read");
-    // Until it is read no more.
+    // Write until the reader closes the pipe.
     while stdin.write_all(b"1,2,0.5\n").is_ok() {}
     let output = child.wait_with_output().expect("ends");
     assert_eq!(output.status.code(), Some(2));
@@ -184,7 +185,7 @@ fn an_endless_list_is_refused_where_it_repeats_itself() {
 }
 
 #[test]
-fn an_empty_table_misses_everything() {
+fn empty_table_misses_all_contacts() {
     let file = Temporary::new("none.csv", "id1,id2,force\n");
     let table = no(&format!("verify {} --layers 5", file.path()));
     assert_eq!(value(&table, "missing "), "60");
@@ -192,7 +193,7 @@ fn an_empty_table_misses_everything() {
 }
 
 #[test]
-fn stdin_is_read_for_a_dash() {
+fn dash_reads_stdin() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_cannonpile"))
         .args(["verify", "-", "--layers", "3", "--accept", "0"])
         .stdin(Stdio::piped())
@@ -208,7 +209,7 @@ fn stdin_is_read_for_a_dash() {
 }
 
 #[test]
-fn bad_use_is_refused_in_one_line() {
+fn usage_errors_are_one_line() {
     let good = Temporary::new("good.csv", &exact("--layers 3"));
     let good = good.path();
     let bad = Temporary::new("bad.csv", "id1,id2,force\n1,2,one\n");
@@ -221,7 +222,7 @@ fn bad_use_is_refused_in_one_line() {
         ),
         (
             "verify no/such.csv".into(),
-            "error: FILE: no/such.csv cannot be read: no such file or folder; name a file that is there, or - for stdin\n".into(),
+            "error: FILE: no/such.csv cannot be read: no such file or folder; give a readable file, or - for stdin\n".into(),
         ),
         (
             format!("verify {good} --layers 3 --mass 1e-350"),
@@ -248,17 +249,17 @@ fn bad_use_is_refused_in_one_line() {
 }
 
 #[test]
-fn a_pile_that_falls_is_compared_all_the_same() {
+fn unstable_pile_is_compared_with_a_note() {
     let file = Temporary::new("falls.csv", "id1,id2,force\n");
     let scene = "--stacking hcp --layers 12";
     let Output { status, stderr, .. } = cannonpile(&format!("verify {} {scene}", file.path()));
     assert_eq!(status.code(), Some(1));
     let note = String::from_utf8(stderr).expect("text");
-    assert!(note.starts_with("note: this pile does not stand"), "{note}");
+    assert!(note.starts_with("note: this pile is unstable"), "{note}");
 }
 
 #[test]
-fn the_report_goes_to_a_file() {
+fn report_is_written_to_a_file() {
     let file = Temporary::new("exact-too.csv", &exact("--layers 3"));
     let report = Temporary::new("report.json", "");
     let said = stdout(&format!(
