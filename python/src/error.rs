@@ -83,7 +83,7 @@ impl Error {
             Self::Horizontal(error) => of_horizontal(error),
             Self::Disorder(error) => of_disorder(error),
             Self::Dem(error) => of_dem(error),
-            Self::Figure(cannonpile_figure::Error::TooManyMarks { .. }) => Some("layers"),
+            Self::Figure(cannonpile_figure::Error::TooManyGlyphs { .. }) => Some("layers"),
             Self::Figure(_) => None,
         }
     }

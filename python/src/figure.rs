@@ -54,7 +54,7 @@ impl Kind {
             Self::Pile => figure::pile(subject),
             Self::Indexing => figure::indexing(subject, layer.unwrap_or(INDEXED.min(last))),
             Self::Sphere => {
-                let site = site.map_or_else(|| figure::example(pile), Ok)?;
+                let site = site.map_or_else(|| figure::example_site(pile), Ok)?;
                 figure::sphere(subject, site)
             }
             Self::Shear => figure::shear(subject),

@@ -13,7 +13,7 @@ use crate::Error;
 /// Under the paper's pile they are all the same: paper, (13).
 ///
 /// # Errors
-/// [`Error::TooManyMarks`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
+/// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
 /// [`Packing::base`](cannonpile::Packing::base).
 ///
 /// # Examples
@@ -42,8 +42,8 @@ pub fn base(subject: &Subject<'_>) -> Result<Figure, Error> {
         forces: forces.collect::<Result<_, _>>()?,
         scale: |values| Scale::of(values.iter().copied()),
         note: subject.note(),
-        marked: Vec::new(),
-        mark: "",
+        crossed: Vec::new(),
+        cross_label: "",
     };
     map.figure(subject)
 }

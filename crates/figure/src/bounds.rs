@@ -4,9 +4,9 @@ use cannonpile::shape::Selection;
 
 use super::caption::{LIMIT, caption};
 use super::colour::{BLACK, Scale, WHITE};
+use super::glyph::{fitting, polygon, text};
 use super::layer::Layer;
 use super::map::texts;
-use super::mark::{fitting, polygon, text};
 use super::page::{Bar, Figure};
 use super::panel::BAR;
 use super::subject::{Subject, nearest};
@@ -16,7 +16,7 @@ use crate::Error;
 /// of the sphere on the floor, the lower half the least, over all forces that only push, horizontal contacts included.
 ///
 /// # Errors
-/// Those of [`cannonpile_horizontal::base_bounds`]; [`Error::TooManyMarks`].
+/// Those of [`cannonpile_horizontal::base_bounds`]; [`Error::TooManyGlyphs`].
 ///
 /// # Examples
 /// ```

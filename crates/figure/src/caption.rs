@@ -51,18 +51,18 @@ pub(super) const LIMIT: u32 = 20_000;
 
 /// Refuses what nobody could tell apart on a page.
 pub(super) fn readable(
-    marks: &BigUint,
+    glyphs: &BigUint,
     limit: u32,
-    what: &'static str,
+    kind: &'static str,
     remedy: &'static str,
 ) -> Result<(), Error> {
-    if marks <= &limit.into() {
+    if glyphs <= &limit.into() {
         return Ok(());
     }
-    let marks = marks.clone();
-    Err(Error::TooManyMarks {
-        marks,
-        what,
+    let glyphs = glyphs.clone();
+    Err(Error::TooManyGlyphs {
+        glyphs,
+        kind,
         limit,
         remedy,
     })

@@ -1,7 +1,7 @@
 //! Curves over an axis of numbers, each axis with its own scale.
 
 use super::colour::{BLACK, Scale};
-use super::mark::{Mark, Point, line, px, text};
+use super::glyph::{Glyph, Point, line, px, text};
 use super::page::Axes;
 use super::panel::{AXES, Panel};
 
@@ -40,28 +40,28 @@ impl Chart {
         }
     }
 
-    pub(super) fn curve(&self, points: impl IntoIterator<Item = Point>, colour: &str) -> Mark {
+    pub(super) fn curve(&self, points: impl IntoIterator<Item = Point>, colour: &str) -> Glyph {
         let points = points.into_iter().map(|point| {
             let [x, y] = self.at(point);
             format!("{},{}", px(x), px(y))
         });
         let points: Vec<String> = points.collect();
-        let curve = Mark::new("polyline").class("curve").fill("none");
+        let curve = Glyph::new("polyline").class("curve").fill("none");
         let curve = curve.set("points", points.join(" "));
         curve.stroke(colour, 2.0).set("stroke-linejoin", "round")
     }
 
     /// What curves mean: a line of its colour before each name, below each other in the upper right corner.
-    pub(super) fn legend(&self, names: impl IntoIterator<Item = (String, String)>) -> Vec<Mark> {
+    pub(super) fn legend(&self, names: impl IntoIterator<Item = (String, String)>) -> Vec<Glyph> {
         let right = self.panel.right();
         let mut y = 20.0;
-        let mut marks = Vec::new();
+        let mut glyphs = Vec::new();
         for (name, colour) in names {
-            marks.push(line([right - 190.0, y], [right - 160.0, y], colour, 2.0));
-            marks.push(text([right - 152.0, y], 14.0, name).start().fill(BLACK));
+            glyphs.push(line([right - 190.0, y], [right - 160.0, y], colour, 2.0));
+            glyphs.push(text([right - 152.0, y], 14.0, name).start().fill(BLACK));
             y += 20.0;
         }
-        marks
+        glyphs
     }
 }
 

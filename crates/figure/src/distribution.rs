@@ -8,7 +8,7 @@ use num_traits::{ToPrimitive, Zero};
 
 use super::caption::counted;
 use super::chart::{Chart, colours};
-use super::mark::Point;
+use super::glyph::Point;
 use super::page::Figure;
 use crate::Error;
 
@@ -19,7 +19,7 @@ use crate::Error;
 /// are drawn at one fault probability, it is that one.
 ///
 /// # Errors
-/// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Error::TooManyMarks`] for more than 20 000 bins.
+/// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Error::TooManyGlyphs`] for more than 20 000 bins.
 ///
 /// # Examples
 /// ```
@@ -101,19 +101,19 @@ pub fn distribution(
     let across = [across[0], across[1].max(across[0] + 1.0)];
     let chart = Chart::new(across, [upwards[0] - margin, upwards[1] + margin]);
     let colours = colours(2);
-    let mut marks = Vec::new();
+    let mut glyphs = Vec::new();
     for ((_, steps), colour) in curves.iter().zip(&colours) {
         for run in steps.split(|[.., density]| *density <= 0.0) {
             let ends = run.iter().flat_map(|[from, to, density]| -> [Point; 2] {
                 [[*from, density.log10()], [*to, density.log10()]]
             });
             if !run.is_empty() {
-                marks.push(chart.curve(ends, colour));
+                glyphs.push(chart.curve(ends, colour));
             }
         }
     }
     let names = curves.iter().map(|(name, _)| (*name).to_owned());
-    marks.extend(chart.legend(names.zip(colours.iter().cloned())));
+    glyphs.extend(chart.legend(names.zip(colours.iter().cloned())));
     let (title, name, unit) = match binned {
         Binned::Forces => ("Contact forces of random stackings", "f", "mg/(3cosθ)"),
         Binned::Normals => ("Normal forces of random stackings on the floor", "N", "mg"),
@@ -131,7 +131,7 @@ pub fn distribution(
             title.into(),
             format!("{layers}, top {top:#}, {stackings}, {drawn}"),
             chart.panel,
-            marks,
+            glyphs,
         )
     }))
 }

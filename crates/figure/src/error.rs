@@ -14,19 +14,19 @@ use num_bigint::BigUint;
 ///
 /// let pile = Pile::triangular(1000)?;
 /// let refused = cannonpile_figure::pile(&Subject::of_pile(&pile, &"6/5".parse()?)?);
-/// assert!(matches!(refused, Err(Error::TooManyMarks { limit: 20_000, .. })));
+/// assert!(matches!(refused, Err(Error::TooManyGlyphs { limit: 20_000, .. })));
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A figure would have more marks than a reader can tell apart.
+    /// A figure would have more glyphs than a reader can tell apart.
     #[non_exhaustive]
-    TooManyMarks {
-        /// The number of marks.
-        marks: BigUint,
-        /// What the marks stand for.
-        what: &'static str,
+    TooManyGlyphs {
+        /// The number of glyphs.
+        glyphs: BigUint,
+        /// What the glyphs stand for.
+        kind: &'static str,
         /// The greatest number allowed.
         limit: u32,
         /// A narrower question.
@@ -45,13 +45,13 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooManyMarks {
-                marks,
-                what,
+            Self::TooManyGlyphs {
+                glyphs,
+                kind,
                 limit,
                 remedy,
             } => f.write_str(&shortened(&format!(
-                "{marks} {what} are too many for a figure, at most {limit}: {remedy}"
+                "{glyphs} {kind} are too many for a figure, at most {limit}: {remedy}"
             ))),
             Self::Core(error) => error.fmt(f),
             Self::Horizontal(error) => error.fmt(f),
@@ -64,7 +64,7 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Self::TooManyMarks { .. } => None,
+            Self::TooManyGlyphs { .. } => None,
             // The message is the inner one, so the chain goes on below it.
             Self::Core(error) => error.source(),
             Self::Horizontal(error) => error.source(),

@@ -4,8 +4,8 @@ use cannonpile::lattice::{Sign, Site};
 
 use super::caption::caption;
 use super::colour::{BLACK, BLUE, ORANGE, PALE};
+use super::glyph::{Glyph, Point, arrow, circle, fitting, line, text};
 use super::layer::Layer;
-use super::mark::{Mark, Point, arrow, circle, fitting, line, text};
 use super::page::Figure;
 use super::panel::Panel;
 use super::subject::Subject;
@@ -20,7 +20,7 @@ const LIMIT: u32 = 150;
 /// y, in which forces are given, do not. α, β and γ are the directions of the three spheres below.
 ///
 /// # Errors
-/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyMarks`] for more than 150 spheres.
+/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyGlyphs`] for more than 150 spheres.
 ///
 /// # Examples
 /// ```
@@ -37,7 +37,7 @@ const LIMIT: u32 = 150;
 /// assert!(svg.contains(">1,2<") && !svg.contains(">2,2<"));
 /// // 136 spheres, and 153.
 /// assert!(cannonpile_figure::indexing(&subject, 15).is_ok());
-/// assert!(matches!(cannonpile_figure::indexing(&subject, 16), Err(Error::TooManyMarks { .. })));
+/// assert!(matches!(cannonpile_figure::indexing(&subject, 16), Err(Error::TooManyGlyphs { .. })));
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
@@ -48,20 +48,20 @@ pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
     let size = |(site, _): &(Site, Point)| fitting(&words(*site), 20.0, 1.65 * radius);
     // The same for all, as large as fits a sphere.
     let size = layer.spheres.iter().map(size).fold(20.0, f64::min);
-    let mut marks = rows(&layer, &panel);
+    let mut glyphs = rows(&layer, &panel);
     for (site, at) in &layer.spheres {
         let at = panel.at(*at);
         let sphere = circle(at, radius).class("sphere").of(*site).fill("#dfe9f3");
-        marks.push(sphere.stroke(BLACK, (radius * 0.04).min(1.2)));
-        marks.push(text(at, size, words(*site)));
+        glyphs.push(sphere.stroke(BLACK, (radius * 0.04).min(1.2)));
+        glyphs.push(text(at, size, words(*site)));
     }
-    marks.extend(keys(subject, &layer, k, panel.bottom() + 62.0)?);
+    glyphs.extend(keys(subject, &layer, k, panel.bottom() + 62.0)?);
     let title = format!("Indices of the spheres of layer k = {k}");
-    Ok(Figure::new(title, caption(subject)?, panel, marks))
+    Ok(Figure::new(title, caption(subject)?, panel, glyphs))
 }
 
 /// Returns the lines along which i and j count.
-fn rows(layer: &Layer, panel: &Panel) -> Vec<Mark> {
+fn rows(layer: &Layer, panel: &Panel) -> Vec<Glyph> {
     let next =
         |a: Site, b: Site| (b.i - a.i, b.j - a.j) == (1, 0) || (b.i - a.i, b.j - a.j) == (0, 1);
     let spheres = layer.spheres.iter();
@@ -74,7 +74,7 @@ fn rows(layer: &Layer, panel: &Panel) -> Vec<Mark> {
 }
 
 /// Returns the directions of the indices, of the contacts and of the components, as arrows about a height of the page.
-fn keys(subject: &Subject<'_>, layer: &Layer, k: i128, y: f64) -> Result<Vec<Mark>, Error> {
+fn keys(subject: &Subject<'_>, layer: &Layer, k: i128, y: f64) -> Result<Vec<Glyph>, Error> {
     let pile = subject.pile();
     // On the floor, the directions of the step above.
     let shape = pile.shape();
@@ -103,7 +103,7 @@ fn keys(subject: &Subject<'_>, layer: &Layer, k: i128, y: f64) -> Result<Vec<Mar
             ["forces: x, y (z towards you)", "forces: x (z up)"],
         ),
     ];
-    let mut marks = vec![circle([400.0, y], 4.0).fill(BLUE)];
+    let mut glyphs = vec![circle([400.0, y], 4.0).fill(BLUE)];
     for (x, colour, arrows, words) in groups {
         let from = [x, if colour == BLUE { y } else { y + 20.0 }];
         for (name, [u, v]) in arrows {
@@ -113,12 +113,12 @@ fn keys(subject: &Subject<'_>, layer: &Layer, k: i128, y: f64) -> Result<Vec<Mar
                 continue;
             }
             let end = |d: f64| [from[0] + u / length * d, from[1] - v / length * d];
-            marks.push(arrow(from, end(44.0), 2.2, colour).class("axis"));
-            marks.push(text(end(57.0), 17.0, name).italic().fill(colour));
+            glyphs.push(arrow(from, end(44.0), 2.2, colour).class("axis"));
+            glyphs.push(text(end(57.0), 17.0, name).italic().fill(colour));
         }
         let [spheres, of_discs] = words;
         let words = if discs { of_discs } else { spheres };
-        marks.push(text([x, y + 76.0], 13.0, words));
+        glyphs.push(text([x, y + 76.0], 13.0, words));
     }
-    Ok(marks)
+    Ok(glyphs)
 }

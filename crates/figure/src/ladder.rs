@@ -4,14 +4,14 @@ use cannonpile_dem::verify::{Fit, Ladder, Norm, Refinement, Rung, RungPlace};
 
 use super::chart::Chart;
 use super::colour::{BLUE, DIM, ORANGE, WHITE};
-use super::mark::{Mark, Point, circle, line, polygon, text};
+use super::glyph::{Glyph, Point, circle, line, polygon, text};
 use super::page::Figure;
 use super::ticks::digits;
 
 /// Returns the errors of a ladder over its refinement parameter, both as log₁₀: of each rung the largest error, a disc, and
 /// the rms error, a square.
 ///
-/// A line is the fit of its order, over the rungs above the floor; marks of rungs on the floor, or of another pile, are
+/// A line is the fit of its order, over the rungs above the floor; glyphs of rungs on the floor, or of another pile, are
 /// hollow. A dashed line joins what theory says of the largest errors. The triangle rises with order 1. An error of 0 or an
 /// infinite one has no place, and is left out.
 ///
@@ -50,17 +50,17 @@ pub fn ladder(ladder: &Ladder) -> Figure {
         ends[1][1] += (ends[1][1] - ends[1][0]) * HEADROOM;
     }
     let chart = Chart::new(ends[0], ends[1]);
-    let mut marks = triangle(&chart, ends);
+    let mut glyphs = triangle(&chart, ends);
     let mut legend = Vec::new();
     let fits = Norm::ALL.map(|norm| ladder.fit(norm).ok());
     for ((norm, fit), colour) in Norm::ALL.into_iter().zip(&fits).zip(COLOURS) {
         let fit = fit.as_ref();
-        marks.extend(fit.and_then(|fit| fitted(&chart, ladder, norm, fit, colour)));
+        glyphs.extend(fit.and_then(|fit| fitted(&chart, ladder, norm, fit, colour)));
         legend.push((named(norm, fit), colour, Sample::Of(norm)));
     }
     if !predicted.is_empty() {
         let dashed = chart.curve(predicted, ORANGE).class("predicted");
-        marks.push(dashed.set("stroke-dasharray", "7 5"));
+        glyphs.push(dashed.set("stroke-dasharray", "7 5"));
         let name = "theory of springs, largest error".to_owned();
         legend.push((name, ORANGE, Sample::Dashed));
     }
@@ -76,7 +76,7 @@ pub fn ladder(ladder: &Ladder) -> Figure {
             } else {
                 WHITE
             };
-            marks.push(shape.fill(fill).stroke(colour, 1.5));
+            glyphs.push(shape.fill(fill).stroke(colour, 1.5));
         }
     }
     let hollow = |(_, place): &(&Rung, RungPlace)| *place != RungPlace::Above;
@@ -84,7 +84,7 @@ pub fn ladder(ladder: &Ladder) -> Figure {
         let name = "on the floor, or not all contacts there".to_owned();
         legend.push((name, COLOURS[0], Sample::Hollow));
     }
-    marks.extend(key(&chart, legend));
+    glyphs.extend(key(&chart, legend));
     let rungs = ladder.rungs().len();
     let above = ladder.places(Norm::Largest);
     let above = above.iter().filter(|place| **place == RungPlace::Above);
@@ -96,7 +96,7 @@ pub fn ladder(ladder: &Ladder) -> Figure {
     let names = [name.into(), "log₁₀ relative error".into()];
     Figure {
         axes: Some(chart.axes(names)),
-        ..Figure::new(title.into(), caption, chart.panel, marks)
+        ..Figure::new(title.into(), caption, chart.panel, glyphs)
     }
 }
 
@@ -135,7 +135,7 @@ fn is_in_the_way(point: Point, ends: [[f64; 2]; 2]) -> bool {
 }
 
 /// The fitted line, from the coarsest rung above the floor to the finest.
-fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -> Option<Mark> {
+fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -> Option<Glyph> {
     let places = ladder.places(norm);
     let above = ladder.rungs().iter().zip(places);
     let above = above.filter(|(_, place)| *place == RungPlace::Above);
@@ -154,7 +154,7 @@ fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -
 }
 
 /// A triangle that rises with order 1, in the lower right corner.
-fn triangle(chart: &Chart, [across, upwards]: [[f64; 2]; 2]) -> Vec<Mark> {
+fn triangle(chart: &Chart, [across, upwards]: [[f64; 2]; 2]) -> Vec<Glyph> {
     // A fifth of the shorter axis.
     let side = (across[1] - across[0]).min(upwards[1] - upwards[0]) / 5.0;
     let right = across[1] - (across[1] - across[0]) / 12.0;
@@ -171,7 +171,7 @@ fn triangle(chart: &Chart, [across, upwards]: [[f64; 2]; 2]) -> Vec<Mark> {
     ]
 }
 
-fn shape(norm: Norm, [x, y]: Point) -> Mark {
+fn shape(norm: Norm, [x, y]: Point) -> Glyph {
     const HALF: f64 = 4.5;
     if norm == Norm::Largest {
         return circle([x, y], HALF + 0.5);
@@ -204,26 +204,26 @@ enum Sample {
     Hollow,
 }
 
-/// What marks mean, in the upper left corner, where errors that fall are not.
-fn key(chart: &Chart, names: Vec<(String, &'static str, Sample)>) -> Vec<Mark> {
+/// What glyphs mean, in the upper left corner, where errors that fall are not.
+fn key(chart: &Chart, names: Vec<(String, &'static str, Sample)>) -> Vec<Glyph> {
     let left = chart.panel.left + 14.0;
     let mut y = 20.0;
-    let mut marks = Vec::new();
+    let mut glyphs = Vec::new();
     for (name, colour, sample) in names {
         let stroke = line([left, y], [left + 30.0, y], colour, 2.0);
         match sample {
             Sample::Of(norm) => {
-                let mark = shape(norm, [left + 15.0, y]).fill(colour);
-                marks.extend([stroke, mark]);
+                let glyph = shape(norm, [left + 15.0, y]).fill(colour);
+                glyphs.extend([stroke, glyph]);
             }
-            Sample::Dashed => marks.push(stroke.set("stroke-dasharray", "7 5")),
+            Sample::Dashed => glyphs.push(stroke.set("stroke-dasharray", "7 5")),
             Sample::Hollow => {
-                let mark = shape(Norm::Largest, [left + 15.0, y]).fill(WHITE);
-                marks.push(mark.stroke(colour, 1.5));
+                let glyph = shape(Norm::Largest, [left + 15.0, y]).fill(WHITE);
+                glyphs.push(glyph.stroke(colour, 1.5));
             }
         }
-        marks.push(text([left + 38.0, y], 14.0, name).start());
+        glyphs.push(text([left + 38.0, y], 14.0, name).start());
         y += 20.0;
     }
-    marks
+    glyphs
 }

@@ -4,7 +4,7 @@ use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
 
 use super::caption::readable;
-use super::mark::Point;
+use super::glyph::Point;
 use super::page::Axes;
 use super::panel::{Margins, Panel};
 use super::subject::Subject;

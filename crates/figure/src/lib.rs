@@ -1,7 +1,7 @@
 //! Figures of sphere piles as SVG, and a page to look into a pile.
 //!
 //! A [`Subject`] is a pile with a spacing and units. A function below draws it from exact answers, which are rounded once.
-//! The result is a [`Figure`]: an SVG document whose marks carry the numbers they stand for. It needs no fonts of its own.
+//! The result is a [`Figure`]: an SVG document whose glyphs carry the numbers they stand for. It needs no fonts of its own.
 //!
 //! # Examples
 //! ```
@@ -50,11 +50,11 @@ mod chart;
 mod colour;
 mod distribution;
 mod error;
+mod glyph;
 mod indexing;
 mod ladder;
 mod layer;
 mod map;
-mod mark;
 mod mean;
 mod network;
 mod page;
@@ -78,9 +78,9 @@ pub use mean::{mean_profile, mean_response};
 pub use network::{layer, section};
 pub use page::{Figure, Layout};
 pub use pile::pile;
-pub use response::{of_unit_load, response};
+pub use response::{response, with_unit_load};
 pub use shear::shear;
-pub use sphere::{example, sphere};
+pub use sphere::{example_site, sphere};
 pub use subject::Subject;
 
 /// The examples of README.md, run as tests.

@@ -5,8 +5,8 @@ use cannonpile::scalar::Surd;
 
 use super::caption::caption;
 use super::colour::{PALE, Scale, WHITE};
+use super::glyph::{Glyph, cross, fitting, polygon, text, width};
 use super::layer::Layer;
-use super::mark::{Mark, cross, fitting, polygon, text, width};
 use super::page::{Bar, Figure};
 use super::panel::{BAR, Panel, WIDTH};
 use super::subject::{Subject, nearest};
@@ -22,8 +22,8 @@ pub(super) struct Map<'a> {
     pub(super) scale: fn(&[f64]) -> Scale,
     pub(super) note: Option<String>,
     /// Spheres above which a cross is drawn, and what it means.
-    pub(super) marked: Vec<Site>,
-    pub(super) mark: &'a str,
+    pub(super) crossed: Vec<Site>,
+    pub(super) cross_label: &'a str,
 }
 
 /// The longest exact number that a cell carries as an attribute.
@@ -43,7 +43,7 @@ impl Map<'_> {
         let rim_colour = if scale.is_around_zero() { PALE } else { WHITE };
         // A rim that does not hide small cells.
         let rim = (across * 0.04).min(1.2);
-        let mut marks = Vec::new();
+        let mut glyphs = Vec::new();
         let cells = layer.spheres.iter().zip(self.forces.iter().zip(&values));
         for ((site, at), (exact, value)) in cells {
             let mut cell = polygon(&layer.cell(&panel, *at)).class("cell").of(*site);
@@ -52,17 +52,17 @@ impl Map<'_> {
                 cell = cell.set("data-exact", text);
             }
             let cell = cell.valued("data-value", *value).fill(scale.colour(*value));
-            marks.push(cell.stroke(rim_colour, rim).set("stroke-linejoin", "round"));
+            glyphs.push(cell.stroke(rim_colour, rim).set("stroke-linejoin", "round"));
         }
-        marks.extend(self.numbers(&panel, &values, &scale));
-        for site in &self.marked {
+        glyphs.extend(self.numbers(&panel, &values, &scale));
+        for site in &self.crossed {
             let at = layer.place(subject, *site)?;
-            marks.extend(cross(panel.at(at), across * 0.12));
+            glyphs.extend(cross(panel.at(at), across * 0.12));
         }
-        if !self.marked.is_empty() {
+        if !self.crossed.is_empty() {
             let [x, y] = [WIDTH - 116.0, panel.bottom() + 38.0];
-            marks.extend(cross([x, y], 6.0));
-            marks.push(text([x + 13.0, y], 14.0, self.mark).start());
+            glyphs.extend(cross([x, y], 6.0));
+            glyphs.push(text([x + 13.0, y], 14.0, self.cross_label).start());
         }
         let bar = Bar {
             scale,
@@ -74,12 +74,12 @@ impl Map<'_> {
             note: self.note,
             axes: Some(layer.axes(subject)?),
             bar: Some(bar),
-            ..Figure::new(self.title, caption(subject)?, panel, marks)
+            ..Figure::new(self.title, caption(subject)?, panel, glyphs)
         })
     }
 
     /// Returns the numbers in the cells; those that vanish are left to their colour, and cells without room have none.
-    fn numbers(&self, panel: &Panel, values: &[f64], scale: &Scale) -> Vec<Mark> {
+    fn numbers(&self, panel: &Panel, values: &[f64], scale: &Scale) -> Vec<Glyph> {
         const LEAST: f64 = 26.0;
         let across = panel.length(self.layer.apart());
         if across < LEAST {

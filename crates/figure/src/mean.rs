@@ -13,7 +13,7 @@ use num_traits::{One, ToPrimitive};
 use super::caption::{LIMIT, counted, readable};
 use super::chart::{Chart, colours};
 use super::colour::{DIM, Scale};
-use super::mark::{Point, line, polygon, ring, text};
+use super::glyph::{Point, line, polygon, ring, text};
 use super::page::{Bar, Figure};
 use super::panel::{BAR, Panel};
 use super::ticks::short;
@@ -28,7 +28,7 @@ use crate::Error;
 /// probability but 0 ([`Wave`](cannonpile_disorder::Wave)).
 ///
 /// # Errors
-/// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Layers`](cannonpile::Error::Layers); [`Error::TooManyMarks`] for more than 20 000 cells.
+/// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Layers`](cannonpile::Error::Layers); [`Error::TooManyGlyphs`] for more than 20 000 cells.
 ///
 /// # Examples
 /// ```
@@ -79,7 +79,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
         [[u - reach, v - reach], [u + reach, v + reach + 2.0]]
     });
     let panel = Panel::around(ends, 0.0, [1.0; 2], BAR).lowest(262.0);
-    let mut marks = Vec::new();
+    let mut glyphs = Vec::new();
     for (map, q) in probabilities.iter().enumerate() {
         let [u, v] = middle(map);
         let rows = means(stackings, q)?;
@@ -97,7 +97,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
             let cell = cell.set("data-a", place.a.to_string());
             let cell = cell.set("data-b", place.b.to_string());
             // A rim of its own colour leaves no gaps between cells.
-            marks.push(
+            glyphs.push(
                 cell.valued("data-value", load)
                     .fill(colour.clone())
                     .stroke(colour, 0.3),
@@ -105,9 +105,9 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
         }
         let front = panel.length(n / 2.0_f64.sqrt());
         let front = ring(panel.at([u, v]), front, DIM, 1.0).class("front");
-        marks.push(front.set("stroke-dasharray", "4 3"));
+        glyphs.push(front.set("stroke-dasharray", "4 3"));
         let words = format!("q = {q}, greatest {}", short(scale.most));
-        marks.push(text(panel.at([u, v + reach + 1.0]), 14.0, words));
+        glyphs.push(text(panel.at([u, v + reach + 1.0]), 14.0, words));
     }
     let bar = Bar {
         scale: Scale::around_zero([-1.0, 1.0]),
@@ -122,7 +122,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
             "Mean response over random stackings".into(),
             caption(layers),
             panel,
-            marks,
+            glyphs,
         )
     })
 }
@@ -181,14 +181,14 @@ pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figur
         let [from, to] = ends.map(|end| chart.at(end));
         line(from, to, DIM, 1.0)
     });
-    let mut marks = vec![zero, front.class("front").set("stroke-dasharray", "4 3")];
+    let mut glyphs = vec![zero, front.class("front").set("stroke-dasharray", "4 3")];
     let colours = colours(curves.len());
     for (curve, colour) in curves.into_iter().zip(&colours) {
-        marks.push(chart.curve(curve, colour));
+        glyphs.push(chart.curve(curve, colour));
     }
     let names = probabilities.iter().map(|q| format!("q = {q}"));
     let names = names.zip(colours).chain([("r = nρ/√2".into(), DIM.into())]);
-    marks.extend(chart.legend(names));
+    glyphs.extend(chart.legend(names));
     Ok(Figure {
         axes: Some(chart.axes(["r in ρ".into(), "load of a ring in mg".into()])),
         note: Some(PRESSED.into()),
@@ -196,7 +196,7 @@ pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figur
             "Mean response over random stackings, by distance".into(),
             caption(layers),
             chart.panel,
-            marks,
+            glyphs,
         )
     })
 }

@@ -10,8 +10,8 @@ use num_traits::Signed;
 
 use super::caption::{LIMIT, caption, counted, readable};
 use super::colour::{BLACK, GREY, PALE, Scale};
+use super::glyph::{Glyph, Point, circle, line, ring};
 use super::layer::Layer;
-use super::mark::{Mark, Point, circle, line, ring};
 use super::page::{Axes, Bar, Figure};
 use super::panel::{BAR, Panel};
 use super::response::middle;
@@ -49,7 +49,7 @@ struct Network {
 /// with the indices of the upper sphere; blue is pull, red is push.
 ///
 /// # Errors
-/// [`Error::TooManyMarks`] for a pile of more than 200 000 spheres or a section of more than 20 000; [`Overflow`](cannonpile::Error::Overflow) for
+/// [`Error::TooManyGlyphs`] for a pile of more than 200 000 spheres or a section of more than 20 000; [`Overflow`](cannonpile::Error::Overflow) for
 /// forces beyond floats; those of the forces of the pile.
 ///
 /// # Examples
@@ -120,7 +120,7 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
 /// Returns the contact forces of layer `k` with the one below, seen from above; of discs from the side.
 ///
 /// # Errors
-/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`OnFloor`](cannonpile::Error::OnFloor) for the bottom layer; [`Error::TooManyMarks`] for more than 20 000 spheres;
+/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`OnFloor`](cannonpile::Error::OnFloor) for the bottom layer; [`Error::TooManyGlyphs`] for more than 20 000 spheres;
 /// [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of the forces of the pile.
 ///
 /// # Examples
@@ -205,15 +205,15 @@ impl Network {
         let points = self.spheres.values().copied().chain(ends);
         let panel = Panel::around(points, 1.3, [10.0, 5.0], BAR).lowest(262.0);
         let radius = panel.length(1.0);
-        let mut marks = Vec::new();
+        let mut glyphs = Vec::new();
         if floor {
             let heights = self.spheres.values().map(|[_, v]| *v);
             let [_, y] = panel.at([0.0, heights.fold(0.0, f64::min) - 1.0]);
-            marks.push(line([panel.left, y], [panel.right(), y], BLACK, 1.5).class("floor"));
+            glyphs.push(line([panel.left, y], [panel.right(), y], BLACK, 1.5).class("floor"));
         }
         for (site, at) in &self.spheres {
             let sphere = ring(panel.at(*at), radius, PALE, 0.8).class("sphere");
-            marks.push(sphere.of(*site));
+            glyphs.push(sphere.of(*site));
         }
         // The strongest on top, and pulls over pushes.
         self.links.sort_by(|a, b| {
@@ -223,10 +223,10 @@ impl Network {
         let scale = Scale::of_lines(self.links.iter().map(|link| link.force));
         let widest = (radius * 0.62).min(18.0);
         let links = self.links.iter();
-        marks.extend(links.map(|link| link.mark(&panel, &scale, widest)));
+        glyphs.extend(links.map(|link| link.glyph(&panel, &scale, widest)));
         let dot = (radius * 0.13).clamp(0.6, 4.0);
         let dots = self.spheres.values();
-        marks.extend(dots.map(|at| circle(panel.at(*at), dot).fill(BLACK)));
+        glyphs.extend(dots.map(|at| circle(panel.at(*at), dot).fill(BLACK)));
         let bar = Bar {
             scale,
             name: "contact force",
@@ -243,7 +243,7 @@ impl Network {
             note,
             axes: Some(self.axes),
             bar: Some(bar),
-            ..Figure::new(title, caption, panel, marks)
+            ..Figure::new(title, caption, panel, glyphs)
         })
     }
 
@@ -262,18 +262,18 @@ impl Network {
 
 impl ContactKind {
     /// Returns the contact as a line: dashed if it bears nothing, and never too thin for its colour if it pulls.
-    fn mark(&self, panel: &Panel, scale: &Scale, widest: f64) -> Mark {
+    fn glyph(&self, panel: &Panel, scale: &Scale, widest: f64) -> Glyph {
         let [upper, lower] = self.ends.map(|at| panel.at(at));
         let width = widest * scale.part(self.force).abs();
-        let mark = if self.force == 0.0 {
+        let glyph = if self.force == 0.0 {
             line(upper, lower, GREY, 1.0).set("stroke-dasharray", "2 3")
         } else {
             let least = if self.force < 0.0 { 2.0 } else { 1.0 };
-            let mark = line(upper, lower, scale.colour(self.force), width.max(least));
-            mark.set("stroke-linecap", "round")
+            let glyph = line(upper, lower, scale.colour(self.force), width.max(least));
+            glyph.set("stroke-linecap", "round")
         };
-        let mark = mark.class("contact").of(self.site);
-        let mark = mark.set("data-direction", self.direction.name());
-        mark.valued("data-force", self.force)
+        let glyph = glyph.class("contact").of(self.site);
+        let glyph = glyph.set("data-direction", self.direction.name());
+        glyph.valued("data-force", self.force)
     }
 }

@@ -1,4 +1,4 @@
-//! A figure as a page: words, axes, a bar of colours and marks, and how they become SVG.
+//! A figure as a page: words, axes, a bar of colours and glyphs, and how they become SVG.
 
 use core::fmt;
 use std::io;
@@ -6,7 +6,7 @@ use std::io;
 use svg::Document;
 
 use super::colour::{BLACK, DIM, GREY, PULL, Scale, WHITE};
-use super::mark::{Mark, Point, fitting, line, px, rectangle, text};
+use super::glyph::{Glyph, Point, fitting, line, px, rectangle, text};
 use super::panel::{Panel, WIDTH};
 use super::ticks::{short, ticks};
 
@@ -40,7 +40,7 @@ pub struct Figure {
     pub(super) axes: Option<Axes>,
     pub(super) bar: Option<Bar>,
     /// What is drawn, from the farthest to the nearest.
-    pub(super) marks: Vec<Mark>,
+    pub(super) glyphs: Vec<Glyph>,
     pub(super) layout: Layout,
 }
 
@@ -83,7 +83,7 @@ pub(super) struct Bar {
 
 impl Figure {
     /// Returns a figure with neither note nor axes nor bar.
-    pub(super) fn new(title: String, caption: String, panel: Panel, marks: Vec<Mark>) -> Self {
+    pub(super) fn new(title: String, caption: String, panel: Panel, glyphs: Vec<Glyph>) -> Self {
         Self {
             title,
             caption,
@@ -91,7 +91,7 @@ impl Figure {
             panel,
             axes: None,
             bar: None,
-            marks,
+            glyphs,
             layout: Layout::default(),
         }
     }
@@ -170,20 +170,20 @@ impl Figure {
         let top = -26.0 * (head.len() + 1) as f64;
         let height = px(self.panel.page - top);
         let size = self.layout.width / WIDTH;
-        let mut marks = vec![
-            Mark::new("title").words(self.title.as_str()),
-            Mark::new("desc").words(self.caption.as_str()),
+        let mut glyphs = vec![
+            Glyph::new("title").words(self.title.as_str()),
+            Glyph::new("desc").words(self.caption.as_str()),
             rectangle([0.0, top], [WIDTH, height])
                 .class("page")
                 .fill(WHITE),
         ];
-        marks.extend(head);
+        glyphs.extend(head);
         if let Some(axes) = &self.axes {
-            marks.extend(axes.marks(&self.panel));
+            glyphs.extend(axes.glyphs(&self.panel));
         }
-        marks.extend(self.marks.iter().cloned());
+        glyphs.extend(self.glyphs.iter().cloned());
         if let Some(bar) = &self.bar {
-            marks.extend(bar.marks(&self.panel));
+            glyphs.extend(bar.glyphs(&self.panel));
         }
         let document = Document::new()
             .set("width", px(WIDTH * size))
@@ -191,14 +191,14 @@ impl Figure {
             .set("viewBox", (0.0, top, WIDTH, height))
             .set("role", "img")
             .set("font-family", "sans-serif");
-        marks
+        glyphs
             .into_iter()
-            .map(Mark::into_element)
+            .map(Glyph::into_element)
             .fold(document, Document::add)
     }
 
     /// Returns the lines above the panel.
-    fn head(&self) -> Vec<Mark> {
+    fn head(&self) -> Vec<Glyph> {
         let title = self.layout.title.then_some([
             (20.0, BLACK, self.title.as_str()),
             (14.0, BLACK, self.caption.as_str()),
@@ -230,10 +230,10 @@ impl fmt::Display for Figure {
 }
 
 impl Axes {
-    fn marks(&self, panel: &Panel) -> Vec<Mark> {
+    fn glyphs(&self, panel: &Panel) -> Vec<Glyph> {
         let (left, right, bottom) = (panel.left, panel.right(), panel.bottom());
         let frame = rectangle([left, 0.0], panel.size).class("frame");
-        let mut marks = vec![frame.fill("none").stroke(GREY, 1.0)];
+        let mut glyphs = vec![frame.fill("none").stroke(GREY, 1.0)];
         for (n, (name, ends)) in self.names.iter().zip(panel.ends()).enumerate() {
             if name.is_empty() {
                 continue;
@@ -246,7 +246,7 @@ impl Axes {
                 let place = (tick - origin) / unit;
                 let [x, y] = panel.at([place; 2]);
                 let words = short(tick);
-                marks.extend(if n == 0 {
+                glyphs.extend(if n == 0 {
                     let at = text([x, bottom + 15.0], 13.0, words);
                     [line([x, bottom], [x, bottom + 5.0], BLACK, 1.0), at]
                 } else {
@@ -254,19 +254,19 @@ impl Axes {
                     [line([left - 5.0, y], [left, y], BLACK, 1.0), at]
                 });
             }
-            marks.push(if n == 0 {
+            glyphs.push(if n == 0 {
                 text([left.midpoint(right), bottom + 38.0], 14.0, name)
             } else {
                 let (x, y) = (px(left - 54.0), px(bottom / 2.0));
                 text([x, y], 14.0, name).set("transform", format!("rotate(-90 {x} {y})"))
             });
         }
-        marks
+        glyphs
     }
 }
 
 impl Bar {
-    fn marks(&self, panel: &Panel) -> Vec<Mark> {
+    fn glyphs(&self, panel: &Panel) -> Vec<Glyph> {
         let (left, top, width) = (WIDTH - 112.0, 44.0, 20.0);
         let mut bottom = panel.size[1].clamp(120.0, 420.0);
         let named = |words: &str, y: f64| text([left, y], 14.0, words).start();
@@ -276,50 +276,50 @@ impl Bar {
             let words = text([end[0] + 8.0, y], 13.0, short(value)).start();
             [line(end, [end[0] + 5.0, y], BLACK, 1.0), words]
         };
-        let mut marks = vec![
+        let mut glyphs = vec![
             named(self.name, 4.0),
             named(&format!("in {}", self.unit), 22.0),
         ];
         let fill = if self.scale.is_uniform() {
             bottom = top + width;
-            marks.extend(tick(least, top + width / 2.0));
-            marks.push(named("everywhere", bottom + 16.0));
+            glyphs.extend(tick(least, top + width / 2.0));
+            glyphs.push(named("everywhere", bottom + 16.0));
             self.scale.colour(least)
         } else {
-            marks.push(self.gradient());
+            glyphs.push(self.gradient());
             for value in ticks(least, most, if bottom < 200.0 { 3 } else { 6 }) {
                 let part = (value / 2.0 - least / 2.0) / (most / 2.0 - least / 2.0);
-                marks.extend(tick(value, px(bottom - part * (bottom - top))));
+                glyphs.extend(tick(value, px(bottom - part * (bottom - top))));
             }
             "url(#scale)".into()
         };
         let bar = rectangle([left, top], [width, bottom - top]).class("bar");
         let bar = bar.set("data-least", least).set("data-most", most);
         // Under its ticks.
-        marks.insert(2, bar.fill(fill).stroke(GREY, 1.0));
+        glyphs.insert(2, bar.fill(fill).stroke(GREY, 1.0));
         let mut y = bottom + 24.0;
         for remark in &self.remarks {
-            marks.push(
+            glyphs.push(
                 text([left - 12.0, y], fitting(remark, 13.0, 118.0), remark)
                     .start()
                     .fill(DIM),
             );
             y += 17.0;
         }
-        marks
+        glyphs
     }
 
     /// Returns the colours of the bar from its lower to its upper end.
-    fn gradient(&self) -> Mark {
+    fn gradient(&self) -> Glyph {
         const STOPS: u32 = 48;
-        let gradient = Mark::new("linearGradient").set("id", "scale");
+        let gradient = Glyph::new("linearGradient").set("id", "scale");
         let mut gradient = gradient.measured([("x1", 0.0), ("y1", 1.0), ("x2", 0.0), ("y2", 0.0)]);
         for n in 0..=STOPS {
             let part = f64::from(n) / f64::from(STOPS);
             let value = self.scale.least * (1.0 - part) + self.scale.most * part;
-            let stop = Mark::new("stop").set("offset", px(part));
+            let stop = Glyph::new("stop").set("offset", px(part));
             gradient = gradient.with(stop.set("stop-color", self.scale.colour(value)));
         }
-        Mark::new("defs").with(gradient)
+        Glyph::new("defs").with(gradient)
     }
 }

@@ -1,6 +1,6 @@
 //! A part of the page with one scale in both directions.
 
-use super::mark::Point;
+use super::glyph::Point;
 
 /// The width of the page, in pixels.
 pub(super) const WIDTH: f64 = 800.0;

@@ -5,7 +5,7 @@ use cannonpile::shape::Selection;
 
 use super::caption::{LIMIT, caption, readable};
 use super::colour::{BLACK, PALE};
-use super::mark::{Mark, circle, line, polygon, px};
+use super::glyph::{Glyph, circle, line, polygon, px};
 use super::page::Figure;
 use super::panel::Panel;
 use super::subject::Subject;
@@ -31,7 +31,7 @@ const SHADES: [(&str, [&str; 3]); 2] = [
 /// Spheres are `<circle class="sphere">`, from the farthest to the nearest. Paper, fig. 1: four layers with a = 1.2 R.
 ///
 /// # Errors
-/// [`Error::TooManyMarks`] for more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for positions beyond floats.
+/// [`Error::TooManyGlyphs`] for more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for positions beyond floats.
 ///
 /// # Examples
 /// ```
@@ -74,14 +74,14 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
     let panel = Panel::around(rims.chain(ground), 0.1, [9.0, 6.0], [96.0, 30.0, 20.0]);
     let on_page = |at: Vector| panel.at(view.see(at).at);
 
-    let mut marks: Vec<Mark> = SHADES.map(|(id, stops)| shade(id, stops)).into();
+    let mut glyphs: Vec<Glyph> = SHADES.map(|(id, stops)| shade(id, stops)).into();
     let ground: Vec<_> = floor.into_iter().map(on_page).collect();
     if let (true, [left, right]) = (discs, ground.as_slice()) {
-        marks.push(line(*left, *right, BLACK, 1.5).class("floor"));
+        glyphs.push(line(*left, *right, BLACK, 1.5).class("floor"));
     } else {
         let floor = polygon(&ground).class("floor").fill("#f3f1ec");
-        marks.push(floor.stroke(PALE, 1.0));
-        marks.extend(on_floor.iter().map(|at| shadow(*at, on_page)));
+        glyphs.push(floor.stroke(PALE, 1.0));
+        glyphs.extend(on_floor.iter().map(|at| shadow(*at, on_page)));
     }
     for (site, seen) in &spheres {
         let radius = panel.length(seen.magnification);
@@ -89,11 +89,11 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
         let fill = format!("url(#{shade})");
         let sphere = circle(panel.at(seen.at), radius).class("sphere").of(*site);
         let sphere = sphere.set("data-distance", px(seen.distance)).fill(fill);
-        marks.push(sphere.stroke(BLACK, (radius * 0.02).min(0.8)));
+        glyphs.push(sphere.stroke(BLACK, (radius * 0.02).min(0.8)));
     }
-    marks.extend(view.axes([84.0, 74.0], discs));
+    glyphs.extend(view.axes([84.0, 74.0], discs));
     let title = format!("Pile of {}", if discs { "discs" } else { "spheres" });
-    Ok(Figure::new(title, caption(subject)?, panel, marks))
+    Ok(Figure::new(title, caption(subject)?, panel, glyphs))
 }
 
 const UP: Vector = [0.0, 0.0, 1.0];
@@ -137,20 +137,20 @@ fn circle_around(middle: Vector, radius: f64, count: u32) -> Vec<Vector> {
 }
 
 /// Returns the shadow of a sphere on the floor, around the point on which it stands.
-fn shadow(at: Vector, on_page: impl Fn(Vector) -> [f64; 2]) -> Mark {
+fn shadow(at: Vector, on_page: impl Fn(Vector) -> [f64; 2]) -> Glyph {
     let rim = circle_around(at, 0.95, 24).into_iter().map(on_page);
     let shadow = polygon(&rim.collect::<Vec<_>>()).class("shadow");
     shadow.fill(BLACK).set("fill-opacity", 0.2)
 }
 
 /// Returns a way to fill spheres: lit from the upper left, with a dark rim.
-pub(super) fn shade(id: &str, colours: [&str; 3]) -> Mark {
+pub(super) fn shade(id: &str, colours: [&str; 3]) -> Glyph {
     let stops = [0.0, 0.45, 1.0].into_iter().zip(colours);
-    let gradient = Mark::new("radialGradient").set("id", id);
+    let gradient = Glyph::new("radialGradient").set("id", id);
     let gradient = gradient.measured([("cx", 0.38), ("cy", 0.34), ("r", 0.68)]);
-    let add = |gradient: Mark, (offset, colour): (f64, &str)| {
-        let stop = Mark::new("stop").set("offset", offset);
+    let add = |gradient: Glyph, (offset, colour): (f64, &str)| {
+        let stop = Glyph::new("stop").set("offset", offset);
         gradient.with(stop.set("stop-color", colour))
     };
-    Mark::new("defs").with(stops.fold(gradient, add))
+    Glyph::new("defs").with(stops.fold(gradient, add))
 }

@@ -28,12 +28,12 @@ use crate::Error;
 /// use num_rational::BigRational;
 ///
 /// let pile = Pile::triangular(10)?;
-/// assert_eq!(cannonpile_figure::of_unit_load(pile.clone())?.weight().to_string(), "1");
+/// assert_eq!(cannonpile_figure::with_unit_load(pile.clone())?.weight().to_string(), "1");
 /// let loaded = pile.with_load(Site::APEX, BigRational::from_integer(2.into()))?;
-/// assert_eq!(cannonpile_figure::of_unit_load(loaded)?.weight().to_string(), "2");
+/// assert_eq!(cannonpile_figure::with_unit_load(loaded)?.weight().to_string(), "2");
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
-pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
+pub fn with_unit_load(pile: Pile) -> Result<Pile, Error> {
     let pile = pile.weightless().without_horizontal_forces();
     if pile.loads().len() > 0 {
         return Ok(pile);
@@ -49,7 +49,7 @@ pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
 /// signs change it spreads, and some spheres are pulled: the response needs a pile that presses on them.
 ///
 /// # Errors
-/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyMarks`] for a layer of more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for
+/// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyGlyphs`] for a layer of more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for
 /// forces beyond floats; those of the forces of the pile.
 ///
 /// # Examples
@@ -63,7 +63,7 @@ pub fn of_unit_load(pile: Pile) -> Result<Pile, Error> {
 ///
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let floor = |stacking: Stacking| {
-///     let pile = cannonpile_figure::of_unit_load(Pile::under(Region::hexagon(3, 3)?, stacking)?)?;
+///     let pile = cannonpile_figure::with_unit_load(Pile::under(Region::hexagon(3, 3)?, stacking)?)?;
 ///     cannonpile_figure::response(&Subject::of_pile(&pile, &spacing)?, pile.layers() - 1).map(|figure| figure.to_string())
 /// };
 /// assert_eq!(floor(Stacking::fcc(6)?)?.matches("data-exact=\"1/3\"").count(), 3);
@@ -92,8 +92,8 @@ pub fn response(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
         forces,
         scale: |values| Scale::around_zero(values.iter().copied()),
         note: None,
-        marked: loads.take(LIMIT as usize).map(|(site, _)| site).collect(),
-        mark: "below a load",
+        crossed: loads.take(LIMIT as usize).map(|(site, _)| site).collect(),
+        cross_label: "below a load",
     };
     map.figure(subject)
 }

@@ -2,8 +2,8 @@
 
 use super::caption::{LIMIT, caption};
 use super::colour::{BLUE, PALE, Scale};
+use super::glyph::{Glyph, Point, arrow, ring, text};
 use super::layer::Layer;
-use super::mark::{Mark, Point, arrow, ring, text};
 use super::page::Figure;
 use super::panel::AXES;
 use super::subject::{Subject, nearest};
@@ -17,7 +17,7 @@ use crate::Error;
 /// is the tip; their lengths are to the forces, `data-x` and `data-y`, as that of the key, of class `key`, is to its label.
 ///
 /// # Errors
-/// [`Error::TooManyMarks`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
+/// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
 /// [`Packing::base`](cannonpile::Packing::base).
 ///
 /// # Examples
@@ -56,25 +56,27 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
     let pixels = |force: f64| scale.part(force) * longest;
     let radius = panel.length(1.0);
     let spheres = layer.spheres.iter();
-    let mut marks: Vec<Mark> = spheres
+    let mut glyphs: Vec<Glyph> = spheres
         .map(|(_, at)| ring(panel.at(*at), radius, PALE, 1.0))
         .collect();
     for ((site, at), force) in layer.spheres.iter().zip(forces) {
         let tail = panel.at(*at);
         let [right, up] = force.map(pixels);
-        let mark = if right == 0.0 && up == 0.0 {
+        let glyph = if right == 0.0 && up == 0.0 {
             // The force vanishes here, and the sphere is not forgotten.
             ring(tail, (2.0 * width).max(1.5), BLUE, width).class("vanishing")
         } else {
             arrow(tail, [tail[0] + right, tail[1] - up], width, BLUE)
         };
         let [x, y] = force;
-        marks.push(mark.of(*site).valued("data-x", x).valued("data-y", y));
+        glyphs.push(glyph.of(*site).valued("data-x", x).valued("data-y", y));
     }
     let unit = subject.shear_unit();
     let [left, y] = [panel.left, panel.bottom() + 78.0];
     match round_below(greatest) {
-        None => marks.push(text([left, y], 14.0, format!("no shear anywhere (in {unit})")).start()),
+        None => {
+            glyphs.push(text([left, y], 14.0, format!("no shear anywhere (in {unit})")).start())
+        }
         Some(round) => {
             let tip = [left + pixels(round), y];
             let key = arrow([left, y], tip, width, BLUE).class("key");
@@ -83,14 +85,14 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
                 short(round),
                 short(greatest)
             );
-            marks.push(key.valued("data-force", round));
-            marks.push(text([tip[0] + 12.0, y], 14.0, words).start());
+            glyphs.push(key.valued("data-force", round));
+            glyphs.push(text([tip[0] + 12.0, y], 14.0, words).start());
         }
     }
     let title = "Shear force of the pile on the floor".into();
     Ok(Figure {
         note: subject.note(),
         axes: Some(layer.axes(subject)?),
-        ..Figure::new(title, caption(subject)?, panel, marks)
+        ..Figure::new(title, caption(subject)?, panel, glyphs)
     })
 }

@@ -8,7 +8,7 @@ use num_traits::Zero;
 
 use super::caption::caption;
 use super::colour::{BLACK, DIM, GREY, ORANGE, PULL, PUSH, Scale};
-use super::mark::{Mark, Point, arrow, circle, line, ring, text};
+use super::glyph::{Glyph, Point, arrow, circle, line, ring, text};
 use super::page::Figure;
 use super::panel::Panel;
 use super::pile::shade;
@@ -83,11 +83,11 @@ impl Force {
 /// use cannonpile::Pile;
 /// use cannonpile::lattice::Site;
 ///
-/// let site = cannonpile_figure::example(&Pile::triangular(10)?)?;
+/// let site = cannonpile_figure::example_site(&Pile::triangular(10)?)?;
 /// assert_eq!(site, Site { i: 2, j: 2, k: 5 });
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
-pub fn example(pile: &Pile) -> Result<Site, Error> {
+pub fn example_site(pile: &Pile) -> Result<Site, Error> {
     middle(pile, pile.layers() / 2)
 }
 
@@ -130,24 +130,24 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
     let place = |vector: Vector| panel.at(view.across(vector));
 
     // The sphere in its neighbours' midst: what is behind it first.
-    let mut marks = vec![shade("sphere", ["#ebf1f7", "#9db9d6", "#4b5661"])];
+    let mut glyphs = vec![shade("sphere", ["#ebf1f7", "#9db9d6", "#4b5661"])];
     for centre in &neighbours {
         let outline = ring(place(*centre), radius, GREY, 1.0).class("neighbour");
-        marks.push(outline.set("stroke-dasharray", "5 4"));
+        glyphs.push(outline.set("stroke-dasharray", "5 4"));
     }
     let shown = forces.iter().filter(|force| force.magnitude != 0.0);
     let (behind, before): (Vec<_>, Vec<_>) =
         shown.partition(|force| view.towards(force.at) < -1e-9);
-    marks.extend(behind.iter().flat_map(|force| force.arrow(place)));
+    glyphs.extend(behind.iter().flat_map(|force| force.arrow(place)));
     let centre = circle(place([0.0; 3]), radius).class("sphere").of(site);
     let centre = centre.fill("url(#sphere)").set("fill-opacity", 0.62);
-    marks.push(centre.stroke(BLACK, 1.0));
-    marks.extend(before.iter().flat_map(|force| force.arrow(place)));
-    marks.extend(forces.iter().flat_map(|force| force.letter(place)));
+    glyphs.push(centre.stroke(BLACK, 1.0));
+    glyphs.extend(before.iter().flat_map(|force| force.arrow(place)));
+    glyphs.extend(forces.iter().flat_map(|force| force.letter(place)));
     let mut shown = behind.iter().chain(&before);
     let small = shown.any(|force| force.is_small(place));
-    marks.extend(table(subject, &forces, small)?);
-    marks.extend(view.axes([92.0, panel.page - 34.0], discs));
+    glyphs.extend(table(subject, &forces, small)?);
+    glyphs.extend(view.axes([92.0, panel.page - 34.0], discs));
     let Site { i, j, k } = site;
     let title = if discs {
         format!("Forces on the disc k = {k}, i = {i}")
@@ -157,7 +157,7 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
     let title = title.replace('-', "−");
     Ok(Figure {
         note: subject.note_of_part(forces.iter().any(|force| force.magnitude < 0.0)),
-        ..Figure::new(title, caption(subject)?, panel, marks)
+        ..Figure::new(title, caption(subject)?, panel, glyphs)
     })
 }
 
@@ -242,21 +242,21 @@ impl Force {
     }
 
     /// Returns the arrow, and a ring where it is too short to be seen.
-    fn arrow(&self, place: impl Fn(Vector) -> Point) -> Vec<Mark> {
+    fn arrow(&self, place: impl Fn(Vector) -> Point) -> Vec<Glyph> {
         let [tail, tip] = self.ends().map(&place);
         let [x, y, z] = self.along.map(|part| part * self.magnitude);
-        let mark = arrow(tail, tip, 4.0, self.colour()).set("data-name", self.name);
-        let mark = mark.valued("data-force", self.magnitude);
-        let mark = mark.valued("data-x", x).valued("data-y", y);
-        let mut marks = vec![mark.valued("data-z", z)];
+        let glyph = arrow(tail, tip, 4.0, self.colour()).set("data-name", self.name);
+        let glyph = glyph.valued("data-force", self.magnitude);
+        let glyph = glyph.valued("data-x", x).valued("data-y", y);
+        let mut glyphs = vec![glyph.valued("data-z", z)];
         if self.is_small(&place) {
-            marks.push(ring(place(self.at), 7.0, self.colour(), 2.0).class("small"));
+            glyphs.push(ring(place(self.at), 7.0, self.colour(), 2.0).class("small"));
         }
-        marks
+        glyphs
     }
 
     /// Returns the letter, at the end that is farther from the sphere; that of the weight at its side.
-    fn letter(&self, place: impl Fn(Vector) -> Point) -> [Mark; 2] {
+    fn letter(&self, place: impl Fn(Vector) -> Point) -> [Glyph; 2] {
         const BEYOND: f64 = 16.0;
         let [tail, tip] = self.ends();
         let at = if norm(self.at) == 0.0 {
@@ -283,11 +283,11 @@ impl Force {
     }
 }
 
-fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mark>, Error> {
+fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Glyph>, Error> {
     let unit = subject.force_unit();
     let [words, multiples, values] = [LEFT + 30.0, LEFT + 172.0, LEFT + 248.0];
     let mut y = TABLE + 14.0;
-    let mut marks = vec![
+    let mut glyphs = vec![
         text([multiples, TABLE], 13.0, "f₀").fill(DIM).end(),
         text([values, TABLE], 13.0, unit).fill(DIM).end(),
         line([LEFT, y], [values, y], GREY, 1.0),
@@ -295,13 +295,13 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mar
     for force in forces {
         y += 22.0;
         let name = text([LEFT, y], 14.0, force.name).bold().italic().start();
-        marks.push(name.fill(force.colour()));
-        marks.push(text([words, y], 13.0, force.origin).start());
+        glyphs.push(name.fill(force.colour()));
+        glyphs.push(text([words, y], 13.0, force.origin).start());
         if let Some(multiple) = &force.multiple {
             let words = exact_or_short(multiple);
-            marks.push(text([multiples, y], 14.0, words).end());
+            glyphs.push(text([multiples, y], 14.0, words).end());
         }
-        marks.push(text([values, y], 14.0, short(force.magnitude)).end());
+        glyphs.push(text([values, y], 14.0, short(force.magnitude)).end());
     }
     let (value, formula) = subject.unit_force()?;
     let unit_force = format!("f₀ = {formula} = {} {unit}", short(value));
@@ -314,7 +314,7 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Mar
     y += 12.0;
     for (_, colour, words) in remarks.into_iter().filter(|(shown, ..)| *shown) {
         y += 22.0;
-        marks.push(text([LEFT, y], 13.0, words).fill(colour).start());
+        glyphs.push(text([LEFT, y], 13.0, words).fill(colour).start());
     }
-    Ok(marks)
+    Ok(glyphs)
 }

@@ -10,7 +10,7 @@ use cannonpile::{FloorForce, Forces, Packing, Pile};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::mark::Point;
+use super::glyph::Point;
 use super::view::Vector;
 use crate::Error;
 

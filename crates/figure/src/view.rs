@@ -1,7 +1,7 @@
 //! Space as a camera sees it.
 
 use super::colour::BLACK;
-use super::mark::{Mark, Point, arrow, text};
+use super::glyph::{Glyph, Point, arrow, text};
 
 /// A vector of space: x, y and z as in exported files, z up.
 pub(super) type Vector = [f64; 3];
@@ -96,7 +96,7 @@ impl View {
     }
 
     /// Returns the directions x, y and z as arrows from a point of the page; y is not shown of discs.
-    pub(super) fn axes(&self, [x, y]: Point, discs: bool) -> Vec<Mark> {
+    pub(super) fn axes(&self, [x, y]: Point, discs: bool) -> Vec<Glyph> {
         const LENGTH: f64 = 46.0;
         let basis = [
             ("x", [1.0, 0.0, 0.0]),

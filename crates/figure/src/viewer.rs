@@ -52,7 +52,7 @@ impl<'p> Page<'p> {
     /// The page of this pile.
     ///
     /// # Errors
-    /// [`Error::TooManyMarks`] for more than [`MAX_SPHERES`](Self::MAX_SPHERES).
+    /// [`Error::TooManyGlyphs`] for more than [`MAX_SPHERES`](Self::MAX_SPHERES).
     ///
     /// # Examples
     /// ```
@@ -163,14 +163,14 @@ impl<'p> Page<'p> {
 
 /// Refuses a pile of more spheres than a page shows.
 fn check(packing: &Packing<'_>) -> Result<(), Error> {
-    let marks = packing.pile().sphere_count();
+    let glyphs = packing.pile().sphere_count();
     let limit = Page::MAX_SPHERES;
-    if marks <= limit.into() {
+    if glyphs <= limit.into() {
         return Ok(());
     }
-    Err(Error::TooManyMarks {
-        marks,
-        what: "spheres",
+    Err(Error::TooManyGlyphs {
+        glyphs,
+        kind: "spheres",
         limit,
         remedy: "use fewer layers, a smaller top or base, or --to vtp for ParaView",
     })

@@ -241,7 +241,7 @@ impl Plot {
             Self::Sphere { of, at } => of.draw(|subject, pile| {
                 let site = match parse_site(at.as_deref(), pile)? {
                     Some(site) => site,
-                    None => figure::example(pile)?,
+                    None => figure::example_site(pile)?,
                 };
                 Ok(figure::sphere(subject, site)?)
             }),
@@ -285,7 +285,7 @@ impl Plot {
                         Some(Anchor::Top(Region::hexagon(RESPONSE_SIDE, RESPONSE_SIDE)?));
                     pile = scene.pile()?;
                 }
-                let pile = figure::of_unit_load(pile)?;
+                let pile = figure::with_unit_load(pile)?;
                 let layer = layer.unwrap_or(pile.layers() - 1);
                 of.draw_pile(&scene, &pile, |subject, _| {
                     figure::response(subject, layer).map_err(of_layer)
@@ -336,7 +336,7 @@ fn runs(text: &str) -> Result<Pattern, Failure> {
 /// Attributes an error to `--layer` instead of `--layers`.
 fn of_layer(error: figure::Error) -> InputError {
     match error.into() {
-        error @ (Error::Figure(figure::Error::TooManyMarks { .. })
+        error @ (Error::Figure(figure::Error::TooManyGlyphs { .. })
         | Error::Core(cannonpile::Error::OnFloor { .. })) => InputError::of(Culprit::Layer, error),
         error => error.into(),
     }

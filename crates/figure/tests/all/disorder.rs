@@ -161,7 +161,7 @@ fn parts_have_no_distribution_and_too_much_is_refused() {
     assert!(figure.unwrap().to_string().contains("drawn at random"));
     assert!(matches!(
         figure::mean_response(200, core::slice::from_ref(&half)),
-        Err(Error::TooManyMarks { .. })
+        Err(Error::TooManyGlyphs { .. })
     ));
     assert!(matches!(
         figure::mean_profile(5, &[ratio(3, 2)]),

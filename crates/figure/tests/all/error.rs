@@ -6,14 +6,14 @@ use cannonpile_figure::{Error, Subject, shear};
 use cannonpile_testkit::errors::says;
 
 #[test]
-fn too_many_marks() {
+fn too_many_glyphs() {
     let pile = Pile::triangular(MAX_LAYERS).unwrap();
     let subject = Subject::of_pile(&pile, &"6/5".parse().unwrap()).unwrap();
     let error = shear(&subject).unwrap_err();
     assert!(matches!(
         &error,
-        Error::TooManyMarks { marks, what: "bottom spheres", limit: 20_000, remedy: "use fewer layers", .. }
-            if *marks == pile.base_sphere_count()
+        Error::TooManyGlyphs { glyphs, kind: "bottom spheres", limit: 20_000, remedy: "use fewer layers", .. }
+            if *glyphs == pile.base_sphere_count()
     ));
     says(
         &error,

@@ -304,7 +304,7 @@ fn layers_show_every_contact_once() {
 fn responses_add_up_to_the_load() {
     for stacking in [Stacking::fcc(6), Stacking::hcp(6), Stacking::dhcp(6)] {
         let top = Region::hexagon(3, 3).unwrap();
-        let pile = figure::of_unit_load(Pile::under(top, stacking.unwrap()).unwrap()).unwrap();
+        let pile = figure::with_unit_load(Pile::under(top, stacking.unwrap()).unwrap()).unwrap();
         for k in 0..6 {
             let svg = figure::response(&subject(&pile), k).unwrap().to_string();
             let document = Document::parse(&svg).unwrap();
@@ -327,7 +327,7 @@ fn no_number_of_a_cell_reads_as_zero() {
     for layers in 2..9 {
         let top = Region::hexagon(5, 5).unwrap();
         let pile = Pile::under(top, Stacking::hcp(layers).unwrap()).unwrap();
-        let pile = figure::of_unit_load(pile).unwrap();
+        let pile = figure::with_unit_load(pile).unwrap();
         let svg = figure::response(&subject(&pile), layers - 1)
             .unwrap()
             .to_string();
@@ -352,7 +352,7 @@ fn a_responses_layer_is_the_floor_of_a_lower_pile() {
     let top = Region::hexagon(2, 2).unwrap();
     let cells = |layers| {
         let pile = Pile::under(top, Stacking::hcp(layers).unwrap()).unwrap();
-        let pile = figure::of_unit_load(pile).unwrap();
+        let pile = figure::with_unit_load(pile).unwrap();
         let svg = figure::response(&subject(&pile), 3).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
         let cells = of_class(&document, "cell");
@@ -497,7 +497,7 @@ fn what_pulls_is_seen_and_said() {
     // Nothing of the kind of a pile that stands, or of spheres without weight.
     let stands = Pile::triangular(7).unwrap();
     assert_eq!(figure::section(&subject(&stands)).unwrap().note(), None);
-    let response = figure::of_unit_load(pile).unwrap();
+    let response = figure::with_unit_load(pile).unwrap();
     assert_eq!(
         figure::response(&subject(&response), 6).unwrap().note(),
         None
@@ -632,7 +632,7 @@ fn too_many_marks_are_refused_before_they_are_computed() {
     ];
     for refused in refusals {
         assert!(
-            matches!(refused, Err(Error::TooManyMarks { .. })),
+            matches!(refused, Err(Error::TooManyGlyphs { .. })),
             "{refused:?}"
         );
     }

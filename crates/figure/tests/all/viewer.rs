@@ -426,7 +426,7 @@ fn what_is_too_large_is_refused() {
     };
     assert!(row(most).is_ok_and(|bytes| bytes < 3_000_000));
     let refused = row(most + 1).expect_err("too many");
-    assert!(matches!(&refused, Error::TooManyMarks { marks, .. } if *marks == (most + 1).into()));
+    assert!(matches!(&refused, Error::TooManyGlyphs { glyphs, .. } if *glyphs == (most + 1).into()));
     assert!(refused.to_string().contains("--to vtp"));
     // A pile that its other files can hold is refused, too.
     let pile = Pile::triangular(84).expect("a pile");

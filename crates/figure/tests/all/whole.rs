@@ -21,7 +21,7 @@ fn figures(pile: &Pile, subject: &Subject<'_>) -> Vec<(&'static str, Figure)> {
         ("response of layer 0", figure::response(subject, 0).unwrap()),
         ("indexing", figure::indexing(subject, last.min(3)).unwrap()),
     ];
-    let site = figure::example(pile).unwrap();
+    let site = figure::example_site(pile).unwrap();
     figures.push(("sphere", figure::sphere(subject, site).unwrap()));
     if last > 0 {
         figures.push(("layer", figure::layer(subject, last - 1).unwrap()));

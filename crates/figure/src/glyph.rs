@@ -21,9 +21,9 @@ pub(super) fn px(length: f64) -> f64 {
 
 /// An SVG element that is being described.
 #[derive(Clone, Debug)]
-pub(super) struct Mark(Element);
+pub(super) struct Glyph(Element);
 
-impl Mark {
+impl Glyph {
     pub(super) fn new(name: &str) -> Self {
         Self(Element::new(name))
     }
@@ -35,7 +35,7 @@ impl Mark {
 
     /// Sets lengths on the page.
     pub(super) fn measured<const N: usize>(self, lengths: [(&str, f64); N]) -> Self {
-        let set = |mark: Self, (name, length)| mark.set(name, px(length));
+        let set = |glyph: Self, (name, length)| glyph.set(name, px(length));
         lengths.into_iter().fold(self, set)
     }
 
@@ -51,14 +51,14 @@ impl Mark {
         self.set("stroke", colour).set("stroke-width", px(width))
     }
 
-    /// Names the sphere that the mark stands for.
+    /// Names the sphere that the glyph stands for.
     pub(super) fn of(self, site: Site) -> Self {
         let indices = [("data-k", site.k), ("data-i", site.i), ("data-j", site.j)];
-        let set = |mark: Self, (name, index): (&str, i128)| mark.set(name, index.to_string());
+        let set = |glyph: Self, (name, index): (&str, i128)| glyph.set(name, index.to_string());
         indices.into_iter().fold(self, set)
     }
 
-    /// Gives the value that the mark stands for.
+    /// Gives the value that the glyph stands for.
     pub(super) fn valued(self, name: &str, value: f64) -> Self {
         self.set(name, format!("{value:?}"))
     }
@@ -97,7 +97,7 @@ impl Mark {
         self.set("text-anchor", "end")
     }
 
-    /// Returns the mark and, to be drawn before it, a white rim for it.
+    /// Returns the glyph and, to be drawn before it, a white rim for it.
     pub(super) fn with_rim(self) -> [Self; 2] {
         let rim = self.clone().set("aria-hidden", "true").fill(WHITE);
         let rim = rim.stroke(WHITE, 4.0).set("stroke-linejoin", "round");
@@ -106,8 +106,8 @@ impl Mark {
 }
 
 /// Returns a line of text, centred on its point.
-pub(super) fn text([x, y]: Point, size: f64, words: impl Into<String>) -> Mark {
-    let text = Mark::new("text").measured([("x", x), ("y", y), ("font-size", size)]);
+pub(super) fn text([x, y]: Point, size: f64, words: impl Into<String>) -> Glyph {
+    let text = Glyph::new("text").measured([("x", x), ("y", y), ("font-size", size)]);
     let text = text.set("dy", "0.35em").set("text-anchor", "middle");
     text.fill(BLACK).words(words)
 }
@@ -123,34 +123,39 @@ pub(super) fn fitting(words: &str, size: f64, room: f64) -> f64 {
     size * (room / width(words, size).max(1.0)).min(1.0)
 }
 
-pub(super) fn line([x1, y1]: Point, [x2, y2]: Point, colour: impl Into<Value>, width: f64) -> Mark {
-    let line = Mark::new("line").measured([("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)]);
+pub(super) fn line(
+    [x1, y1]: Point,
+    [x2, y2]: Point,
+    colour: impl Into<Value>,
+    width: f64,
+) -> Glyph {
+    let line = Glyph::new("line").measured([("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)]);
     line.stroke(colour, width)
 }
 
-pub(super) fn circle([x, y]: Point, radius: f64) -> Mark {
-    Mark::new("circle").measured([("cx", x), ("cy", y), ("r", radius)])
+pub(super) fn circle([x, y]: Point, radius: f64) -> Glyph {
+    Glyph::new("circle").measured([("cx", x), ("cy", y), ("r", radius)])
 }
 
 /// Returns a circle of which only the outline shows.
-pub(super) fn ring(centre: Point, radius: f64, colour: &str, width: f64) -> Mark {
+pub(super) fn ring(centre: Point, radius: f64, colour: &str, width: f64) -> Glyph {
     circle(centre, radius).fill("none").stroke(colour, width)
 }
 
-pub(super) fn rectangle([x, y]: Point, [width, height]: Point) -> Mark {
-    Mark::new("rect").measured([("x", x), ("y", y), ("width", width), ("height", height)])
+pub(super) fn rectangle([x, y]: Point, [width, height]: Point) -> Glyph {
+    Glyph::new("rect").measured([("x", x), ("y", y), ("width", width), ("height", height)])
 }
 
-pub(super) fn polygon(corners: &[Point]) -> Mark {
+pub(super) fn polygon(corners: &[Point]) -> Glyph {
     let corner = |[x, y]: &Point| format!("{},{}", px(*x), px(*y));
     let points: Vec<String> = corners.iter().map(corner).collect();
-    Mark::new("polygon").set("points", points.join(" "))
+    Glyph::new("polygon").set("points", points.join(" "))
 }
 
 /// Returns an arrow as one outline: its first and last corners are on both sides of the tail, the fourth is the tip.
 ///
 /// The tip is where the vector ends, exactly; a short arrow has a short head.
-pub(super) fn arrow(tail: Point, tip: Point, width: f64, colour: &str) -> Mark {
+pub(super) fn arrow(tail: Point, tip: Point, width: f64, colour: &str) -> Glyph {
     let [dx, dy] = [tip[0] - tail[0], tip[1] - tail[1]];
     let length = dx.hypot(dy);
     let [x, y] = if length > 0.0 {
@@ -176,7 +181,7 @@ pub(super) fn arrow(tail: Point, tip: Point, width: f64, colour: &str) -> Mark {
 }
 
 /// Returns a cross with a white rim.
-pub(super) fn cross([x, y]: Point, half: f64) -> Vec<Mark> {
+pub(super) fn cross([x, y]: Point, half: f64) -> Vec<Glyph> {
     let strokes = [(WHITE, 3.5), (BLACK, 1.5)].map(|(colour, width)| {
         [-half, half].map(|side| line([x - half, y - side], [x + half, y + side], colour, width))
     });
