@@ -72,7 +72,9 @@ impl Error {
             Self::Horizontal(error) => of_horizontal(error),
             Self::Disorder(error) => of_disorder(error),
             Self::Dem(error) => of_dem(error),
-            Self::Figure(cannonpile_figure::Error::TooManyGlyphs { .. }) => Some(Key::Layers.into()),
+            Self::Figure(cannonpile_figure::Error::TooManyGlyphs { .. }) => {
+                Some(Key::Layers.into())
+            }
             Self::Figure(_) | Self::Proof(_) => None,
         }
     }

@@ -1,4 +1,4 @@
-//! The normal force of a pile on the floor, as a map.
+//! The base normal forces, as a map.
 
 use super::caption::LIMIT;
 use super::colour::Scale;
@@ -8,9 +8,9 @@ use super::page::Figure;
 use super::subject::Subject;
 use crate::Error;
 
-/// Returns the normal forces of the bottom spheres on the floor, as a map of the base seen from above.
+/// Draws the base normal forces, as a map of the base seen from above.
 ///
-/// Under the paper's pile they are all the same: paper, (13).
+/// In the pile of the paper all of them are equal: paper, (13).
 ///
 /// # Errors
 /// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
@@ -26,7 +26,7 @@ use crate::Error;
 /// let pile = Pile::triangular(10)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let svg = cannonpile_figure::base(&Subject::of_pile(&pile, &spacing)?)?.to_string();
-/// // 55 spheres bear the weight of all 220: 4 mg everywhere.
+/// // The 55 bottom spheres carry the weight of all 220: 4 mg each.
 /// assert_eq!(svg.matches("data-exact=\"4\"").count(), 55);
 /// assert!(svg.contains("everywhere"));
 /// # Ok::<(), cannonpile_figure::Error>(())

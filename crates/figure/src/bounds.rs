@@ -1,4 +1,4 @@
-//! What bottom spheres can bear at least and at most, as a map.
+//! The bounds of the base normal forces, as a map.
 
 use cannonpile::shape::Selection;
 
@@ -12,8 +12,10 @@ use super::panel::BAR;
 use super::subject::{Subject, nearest};
 use crate::Error;
 
-/// Returns the [bounds](cannonpile_horizontal::bounds()) of every bottom sphere: of each cell the upper half is the greatest normal force
-/// of the sphere on the floor, the lower half the least, over all forces that only push, horizontal contacts included.
+/// Draws the [bounds](cannonpile_horizontal::bounds()) of the normal force of every bottom sphere, with horizontal contacts.
+///
+/// The bounds are over all compressive contact forces in equilibrium. The upper half of a cell shows the largest normal
+/// force, the lower half the smallest.
 ///
 /// # Errors
 /// Those of [`cannonpile_horizontal::base_bounds`]; [`Error::TooManyGlyphs`].
@@ -35,11 +37,11 @@ use crate::Error;
 pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
     let pile = subject.pile();
     let layer = Layer::new(subject, pile.layers() - 1, LIMIT, "use fewer layers")?;
-    let panel = layer.panel(1.5, BAR).lowest(262.0);
+    let panel = layer.panel(1.5, BAR).with_page_end(262.0);
     let (mut exact, mut attained) = (Vec::new(), Vec::new());
     for found in cannonpile_horizontal::base_bounds(pile, Selection::Base)? {
         let (_, bounds) = found?;
-        // As the halves of a cell: the greatest above the least.
+        // In the order of the halves of a cell: the largest force is above the smallest.
         for bound in [bounds.greatest, bounds.least] {
             exact.push(subject.normal(bound.normal));
             attained.push(bound.attained);
@@ -57,7 +59,7 @@ pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
             let n = 2 * n + half;
             let cell = polygon(&corners).class("cell").of(*site);
             let cell = cell.set("data-exact", exact[n].to_string());
-            let cell = cell.valued("data-value", values[n]);
+            let cell = cell.with_value("data-value", values[n]);
             let cell = cell.fill(scale.colour(values[n]));
             cells.push(if attained[n] {
                 cell.stroke(WHITE, (across * 0.04).min(1.2))
@@ -68,7 +70,9 @@ pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
                 let [x, y] = panel.at(*at);
                 let off = across * 0.24 * if half == 0 { -1.0 } else { 1.0 };
                 let size = fitting(&labels[n], size, across * 0.86);
-                words.push(text([x, y + off], size, labels[n].as_str()).fill(scale.ink(values[n])));
+                words.push(
+                    text([x, y + off], size, labels[n].as_str()).fill(scale.text_colour(values[n])),
+                );
             }
         }
     }
@@ -83,7 +87,7 @@ pub fn bounds(subject: &Subject<'_>) -> Result<Figure, Error> {
         unit: subject.force_unit(),
         remarks,
     };
-    let title = "What bottom spheres can bear with horizontal contacts";
+    let title = "Bounds of the base normal forces with horizontal contacts";
     Ok(Figure {
         axes: Some(layer.axes(subject)?),
         bar: Some(bar),

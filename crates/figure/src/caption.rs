@@ -1,4 +1,4 @@
-//! A pile in a line: its layers, how they are stacked, what is on it, how far apart the spheres are.
+//! The caption of a figure: layers, stacking, loads and spacing of the pile.
 
 use cannonpile_dem::{anchor, brief, stacking};
 use num_bigint::{BigInt, BigUint};
@@ -7,7 +7,7 @@ use num_traits::One;
 use super::subject::Subject;
 use crate::Error;
 
-/// Returns the line.
+/// Returns the caption.
 pub(super) fn caption(subject: &Subject<'_>) -> Result<String, Error> {
     let pile = subject.pile();
     let discs = subject.is_of_discs();
@@ -46,10 +46,10 @@ pub(super) fn counted(count: &BigInt, noun: &str) -> String {
     format!("{count} {noun}{plural}")
 }
 
-/// The most spheres or cells of a figure.
+/// The largest number of spheres or cells of a figure.
 pub(super) const LIMIT: u32 = 20_000;
 
-/// Refuses what nobody could tell apart on a page.
+/// Checks that a figure has at most `limit` glyphs.
 pub(super) fn readable(
     glyphs: &BigUint,
     limit: u32,

@@ -1,4 +1,4 @@
-//! Curves over an axis of numbers, each axis with its own scale.
+//! A chart of curves, with its own scale on each axis.
 
 use super::colour::{BLACK, Scale};
 use super::glyph::{Glyph, Point, line, px, text};
@@ -8,11 +8,11 @@ use super::panel::{AXES, Panel};
 /// The size of a chart, in units of its panel.
 const SIZE: Point = [8.0, 5.0];
 
-/// A frame in which curves are drawn.
+/// The frame of a chart.
 #[derive(Clone, Debug)]
 pub(super) struct Chart {
     pub(super) panel: Panel,
-    /// The least and the greatest number on each axis.
+    /// The ends of each axis.
     ends: [[f64; 2]; 2],
 }
 
@@ -24,7 +24,7 @@ impl Chart {
         }
     }
 
-    /// Where a point of the chart is on the page.
+    /// Returns the position on the page of a point of the chart.
     pub(super) fn at(&self, point: Point) -> Point {
         self.panel.at([0, 1].map(|n| {
             let [least, most] = self.ends[n];
@@ -51,7 +51,7 @@ impl Chart {
         curve.stroke(colour, 2.0).set("stroke-linejoin", "round")
     }
 
-    /// What curves mean: a line of its colour before each name, below each other in the upper right corner.
+    /// Returns the legend, in the upper right corner: a coloured line and a name for each curve.
     pub(super) fn legend(&self, names: impl IntoIterator<Item = (String, String)>) -> Vec<Glyph> {
         let right = self.panel.right();
         let mut y = 20.0;
@@ -65,7 +65,7 @@ impl Chart {
     }
 }
 
-/// Colours for some curves in their order, from dark to bright, without the brightest, which is not seen on white.
+/// Returns colours for a number of curves, from dark to bright. The brightest ones are left out, for contrast with white.
 pub(super) fn colours(count: usize) -> Vec<String> {
     const BRIGHTEST: f64 = 0.85;
     let scale = Scale::of([0.0, 1.0]);

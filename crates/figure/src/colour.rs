@@ -1,7 +1,7 @@
-//! Colours for numbers that the colour-blind can tell apart, in print too.
+//! Colour scales that are safe for colour-blind readers and for print.
 //!
-//! The maps are d3's, from the crate `colorous`: *viridis* by van der Walt, Smith and Firing for numbers of one sign, and
-//! ColorBrewer's *RdBu* by Brewer for numbers of both.
+//! The maps are those of d3, from the crate `colorous`. *Viridis* by van der Walt, Smith and Firing is for values of one
+//! sign. ColorBrewer's *RdBu* by Brewer is for values of both signs.
 
 use colorous::{Color, RED_BLUE, VIRIDIS};
 
@@ -9,22 +9,22 @@ use super::ticks;
 
 pub(super) const BLACK: &str = "#1a1a1a";
 pub(super) const WHITE: &str = "#ffffff";
-/// Of words that are less than others, still read on white.
+/// The colour of secondary text. It is legible on white.
 pub(super) const DIM: &str = "#555555";
-/// Of what is there for orientation only.
+/// The colour of guide lines and frames.
 pub(super) const GREY: &str = "#8a8a8a";
-/// Of outlines of spheres.
+/// The colour of outlines of spheres.
 pub(super) const PALE: &str = "#b9b9b9";
-/// Of forces without a sign, and of contacts.
+/// The colour of contacts, and of forces without a sign.
 pub(super) const BLUE: &str = "#0b579f";
-/// Of weights and loads.
+/// The colour of weights and loads.
 pub(super) const ORANGE: &str = "#b84a00";
-/// Of forces that pull: on the blue side of [`Scale`].
-pub(super) const PULL: &str = "#2166ac";
-/// Of forces that push: on its red side.
-pub(super) const PUSH: &str = "#b2182b";
+/// The colour of tensile forces, on the blue side of [`Scale`].
+pub(super) const TENSION: &str = "#2166ac";
+/// The colour of compressive forces, on the red side of [`Scale`].
+pub(super) const COMPRESSION: &str = "#b2182b";
 
-/// The colours of a range of numbers.
+/// A colour scale for a range of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
     pub(super) least: f64,
@@ -38,16 +38,15 @@ enum Map {
     Rising,
     /// From near-white to dark on both sides of zero: blue below, red above.
     Diverging,
-    /// As [`Diverging`](Self::Diverging) without the palest: for thin lines on white, of which even the weakest show their
-    /// sign.
+    /// As [`Diverging`](Self::Diverging) without the palest colours, so that thin lines on white show their sign.
     Signed,
 }
 
-/// The part of the map on each side of zero that lines leave out.
+/// The fraction of the map on each side of zero that [`Map::Signed`] leaves out.
 const PALEST: f64 = 0.3;
 
 impl Scale {
-    /// Returns the scale of some numbers: from the least to the greatest, or around zero if one of them is negative.
+    /// Returns a scale from the smallest to the largest value, or around zero if a value is negative.
     pub(super) fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let (least, most) = ends(values);
         let map = if least < 0.0 {
@@ -74,39 +73,39 @@ impl Scale {
         }
     }
 
-    /// Returns whether the scale tells negative from positive numbers.
+    /// Returns whether the colours distinguish negative from positive values.
     pub(super) fn is_around_zero(&self) -> bool {
         self.map != Map::Rising
     }
 
-    /// Returns whether all numbers are the same, but for roundings.
+    /// Returns whether all values are equal, up to rounding.
     pub(super) fn is_uniform(&self) -> bool {
         !ticks::is_range(self.least, self.most)
     }
 
-    /// Returns a number as a part of the greatest magnitude; 0 where all are 0.
+    /// Returns a value divided by the largest magnitude, or 0 if all values are 0.
     pub(super) fn part(&self, value: f64) -> f64 {
         let part = value / self.most.abs().max(self.least.abs());
         if part.is_finite() { part } else { 0.0 }
     }
 
-    /// Returns the colour of a number, as `#rrggbb`.
+    /// Returns the colour of a value, as `#rrggbb`.
     pub(super) fn colour(&self, value: f64) -> String {
-        format!("#{:x}", self.mixed(value))
+        format!("#{:x}", self.mix(value))
     }
 
-    /// Returns black or white, whichever is read better on the colour of a number.
-    pub(super) fn ink(&self, value: f64) -> &'static str {
-        if luminance(self.mixed(value)) > 0.18 {
+    /// Returns the text colour on the colour of a value: black or white, whichever has more contrast.
+    pub(super) fn text_colour(&self, value: f64) -> &'static str {
+        if luminance(self.mix(value)) > 0.18 {
             BLACK
         } else {
             WHITE
         }
     }
 
-    fn mixed(&self, value: f64) -> Color {
+    fn mix(&self, value: f64) -> Color {
         if self.map == Map::Rising {
-            // Halved, the greatest floats have a difference too.
+            // The difference of halves does not overflow.
             let part = (value / 2.0 - self.least / 2.0) / (self.most / 2.0 - self.least / 2.0);
             return VIRIDIS.eval_continuous(if self.is_uniform() {
                 0.5
@@ -122,7 +121,7 @@ impl Scale {
     }
 }
 
-/// Returns how bright a colour looks, from 0 for black to 1 for white: 0.2126 R + 0.7152 G + 0.0722 B of the linear parts.
+/// Returns the relative luminance of a colour, from 0 (black) to 1 (white): 0.2126 R + 0.7152 G + 0.0722 B in linear RGB.
 fn luminance(Color { r, g, b }: Color) -> f64 {
     let [red, green, blue] = [r, g, b].map(|part| {
         let part = f64::from(part) / 255.0;
@@ -135,7 +134,7 @@ fn luminance(Color { r, g, b }: Color) -> f64 {
     0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
-/// Returns the least and the greatest, or 0 and 0 of none.
+/// Returns the smallest and the largest value, or 0 and 0 if there are no values.
 fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let ends = values.into_iter().map(|value| (value, value));
     let ends = ends.reduce(|(least, most), (value, _)| (least.min(value), most.max(value)));
@@ -152,12 +151,12 @@ mod tests {
     }
 
     fn brightness(scale: Scale, values: &[f64]) -> Vec<f64> {
-        values.iter().map(|x| luminance(scale.mixed(*x))).collect()
+        values.iter().map(|x| luminance(scale.mix(*x))).collect()
     }
 
     #[test]
     fn scales_are_monotone_and_even_about_zero() {
-        // What rounding to a byte may turn round near white, where a step of the scale is less than one.
+        // Near white a step of the scale is less than one byte, so rounding may reverse the order by this much.
         const BYTE: f64 = 0.002;
         let bright = brightness(Scale::of([2.0, 5.0]), &steps(2.0, 5.0));
         assert!(bright.is_sorted() && bright[0] < 0.1 && bright[100] > 0.7);
@@ -167,14 +166,14 @@ mod tests {
         ] {
             assert!(brightness(scale, &steps(0.0, 3.0)).is_sorted_by(|a, b| a + BYTE >= *b));
             assert!(brightness(scale, &steps(-3.0, 0.0)).is_sorted_by(|a, b| *a <= b + BYTE));
-            // Told apart by more than brightness: blue on one side, red on the other.
-            let (push, pull) = (scale.mixed(2.0), scale.mixed(-2.0));
-            assert!(push.r > push.b && pull.b > pull.r);
+            // The hue differs too: red for positive values, blue for negative ones.
+            let (positive, negative) = (scale.mix(2.0), scale.mix(-2.0));
+            assert!(positive.r > positive.b && negative.b > negative.r);
         }
     }
 
     #[test]
-    fn ends_are_those_of_the_numbers() {
+    fn ends_of_scales() {
         let ends = |scale: Scale| (scale.least, scale.most, scale.is_around_zero());
         assert_eq!(ends(Scale::of([3.0, -1.0, 2.0])), (-1.0, 3.0, true));
         assert_eq!(ends(Scale::of([5.0, 2.0])), (2.0, 5.0, false));
@@ -182,16 +181,16 @@ mod tests {
         assert_eq!(ends(Scale::around_zero([2.0, 5.0])), (0.0, 5.0, true));
         assert_eq!(ends(Scale::around_zero([-3.0, -1.0])), (-3.0, 0.0, true));
         assert_eq!(ends(Scale::of_lines([1.0, 2.0])), (0.0, 2.0, true));
-        // What differs by roundings alone is the same.
+        // Values that differ by rounding only count as equal.
         assert!(Scale::of([0.3, 0.1 + 0.2]).is_uniform());
         assert!(!Scale::of([0.3, 0.31]).is_uniform());
     }
 
     #[test]
-    fn colours_are_those_of_the_maps() {
+    fn colours_of_scales() {
         let scale = Scale::of([0.0, 1.0]);
         assert_eq!([0.0, 1.0].map(|x| scale.colour(x)), ["#440154", "#fde725"]);
-        // Of one number only there is no least and no greatest.
+        // A single value has the middle colour.
         assert_eq!(Scale::of([4.0, 4.0]).colour(4.0), "#20908c");
         let scale = Scale::around_zero([-1.0, 3.0]);
         assert_eq!([-3.0, 3.0].map(|x| scale.colour(x)), ["#042f60", "#67001f"]);
@@ -199,9 +198,9 @@ mod tests {
             Scale::of_lines([-1.0, 2.0]),
             Scale::around_zero([-1.0, 2.0]),
         );
-        assert!(luminance(lines.mixed(0.1)) < luminance(areas.mixed(0.1)));
+        assert!(luminance(lines.mix(0.1)) < luminance(areas.mix(0.1)));
         assert_eq!(lines.colour(2.0), areas.colour(2.0));
-        // Both ends of the floats, and nothing at all.
+        // The extremes of f64, and empty lists.
         for values in [
             vec![],
             vec![0.0],
@@ -210,11 +209,7 @@ mod tests {
             vec![5e-324, 0.0],
         ] {
             let scale = Scale::of(values.clone());
-            assert!(
-                values
-                    .iter()
-                    .all(|x| luminance(scale.mixed(*x)).is_finite())
-            );
+            assert!(values.iter().all(|x| luminance(scale.mix(*x)).is_finite()));
         }
     }
 }

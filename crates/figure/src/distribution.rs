@@ -1,4 +1,4 @@
-//! How forces are distributed over random stackings.
+//! The force distribution over random stackings.
 
 use cannonpile_disorder::Binned;
 use cannonpile_disorder::{Choice, Tally};
@@ -12,11 +12,10 @@ use super::glyph::Point;
 use super::page::Figure;
 use crate::Error;
 
-/// Returns the distribution P(f) of the contact forces, or of the normal forces on the floor, over random stackings at the fault
-/// probability `q`: of all of them, and of those that stand. `None` of a part of an ensemble.
+/// Draws the probability density P(f) of the contact forces, or of the base normal forces, over random stackings.
 ///
-/// Upwards is log₁₀ of the share of the forces in a bin over its width; bins without forces are left out. Of samples, which
-/// are drawn at one fault probability, it is that one.
+/// One curve is for all stackings, the other for the stable ones. The vertical axis is log₁₀ P; empty bins are left out.
+/// Enumerated stackings have the fault probability `q`. For samples `q` has no effect. A part of an ensemble gives `None`.
 ///
 /// # Errors
 /// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Error::TooManyGlyphs`] for more than 20 000 bins.
@@ -32,7 +31,7 @@ use crate::Error;
 /// let tally = Ensemble::under(Region::SITE, stackings)?.run(&Choice::All, Shard::WHOLE)?;
 /// let half = BigRational::new(1.into(), 2.into());
 /// let figure = cannonpile_figure::distribution(&tally, Binned::Forces, &half)?.unwrap();
-/// assert!(figure.to_string().contains("those that stand"));
+/// assert!(figure.to_string().contains("stable stackings"));
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn distribution(
@@ -45,7 +44,7 @@ pub fn distribution(
     };
     let width = tally.ensemble.bins();
     let mut curves = Vec::new();
-    for (n, name) in ["all stackings", "those that stand"]
+    for (n, name) in ["all stackings", "stable stackings"]
         .into_iter()
         .enumerate()
     {
@@ -97,7 +96,7 @@ pub fn distribution(
         [least.min(log), most.max(log)]
     });
     let margin = ((upwards[1] - upwards[0]) * 0.05).max(0.1);
-    // An axis has a length, whatever was counted.
+    // The axis has a positive length even if there are no forces.
     let across = [across[0], across[1].max(across[0] + 1.0)];
     let chart = Chart::new(across, [upwards[0] - margin, upwards[1] + margin]);
     let colours = colours(2);

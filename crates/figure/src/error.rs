@@ -5,7 +5,7 @@ use core::fmt;
 use cannonpile::engine::shortened;
 use num_bigint::BigUint;
 
-/// Why a figure or a page is not drawn.
+/// The error of a figure or of the viewer.
 ///
 /// # Examples
 /// ```
@@ -25,11 +25,11 @@ pub enum Error {
     TooManyGlyphs {
         /// The number of glyphs.
         glyphs: BigUint,
-        /// What the glyphs stand for.
+        /// The objects that the glyphs show, such as `spheres`.
         kind: &'static str,
-        /// The greatest number allowed.
+        /// The largest allowed number.
         limit: u32,
-        /// A narrower question.
+        /// A change that gives fewer glyphs.
         remedy: &'static str,
     },
     /// An error of the core.
@@ -38,7 +38,7 @@ pub enum Error {
     Horizontal(cannonpile_horizontal::Error),
     /// An error of random stackings.
     Disorder(cannonpile_disorder::Error),
-    /// An error of the numbered pile that a page shows.
+    /// An error of the numbered pile in the viewer.
     Dem(cannonpile_dem::Error),
 }
 
@@ -65,7 +65,7 @@ impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
             Self::TooManyGlyphs { .. } => None,
-            // The message is the inner one, so the chain goes on below it.
+            // `Display` prints the inner error, so the chain continues with its source.
             Self::Core(error) => error.source(),
             Self::Horizontal(error) => error.source(),
             Self::Disorder(error) => error.source(),

@@ -1,4 +1,4 @@
-//! Marks: the elements of a page, at places in pixels.
+//! Glyphs: the SVG elements of a figure, with positions in pixels.
 
 use cannonpile::lattice::Site;
 use svg::Node;
@@ -7,10 +7,10 @@ use svg::node::{Text, Value};
 
 use super::colour::{BLACK, WHITE};
 
-/// A point of the page: to the right and downwards.
+/// A point: x to the right, y downwards on the page.
 pub(super) type Point = [f64; 2];
 
-/// Returns a length on the page, to a ten thousandth of a pixel, which is finer than any printer. What is no number is 0.
+/// Rounds a length on the page to 1/10000 of a pixel. A length that is not finite becomes 0.
 pub(super) fn px(length: f64) -> f64 {
     if length.is_finite() {
         (length * 1e4).round() / 1e4 + 0.0
@@ -19,7 +19,7 @@ pub(super) fn px(length: f64) -> f64 {
     }
 }
 
-/// An SVG element that is being described.
+/// An SVG element under construction.
 #[derive(Clone, Debug)]
 pub(super) struct Glyph(Element);
 
@@ -33,8 +33,8 @@ impl Glyph {
         self
     }
 
-    /// Sets lengths on the page.
-    pub(super) fn measured<const N: usize>(self, lengths: [(&str, f64); N]) -> Self {
+    /// Sets attributes that are lengths on the page.
+    pub(super) fn with_lengths<const N: usize>(self, lengths: [(&str, f64); N]) -> Self {
         let set = |glyph: Self, (name, length)| glyph.set(name, px(length));
         lengths.into_iter().fold(self, set)
     }
@@ -51,15 +51,15 @@ impl Glyph {
         self.set("stroke", colour).set("stroke-width", px(width))
     }
 
-    /// Names the sphere that the glyph stands for.
+    /// Sets the indices of the sphere that the glyph shows.
     pub(super) fn of(self, site: Site) -> Self {
         let indices = [("data-k", site.k), ("data-i", site.i), ("data-j", site.j)];
         let set = |glyph: Self, (name, index): (&str, i128)| glyph.set(name, index.to_string());
         indices.into_iter().fold(self, set)
     }
 
-    /// Gives the value that the glyph stands for.
-    pub(super) fn valued(self, name: &str, value: f64) -> Self {
+    /// Sets the value that the glyph shows.
+    pub(super) fn with_value(self, name: &str, value: f64) -> Self {
         self.set(name, format!("{value:?}"))
     }
 
@@ -77,7 +77,7 @@ impl Glyph {
         self.0
     }
 
-    // Of text.
+    // Attributes of text.
 
     pub(super) fn bold(self) -> Self {
         self.set("font-weight", "bold")
@@ -87,17 +87,17 @@ impl Glyph {
         self.set("font-style", "italic")
     }
 
-    /// Holds a text at its beginning.
+    /// Aligns a text at its beginning.
     pub(super) fn start(self) -> Self {
         self.set("text-anchor", "start")
     }
 
-    /// Holds a text at its end.
+    /// Aligns a text at its end.
     pub(super) fn end(self) -> Self {
         self.set("text-anchor", "end")
     }
 
-    /// Returns the glyph and, to be drawn before it, a white rim for it.
+    /// Returns a white rim, to be drawn first, and the glyph.
     pub(super) fn with_rim(self) -> [Self; 2] {
         let rim = self.clone().set("aria-hidden", "true").fill(WHITE);
         let rim = rim.stroke(WHITE, 4.0).set("stroke-linejoin", "round");
@@ -107,18 +107,18 @@ impl Glyph {
 
 /// Returns a line of text, centred on its point.
 pub(super) fn text([x, y]: Point, size: f64, words: impl Into<String>) -> Glyph {
-    let text = Glyph::new("text").measured([("x", x), ("y", y), ("font-size", size)]);
+    let text = Glyph::new("text").with_lengths([("x", x), ("y", y), ("font-size", size)]);
     let text = text.set("dy", "0.35em").set("text-anchor", "middle");
     text.fill(BLACK).words(words)
 }
 
-/// Returns about how wide a text will be: what a viewer's font makes of it is not known.
+/// Estimates the width of a text. The exact width depends on the font of the reader.
 pub(super) fn width(words: &str, size: f64) -> f64 {
     let letters = u32::try_from(words.chars().count()).unwrap_or(u32::MAX);
     f64::from(letters) * size * 0.62
 }
 
-/// Returns the size, or a smaller one at which the text is no wider than `room`.
+/// Returns a font size of at most `size` with which the text is at most `room` wide.
 pub(super) fn fitting(words: &str, size: f64, room: f64) -> f64 {
     size * (room / width(words, size).max(1.0)).min(1.0)
 }
@@ -129,21 +129,21 @@ pub(super) fn line(
     colour: impl Into<Value>,
     width: f64,
 ) -> Glyph {
-    let line = Glyph::new("line").measured([("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)]);
+    let line = Glyph::new("line").with_lengths([("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)]);
     line.stroke(colour, width)
 }
 
 pub(super) fn circle([x, y]: Point, radius: f64) -> Glyph {
-    Glyph::new("circle").measured([("cx", x), ("cy", y), ("r", radius)])
+    Glyph::new("circle").with_lengths([("cx", x), ("cy", y), ("r", radius)])
 }
 
-/// Returns a circle of which only the outline shows.
+/// Returns a circle without fill.
 pub(super) fn ring(centre: Point, radius: f64, colour: &str, width: f64) -> Glyph {
     circle(centre, radius).fill("none").stroke(colour, width)
 }
 
 pub(super) fn rectangle([x, y]: Point, [width, height]: Point) -> Glyph {
-    Glyph::new("rect").measured([("x", x), ("y", y), ("width", width), ("height", height)])
+    Glyph::new("rect").with_lengths([("x", x), ("y", y), ("width", width), ("height", height)])
 }
 
 pub(super) fn polygon(corners: &[Point]) -> Glyph {
@@ -152,9 +152,9 @@ pub(super) fn polygon(corners: &[Point]) -> Glyph {
     Glyph::new("polygon").set("points", points.join(" "))
 }
 
-/// Returns an arrow as one outline: its first and last corners are on both sides of the tail, the fourth is the tip.
+/// Returns an arrow as one polygon. Its first and last corners are on both sides of the tail, and its fourth is the tip.
 ///
-/// The tip is where the vector ends, exactly; a short arrow has a short head.
+/// The tip is exactly the end of the vector. A short arrow has a short head.
 pub(super) fn arrow(tail: Point, tip: Point, width: f64, colour: &str) -> Glyph {
     let [dx, dy] = [tip[0] - tail[0], tip[1] - tail[1]];
     let length = dx.hypot(dy);

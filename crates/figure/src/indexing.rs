@@ -1,4 +1,4 @@
-//! The indices of the spheres of a layer: the paper's fig. 2.
+//! The indices of the spheres of a layer: paper, fig. 2.
 
 use cannonpile::lattice::{Sign, Site};
 
@@ -11,13 +11,13 @@ use super::panel::Panel;
 use super::subject::Subject;
 use crate::Error;
 
-/// The most spheres: their indices have to be read.
+/// The largest number of spheres whose indices are legible.
 const LIMIT: u32 = 150;
 
-/// Returns layer `k` seen from above, with the indices of its spheres, x to the right and y upwards.
+/// Draws layer `k` seen from above, with the indices of its spheres; x points to the right and y upwards.
 ///
-/// Paper, fig. 2, for k = 3, where z points down and the layer is seen from below: i and j run along rows of spheres; x and
-/// y, in which forces are given, do not. α, β and γ are the directions of the three spheres below.
+/// The indices i and j run along rows of spheres. α, β and γ are the directions of the three spheres below. For k = 3 this
+/// is the mirror image of fig. 2 of the paper, where z points down.
 ///
 /// # Errors
 /// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyGlyphs`] for more than 150 spheres.
@@ -35,7 +35,7 @@ const LIMIT: u32 = 150;
 /// let subject = Subject::of_pile(&pile, &spacing)?;
 /// let svg = cannonpile_figure::indexing(&subject, 3)?.to_string();
 /// assert!(svg.contains(">1,2<") && !svg.contains(">2,2<"));
-/// // 136 spheres, and 153.
+/// // Layer 15 has 136 spheres, layer 16 has 153.
 /// assert!(cannonpile_figure::indexing(&subject, 15).is_ok());
 /// assert!(matches!(cannonpile_figure::indexing(&subject, 16), Err(Error::TooManyGlyphs { .. })));
 /// # Ok::<(), cannonpile_figure::Error>(())
@@ -46,7 +46,7 @@ pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
     let radius = panel.length(1.0);
     let words = |site| subject.indices(site).replace('-', "−");
     let size = |(site, _): &(Site, Point)| fitting(&words(*site), 20.0, 1.65 * radius);
-    // The same for all, as large as fits a sphere.
+    // All labels have the same size. The longest one fits in its sphere.
     let size = layer.spheres.iter().map(size).fold(20.0, f64::min);
     let mut glyphs = rows(&layer, &panel);
     for (site, at) in &layer.spheres {
@@ -60,7 +60,7 @@ pub fn indexing(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
     Ok(Figure::new(title, caption(subject)?, panel, glyphs))
 }
 
-/// Returns the lines along which i and j count.
+/// Returns the lines along which i and j increase.
 fn rows(layer: &Layer, panel: &Panel) -> Vec<Glyph> {
     let next =
         |a: Site, b: Site| (b.i - a.i, b.j - a.j) == (1, 0) || (b.i - a.i, b.j - a.j) == (0, 1);
@@ -73,10 +73,10 @@ fn rows(layer: &Layer, panel: &Panel) -> Vec<Glyph> {
     pairs.map(line).collect()
 }
 
-/// Returns the directions of the indices, of the contacts and of the components, as arrows about a height of the page.
+/// Returns the directions of the indices, contacts and force components, as arrows at the height `y` of the page.
 fn keys(subject: &Subject<'_>, layer: &Layer, k: i128, y: f64) -> Result<Vec<Glyph>, Error> {
     let pile = subject.pile();
-    // On the floor, the directions of the step above.
+    // The bottom layer has the directions of the step above it.
     let shape = pile.shape();
     let sign = shape.sign_below(k).or_else(|| shape.sign_below(k - 1));
     let down = if sign == Some(Sign::Minus) { 1.0 } else { -1.0 };
@@ -108,7 +108,7 @@ fn keys(subject: &Subject<'_>, layer: &Layer, k: i128, y: f64) -> Result<Vec<Gly
         let from = [x, if colour == BLUE { y } else { y + 20.0 }];
         for (name, [u, v]) in arrows {
             let length = u.hypot(v);
-            // Discs have neither j nor y, and their γ leads nowhere.
+            // Discs have no j, y or γ.
             if length == 0.0 || discs && ["j", "y"].contains(&name) {
                 continue;
             }

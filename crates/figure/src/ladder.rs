@@ -1,4 +1,4 @@
-//! The errors of a ladder of simulations, and the order in which they vanish.
+//! The errors of a refinement study (a [`Ladder`]), and their order of accuracy.
 
 use cannonpile_dem::verify::{Fit, Ladder, Norm, Refinement, Rung, RungPlace};
 
@@ -8,12 +8,11 @@ use super::glyph::{Glyph, Point, circle, line, polygon, text};
 use super::page::Figure;
 use super::ticks::digits;
 
-/// Returns the errors of a ladder over its refinement parameter, both as log₁₀: of each rung the largest error, a disc, and
-/// the rms error, a square.
+/// Draws the errors of a refinement study over its parameter, on logarithmic axes.
 ///
-/// A line is the fit of its order, over the rungs above the floor; glyphs of rungs on the floor, or of another pile, are
-/// hollow. A dashed line joins what theory says of the largest errors. The triangle rises with order 1. An error of 0 or an
-/// infinite one has no place, and is left out.
+/// Each level has a disc for the largest error and a square for the rms error. A line shows the fitted order, over the levels
+/// above the round-off floor. Glyphs of levels on the floor, or with other contacts, are hollow. A dashed line shows the
+/// largest errors that spring theory predicts. The triangle has slope 1. Errors that are 0 or infinite are left out.
 ///
 /// # Examples
 /// ```
@@ -46,7 +45,7 @@ pub fn ladder(ladder: &Ladder) -> Figure {
     });
     let points = || logs.clone().chain(predicted.iter().copied());
     let mut ends = [0, 1].map(|axis| ends(points().map(|point| point[axis])));
-    if points().any(|point| is_in_the_way(point, ends)) {
+    if points().any(|point| is_under_legend(point, ends)) {
         ends[1][1] += (ends[1][1] - ends[1][0]) * HEADROOM;
     }
     let chart = Chart::new(ends[0], ends[1]);
@@ -61,15 +60,15 @@ pub fn ladder(ladder: &Ladder) -> Figure {
     if !predicted.is_empty() {
         let dashed = chart.curve(predicted, ORANGE).class("predicted");
         glyphs.push(dashed.set("stroke-dasharray", "7 5"));
-        let name = "theory of springs, largest error".to_owned();
+        let name = "spring theory, largest error".to_owned();
         legend.push((name, ORANGE, Sample::Dashed));
     }
     for ((norm, rungs), colour) in Norm::ALL.into_iter().zip(&drawn).zip(COLOURS) {
         for (rung, place) in rungs {
             let at = chart.at([across(rung), rung.error(norm).log10()]);
             let shape = shape(norm, at).class("rung").set("data-norm", norm.name());
-            let shape = shape.valued("data-parameter", rung.parameter);
-            let shape = shape.valued("data-error", rung.error(norm));
+            let shape = shape.with_value("data-parameter", rung.parameter);
+            let shape = shape.with_value("data-error", rung.error(norm));
             let shape = shape.set("data-place", place.name());
             let fill = if *place == RungPlace::Above {
                 colour
@@ -81,10 +80,10 @@ pub fn ladder(ladder: &Ladder) -> Figure {
     }
     let hollow = |(_, place): &(&Rung, RungPlace)| *place != RungPlace::Above;
     if drawn.iter().flatten().any(hollow) {
-        let name = "on the floor, or not all contacts there".to_owned();
+        let name = "on the round-off floor, or contacts missing".to_owned();
         legend.push((name, COLOURS[0], Sample::Hollow));
     }
-    glyphs.extend(key(&chart, legend));
+    glyphs.extend(legend_of(&chart, legend));
     let rungs = ladder.rungs().len();
     let above = ladder.places(Norm::Largest);
     let above = above.iter().filter(|place| **place == RungPlace::Above);
@@ -92,7 +91,10 @@ pub fn ladder(ladder: &Ladder) -> Figure {
         Refinement::Stiffness => ("Errors over the softness of springs", "log₁₀ 1/k"),
         Refinement::TimeStep => ("Errors over the time step", "log₁₀ Δt"),
     };
-    let caption = format!("{rungs} rungs, {} of them above the floor", above.count());
+    let caption = format!(
+        "{rungs} levels, {} of them above the round-off floor",
+        above.count()
+    );
     let names = [name.into(), "log₁₀ relative error".into()];
     Figure {
         axes: Some(chart.axes(names)),
@@ -100,7 +102,7 @@ pub fn ladder(ladder: &Ladder) -> Figure {
     }
 }
 
-/// log₁₀ h, which no float is too great or too small for.
+/// Returns log₁₀ h. The logarithm of the parameter never overflows, although 1/k may.
 fn log_h(refinement: Refinement, parameter: f64) -> f64 {
     match refinement {
         Refinement::Stiffness => -parameter.log10(),
@@ -112,29 +114,29 @@ fn has_log(error: f64) -> bool {
     error > 0.0 && error.is_finite()
 }
 
-/// The ends of an axis around some numbers: a little more on each side, or a unit around nothing.
+/// Returns the ends of an axis with a margin around the values.
 fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let ends = values.map(|value| [value; 2]);
     let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-    // Not a default: where nothing is drawn any ends will do.
+    // An empty chart may have any ends.
     let [least, most] = ends.unwrap_or([0.0; 2]);
     let margin = ((most - least) / 25.0).max(0.5);
     [least - margin, most + margin]
 }
 
-/// Of the largest errors and of the rms errors.
+/// The colours of the largest errors and of the rms errors.
 const COLOURS: [&str; 2] = [BLUE, DIM];
 
-/// How much higher a chart is with the key above what is drawn.
+/// The relative height that makes room for the legend above the data.
 const HEADROOM: f64 = 0.3;
 
-/// Whether a point is where the key is.
-fn is_in_the_way(point: Point, ends: [[f64; 2]; 2]) -> bool {
+/// Returns whether a point lies under the legend.
+fn is_under_legend(point: Point, ends: [[f64; 2]; 2]) -> bool {
     let [x, y] = [0, 1].map(|n| (point[n] - ends[n][0]) / (ends[n][1] - ends[n][0]));
     x < 0.55 && y > 0.75
 }
 
-/// The fitted line, from the coarsest rung above the floor to the finest.
+/// Returns the fitted line, from the coarsest level above the floor to the finest.
 fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -> Option<Glyph> {
     let places = ladder.places(norm);
     let above = ladder.rungs().iter().zip(places);
@@ -150,12 +152,12 @@ fn fitted(chart: &Chart, ladder: &Ladder, norm: Norm, fit: &Fit, colour: &str) -
     };
     let curve = chart.curve([from, to], colour).class("fit");
     let curve = curve.set("data-norm", norm.name());
-    Some(curve.valued("data-order", fit.order()))
+    Some(curve.with_value("data-order", fit.order()))
 }
 
-/// A triangle that rises with order 1, in the lower right corner.
+/// Returns a triangle of slope 1, in the lower right corner.
 fn triangle(chart: &Chart, [across, upwards]: [[f64; 2]; 2]) -> Vec<Glyph> {
-    // A fifth of the shorter axis.
+    // The side is a fifth of the shorter axis.
     let side = (across[1] - across[0]).min(upwards[1] - upwards[0]) / 5.0;
     let right = across[1] - (across[1] - across[0]) / 12.0;
     let low = upwards[0] + (upwards[1] - upwards[0]) / 10.0;
@@ -191,21 +193,21 @@ fn named(norm: Norm, fit: Option<&Fit>) -> String {
     };
     let order = format!("{error}, order {:.3}", fit.order()).replace('-', "−");
     match fit.standard_error() {
-        // Of rungs that are on a line but for their last digits.
+        // A smaller standard error is not shown.
         Some(error) if error >= 5e-4 => format!("{order} ± {}", digits(error, 1)),
         _ => order,
     }
 }
 
-/// What stands before a name.
+/// The sample before a name of the legend.
 enum Sample {
     Of(Norm),
     Dashed,
     Hollow,
 }
 
-/// What glyphs mean, in the upper left corner, where errors that fall are not.
-fn key(chart: &Chart, names: Vec<(String, &'static str, Sample)>) -> Vec<Glyph> {
+/// Returns the legend, in the upper left corner. Decreasing errors leave it free.
+fn legend_of(chart: &Chart, names: Vec<(String, &'static str, Sample)>) -> Vec<Glyph> {
     let left = chart.panel.left + 14.0;
     let mut y = 20.0;
     let mut glyphs = Vec::new();

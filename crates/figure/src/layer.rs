@@ -1,4 +1,4 @@
-//! A layer seen from above: x to the right and y upwards, as every program shows the exported files. Discs lie along x.
+//! A layer seen from above: x points to the right and y upwards. Discs lie along x.
 
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
@@ -10,18 +10,18 @@ use super::panel::{Margins, Panel};
 use super::subject::Subject;
 use crate::Error;
 
-/// Where the spheres of a layer are, in R from the first of them.
+/// The positions of the spheres of a layer, in R, relative to the first one.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
     /// In row order.
     pub(super) spheres: Vec<(Site, Point)>,
-    /// i → i+1 and j → j+1.
+    /// The steps i → i+1 and j → j+1.
     pub(super) steps: [Point; 2],
     discs: bool,
 }
 
 impl Layer {
-    /// Returns layer `k`, if it has no more spheres than `limit`.
+    /// Returns layer `k`, if it has at most `limit` spheres.
     pub(super) fn new(
         subject: &Subject<'_>,
         k: i128,
@@ -47,27 +47,27 @@ impl Layer {
         Ok(layer)
     }
 
-    /// Returns where a sphere of any layer is seen.
+    /// Returns the position of a sphere of any layer, seen from above.
     pub(super) fn place(&self, subject: &Subject<'_>, site: Site) -> Result<Point, Error> {
         let origin = self.spheres.first().map_or(site, |(first, _)| *first);
         let [x, y, _] = subject.from(origin, site)?;
         Ok([x, y])
     }
 
-    /// Returns the distance of neighbours in a row, in R.
+    /// Returns the distance between neighbours in a row, in R.
     pub(super) fn apart(&self) -> f64 {
         let [[u, v], _] = self.steps;
         u.hypot(v)
     }
 
-    /// Returns a panel around the spheres with a margin in R, large enough to be a figure.
+    /// Returns a panel around the spheres with a margin in R, and with a smallest size.
     pub(super) fn panel(&self, margin: f64, margins: Margins) -> Panel {
         let centres = self.spheres.iter().map(|(_, at)| *at);
         let height = if self.discs { 4.0 } else { 8.0 };
         Panel::around(centres, margin, [10.0, height], margins)
     }
 
-    /// Returns the axes x and y; discs have none across.
+    /// Returns the axes x and y. Discs have no axis y.
     pub(super) fn axes(&self, subject: &Subject<'_>) -> Result<Axes, Error> {
         let mut origin = [0.0; 2];
         if let Some((first, _)) = self.spheres.first() {
@@ -87,9 +87,9 @@ impl Layer {
         })
     }
 
-    /// Returns the corners of the cell around a place: six cells meet where three spheres would be as far apart.
+    /// Returns the corners of the cell around a position. The cells tile the plane.
     ///
-    /// On an equilateral base it is a regular hexagon. Discs have a strip of their plane.
+    /// On an equilateral base the cell is a regular hexagon. The cell of a disc is a rectangle.
     pub(super) fn cell(&self, panel: &Panel, [u, v]: Point) -> Vec<Point> {
         const HEXAGON: [Point; 6] = [
             [1.0, 1.0],
@@ -112,7 +112,7 @@ impl Layer {
         HEXAGON.map(corner).to_vec()
     }
 
-    /// The corners of the upper and of the lower half of the cell of a sphere.
+    /// Returns the corners of the upper and of the lower half of the cell of a sphere.
     pub(super) fn halves(&self, panel: &Panel, at: Point) -> [Vec<Point>; 2] {
         let corners = self.cell(panel, at);
         let of = |corners_of_half: &[usize]| {
@@ -129,7 +129,7 @@ impl Layer {
             lower.extend([right, left]);
             return [upper, lower];
         }
-        // A line along x leads from one corner to the opposite one.
+        // A line along x connects two opposite corners.
         [of(&[4, 5, 0, 1]), of(&[1, 2, 3, 4])]
     }
 }

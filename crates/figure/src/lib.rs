@@ -1,7 +1,7 @@
-//! Figures of sphere piles as SVG, and a page to look into a pile.
+//! Figures of sphere piles as SVG, and an interactive HTML viewer.
 //!
-//! A [`Subject`] is a pile with a spacing and units. A function below draws it from exact answers, which are rounded once.
-//! The result is a [`Figure`]: an SVG document whose glyphs carry the numbers they stand for. It needs no fonts of its own.
+//! A [`Subject`] is a pile with a spacing and units. The functions below draw it from exact forces, which are rounded once.
+//! The result is a [`Figure`]: an SVG document whose glyphs have their values as attributes. It embeds no fonts.
 //!
 //! # Examples
 //! ```
@@ -13,35 +13,35 @@
 //! let pile = Pile::triangular(10)?;
 //! let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 //! let svg = cannonpile_figure::shear(&Subject::of_pile(&pile, &spacing)?)?.to_string();
-//! // 54 arrows: under the apex the shear vanishes.
+//! // 54 arrows for 55 spheres: the shear force under the apex is zero.
 //! assert_eq!(svg.matches("class=\"arrow\"").count(), 54);
 //! # Ok::<(), cannonpile_figure::Error>(())
 //! ```
 //!
 //! # Map
-//! | item | what it shows |
+//! | item | contents |
 //! |---|---|
 //! | [`pile()`] | the pile in perspective (paper, fig. 1) |
 //! | [`indexing()`] | the indices of a layer (paper, fig. 2) |
 //! | [`sphere()`] | the forces on one sphere (paper, fig. 3) |
-//! | [`shear()`] | the shear on the floor as arrows (paper, fig. 4) |
-//! | [`base()`] | the normal force on the floor as a map |
+//! | [`shear()`] | the base shear forces as arrows (paper, fig. 4) |
+//! | [`base()`] | the base normal forces as a map |
 //! | [`section()`], [`layer()`] | contact forces as lines: in a vertical section, or of a layer |
-//! | [`bounds()`] | the least and the greatest normal force of each bottom sphere at a = R |
+//! | [`bounds()`] | the smallest and largest normal force of each bottom sphere at a = R |
 //! | [`response()`] | the forces in a layer under a load on the top |
-//! | [`mean_response()`], [`mean_profile()`] | the mean of these forces on the floor over random stackings: as maps, and by distance |
-//! | [`distribution()`] | how often forces occur over random stackings |
-//! | [`ladder()`] | the errors of a code at several stiffnesses or time steps, and their order |
-//! | [`viewer`] | a page of HTML, which shows the pile and its forces in a browser |
-//! | [`Error`] | why a figure or a page is not drawn |
+//! | [`mean_response()`], [`mean_profile()`] | the mean response of the base over random stackings: as maps, and by distance |
+//! | [`distribution()`] | the force distribution over random stackings |
+//! | [`ladder()`] | the errors of a code at several stiffnesses or time steps, and their order of accuracy |
+//! | [`viewer`] | an HTML viewer of the pile and its forces |
+//! | [`Error`] | the errors of this crate |
 //!
 //! # Axes
-//! The axes are those of the exported files: x and y as in the paper, z **up**. A figure seen from above has x to the
-//! right and y upwards, as every program shows the files from above. In the paper z points down. Its figures 2 and 4 show
-//! the layer from below, and are the mirror images of these.
+//! The axes are those of the exported files: x and y as in the paper, z **up**. A view from above has x to the right and y
+//! upwards. In the paper z points down, so its figures 2 and 4 show a layer from below. They are mirror images of the
+//! figures here.
 //!
 //! # Features
-//! `rayon` sweeps layers on all cores.
+//! `rayon` uses all cores.
 
 mod base;
 mod bounds;

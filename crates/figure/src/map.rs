@@ -1,4 +1,4 @@
-//! A layer as a map: one coloured cell a sphere.
+//! A layer as a map, with a coloured cell for each sphere.
 
 use cannonpile::lattice::Site;
 use cannonpile::scalar::Surd;
@@ -21,19 +21,20 @@ pub(super) struct Map<'a> {
     pub(super) forces: Vec<Surd>,
     pub(super) scale: fn(&[f64]) -> Scale,
     pub(super) note: Option<String>,
-    /// Spheres above which a cross is drawn, and what it means.
+    /// The spheres with a cross.
     pub(super) crossed: Vec<Site>,
+    /// The meaning of the crosses.
     pub(super) cross_label: &'a str,
 }
 
-/// The longest exact number that a cell carries as an attribute.
+/// The largest length of an exact number that becomes an attribute of its cell.
 const LONGEST: usize = 60;
 
 impl Map<'_> {
     /// Returns the figure: cells are `<polygon class="cell" data-value="…" data-exact="…">`.
     pub(super) fn figure(self, subject: &Subject<'_>) -> Result<Figure, Error> {
         let layer = &self.layer;
-        let panel = layer.panel(1.5, BAR).lowest(262.0);
+        let panel = layer.panel(1.5, BAR).with_page_end(262.0);
         let mut values = Vec::new();
         for force in &self.forces {
             values.push(nearest(force, "a force")?);
@@ -41,7 +42,7 @@ impl Map<'_> {
         let scale = (self.scale)(&values);
         let across = panel.length(layer.apart());
         let rim_colour = if scale.is_around_zero() { PALE } else { WHITE };
-        // A rim that does not hide small cells.
+        // The rim of a small cell is thin, so that it does not hide the cell.
         let rim = (across * 0.04).min(1.2);
         let mut glyphs = Vec::new();
         let cells = layer.spheres.iter().zip(self.forces.iter().zip(&values));
@@ -51,7 +52,9 @@ impl Map<'_> {
             if text.len() <= LONGEST {
                 cell = cell.set("data-exact", text);
             }
-            let cell = cell.valued("data-value", *value).fill(scale.colour(*value));
+            let cell = cell
+                .with_value("data-value", *value)
+                .fill(scale.colour(*value));
             glyphs.push(cell.stroke(rim_colour, rim).set("stroke-linejoin", "round"));
         }
         glyphs.extend(self.numbers(&panel, &values, &scale));
@@ -78,7 +81,7 @@ impl Map<'_> {
         })
     }
 
-    /// Returns the numbers in the cells; those that vanish are left to their colour, and cells without room have none.
+    /// Returns the numbers in the cells. Zeros have no label, and small cells have no numbers.
     fn numbers(&self, panel: &Panel, values: &[f64], scale: &Scale) -> Vec<Glyph> {
         const LEAST: f64 = 26.0;
         let across = panel.length(self.layer.apart());
@@ -93,14 +96,16 @@ impl Map<'_> {
         let shown = cells.filter(|(_, text)| !text.is_empty());
         let label = |(((_, at), value), words): ((&(Site, [f64; 2]), &f64), String)| {
             let size = fitting(&words, size, across * 0.86);
-            text(panel.at(*at), size, words).fill(scale.ink(*value))
+            text(panel.at(*at), size, words).fill(scale.text_colour(*value))
         };
         shown.map(label).collect()
     }
 }
 
-/// Returns the numbers as texts with room for `room` letters of their size: all exact, or all with as many decimals as there
-/// is room for, four digits at most. Of a number that is not 0 at least one digit is shown. `None` if there is no room.
+/// Returns the numbers as texts of at most the width `room`, in units of the font size.
+///
+/// All numbers are exact if they fit. Otherwise all have the same number of decimals, as many as fit, with at most four
+/// digits. A number other than 0 shows at least one nonzero digit. The result is `None` if no such texts fit.
 pub(super) fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<String>> {
     let fits = |text: &String| width(text, 1.0) < room;
     let shown = |show: &dyn Fn(&Surd, f64) -> String| -> Vec<String> {
@@ -120,7 +125,7 @@ pub(super) fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<Str
         .fold(0.0_f64, |most, value| most.max(value.abs()));
     let decimals = (0..=9_u8)
         .rev()
-        // Two digits of the greatest are the least that says something.
+        // The largest number shows at least two significant digits.
         .filter(|places| (10.0..10_000.0).contains(&(greatest * 10_f64.powi((*places).into()))))
         .map(|places| {
             let least = 0.5 * 10_f64.powi(-i32::from(places));
@@ -137,7 +142,7 @@ pub(super) fn texts(exact: &[Surd], values: &[f64], room: f64) -> Option<Vec<Str
             })
         });
     let long = |value: &f64| value.abs() >= 1e-3;
-    // Of small numbers among great ones the power of ten may be set smaller.
+    // A very small number has a power of ten, which may be set in a smaller font.
     let all_fit = |texts: &Vec<String>| {
         let mut texts = texts.iter().zip(values);
         texts.all(|(text, value)| fits(text) || !long(value))

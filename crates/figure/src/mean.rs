@@ -1,4 +1,4 @@
-//! The mean response to a load over random stackings: as maps, and by its distance from the load's line.
+//! The mean response to a load over random stackings: as maps, and as a function of the distance from the load axis.
 
 use cannonpile::engine::bug;
 use cannonpile::geometry::{directions, position};
@@ -19,13 +19,14 @@ use super::panel::{BAR, Panel};
 use super::ticks::short;
 use crate::Error;
 
-/// Returns the mean response of the floor to a load of 1 mg on a wide flat top, seen from above: a map for each fault
-/// probability.
+/// Draws the mean response of the base to a load of 1 mg on a wide flat top, as a map from above for each fault probability.
 ///
-/// A cell is a place, its colour the mean load of a sphere there, over those stackings that begin with + and have a sphere
-/// there. Each map has its own scale: red is push, blue is pull, the darkest is the greatest magnitude, printed above. The dashed circle has
-/// the radius nρ/√2, n steps below the load, ρ the horizontal part of a contact: there the front of waves is, at every fault
-/// probability but 0 ([`Wave`](cannonpile_disorder::Wave)).
+/// The colour of a cell shows the mean load on a sphere at this position. The mean is over the stackings that begin with +
+/// and have a sphere there. Red is compression, blue is tension. Each map has its own scale, whose largest magnitude is
+/// printed above it.
+///
+/// The dashed circle has the radius nρ/√2, n steps below the load, where ρ is the horizontal part of a contact. It is the
+/// wave front for every fault probability above 0 ([`Wave`](cannonpile_disorder::Wave)).
 ///
 /// # Errors
 /// [`FaultProbability`](cannonpile_disorder::Error::FaultProbability) unless 0 ≤ q ≤ 1; [`Layers`](cannonpile::Error::Layers); [`Error::TooManyGlyphs`] for more than 20 000 cells.
@@ -36,7 +37,7 @@ use crate::Error;
 ///
 /// let q = [0, 1].map(|q| BigRational::from_integer(q.into()));
 /// let svg = cannonpile_figure::mean_response(4, &q)?.to_string();
-/// // FCC has three spots, each the whole of its sphere.
+/// // FCC transmits the load to three spheres, 1/3 mg each.
 /// assert_eq!(svg.matches("data-value=\"0.3333333333333333\"").count(), 3);
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
@@ -53,7 +54,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
         let [a, b] = [place.a, place.b].map(|n| n as f64);
         [0, 1].map(|axis| a * beta[axis] + b * gamma[axis])
     };
-    // A cell's corners: a third of the way to neighbours of the same registry.
+    // The corners of a cell are at a third of the distance to the neighbours of the same registry.
     let corners = [
         [&alpha, &beta],
         [&alpha, &gamma],
@@ -78,7 +79,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
         let [u, v] = middle(map);
         [[u - reach, v - reach], [u + reach, v + reach + 2.0]]
     });
-    let panel = Panel::around(ends, 0.0, [1.0; 2], BAR).lowest(262.0);
+    let panel = Panel::around(ends, 0.0, [1.0; 2], BAR).with_page_end(262.0);
     let mut glyphs = Vec::new();
     for (map, q) in probabilities.iter().enumerate() {
         let [u, v] = middle(map);
@@ -96,9 +97,9 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
             let cell = polygon(&corners).class("cell");
             let cell = cell.set("data-a", place.a.to_string());
             let cell = cell.set("data-b", place.b.to_string());
-            // A rim of its own colour leaves no gaps between cells.
+            // A rim of the same colour closes the gaps between cells.
             glyphs.push(
-                cell.valued("data-value", load)
+                cell.with_value("data-value", load)
                     .fill(colour.clone())
                     .stroke(colour, 0.3),
             );
@@ -117,7 +118,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
     };
     Ok(Figure {
         bar: Some(bar),
-        note: Some(PRESSED.into()),
+        note: Some(PRESTRESSED.into()),
         ..Figure::new(
             "Mean response over random stackings".into(),
             caption(layers),
@@ -127,11 +128,11 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
     })
 }
 
-/// Returns the mean response of the floor to a load of 1 mg on a wide flat top over the distance r from its line: a curve
-/// for each fault probability.
+/// Draws the mean response of the base to a load of 1 mg on a wide flat top, as curves over the distance r from its axis.
 ///
-/// At r it is the sum of the mean loads at the places within ρ/2 of that distance, no sphere counted as 0: what a ring
-/// bears in all. Stackings begin with +. The dashed line is at r = nρ/√2.
+/// There is a curve for each fault probability.
+/// The value at r is the total mean load of a ring: the sum over the positions within ρ/2 of this distance, where a position
+/// without a sphere counts as 0. Stackings begin with +. The dashed line is at r = nρ/√2.
 ///
 /// # Errors
 /// As for [`mean_response`].
@@ -146,7 +147,7 @@ pub fn mean_response(layers: i128, probabilities: &[BigRational]) -> Result<Figu
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
 pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figure, Error> {
-    // How many points a curve has for each ρ.
+    // The number of points of a curve in each interval of length ρ.
     const POINTS: u32 = 8;
     let stackings = RandomStackings::new(layers, FirstSign::Plus)?;
     let points = BigUint::from(layers.unsigned_abs()) * POINTS;
@@ -191,7 +192,7 @@ pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figur
     glyphs.extend(chart.legend(names));
     Ok(Figure {
         axes: Some(chart.axes(["r in ρ".into(), "load of a ring in mg".into()])),
-        note: Some(PRESSED.into()),
+        note: Some(PRESTRESSED.into()),
         ..Figure::new(
             "Mean response over random stackings, by distance".into(),
             caption(layers),
@@ -201,15 +202,14 @@ pub fn mean_profile(layers: i128, probabilities: &[BigRational]) -> Result<Figur
     })
 }
 
-const PRESSED: &str = "the mean is over all stackings, those included that cannot stand: negative loads need a pile that \
-                       is pressed or glued together";
+const PRESTRESSED: &str = "the mean is over all stackings, unstable ones included: negative loads need a prestressed or glued pile";
 
 fn caption(layers: i128) -> String {
     let layers = counted(&layers.into(), "layer");
     format!("{layers}, wide top, spheres without weight, 1 mg on one of them, first step +")
 }
 
-/// The steps down the lines under +, in ρ.
+/// Returns the steps α, β and γ below a + step, in ρ.
 fn steps() -> [Point; 3] {
     let down = directions(&0.5);
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|line| {
@@ -218,18 +218,18 @@ fn steps() -> [Point; 3] {
     })
 }
 
-/// Distance and mean load of a place.
+/// Returns the distance and the mean load of a position.
 fn at_distance(row: &MeanForce<f64>) -> Option<(f64, f64)> {
     let square = row.place.distance_squared()?;
     Some((square.to_f64()?.sqrt(), row.normal))
 }
 
-/// What a small number of layers is.
+/// Returns the error of a number of layers that is too large for a float.
 fn finite() -> Error {
-    bug("the layers of a figure are few").into()
+    bug("the number of layers of a figure is small").into()
 }
 
-/// The mean at each place that the load can reach, and the probability that a sphere is there.
+/// Returns the mean load at each position that the load can reach, and the probability of a sphere there.
 fn means(stackings: RandomStackings, q: &BigRational) -> Result<Vec<MeanForce<f64>>, Error> {
     check_fault_probability(q)?;
     let piles = RandomPiles::plane(stackings).weightless();

@@ -1,9 +1,8 @@
-//! The contact forces as a network: the force chains of a pile.
+//! The network of contact forces.
 
 use std::collections::BTreeMap;
 
-use cannonpile::lattice;
-use cannonpile::lattice::Site;
+use cannonpile::lattice::{ContactKind, Site};
 use cannonpile::shape::Selection;
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -18,14 +17,14 @@ use super::response::middle;
 use super::subject::{Subject, below};
 use crate::Error;
 
-/// The most spheres of a pile whose forces are found all, for a section.
+/// The largest number of spheres of a pile for a section, which needs all forces of the pile.
 const LIMIT_OF_ALL: u32 = 200_000;
 
-/// A contact as it is seen.
-struct ContactKind {
+/// A contact of the figure.
+struct Link {
     site: Site,
-    direction: lattice::ContactKind,
-    /// Rounded once; negative is pull.
+    direction: ContactKind,
+    /// The force, rounded once; tension is negative.
     force: f64,
     /// The centres of both spheres, to the right and upwards, in R.
     ends: [Point; 2],
@@ -33,20 +32,22 @@ struct ContactKind {
 
 /// Spheres, and the contacts between them.
 struct Network {
-    /// To the right and upwards, in R.
+    /// The centres, to the right and upwards, in R.
     spheres: BTreeMap<Site, Point>,
-    links: Vec<ContactKind>,
-    /// How many of the contacts that were looked at pull.
-    pulling: usize,
+    links: Vec<Link>,
+    /// The number of tensile contacts, in the whole selected part of the pile.
+    tensile: usize,
     axes: Axes,
 }
 
-/// Returns the contact forces in a vertical section through the middle of the pile, one row of spheres a layer thick, with y
-/// to the right; of discs the whole pile.
+/// Draws the contact forces in a vertical section through the middle of the pile, with y to the right.
 ///
-/// The rows are those nearest to the vertical plane across x through the middle row of the top. Below a row is either the
-/// same row, under α and β, or the next, under γ. Contacts are `<line class="contact" data-direction="…" data-force="…">`
-/// with the indices of the upper sphere; blue is pull, red is push.
+/// The section contains one row of spheres of each layer: the row nearest to the plane across x through the middle row of
+/// the top. In the layer below, α and β lead to the row in the same position, and γ leads to the next row. A pile of discs is
+/// drawn as a whole.
+///
+/// Contacts are `<line class="contact" data-direction="…" data-force="…">` with the indices of the upper sphere. Blue is
+/// tension, red is compression.
 ///
 /// # Errors
 /// [`Error::TooManyGlyphs`] for a pile of more than 200 000 spheres or a section of more than 20 000; [`Overflow`](cannonpile::Error::Overflow) for
@@ -59,7 +60,7 @@ struct Network {
 /// use cannonpile::geometry::Spacing;
 /// use num_rational::BigRational;
 ///
-/// // Of discs all are in it: 10, of which 6 have two below.
+/// // The figure contains all 10 discs. Six of them have two contacts below.
 /// let pile = Pile::discs(4)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let svg = cannonpile_figure::section(&Subject::of_pile(&pile, &spacing)?)?.to_string();
@@ -91,7 +92,7 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     }
     readable(&spheres.len().into(), LIMIT, "spheres of a section", remedy)?;
     let place = |site: Site| Ok(spheres.get(&site).copied());
-    let (links, pulling) = links(subject, Selection::All, place)?;
+    let (links, tensile) = links(subject, Selection::All, place)?;
     let origin = first.map_or(Ok([0.0; 3]), |first| subject.position(first))?;
     let unit = subject.length_unit();
     let name = if discs { "x" } else { "y" };
@@ -111,13 +112,13 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
     let network = Network {
         spheres,
         links,
-        pulling,
+        tensile,
         axes,
     };
     network.figure(subject, title.into(), sight, true)
 }
 
-/// Returns the contact forces of layer `k` with the one below, seen from above; of discs from the side.
+/// Draws the contact forces between layer `k` and the layer below, seen from above. Discs are seen from the side.
 ///
 /// # Errors
 /// [`LayerOutside`](cannonpile::Error::LayerOutside); [`OnFloor`](cannonpile::Error::OnFloor) for the bottom layer; [`Error::TooManyGlyphs`] for more than 20 000 spheres;
@@ -134,9 +135,9 @@ pub fn section(subject: &Subject<'_>) -> Result<Figure, Error> {
 /// let pile = Pile::triangular(10)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let subject = Subject::of_pile(&pile, &spacing)?;
-/// // Every sphere of a layer stands on three others.
+/// // Every sphere of a layer rests on three others.
 /// assert_eq!(cannonpile_figure::layer(&subject, 2)?.to_string().matches("class=\"contact\"").count(), 18);
-/// // Nothing is below the bottom layer.
+/// // The bottom layer has no contacts below.
 /// assert!(matches!(cannonpile_figure::layer(&subject, 9), Err(Error::Core(cannonpile::Error::OnFloor { .. }))));
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
@@ -148,10 +149,10 @@ pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
         return Err(cannonpile::Error::on_floor(site).into());
     }
     let place = |site: Site| layer.place(subject, site).map(Some);
-    let (links, pulling) = links(subject, Selection::Layer(k), place)?;
+    let (links, tensile) = links(subject, Selection::Layer(k), place)?;
     let network = Network {
         links,
-        pulling,
+        tensile,
         axes: layer.axes(subject)?,
         spheres: layer.spheres.into_iter().collect(),
     };
@@ -159,19 +160,20 @@ pub fn layer(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
     network.figure(subject, title, "; seen from above", false)
 }
 
-/// Returns the contacts of a part whose spheres both have a place, and how many of all of them pull.
+/// Returns the contacts of a part of the pile whose spheres are both in the figure, and the number of tensile contacts of
+/// the whole part.
 fn links(
     subject: &Subject<'_>,
     part: Selection,
     place: impl Fn(Site) -> Result<Option<Point>, Error>,
-) -> Result<(Vec<ContactKind>, usize), Error> {
-    let (mut links, mut pulling) = (Vec::new(), 0);
+) -> Result<(Vec<Link>, usize), Error> {
+    let (mut links, mut tensile) = (Vec::new(), 0);
     for contact in subject.forces().contacts(part)? {
         let contact = contact?;
-        pulling += usize::from(contact.force.is_negative());
+        tensile += usize::from(contact.force.is_negative());
         let lower = below(subject.pile(), contact.site, contact.direction)?;
         if let (Some(upper), Some(lower)) = (place(contact.site)?, place(lower)?) {
-            links.push(ContactKind {
+            links.push(Link {
                 force: subject.force(&contact.force)?,
                 site: contact.site,
                 direction: contact.direction.into(),
@@ -182,7 +184,7 @@ fn links(
     for (contact, force) in subject.horizontal(part)? {
         let neighbour = subject.pile().shape().neighbour(contact)?;
         if let (Some(one), Some(other)) = (place(contact.site)?, place(neighbour)?) {
-            links.push(ContactKind {
+            links.push(Link {
                 force: subject.force(&force)?,
                 site: contact.site,
                 direction: contact.axis.into(),
@@ -190,7 +192,7 @@ fn links(
             });
         }
     }
-    Ok((links, pulling))
+    Ok((links, tensile))
 }
 
 impl Network {
@@ -203,7 +205,7 @@ impl Network {
     ) -> Result<Figure, Error> {
         let ends = self.links.iter().flat_map(|link| link.ends);
         let points = self.spheres.values().copied().chain(ends);
-        let panel = Panel::around(points, 1.3, [10.0, 5.0], BAR).lowest(262.0);
+        let panel = Panel::around(points, 1.3, [10.0, 5.0], BAR).with_page_end(262.0);
         let radius = panel.length(1.0);
         let mut glyphs = Vec::new();
         if floor {
@@ -215,7 +217,7 @@ impl Network {
             let sphere = ring(panel.at(*at), radius, PALE, 0.8).class("sphere");
             glyphs.push(sphere.of(*site));
         }
-        // The strongest on top, and pulls over pushes.
+        // Strong contacts are drawn over weak ones, and tensile over compressive ones.
         self.links.sort_by(|a, b| {
             let sides = (a.force < 0.0).cmp(&(b.force < 0.0));
             sides.then(a.force.abs().total_cmp(&b.force.abs()))
@@ -237,7 +239,7 @@ impl Network {
         let note = if floor {
             subject.note()
         } else {
-            subject.note_of_part(self.pulling > 0)
+            subject.note_of_part(self.tensile > 0)
         };
         Ok(Figure {
             note,
@@ -247,21 +249,27 @@ impl Network {
         })
     }
 
-    /// Returns how many contacts pull, and how many of these are shown.
+    /// Returns the number of tensile contacts, and of those in the figure.
     fn remarks(&self) -> Vec<String> {
-        let contacts = counted(&self.pulling.into(), "contact");
+        let contacts = counted(&self.tensile.into(), "contact");
         let shown = self.links.iter().filter(|link| link.force < 0.0).count();
-        match (self.pulling, shown) {
+        match (self.tensile, shown) {
             (0, _) => Vec::new(),
-            (_, 0) => vec![format!("{contacts} pull,"), "none of them here".into()],
-            (all, _) if all == shown => vec![format!("{contacts} pull")],
-            (..) => vec![format!("{contacts} pull,"), format!("{shown} of them here")],
+            (_, 0) => vec![
+                format!("{contacts} in tension,"),
+                "none of them here".into(),
+            ],
+            (all, _) if all == shown => vec![format!("{contacts} in tension")],
+            (..) => vec![
+                format!("{contacts} in tension,"),
+                format!("{shown} of them here"),
+            ],
         }
     }
 }
 
-impl ContactKind {
-    /// Returns the contact as a line: dashed if it bears nothing, and never too thin for its colour if it pulls.
+impl Link {
+    /// Returns the contact as a line. An open contact is dashed, and a tensile one is wide enough to show its colour.
     fn glyph(&self, panel: &Panel, scale: &Scale, widest: f64) -> Glyph {
         let [upper, lower] = self.ends.map(|at| panel.at(at));
         let width = widest * scale.part(self.force).abs();
@@ -274,6 +282,6 @@ impl ContactKind {
         };
         let glyph = glyph.class("contact").of(self.site);
         let glyph = glyph.set("data-direction", self.direction.name());
-        glyph.valued("data-force", self.force)
+        glyph.with_value("data-force", self.force)
     }
 }

@@ -1,20 +1,20 @@
-//! A figure as a page: words, axes, a bar of colours and glyphs, and how they become SVG.
+//! A figure as an SVG page: title, axes, colour bar and glyphs.
 
 use core::fmt;
 use std::io;
 
 use svg::Document;
 
-use super::colour::{BLACK, DIM, GREY, PULL, Scale, WHITE};
+use super::colour::{BLACK, DIM, GREY, Scale, TENSION, WHITE};
 use super::glyph::{Glyph, Point, fitting, line, px, rectangle, text};
 use super::panel::{Panel, WIDTH};
 use super::ticks::{short, ticks};
 
-/// A figure: an SVG document that needs no fonts but the viewer's.
+/// A figure: an SVG document that embeds no fonts.
 ///
-/// `Display` and [`write`](Self::write) give its text, in which lengths are exact to a ten thousandth of a pixel. What stands
-/// for a thing of the pile has a class, its indices and its value: `<polygon class="cell" data-i="0" data-j="0" data-k="9"
-/// data-value="4.0" …/>`.
+/// `Display` and [`write`](Self::write) give its text, with lengths rounded to 1/10000 of a pixel. The glyph of a sphere or
+/// contact has a class, its indices and its value: `<polygon class="cell" data-i="0" data-j="0" data-k="9" data-value="4.0"
+/// …/>`.
 ///
 /// # Examples
 /// ```
@@ -34,22 +34,22 @@ pub struct Figure {
     pub(super) title: String,
     /// The line below the title.
     pub(super) caption: String,
-    /// What has to be said of the pile, whether there is a title or not.
+    /// A note on the stability of the pile, shown with or without a title.
     pub(super) note: Option<String>,
     pub(super) panel: Panel,
     pub(super) axes: Option<Axes>,
     pub(super) bar: Option<Bar>,
-    /// What is drawn, from the farthest to the nearest.
+    /// The glyphs, from the farthest to the nearest.
     pub(super) glyphs: Vec<Glyph>,
     pub(super) layout: Layout,
 }
 
-/// How a figure is laid out.
+/// The layout of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// The width of the page, in pixels; its height, lines and letters grow with it (800).
+    /// The width of the page, in pixels (800). Height, lines and fonts scale with it.
     pub width: f64,
-    /// Whether the title and the line below it are shown (`true`). The document has them in any case, as `title` and `desc`.
+    /// Shows the title and the caption (`true`). The elements `title` and `desc` of the document always contain them.
     pub title: bool,
 }
 
@@ -62,16 +62,16 @@ impl Default for Layout {
     }
 }
 
-/// A frame with ticks. What is drawn at (0, 0) lies at `origin`, and a length 1 across and upwards is `unit`.
+/// A frame with ticks. The point (0, 0) of the panel has the values `origin`, and its unit lengths are `unit`.
 #[derive(Clone, Debug)]
 pub(super) struct Axes {
-    /// What is shown across and upwards, with its unit; an axis without a name has no ticks either.
+    /// The names of the horizontal and the vertical axis, with units. An axis with an empty name has no ticks.
     pub(super) names: [String; 2],
     pub(super) origin: Point,
     pub(super) unit: Point,
 }
 
-/// The bar that tells what colours mean.
+/// The colour bar.
 #[derive(Clone, Debug)]
 pub(super) struct Bar {
     pub(super) scale: Scale,
@@ -82,7 +82,7 @@ pub(super) struct Bar {
 }
 
 impl Figure {
-    /// Returns a figure with neither note nor axes nor bar.
+    /// Returns a figure without note, axes and colour bar.
     pub(super) fn new(title: String, caption: String, panel: Panel, glyphs: Vec<Glyph>) -> Self {
         Self {
             title,
@@ -117,9 +117,9 @@ impl Figure {
         Self { layout, ..self }
     }
 
-    /// Returns what has to be said of the pile: that it cannot stand, or that this is not known.
+    /// Returns a note if the pile is unstable, or if its stability is unknown.
     ///
-    /// Figures without forces say nothing, and none says anything of spheres without weight.
+    /// Figures without forces have no note on stability, and neither have figures of spheres without weight.
     ///
     /// # Examples
     /// ```
@@ -133,7 +133,7 @@ impl Figure {
     /// let pile = Pile::under(Region::SITE, Stacking::hcp(12)?)?;
     /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
     /// let figure = cannonpile_figure::section(&Subject::of_pile(&pile, &spacing)?)?;
-    /// assert!(figure.note().is_some_and(|note| note.contains("does not stand")));
+    /// assert!(figure.note().is_some_and(|note| note.contains("unstable")));
     /// # Ok::<(), cannonpile_figure::Error>(())
     /// ```
     #[must_use]
@@ -204,7 +204,7 @@ impl Figure {
             (14.0, BLACK, self.caption.as_str()),
         ]);
         let note = self.note.as_deref().map(capitalised);
-        let note = note.as_deref().map(|note| (14.0, PULL, note));
+        let note = note.as_deref().map(|note| (14.0, TENSION, note));
         let lines = title.into_iter().flatten().chain(note).rev();
         let mut y = 2.0;
         let set = lines.map(|(size, colour, words)| {
@@ -239,7 +239,7 @@ impl Axes {
                 continue;
             }
             let (origin, unit, length) = (self.origin[n], self.unit[n], panel.size[n]);
-            // Ticks stand apart at all sizes.
+            // Short axes have fewer ticks, so that their labels do not overlap.
             let count = if length < 220.0 { 3 } else { 8 };
             let [least, most] = ends.map(|end| origin + end * unit);
             for tick in ticks(least, most, count) {
@@ -295,7 +295,7 @@ impl Bar {
         };
         let bar = rectangle([left, top], [width, bottom - top]).class("bar");
         let bar = bar.set("data-least", least).set("data-most", most);
-        // Under its ticks.
+        // The bar is drawn below its ticks.
         glyphs.insert(2, bar.fill(fill).stroke(GREY, 1.0));
         let mut y = bottom + 24.0;
         for remark in &self.remarks {
@@ -309,11 +309,12 @@ impl Bar {
         glyphs
     }
 
-    /// Returns the colours of the bar from its lower to its upper end.
+    /// Returns the colour gradient of the bar, from its lower to its upper end.
     fn gradient(&self) -> Glyph {
         const STOPS: u32 = 48;
         let gradient = Glyph::new("linearGradient").set("id", "scale");
-        let mut gradient = gradient.measured([("x1", 0.0), ("y1", 1.0), ("x2", 0.0), ("y2", 0.0)]);
+        let mut gradient =
+            gradient.with_lengths([("x1", 0.0), ("y1", 1.0), ("x2", 0.0), ("y2", 0.0)]);
         for n in 0..=STOPS {
             let part = f64::from(n) / f64::from(STOPS);
             let value = self.scale.least * (1.0 - part) + self.scale.most * part;

@@ -1,4 +1,4 @@
-//! The pile itself, in perspective: the paper's fig. 1.
+//! The pile in perspective: paper, fig. 1.
 
 use cannonpile::lattice::Site;
 use cannonpile::shape::Selection;
@@ -9,26 +9,26 @@ use super::glyph::{Glyph, circle, line, polygon, px};
 use super::page::Figure;
 use super::panel::Panel;
 use super::subject::Subject;
-use super::view::{Vector, View, moved, norm};
+use super::view::{Vector, View, add_scaled, norm};
 use crate::Error;
 
-/// Where the camera stands, in degrees: before a side of the base, a little to its left.
+/// The direction of the camera, in degrees: in front of a side of the base, a little to its left.
 const AZIMUTH: f64 = 195.0;
 const ELEVATION: f64 = 17.0;
 
-/// The eye is this many times as far from the middle as the farthest sphere.
+/// The distance of the camera from the middle, in units of that of the farthest sphere.
 const DISTANCE: f64 = 7.0;
 
-/// The colours of even and odd layers: where the light falls, between, and at the rim.
+/// The colours of even and odd layers: in the light, in between, and at the rim.
 const SHADES: [(&str, [&str; 3]); 2] = [
     ("even", ["#e2ebf4", "#6f9bc8", "#3a4b5c"]),
     ("odd", ["#f7f0e2", "#d9b36c", "#625439"]),
 ];
 
-/// Returns the spheres of the pile on the floor, in perspective: layers in turns of two colours, and the directions of x, y
-/// and z.
+/// Draws the spheres of the pile in perspective, with layers in alternating colours and the axes x, y and z.
 ///
-/// Spheres are `<circle class="sphere">`, from the farthest to the nearest. Paper, fig. 1: four layers with a = 1.2 R.
+/// Spheres are `<circle class="sphere">`, from the farthest to the nearest. Fig. 1 of the paper shows four layers with
+/// a = 1.2 R.
 ///
 /// # Errors
 /// [`Error::TooManyGlyphs`] for more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for positions beyond floats.
@@ -44,7 +44,7 @@ const SHADES: [(&str, [&str; 3]); 2] = [
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let svg = cannonpile_figure::pile(&Subject::of_pile(&pile, &spacing)?)?.to_string();
 /// assert_eq!(svg.matches("class=\"sphere\"").count(), 20);
-/// // Layers 0 and 2 in one colour.
+/// // Layers 0 and 2 have the same colour.
 /// assert_eq!(svg.matches("url(#even)").count(), 1 + 6);
 /// # Ok::<(), cannonpile_figure::Error>(())
 /// ```
@@ -60,7 +60,7 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
     let view = view(&places, discs);
     let bottom = pile.layers() - 1;
     let on_floor = places.iter().filter(|(site, _)| site.k == bottom);
-    let on_floor: Vec<Vector> = on_floor.map(|(_, at)| moved(*at, -1.0, UP)).collect();
+    let on_floor: Vec<Vector> = on_floor.map(|(_, at)| add_scaled(*at, -1.0, UP)).collect();
     let floor = floor(&on_floor, discs);
     let seen = places.iter().map(|(site, at)| (*site, view.see(*at)));
     let mut spheres: Vec<_> = seen.collect();
@@ -99,30 +99,35 @@ pub fn pile(subject: &Subject<'_>) -> Result<Figure, Error> {
 const UP: Vector = [0.0, 0.0, 1.0];
 const EAST: Vector = [1.0, 0.0, 0.0];
 
-/// Returns the camera, which looks at the mean of all places.
+/// Returns the camera, which looks at the mean of all positions.
 fn view(places: &[(Site, Vector)], discs: bool) -> View {
     let target = mean(places.iter().map(|(_, place)| place));
     let far = places
         .iter()
-        .map(|(_, place)| norm(moved(*place, -1.0, target)));
+        .map(|(_, place)| norm(add_scaled(*place, -1.0, target)));
     let distance = DISTANCE * far.fold(2.0, f64::max);
     View::of(discs, target, [AZIMUTH, ELEVATION], distance)
 }
 
 fn mean<'a>(points: impl Iterator<Item = &'a Vector>) -> Vector {
-    let add = |(sum, count), point: &Vector| (moved(sum, 1.0, *point), count + 1.0);
+    let add = |(sum, count), point: &Vector| (add_scaled(sum, 1.0, *point), count + 1.0);
     let (sum, count) = points.fold(([0.0; 3], 0.0_f64), add);
     sum.map(|part| part / count.max(1.0))
 }
 
-/// Returns the rim of a round floor under the points on which the pile stands, or the ends of one under discs.
+/// Returns the rim of a round floor under the pile, or the ends of the floor under discs.
 fn floor(points: &[Vector], discs: bool) -> Vec<Vector> {
     const BEYOND: f64 = 1.7;
     let middle = mean(points.iter());
-    let far = points.iter().map(|point| norm(moved(*point, -1.0, middle)));
+    let far = points
+        .iter()
+        .map(|point| norm(add_scaled(*point, -1.0, middle)));
     let radius = far.fold(0.0, f64::max) + BEYOND;
     if discs {
-        return vec![moved(middle, -radius, EAST), moved(middle, radius, EAST)];
+        return vec![
+            add_scaled(middle, -radius, EAST),
+            add_scaled(middle, radius, EAST),
+        ];
     }
     circle_around(middle, radius, 90)
 }
@@ -131,23 +136,23 @@ fn floor(points: &[Vector], discs: bool) -> Vec<Vector> {
 fn circle_around(middle: Vector, radius: f64, count: u32) -> Vec<Vector> {
     let point = |n: u32| {
         let (sin, cos) = (core::f64::consts::TAU * f64::from(n) / f64::from(count)).sin_cos();
-        moved(middle, radius, [cos, sin, 0.0])
+        add_scaled(middle, radius, [cos, sin, 0.0])
     };
     (0..count).map(point).collect()
 }
 
-/// Returns the shadow of a sphere on the floor, around the point on which it stands.
+/// Returns the shadow of a sphere on the floor, around its contact point.
 fn shadow(at: Vector, on_page: impl Fn(Vector) -> [f64; 2]) -> Glyph {
     let rim = circle_around(at, 0.95, 24).into_iter().map(on_page);
     let shadow = polygon(&rim.collect::<Vec<_>>()).class("shadow");
     shadow.fill(BLACK).set("fill-opacity", 0.2)
 }
 
-/// Returns a way to fill spheres: lit from the upper left, with a dark rim.
+/// Returns a gradient that fills spheres, lit from the upper left with a dark rim.
 pub(super) fn shade(id: &str, colours: [&str; 3]) -> Glyph {
     let stops = [0.0, 0.45, 1.0].into_iter().zip(colours);
     let gradient = Glyph::new("radialGradient").set("id", id);
-    let gradient = gradient.measured([("cx", 0.38), ("cy", 0.34), ("r", 0.68)]);
+    let gradient = gradient.with_lengths([("cx", 0.38), ("cy", 0.34), ("r", 0.68)]);
     let add = |gradient: Glyph, (offset, colour): (f64, &str)| {
         let stop = Glyph::new("stop").set("offset", offset);
         gradient.with(stop.set("stop-color", colour))

@@ -1,4 +1,4 @@
-//! How a layer feels what is put on the top: the response of a pile to a load.
+//! The response of a layer to a load on the top.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
@@ -15,8 +15,7 @@ use super::page::Figure;
 use super::subject::Subject;
 use crate::Error;
 
-/// Returns the pile without weight, and with a load of 1 mg on the sphere in the middle of its top; unless it carries loads
-/// of its own.
+/// Removes the weight of the spheres, and puts a load of 1 mg on the middle of the top unless the pile has loads.
 ///
 /// # Errors
 /// Those of [`Pile::with_load`].
@@ -42,11 +41,11 @@ pub fn with_unit_load(pile: Pile) -> Result<Pile, Error> {
     Ok(pile.with_load(middle, BigRational::one())?)
 }
 
-/// Returns the vertical forces that the spheres of layer `k` hand on downwards, as a map seen from above: blue is pull, red
-/// is push.
+/// Draws the vertical forces that the spheres of layer `k` transmit downwards, as a map from above.
 ///
-/// Of a unit load on one sphere of a weightless pile they add up to 1. All + steps lead it along three lines; where the
-/// signs change it spreads, and some spheres are pulled: the response needs a pile that presses on them.
+/// Blue is tension, red is compression. In a weightless pile with a unit load the forces of a layer add up to 1. A straight
+/// stacking transmits the load along three lines. At sign changes the load spreads, and some contacts carry tension, which
+/// needs a prestressed pile.
 ///
 /// # Errors
 /// [`LayerOutside`](cannonpile::Error::LayerOutside); [`Error::TooManyGlyphs`] for a layer of more than 20 000 spheres; [`Overflow`](cannonpile::Error::Overflow) for
@@ -81,9 +80,9 @@ pub fn response(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
             forces.collect::<Result<_, _>>()?,
         )
     } else {
-        (format!("Response of layer {k}"), handed_on(subject, k)?)
+        (format!("Response of layer {k}"), transmitted(subject, k)?)
     };
-    // Loads below do not act on it.
+    // Loads below the layer do not act on it.
     let loads = pile.loads().filter(|(site, _)| site.k <= k);
     let map = Map {
         layer,
@@ -102,7 +101,7 @@ pub fn response(subject: &Subject<'_>, k: i128) -> Result<Figure, Error> {
 pub(super) fn middle(pile: &Pile, k: i128) -> Result<Site, Error> {
     let region = pile.shape().layer(k)?;
     let corners = region.corners();
-    // To the nearest integer.
+    // Rounded to the nearest integer.
     let mean = |n: usize| (corners.iter().map(|corner| corner[n]).sum::<i128>() + 3).div_euclid(6);
     let j = mean(1).clamp(*region.y().start(), *region.y().end());
     let ([x, s], i) = ([region.x(), region.s()], mean(0));
@@ -114,8 +113,8 @@ pub(super) fn middle(pile: &Pile, k: i128) -> Result<Site, Error> {
     Ok(Site { i, j, k })
 }
 
-/// Returns the vertical parts of what each sphere of a layer passes on, together.
-fn handed_on(subject: &Subject<'_>, k: i128) -> Result<Vec<Surd>, Error> {
+/// Returns the vertical force that each sphere of a layer transmits to those below.
+fn transmitted(subject: &Subject<'_>, k: i128) -> Result<Vec<Surd>, Error> {
     let mut forces: Vec<(Site, BigRational)> = Vec::new();
     for contact in subject.forces().contacts(Selection::Layer(k))? {
         let contact = contact?;

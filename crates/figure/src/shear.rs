@@ -1,4 +1,4 @@
-//! The shear of a pile on the floor, as arrows: the paper's fig. 4.
+//! The base shear forces, as arrows: paper, fig. 4.
 
 use super::caption::{LIMIT, caption};
 use super::colour::{BLUE, PALE, Scale};
@@ -10,11 +10,13 @@ use super::subject::{Subject, nearest};
 use super::ticks::{round_below, short};
 use crate::Error;
 
-/// Returns the horizontal forces of the bottom spheres on the floor, as arrows seen from above.
+/// Draws the horizontal forces of the bottom spheres on the floor, as arrows from above.
 ///
-/// Paper, fig. 4, for ten layers: every arrow points away from the axis of the pile and is as long as it is far from there,
-/// paper, (14). Arrows are `<polygon class="arrow">`, whose first and last corners are on both sides of the tail, and whose fourth
-/// is the tip; their lengths are to the forces, `data-x` and `data-y`, as that of the key, of class `key`, is to its label.
+/// Fig. 4 of the paper shows ten layers. There every arrow points away from the axis of the pile, and its length is
+/// proportional to the distance from the axis: paper, (14).
+///
+/// Arrows are `<polygon class="arrow">` with the force as `data-x` and `data-y`. The first and last corners are on both sides
+/// of the tail, and the fourth is the tip. The arrow of class `key` gives the scale.
 ///
 /// # Errors
 /// [`Error::TooManyGlyphs`] for more than 20 000 bottom spheres; [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats; those of
@@ -30,7 +32,7 @@ use crate::Error;
 /// let pile = Pile::triangular(10)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let svg = cannonpile_figure::shear(&Subject::of_pile(&pile, &spacing)?)?.to_string();
-/// // 54 arrows, the key, and a ring under the apex, where the shear vanishes.
+/// // 54 arrows, the key, and a ring under the apex, where the shear force is zero.
 /// let count = |class: &str| svg.matches(&format!("class=\"{class}\"")).count();
 /// assert_eq!(["arrow", "key", "vanishing"].map(count), [54, 1, 1]);
 /// # Ok::<(), cannonpile_figure::Error>(())
@@ -44,12 +46,12 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
         let nearest = |part| nearest(part, "a shear");
         forces.push([nearest(&force.shear_x)?, nearest(&force.shear_y)?]);
     }
-    // Arrows reach beyond the spheres, and the key is below.
+    // Arrows may end outside the spheres, and the key needs space below.
     let [left, right, below] = AXES;
     let margins = [left, right, below + 44.0];
     let panel = layer.panel(layer.apart().max(1.2), margins);
     let greatest = forces.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max);
-    // The longest reaches almost to the next sphere.
+    // The longest arrow ends just before the next sphere.
     let longest = panel.length(layer.apart()) * 0.94;
     let width = (longest * 0.055).clamp(0.4, 3.0);
     let scale = Scale::around_zero([greatest]);
@@ -63,19 +65,24 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
         let tail = panel.at(*at);
         let [right, up] = force.map(pixels);
         let glyph = if right == 0.0 && up == 0.0 {
-            // The force vanishes here, and the sphere is not forgotten.
+            // A ring marks a sphere with zero force.
             ring(tail, (2.0 * width).max(1.5), BLUE, width).class("vanishing")
         } else {
             arrow(tail, [tail[0] + right, tail[1] - up], width, BLUE)
         };
         let [x, y] = force;
-        glyphs.push(glyph.of(*site).valued("data-x", x).valued("data-y", y));
+        glyphs.push(
+            glyph
+                .of(*site)
+                .with_value("data-x", x)
+                .with_value("data-y", y),
+        );
     }
     let unit = subject.shear_unit();
     let [left, y] = [panel.left, panel.bottom() + 78.0];
     match round_below(greatest) {
         None => {
-            glyphs.push(text([left, y], 14.0, format!("no shear anywhere (in {unit})")).start())
+            glyphs.push(text([left, y], 14.0, format!("no shear anywhere (in {unit})")).start());
         }
         Some(round) => {
             let tip = [left + pixels(round), y];
@@ -85,7 +92,7 @@ pub fn shear(subject: &Subject<'_>) -> Result<Figure, Error> {
                 short(round),
                 short(greatest)
             );
-            glyphs.push(key.valued("data-force", round));
+            glyphs.push(key.with_value("data-force", round));
             glyphs.push(text([tip[0] + 12.0, y], 14.0, words).start());
         }
     }

@@ -1,4 +1,4 @@
-//! The forces on one sphere: the paper's fig. 3.
+//! The forces on one sphere: paper, fig. 3.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Site;
@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 use super::caption::caption;
-use super::colour::{BLACK, DIM, GREY, ORANGE, PULL, PUSH, Scale};
+use super::colour::{BLACK, COMPRESSION, DIM, GREY, ORANGE, Scale, TENSION};
 use super::glyph::{Glyph, Point, arrow, circle, line, ring, text};
 use super::page::Figure;
 use super::panel::Panel;
@@ -15,21 +15,21 @@ use super::pile::shade;
 use super::response::middle;
 use super::subject::{Subject, below};
 use super::ticks::{exact_or_short, short};
-use super::view::{Vector, View, moved, norm};
+use super::view::{Vector, View, add_scaled, norm};
 use crate::Error;
 
-/// The camera, so turned that no force hides another.
+/// The direction of the camera, in degrees. From there no force hides another.
 const AZIMUTH: f64 = 190.0;
 const ELEVATION: f64 = 24.0;
 
-/// The length of the greatest force, and the greatest of the weight, in R.
+/// The length of the largest force, and the largest length of the weight, in R.
 const LONGEST: f64 = 1.55;
 const WEIGHT: f64 = 0.85;
 
 /// The length below which an arrow gets a ring, in pixels.
 const SMALL: f64 = 9.0;
 
-/// Where the table is on the page.
+/// The position of the table on the page.
 const TABLE: f64 = 40.0;
 const LEFT: f64 = 532.0;
 
@@ -41,15 +41,15 @@ struct Force {
     /// `a`, `b`, `c` from below, `a′`, `b′`, `c′` from above, `w` for the weight, `p` for a load, `n` for the floor.
     name: &'static str,
     origin: &'static str,
-    /// Negative is pull.
+    /// The magnitude; negative for tension.
     magnitude: f64,
-    /// The unit vector along it.
+    /// The unit vector of a compressive force.
     along: Vector,
-    /// Where it acts, from the centre, in R.
+    /// The point of application relative to the centre, in R.
     at: Vector,
     /// A contact force in f₀.
     multiple: Option<BigRational>,
-    /// The length of its arrow, in R.
+    /// The length of the arrow, in R.
     length: f64,
 }
 
@@ -73,10 +73,10 @@ impl Force {
     }
 }
 
-/// Returns the sphere that is shown where none is chosen: one near the middle of the layer in the middle.
+/// Returns the default sphere of [`sphere()`], near the middle of the middle layer.
 ///
 /// # Errors
-/// None: every pile has such a sphere.
+/// This function never fails: every pile has a middle sphere.
 ///
 /// # Examples
 /// ```
@@ -91,12 +91,14 @@ pub fn example_site(pile: &Pile) -> Result<Site, Error> {
     middle(pile, pile.layers() / 2)
 }
 
-/// Returns the forces that act on one sphere, as arrows as long as the forces, and a table of their values.
+/// Draws the forces that act on one sphere, as arrows to scale, with a table of their values.
 ///
-/// Paper, fig. 3: **a**, **b** and **c** from the three spheres below, **a**′, **b**′ and **c**′ from those above, and the
-/// weight **w**. A load **p** is a force of its own; under a bottom sphere is the floor, with its force **n**. A force that
-/// pushes ends on the surface of the sphere, where it acts; one that pulls begins there. One too small for an arrow has a
-/// ring. Arrows are `<polygon class="arrow" data-name="a" data-force="…" data-x="…" …>`, with the components of the force.
+/// The names are those of fig. 3 of the paper: **a**, **b** and **c** from the three spheres below, **a**′, **b**′ and
+/// **c**′ from those above, and the weight **w**. A load is **p**, and the force of the floor is **n**.
+///
+/// The arrow of a compressive force ends at the contact point, and that of a tensile force begins there. A force too small
+/// for an arrow has a ring. Arrows are `<polygon class="arrow" data-name="a" data-force="…" data-x="…" …>`, with the
+/// components of the force.
 ///
 /// # Errors
 /// [`SiteOutside`](cannonpile::Error::SiteOutside); [`Overflow`](cannonpile::Error::Overflow) for forces beyond floats.
@@ -112,7 +114,7 @@ pub fn example_site(pile: &Pile) -> Result<Site, Error> {
 /// let pile = Pile::triangular(10)?;
 /// let spacing = Spacing::new(BigRational::new(6.into(), 5.into()))?;
 /// let svg = cannonpile_figure::sphere(&Subject::of_pile(&pile, &spacing)?, Site { i: 1, j: 2, k: 5 })?.to_string();
-/// // Six forces of neighbours, and the weight.
+/// // Six contact forces, and the weight.
 /// assert_eq!(svg.matches("class=\"neighbour\"").count(), 6);
 /// assert_eq!(svg.matches("class=\"arrow\"").count(), 7);
 /// # Ok::<(), cannonpile_figure::Error>(())
@@ -129,7 +131,7 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
     let radius = panel.length(1.0);
     let place = |vector: Vector| panel.at(view.across(vector));
 
-    // The sphere in its neighbours' midst: what is behind it first.
+    // Glyphs behind the sphere are drawn first.
     let mut glyphs = vec![shade("sphere", ["#ebf1f7", "#9db9d6", "#4b5661"])];
     for centre in &neighbours {
         let outline = ring(place(*centre), radius, GREY, 1.0).class("neighbour");
@@ -161,7 +163,7 @@ pub fn sphere(subject: &Subject<'_>, site: Site) -> Result<Figure, Error> {
     })
 }
 
-/// Returns the forces on a sphere, and where its neighbours are from its centre, in R.
+/// Returns the forces on a sphere, and the positions of its neighbours relative to its centre, in R.
 fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>), Error> {
     let pile = subject.pile();
     let directions = pile.dimension().directions();
@@ -204,7 +206,7 @@ fn forces(subject: &Subject<'_>, site: Site) -> Result<(Vec<Force>, Vec<Vector>)
     Ok((forces, neighbours))
 }
 
-/// Returns what the floor does to a bottom sphere: the opposite of what it feels, which is normal downwards.
+/// Returns the force of the floor on a bottom sphere, from the opposite force of the sphere on the floor.
 fn from_floor([x, y, normal]: Vector) -> Force {
     let magnitude = x.hypot(y).hypot(normal);
     let along = [-x, -y, normal].map(|part| part / magnitude);
@@ -212,7 +214,7 @@ fn from_floor([x, y, normal]: Vector) -> Force {
     Force::new(["n", "from the floor"], magnitude, along, DOWN, None)
 }
 
-/// Gives the arrows their lengths: all in one scale, in which the weight stays within the sphere.
+/// Sets the lengths of the arrows, on one scale, with the arrow of the weight inside the sphere.
 fn to_scale(forces: &mut [Force]) {
     let scale = Scale::around_zero(forces.iter().map(|force| force.magnitude));
     let weight = forces.iter().find(|force| force.name == "w");
@@ -224,10 +226,11 @@ fn to_scale(forces: &mut [Force]) {
 }
 
 impl Force {
-    /// Returns the ends of the arrow: the weight begins in the centre, what pushes ends on the surface, and what pulls
-    /// begins there.
+    /// Returns the tail and the tip of the arrow.
+    ///
+    /// The weight begins at the centre. A compressive force ends at its contact point, and a tensile force begins there.
     fn ends(&self) -> [Vector; 2] {
-        let far = |length| moved(self.at, length, self.along);
+        let far = |length| add_scaled(self.at, length, self.along);
         if norm(self.at) == 0.0 || self.length < 0.0 {
             [self.at, far(self.length)]
         } else {
@@ -235,27 +238,27 @@ impl Force {
         }
     }
 
-    /// Whether the arrow is too short to be seen.
+    /// Returns whether the arrow is too short to be visible.
     fn is_small(&self, place: impl Fn(Vector) -> Point) -> bool {
         let [tail, tip] = self.ends().map(place);
         (tip[0] - tail[0]).hypot(tip[1] - tail[1]) < SMALL
     }
 
-    /// Returns the arrow, and a ring where it is too short to be seen.
+    /// Returns the arrow, and a ring if the arrow is too short to be visible.
     fn arrow(&self, place: impl Fn(Vector) -> Point) -> Vec<Glyph> {
         let [tail, tip] = self.ends().map(&place);
         let [x, y, z] = self.along.map(|part| part * self.magnitude);
         let glyph = arrow(tail, tip, 4.0, self.colour()).set("data-name", self.name);
-        let glyph = glyph.valued("data-force", self.magnitude);
-        let glyph = glyph.valued("data-x", x).valued("data-y", y);
-        let mut glyphs = vec![glyph.valued("data-z", z)];
+        let glyph = glyph.with_value("data-force", self.magnitude);
+        let glyph = glyph.with_value("data-x", x).with_value("data-y", y);
+        let mut glyphs = vec![glyph.with_value("data-z", z)];
         if self.is_small(&place) {
             glyphs.push(ring(place(self.at), 7.0, self.colour(), 2.0).class("small"));
         }
         glyphs
     }
 
-    /// Returns the letter, at the end that is farther from the sphere; that of the weight at its side.
+    /// Returns the name, at the end of the arrow that is farther from the sphere. That of the weight is at its side.
     fn letter(&self, place: impl Fn(Vector) -> Point) -> [Glyph; 2] {
         const BEYOND: f64 = 16.0;
         let [tail, tip] = self.ends();
@@ -277,8 +280,8 @@ impl Force {
     fn colour(&self) -> &'static str {
         match self.name {
             "w" | "p" => ORANGE,
-            _ if self.magnitude < 0.0 => PULL,
-            _ => PUSH,
+            _ if self.magnitude < 0.0 => TENSION,
+            _ => COMPRESSION,
         }
     }
 }
@@ -305,10 +308,10 @@ fn table(subject: &Subject<'_>, forces: &[Force], small: bool) -> Result<Vec<Gly
     }
     let (value, formula) = subject.unit_force()?;
     let unit_force = format!("f₀ = {formula} = {} {unit}", short(value));
-    let pulls = forces.iter().any(|force| force.magnitude < 0.0);
+    let is_tensile = forces.iter().any(|force| force.magnitude < 0.0);
     let remarks = [
         (true, BLACK, unit_force.as_str()),
-        (pulls, PULL, "− is pull"),
+        (is_tensile, TENSION, "− is tension"),
         (small, DIM, "○ is too small for an arrow"),
     ];
     y += 12.0;

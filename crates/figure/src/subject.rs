@@ -1,4 +1,4 @@
-//! What a figure is of: a pile with a spacing, and the units of its forces and lengths.
+//! The subject of a figure: a pile with a spacing, and the units of forces and lengths.
 
 use cannonpile::engine::bug;
 use cannonpile::geometry;
@@ -14,7 +14,7 @@ use super::glyph::Point;
 use super::view::Vector;
 use crate::Error;
 
-/// A pile as figures measure it.
+/// A pile with a spacing, and the units of a figure.
 ///
 /// # Examples
 /// ```
@@ -36,12 +36,12 @@ use crate::Error;
 pub struct Subject<'p> {
     packing: Packing<'p>,
     si: bool,
-    /// Whether horizontal contacts are drawn, also open ones.
+    /// True if open horizontal contacts are drawn too.
     horizontal: bool,
 }
 
 impl<'p> Subject<'p> {
-    /// Returns the pile measured in multiples of R, of mg, and for shear of mg·tanθ.
+    /// Returns the pile with lengths in R, forces in mg and shear forces in mg·tanθ.
     ///
     /// # Errors
     /// Those of [`Packing::new`].
@@ -68,7 +68,7 @@ impl<'p> Subject<'p> {
         })
     }
 
-    /// Returns the pile measured in metres and newtons.
+    /// Returns the pile with lengths in metres and forces in newtons.
     ///
     /// # Examples
     /// ```
@@ -92,7 +92,7 @@ impl<'p> Subject<'p> {
         }
     }
 
-    /// Returns the subject with the horizontal contacts of its pile, of which those that bear no force are open.
+    /// Adds the horizontal contacts of the pile. Those without a force are drawn as open.
     ///
     /// # Examples
     /// ```
@@ -117,16 +117,16 @@ impl<'p> Subject<'p> {
         }
     }
 
-    /// Says what horizontal contacts do, if they are counted in.
+    /// Returns the part of the caption about horizontal contacts, if the pile or the figure has them.
     pub(super) fn horizontal_state(&self) -> Option<String> {
         match self.pile().horizontal_forces().len() {
             0 => self.horizontal.then(|| "horizontal contacts open".into()),
-            1 => Some("1 horizontal contact pushes".into()),
-            pushing => Some(format!("{pushing} horizontal contacts push")),
+            1 => Some("1 closed horizontal contact".into()),
+            closed => Some(format!("{closed} closed horizontal contacts")),
         }
     }
 
-    /// Says how open horizontal contacts are drawn, if they are.
+    /// Returns the part of the caption about open horizontal contacts.
     pub(super) fn sight(&self) -> &'static str {
         if self.horizontal {
             "; dashed: open"
@@ -135,7 +135,7 @@ impl<'p> Subject<'p> {
         }
     }
 
-    /// Returns the horizontal contacts of a part that are drawn, with their forces.
+    /// Returns the visible horizontal contacts of a part of the pile, with their forces.
     pub(super) fn horizontal(
         &self,
         part: Selection,
@@ -218,7 +218,7 @@ impl<'p> Subject<'p> {
         Ok(apart)
     }
 
-    /// Returns how many rows of its layer a sphere is from the middle of x, in the steps j → j+1.
+    /// Returns the distance of a sphere from the plane x = 0, in rows (steps j → j+1).
     pub(super) fn rows(&self, site: Site) -> Result<BigRational, Error> {
         let x = self.packing.forces().position(site)?.x;
         Ok(x / (BigRational::one() + self.pile().sin_phi()))
@@ -238,7 +238,7 @@ impl<'p> Subject<'p> {
         Ok(directions.map(|direction| direction.on(&basis)))
     }
 
-    /// Returns the steps i → i+1 and j → j+1 in a layer, in R; of discs the second is as long, across their plane.
+    /// Returns the steps i → i+1 and j → j+1 in a layer, in R. For discs the second step is across their plane.
     pub(super) fn steps(&self) -> Result<[Point; 2], Error> {
         let [a, b, c] = self.directions()?;
         let step = |to: Vector| [2.0 * (a[0] - to[0]), 2.0 * (a[1] - to[1])];
@@ -246,7 +246,7 @@ impl<'p> Subject<'p> {
         Ok([i, if self.is_of_discs() { [0.0, i[0]] } else { j }])
     }
 
-    /// `i,j` of a sphere, `i` of a disc.
+    /// Returns `i,j` of a sphere, or `i` of a disc.
     pub(super) fn indices(&self, Site { i, j, .. }: Site) -> String {
         if self.is_of_discs() {
             format!("{i}")
@@ -255,12 +255,12 @@ impl<'p> Subject<'p> {
         }
     }
 
-    /// The contact forces, in f₀.
+    /// Returns the contact forces, in f₀.
     pub(super) fn forces(&self) -> &Forces<'p, BigRational> {
         self.packing.forces()
     }
 
-    /// Returns a contact force, in its unit.
+    /// Returns a contact force, in the unit of the figure.
     pub(super) fn force(&self, multiple: &BigRational) -> Result<f64, Error> {
         nearest(
             &self.packing.unit_force().scaled(multiple),
@@ -268,18 +268,18 @@ impl<'p> Subject<'p> {
         )
     }
 
-    /// Returns the vertical part of a contact force, in its unit: f·mg/W.
+    /// Returns the vertical part of a contact force, in the unit of the figure: f·mg/W.
     pub(super) fn vertical(&self, multiple: &BigRational) -> Result<Surd, Error> {
         let sum = self.packing.forces().increment_sum()?;
         Ok((multiple * self.packing.sphere_weight() / sum).into())
     }
 
-    /// Returns a weight, in the unit of forces.
+    /// Returns a weight, in the unit of the figure.
     pub(super) fn weight(&self, multiple: BigRational) -> Result<f64, Error> {
         nearest(&self.normal(multiple), "a weight")
     }
 
-    /// Returns the force of a bottom sphere on the floor, all of it in the unit of forces.
+    /// Returns a base normal force, in the unit of the figure.
     pub(super) fn normal(&self, multiple: BigRational) -> Surd {
         (multiple * self.packing.sphere_weight()).into()
     }
@@ -289,7 +289,7 @@ impl<'p> Subject<'p> {
         rounded(&[force.shear_x, force.shear_y, force.normal])
     }
 
-    /// Returns the forces on the floor, each in its unit.
+    /// Returns the base forces, in the units of the figure.
     pub(super) fn base(
         &self,
     ) -> Result<impl Iterator<Item = Result<FloorForce<Surd>, Error>> + '_, Error> {
@@ -309,36 +309,36 @@ impl<'p> Subject<'p> {
         Ok(forces.map(move |force| Ok(in_units(force?))))
     }
 
-    /// Returns what is to be said of a pile of which a part is shown, whether a contact in it pulls.
-    pub(super) fn note_of_part(&self, pulls: bool) -> Option<String> {
-        (pulls && !self.pile().is_weightless()).then(|| {
-            "this pile does not stand without further contacts: spheres would have to pull here; no other forces of these \
-             contacts are in balance"
+    /// Returns the note of a figure of a part of the pile, if a contact in it is tensile.
+    pub(super) fn note_of_part(&self, is_tensile: bool) -> Option<String> {
+        (is_tensile && !self.pile().is_weightless()).then(|| {
+            "this pile is unstable without further contacts: some contact here needs tension; these forces are the only ones \
+             in equilibrium"
                 .into()
         })
     }
 
-    /// Returns what is to be said of a pile that cannot stand.
+    /// Returns the note of a figure of the whole pile, if the pile is unstable.
     pub(super) fn note(&self) -> Option<String> {
         if self.pile().is_weightless() {
             return None;
         }
         match self.pile().first_failure() {
             Ok(failure) => failure.map(|k| {
-                format!("this pile does not stand without further contacts: below layer k = {k} spheres would have to pull")
+                format!("this pile is unstable without further contacts: below layer k = {k} some contact needs tension")
             }),
-            Err(error) => Some(format!("whether this pile stands is not known: {error}")),
+            Err(error) => Some(format!("the stability of this pile is unknown: {error}")),
         }
     }
 }
 
-/// Returns the sphere below another, of the pile.
+/// Returns the sphere below another in a direction.
 pub(super) fn below(pile: &Pile, site: Site, direction: Direction) -> Result<Site, Error> {
     let below = pile.shape().below(site, direction);
     below.ok_or_else(|| cannonpile::Error::on_floor(site).into())
 }
 
-/// Returns the nearest float.
+/// Rounds a number to the nearest float.
 pub(super) fn nearest(number: &Surd, quantity: &'static str) -> Result<f64, Error> {
     let float = number.nearest::<f64>();
     float.ok_or_else(|| cannonpile::Error::overflow(quantity, "f64").into())

@@ -1,15 +1,15 @@
-//! Round numbers along an axis, and numbers as people read them.
+//! Ticks of an axis, and short texts of numbers.
 
 use cannonpile::scalar::Surd;
 use num_rational::BigRational;
 
-/// Returns whether there is room between two numbers.
+/// Returns whether two numbers differ by more than rounding.
 pub(super) fn is_range(least: f64, most: f64) -> bool {
     let span = most / 2.0 - least / 2.0;
     span.is_normal() && span > 1e-12 * least.abs().max(most.abs())
 }
 
-/// Returns round numbers from `least` to `most`, at most about `count` of them: the multiples of 1, 2 or 5 times a power of ten.
+/// Returns about `count` ticks between `least` and `most`: multiples of 1, 2 or 5 times a power of ten.
 pub(super) fn ticks(least: f64, most: f64, count: u32) -> Vec<f64> {
     if !is_range(least, most) {
         return Vec::new();
@@ -25,12 +25,12 @@ pub(super) fn ticks(least: f64, most: f64, count: u32) -> Vec<f64> {
     (0..=2 * count)
         .map(|n| (first + f64::from(n)) * step)
         .filter(|tick| tick.is_finite() && *tick <= most + step * 1e-9)
-        // −0 is 0.
+        // This turns −0 into 0.
         .map(|tick| tick + 0.0)
         .collect()
 }
 
-/// Returns the greatest of 1, 2 or 5 times a power of ten that is not greater than a positive number; `None` of zero.
+/// Rounds a positive number down to 1, 2 or 5 times a power of ten. Zero gives `None`.
 pub(super) fn round_below(value: f64) -> Option<f64> {
     let power = 10_f64.powf(value.log10().floor());
     let rounds = [5.0, 2.0, 1.0, 0.5].map(|round| round * power);
@@ -38,12 +38,12 @@ pub(super) fn round_below(value: f64) -> Option<f64> {
     round.is_normal().then_some(round)
 }
 
-/// Returns a number in four digits: `0.4622`, `12`, `1.2·10⁻⁷`.
+/// Returns a number with four significant digits: `0.4622`, `12`, `1.2·10⁻⁷`.
 pub(super) fn short(value: f64) -> String {
     digits(value, 4)
 }
 
-/// Returns a number in a few digits; those before the point are never cut.
+/// Returns a number with `count` significant digits. Digits before the point are never cut.
 pub(super) fn digits(value: f64, count: i32) -> String {
     const MOST: u8 = 8;
     if value == 0.0 {
@@ -59,15 +59,15 @@ pub(super) fn digits(value: f64, count: i32) -> String {
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         return format!("{}·10{}", trimmed(digits), raised(power)).replace('-', "−");
     }
-    // As many decimals as make up the count.
+    // The decimals that complete the number of digits.
     let enough =
         |places: &u8| value.abs() * 10_f64.powi((*places).into()) >= 10_f64.powi(count - 1);
-    // Not a default: more decimals are not shown.
+    // No text has more decimals than this.
     let places = (0..MOST).find(enough).unwrap_or(MOST);
     trimmed(&format!("{value:.*}", usize::from(places))).replace('-', "−")
 }
 
-/// Returns a number without zeros at the end of its decimals.
+/// Removes trailing zeros of the decimals.
 fn trimmed(text: &str) -> &str {
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
@@ -76,7 +76,7 @@ fn trimmed(text: &str) -> &str {
     }
 }
 
-/// Returns an integer as an exponent.
+/// Returns an integer in superscript digits.
 pub(super) fn raised(integer: &str) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',
@@ -92,7 +92,7 @@ pub(super) fn raised(integer: &str) -> String {
     integer.chars().map(raised).collect()
 }
 
-/// Returns an exact number if it is short, and four digits of it otherwise.
+/// Returns the exact number if its text is short, otherwise four significant digits.
 pub(super) fn exact_or_short(exact: &BigRational) -> String {
     const LONGEST: usize = 7;
     let text = exact.to_string();

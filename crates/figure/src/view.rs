@@ -1,13 +1,13 @@
-//! Space as a camera sees it.
+//! The camera: projections of three-dimensional vectors.
 
 use super::colour::BLACK;
 use super::glyph::{Glyph, Point, arrow, text};
 
-/// A vector of space: x, y and z as in exported files, z up.
+/// A vector x, y, z, in the axes of the exported files, z up.
 pub(super) type Vector = [f64; 3];
 
-/// Returns the sum of `a` and `t` times `b`.
-pub(super) fn moved(a: Vector, t: f64, b: Vector) -> Vector {
+/// Returns a + t·b.
+pub(super) fn add_scaled(a: Vector, t: f64, b: Vector) -> Vector {
     [0, 1, 2].map(|n| a[n] + t * b[n])
 }
 
@@ -19,31 +19,31 @@ pub(super) fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A camera that looks at a point. Its frame is right-handed, as that of every program that shows exported files.
+/// A camera that looks at a target. The axes right, up and back are right-handed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     target: Vector,
     right: Vector,
     up: Vector,
-    /// From the target to the eye.
+    /// The unit vector from the target to the eye.
     back: Vector,
-    /// From the target to the eye; infinite for a parallel projection.
+    /// The distance from the target to the eye; infinite for a parallel projection.
     distance: f64,
 }
 
-/// A point as it is seen.
+/// The projection of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
-    /// To the right and upwards, in units of length at the target.
+    /// The position to the right and upwards, in units of length at the target.
     pub(super) at: Point,
-    /// How much larger than at the target.
+    /// The magnification relative to the target.
     pub(super) magnification: f64,
-    /// From the eye, or along the view if the eye is infinitely far.
+    /// The distance from the eye, or along the view if the eye is at infinity.
     pub(super) distance: f64,
 }
 
 impl View {
-    /// Returns a camera above the horizontal by `elevation`, over the direction `azimuth` from x towards y, in degrees.
+    /// Returns a camera in the direction `azimuth`, from x towards y, and `elevation` above the horizontal, in degrees.
     fn new(target: Vector, azimuth: f64, elevation: f64, distance: f64) -> Self {
         let (sin, cos) = azimuth.to_radians().sin_cos();
         let (rise, level) = elevation.to_radians().sin_cos();
@@ -56,7 +56,7 @@ impl View {
         }
     }
 
-    /// The view of spheres from this azimuth and elevation, in degrees; of discs from −y, and from afar.
+    /// Returns the camera for spheres, at this azimuth and elevation in degrees. Discs are seen from −y, at infinity.
     pub(super) fn of(discs: bool, target: Vector, angles: [f64; 2], distance: f64) -> Self {
         let ([azimuth, elevation], distance) = if discs {
             ([-90.0, 0.0], f64::INFINITY)
@@ -67,7 +67,7 @@ impl View {
     }
 
     pub(super) fn see(&self, point: Vector) -> Seen {
-        let apart = moved(point, -1.0, self.target);
+        let apart = add_scaled(point, -1.0, self.target);
         let [u, v] = self.across(apart);
         let towards = self.towards(apart);
         if self.distance.is_infinite() {
@@ -81,21 +81,21 @@ impl View {
         Seen {
             at: [u * magnification, v * magnification],
             magnification,
-            distance: norm(moved(apart, -self.distance, self.back)),
+            distance: norm(add_scaled(apart, -self.distance, self.back)),
         }
     }
 
-    /// Returns how a short vector at the target is seen.
+    /// Returns the components of a vector to the right and upwards.
     pub(super) fn across(&self, vector: Vector) -> Point {
         [dot(vector, self.right), dot(vector, self.up)]
     }
 
-    /// Returns how much of a short vector points to the eye.
+    /// Returns the component of a vector towards the eye.
     pub(super) fn towards(&self, vector: Vector) -> f64 {
         dot(vector, self.back)
     }
 
-    /// Returns the directions x, y and z as arrows from a point of the page; y is not shown of discs.
+    /// Returns the axes x, y and z as arrows from a point of the page. Discs have no axis y.
     pub(super) fn axes(&self, [x, y]: Point, discs: bool) -> Vec<Glyph> {
         const LENGTH: f64 = 46.0;
         let basis = [
@@ -109,7 +109,7 @@ impl View {
         let axis = |(name, vector)| {
             let [right, up] = self.across(vector);
             let end = |length: f64| [x + right * length, y - up * length];
-            // Short ones keep their letters apart.
+            // The letter of a short arrow is farther from its tip, so that letters do not overlap.
             let letter = end(LENGTH + 13.0 / right.hypot(up).max(0.1));
             let [rim, letter] = text(letter, 16.0, name).italic().with_rim();
             [
@@ -133,10 +133,10 @@ mod tests {
             let view = View::new([0.0; 3], azimuth, elevation, f64::INFINITY);
             let ([a, b, c], [d, e, f]) = (view.right, view.up);
             let cross = [b * f - c * e, c * d - a * f, a * e - b * d];
-            assert!(norm(moved(cross, -1.0, view.back)) < 1e-15);
+            assert!(norm(add_scaled(cross, -1.0, view.back)) < 1e-15);
             assert!((dot(view.right, view.up)).abs() < 1e-15);
         }
-        // Over x, y is on the right; from above, x points down and y to the right.
+        // From above, with azimuth 0, x points down and y to the right.
         let view = View::new([0.0; 3], 0.0, 90.0, f64::INFINITY);
         let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| view.across(axis));
         assert!((x[1] + 1.0).abs() < 1e-15 && (y[0] - 1.0).abs() < 1e-15);

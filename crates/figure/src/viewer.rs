@@ -1,4 +1,4 @@
-//! A page to look into a pile: one file of HTML.
+//! The interactive HTML viewer of a pile.
 
 mod document;
 mod encoding;
@@ -16,15 +16,16 @@ use cannonpile_dem::{CardTitle, NumberedPile};
 
 use crate::Error;
 
-/// A page to look into a pile: one file of HTML, which a browser opens without a network.
+/// An HTML viewer of a pile: one file, which a browser opens offline.
 ///
-/// It draws the spheres and the contacts between them, which can be turned, cut at a layer and chosen; of what is chosen it
-/// says the exact force, the nearest floats and the neighbours. Where a pile has horizontal forces, or the title says that its
-/// state is the elastic one, the page shows the isostatic state beside it. It asks the browser for WebGL2; without, there is
-/// a table.
+/// The viewer draws the spheres and contacts. A reader can rotate the pile, cut it at a layer, and select spheres and
+/// contacts. For the selection it shows the exact forces, the correctly rounded floats and the neighbours.
 ///
-/// Nothing is drawn from elsewhere, and the browser is told to refuse it. All texts are data, and none can be taken for
-/// markup.
+/// If the pile has horizontal forces, or the title names the elastic state, the viewer also shows the isostatic state. The
+/// drawing needs WebGL2. Without it the viewer still shows the table.
+///
+/// The file loads nothing from elsewhere, and its content security policy forbids it. All texts are data, so none of them
+/// can become markup.
 ///
 /// # Examples
 /// ```
@@ -46,10 +47,10 @@ pub struct Page<'p> {
 }
 
 impl<'p> Page<'p> {
-    /// The most spheres of a page.
+    /// The largest number of spheres of a viewer.
     pub const MAX_SPHERES: u32 = 100_000;
 
-    /// The page of this pile.
+    /// Returns the viewer of this pile.
     ///
     /// # Errors
     /// [`Error::TooManyGlyphs`] for more than [`MAX_SPHERES`](Self::MAX_SPHERES).
@@ -73,7 +74,7 @@ impl<'p> Page<'p> {
         })
     }
 
-    /// The page with a title, and with what else a card says of the scene.
+    /// Sets the title, the purpose and the state that a benchmark card shows.
     ///
     /// # Examples
     /// ```
@@ -93,7 +94,7 @@ impl<'p> Page<'p> {
         Self { title, ..self }
     }
 
-    /// The page with the text of the scene that the pile was made of, `scene.toml`, to be read on it.
+    /// Adds the text of the scene file, `scene.toml`, which the viewer displays.
     ///
     /// # Examples
     /// ```
@@ -112,11 +113,11 @@ impl<'p> Page<'p> {
         Self { scene, ..self }
     }
 
-    /// Writes the page.
+    /// Writes the file.
     ///
     /// # Errors
-    /// [`WriteError::Answer`] with [`Overflow`](cannonpile::Error::Overflow) if a number does not fit in an `f64`, with [`TooLarge`](cannonpile::Error::TooLarge) if the
-    /// exact forces have too many digits; [`WriteError::Io`] if the output refuses.
+    /// [`WriteError::Answer`] with [`Overflow`](cannonpile::Error::Overflow) if a number does not fit in an `f64`, or with
+    /// [`TooLarge`](cannonpile::Error::TooLarge) if the exact forces have too many digits; [`WriteError::Io`] if writing fails.
     ///
     /// # Examples
     /// ```
@@ -134,10 +135,10 @@ impl<'p> Page<'p> {
         Ok(out.write_all(self.text()?.as_bytes())?)
     }
 
-    /// The page as a text.
+    /// Returns the file as a text.
     ///
     /// # Errors
-    /// Those of [`write`](Self::write) that are answers.
+    /// The errors of [`write`](Self::write), except those of the output.
     ///
     /// # Examples
     /// ```
@@ -146,7 +147,7 @@ impl<'p> Page<'p> {
     ///
     /// let pile = Pile::triangular(4)?;
     /// let page = Page::new(&Packing::new(&pile, &"6/5".parse()?)?)?.to_html()?;
-    /// // Nothing but itself.
+    /// // The file loads nothing.
     /// assert!(page.contains("default-src 'none'") && !page.contains("http:") && !page.contains("https:"));
     /// # Ok::<(), cannonpile_figure::Error>(())
     /// ```
@@ -161,7 +162,7 @@ impl<'p> Page<'p> {
     }
 }
 
-/// Refuses a pile of more spheres than a page shows.
+/// Checks that the viewer can show the number of spheres.
 fn check(packing: &Packing<'_>) -> Result<(), Error> {
     let glyphs = packing.pile().sphere_count();
     let limit = Page::MAX_SPHERES;

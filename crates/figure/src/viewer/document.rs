@@ -1,4 +1,4 @@
-//! The document: markup, style and program, which are the same for all piles, and the data.
+//! The document: markup, style and program, the same for all piles, and the data.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
@@ -6,7 +6,7 @@ use cannonpile_dem::template::fill;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-/// The program, in the order in which its parts use each other.
+/// The program. Each part uses the parts before it.
 const PROGRAM: [&str; 7] = [
     include_str!("program/numbers.js"),
     include_str!("program/pile.js"),
@@ -17,7 +17,7 @@ const PROGRAM: [&str; 7] = [
     include_str!("program/page.js"),
 ];
 
-/// The whole file.
+/// Returns the text of the file.
 pub(super) fn text(data: &Value) -> String {
     let style = include_str!("page.css");
     let program = format!("\"use strict\";\n{}", PROGRAM.concat());
@@ -42,18 +42,18 @@ pub(super) fn text(data: &Value) -> String {
             include_str!("shaders/contact.frag").to_owned(),
         ),
         ("program", program),
-        // Last: whatever stands there is not filled in again.
+        // The data come last, so that braces in them are not replaced.
         ("data", escaped(data)),
     ];
     fill(include_str!("page.html"), &texts)
 }
 
-/// What the policy of the page knows a script or a style by.
+/// Returns the hash that allows a script or a style in the content security policy.
 fn hash(text: &str) -> String {
     format!("'sha256-{}'", BASE64.encode(Sha256::digest(text)))
 }
 
-/// JSON that no parser of HTML takes for the end of a script, or for a comment.
+/// Returns JSON that an HTML parser cannot read as the end of a script or as a comment.
 fn escaped(data: &Value) -> String {
     let json = data.to_string().replace('<', "\\u003c");
     json.replace('\u{2028}', "\\u2028")

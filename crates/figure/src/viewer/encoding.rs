@@ -1,11 +1,11 @@
-//! Numbers of a page, as base64 of their bytes.
+//! Lists of numbers, as base64 of their bytes.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use cannonpile_dem::Error;
 use serde_json::{Value, json};
 
-/// Floats as base64 of their bytes, the least first.
+/// Encodes floats as base64 of their little-endian bytes.
 pub(super) fn floats(
     floats: impl IntoIterator<Item = Result<f64, Error>>,
 ) -> Result<String, Error> {
@@ -16,7 +16,7 @@ pub(super) fn floats(
     Ok(BASE64.encode(bytes))
 }
 
-/// Indices as base64 of as few bytes each as the greatest takes, 1, 2 or 4, the least first.
+/// Encodes indices as base64 of their little-endian bytes: 1, 2 or 4 each, as few as the largest needs.
 pub(super) fn indices(indices: &[u32]) -> Value {
     let greatest = indices.iter().max();
     let width = match greatest {

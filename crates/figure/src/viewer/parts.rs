@@ -1,4 +1,4 @@
-//! What a page knows of a pile.
+//! The data of a viewer.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Axis, Dimension, Site};
@@ -12,10 +12,10 @@ use serde_json::{Value, json};
 use super::places::rows;
 use super::states::{Quantities, states};
 
-/// The colours of a map that are given; between them lie mixtures.
+/// The number of colours of a map. The program interpolates between them.
 const COLOURS: u32 = 64;
 
-/// All that the page says, as data.
+/// Returns the data of a pile as JSON.
 pub(super) fn of(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
@@ -55,7 +55,7 @@ pub(super) fn of(
     }))
 }
 
-/// a/R, from sin²θ = (a/R)²(d−1)/(2d).
+/// Returns a/R, from sin²θ = (a/R)²(d−1)/(2d).
 fn spacing(pile: &NumberedPile<'_>) -> Result<String, Error> {
     let factor = match pile.pile().dimension() {
         Dimension::Two => 4,
@@ -66,7 +66,7 @@ fn spacing(pile: &NumberedPile<'_>) -> Result<String, Error> {
     Ok(spacing.ratio().to_string())
 }
 
-/// Whether neighbours of a layer touch, all of them, so that contacts between them are open where they bear nothing.
+/// Returns whether all neighbours in a layer touch. Their contacts without a force are then open.
 fn neighbours_touch(pile: &NumberedPile<'_>, title: &CardTitle) -> bool {
     let touches = pile
         .packing()
@@ -78,7 +78,7 @@ fn neighbours_touch(pile: &NumberedPile<'_>, title: &CardTitle) -> bool {
     title.state == State::Elastic || of_pile.horizontal_forces().len() > 0 || touches && all
 }
 
-/// The spheres with a weight of their own or a load, by number: `[id, weight, load]`, in mg.
+/// Returns the spheres with an own weight or a load, as `[id, weight, load]` in mg.
 fn special(pile: &NumberedPile<'_>) -> Result<Vec<Value>, Error> {
     let of_pile = pile.pile();
     let loads = of_pile.loads().map(|(site, _)| site);
@@ -95,7 +95,7 @@ fn special(pile: &NumberedPile<'_>) -> Result<Vec<Value>, Error> {
     sites.collect()
 }
 
-/// A colour map, as its colours from the least number to the greatest, six digits each.
+/// Returns the colours of a map, from the smallest to the largest value, with six hexadecimal digits each.
 fn map(gradient: Gradient) -> String {
     let colours = 0..=COLOURS;
     let colours = colours.map(|n| gradient.eval_continuous(f64::from(n) / f64::from(COLOURS)));

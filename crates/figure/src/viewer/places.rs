@@ -1,4 +1,4 @@
-//! Where spheres are: rows, of which the first sphere is enough.
+//! The positions of the spheres, by rows: the first sphere of each row, and the step between neighbours.
 
 use cannonpile::engine::bug;
 use cannonpile::lattice::Site;
@@ -12,8 +12,10 @@ use serde_json::{Value, json};
 
 use super::encoding::floats;
 
-/// The rows of spheres, in the order of their numbers: indices and places from the first of all, so that both are as exact
-/// 10³⁰ away from the apex; the spheres below the first one of each.
+/// Returns the rows of spheres, in the order of their numbers.
+///
+/// Indices and positions are relative to the first sphere of the pile, so that both stay exact at a distance of 10³⁰ R from
+/// the apex. Each row also has the numbers of the spheres below its first one.
 pub(super) fn rows(pile: &NumberedPile<'_>) -> Result<Value, Error> {
     let mut rows = pile.pile().rows(Selection::All)?;
     let first = rows.next().ok_or_else(|| bug("a pile has a row"))?;
@@ -67,9 +69,9 @@ pub(super) fn rows(pile: &NumberedPile<'_>) -> Result<Value, Error> {
     }))
 }
 
-/// An index from the first sphere, of a pile that a page shows.
+/// Converts an index relative to the first sphere. It is small, because the viewer limits the number of spheres.
 fn small(index: i128) -> Result<i64, Error> {
-    i64::try_from(index).map_err(|_| bug("a pile of few spheres has few rows").into())
+    i64::try_from(index).map_err(|_| bug("the indices of a pile in a viewer fit in i64").into())
 }
 
 fn difference(to: &Surd, from: &Surd) -> Result<f64, Error> {

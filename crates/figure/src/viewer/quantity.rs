@@ -1,4 +1,4 @@
-//! The exact numbers of one kind, each once: multiples of a unit, and the floats nearest to them.
+//! The exact values of a quantity, each once: multiples of a unit, and their correctly rounded floats.
 
 use std::collections::HashMap;
 
@@ -12,19 +12,19 @@ use serde_json::{Value, json};
 
 use super::encoding::floats;
 
-/// The most digits that the numbers of one kind have together.
+/// The largest total number of digits of a quantity.
 const MAX_DIGITS: u64 = 30_000_000;
 
-/// The exact numbers of one kind that occur.
+/// The distinct values of a quantity.
 pub(super) struct Quantity {
-    /// What they are multiples of, as tables say it.
+    /// The unit, as in tables.
     unit: &'static str,
     /// The unit in N.
     newtons: Surd,
-    /// What they are called where one of them is refused.
+    /// The name of the quantity in error messages.
     name: &'static str,
     numbers: Vec<BigRational>,
-    /// Where each of them is, by numerator and denominator.
+    /// The position of each value in the list, by numerator and denominator.
     places: HashMap<(BigInt, BigInt), u32>,
 }
 
@@ -39,7 +39,7 @@ impl Quantity {
         }
     }
 
-    /// The place of a number in the list, which it is put into if it is new.
+    /// Returns the position of a value in the list, and inserts it if it is new.
     pub(super) fn place(&mut self, number: BigRational) -> Result<u32, Error> {
         let key = (number.numer().clone(), number.denom().clone());
         if let Some(place) = self.places.get(&key) {
@@ -52,16 +52,16 @@ impl Quantity {
         Ok(new)
     }
 
-    /// Digits are what takes room.
+    /// Returns the error of too many digits.
     fn too_large(&self, needed: u64) -> Error {
         let remedy = "use fewer layers, or loads with one small denominator";
         cannonpile::Error::too_large(self.name, needed.into(), MAX_DIGITS, remedy).into()
     }
 
-    /// The list: numerators over one denominator, and the floats nearest to the multiples and to these in N.
+    /// Returns the list: numerators over a common denominator, and the correctly rounded multiples and forces in N.
     pub(super) fn to_json(&self) -> Result<Value, Error> {
         let denominator = common_denominator(&self.numbers);
-        // 0.302 digits a bit.
+        // A bit is about 0.302 decimal digits.
         let digits = self.numbers.iter();
         let bits = digits.map(|x| x.numer().bits() + denominator.bits() - x.denom().bits());
         let digits = bits.map(|bits| bits * 302 / 1000 + 1).sum();
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn each_number_stands_once_over_one_denominator() {
+    fn values_are_distinct_over_a_common_denominator() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
         let mut quantity = quantity([ratio(1, 2), ratio(-2, 3), ratio(1, 2), ratio(0, 1)]);
         assert_eq!(quantity.place(ratio(-4, 6)), Ok(1));
@@ -125,8 +125,8 @@ mod tests {
     }
 
     #[test]
-    fn too_many_digits_are_refused() {
-        // Its own numerator is short; that of 1 is not.
+    fn rejects_too_many_digits() {
+        // Over the common denominator the numerator of 1 has 45 million digits.
         let long = BigRational::new(BigInt::one(), BigInt::one() << 150_000_000_u64);
         let refused = quantity([long, BigRational::one()]).to_json();
         assert!(

@@ -1,4 +1,4 @@
-//! The forces of a pile, in one state or two.
+//! The forces of a pile, in one or two states.
 
 use cannonpile::lattice::Axis;
 use cannonpile::shape::Selection;
@@ -12,13 +12,13 @@ use serde_json::{Value, json};
 use super::encoding::indices;
 use super::quantity::Quantity;
 
-/// The numbers that occur in all states.
+/// The values of all states.
 pub(super) struct Quantities {
-    /// Forces of contacts.
+    /// Contact forces.
     contact: Quantity,
-    /// What spheres pass down: vertical forces.
+    /// The vertical forces that spheres transmit downwards.
     load: Quantity,
-    /// Forces on the floor, along x and y.
+    /// Base shear forces along x and y.
     shear: [Quantity; 2],
 }
 
@@ -54,7 +54,7 @@ impl Quantities {
     }
 }
 
-/// The states that a page shows.
+/// Returns the states of a viewer.
 pub(super) fn states(
     pile: &NumberedPile<'_>,
     title: &CardTitle,
@@ -76,8 +76,10 @@ pub(super) fn states(
     ])
 }
 
-/// The forces of one state: the places of contacts, in the order of `contacts.csv`, of what spheres pass down, in that of
-/// their numbers, and of shears on the floor.
+/// Returns the forces of one state, as positions in the lists of [`Quantities`].
+///
+/// Contact forces are in the order of `contacts.csv`, transmitted loads in the order of the sphere numbers, and base shear
+/// forces in the order of the bottom spheres.
 fn state(
     name: &str,
     pile: &Pile,

@@ -1,4 +1,4 @@
-//! Random stackings in figures: means by place and by distance, and how forces are distributed.
+//! Figures of random stackings: means by position and by distance, and force distributions.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile_disorder::Binned;
@@ -12,7 +12,7 @@ use roxmltree::Document;
 use crate::svg::{corners, number, of_class};
 use cannonpile_testkit::answers::ratio;
 
-/// The exact mean of a unit load on a plane.
+/// Returns the exact mean response to a unit load on a plane.
 fn mean(layers: i128, q: &BigRational) -> Vec<(Place, BigRational, BigRational)> {
     let stackings = RandomStackings::new(layers, FirstSign::Plus).unwrap();
     let plane = RandomPiles::plane(stackings).weightless();
@@ -28,7 +28,7 @@ fn float(x: &BigRational) -> f64 {
 }
 
 #[test]
-fn cells_are_the_loads_of_spheres_at_their_places() {
+fn cells_show_the_mean_loads() {
     let probabilities = [ratio(0, 1), ratio(1, 3), ratio(1, 1)];
     let svg = figure::mean_response(6, &probabilities)
         .unwrap()
@@ -39,7 +39,7 @@ fn cells_are_the_loads_of_spheres_at_their_places() {
     let mut cells = cells.into_iter();
     for (q, front) in probabilities.iter().zip(fronts) {
         let [x, y, r] = ["cx", "cy", "r"].map(|name| number(&front, name));
-        // r = nρ/√2.
+        // The circle has the radius r = nρ/√2.
         let rho = r * 2.0_f64.sqrt() / 5.0;
         let rows = mean(6, q);
         for (place, probability, normal) in rows {
@@ -51,7 +51,7 @@ fn cells_are_the_loads_of_spheres_at_their_places() {
             assert_eq!((index("data-a"), index("data-b")), (place.a, place.b));
             let load = float(&(normal / probability));
             assert!((number(&cell, "data-value") - load).abs() < 1e-13);
-            // Its middle is a u_β + b u_γ from that of the circle.
+            // The middle of a cell is at a u_β + b u_γ, relative to that of the circle.
             let corners = corners(&cell);
             let middle = [0, 1].map(|n| corners.iter().map(|at| at[n]).sum::<f64>() / 6.0);
             let distance = (middle[0] - x).hypot(middle[1] - y) / rho;
@@ -64,7 +64,7 @@ fn cells_are_the_loads_of_spheres_at_their_places() {
 }
 
 #[test]
-fn a_curve_is_the_sum_over_a_ring() {
+fn curves_show_the_sums_over_rings() {
     let q = ratio(1, 2);
     let svg = figure::mean_profile(6, core::slice::from_ref(&q))
         .unwrap()
@@ -77,7 +77,7 @@ fn a_curve_is_the_sum_over_a_ring() {
         [x, y].map(|n| n.parse::<f64>().unwrap())
     });
     let points: Vec<[f64; 2]> = points.collect();
-    // Eight points a ρ, from 0 to n + 1.
+    // A curve has eight points in each interval of length ρ, from 0 to n + 1.
     assert_eq!(points.len(), 49);
     let ring = |r: f64| -> f64 {
         let rows = mean(6, &q).into_iter();
@@ -89,7 +89,7 @@ fn a_curve_is_the_sum_over_a_ring() {
         within.map(|(.., normal)| float(&normal)).sum()
     };
     let rings: Vec<f64> = (0..49).map(|n| ring(f64::from(n) / 8.0)).collect();
-    // Heights on the page are linear in the sums.
+    // The height on the page is a linear function of the sum.
     let scale = (points[30][1] - points[0][1]) / (rings[30] - rings[0]);
     for (point, ring) in points.iter().zip(&rings) {
         let expected = points[0][1] + (ring - rings[0]) * scale;
@@ -98,7 +98,7 @@ fn a_curve_is_the_sum_over_a_ring() {
 }
 
 #[test]
-fn a_distribution_is_that_of_all_stackings_and_of_those_that_stand() {
+fn distribution_has_curves_of_all_and_of_stable_stackings() {
     let stackings = RandomStackings::new(5, FirstSign::Plus).unwrap();
     let ensemble = Ensemble::under(Region::SITE, stackings).unwrap();
     let tally = ensemble.run(&Choice::All, Shard::WHOLE).unwrap();
@@ -106,7 +106,7 @@ fn a_distribution_is_that_of_all_stackings_and_of_those_that_stand() {
         let figure = figure::distribution(&tally, binned, q).unwrap();
         figure.unwrap().to_string()
     };
-    // FCC has all of its 21 bottom normals in one bin: one stroke of a bin.
+    // All 21 base normal forces of FCC are in one bin, so the curve is one stroke.
     let svg = of(Binned::Normals, &ratio(0, 1));
     let document = Document::parse(&svg).unwrap();
     let curves = of_class(&document, "curve");
@@ -115,8 +115,8 @@ fn a_distribution_is_that_of_all_stackings_and_of_those_that_stand() {
         assert_eq!(curve.attribute("points").unwrap().split(' ').count(), 2);
     }
     let svg = of(Binned::Forces, &ratio(1, 2));
-    assert!(svg.contains("all stackings") && svg.contains("those that stand"));
-    // Some pull, and those that stand do not: the first curve begins further left.
+    assert!(svg.contains("all stackings") && svg.contains("stable stackings"));
+    // Only the first curve includes tensile forces, so it begins further left.
     let document = Document::parse(&svg).unwrap();
     let begins = |curve: &roxmltree::Node<'_, '_>| -> f64 {
         let (x, _) = curve.attribute("points").unwrap().split_once(',').unwrap();
@@ -132,18 +132,18 @@ fn a_distribution_is_that_of_all_stackings_and_of_those_that_stand() {
         .find(|curve| curve.attribute("stroke") != colours[0]);
     assert_eq!(
         begins(&curves[0]) < begins(standing.unwrap()),
-        tally_pulls(&tally)
+        has_tension(&tally)
     );
 }
 
-/// Whether a contact of some stacking pulls by a bin or more.
-fn tally_pulls(tally: &cannonpile_disorder::Tally) -> bool {
+/// Returns whether some stacking has a tensile force in a bin below 0.
+fn has_tension(tally: &cannonpile_disorder::Tally) -> bool {
     let mut all = tally.faults.iter().map(|with| with.all.forces.first);
     all.any(|first| first < 0)
 }
 
 #[test]
-fn parts_have_no_distribution_and_too_much_is_refused() {
+fn rejects_parts_and_figures_that_are_too_large() {
     let stackings = RandomStackings::new(5, FirstSign::Plus).unwrap();
     let ensemble = Ensemble::under(Region::SITE, stackings).unwrap();
     let part = ensemble

@@ -1,4 +1,4 @@
-//! The errors of this crate say in one line what was given and what would do.
+//! Error messages of this crate: one line with the given value and the remedy.
 
 use cannonpile::Pile;
 use cannonpile::lattice::MAX_LAYERS;

@@ -1,4 +1,4 @@
-//! Figures, read back from their SVG: what is drawn is what the exact answers say, and whole.
+//! The SVG of figures, compared with the exact forces.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +15,7 @@ use num_traits::Zero;
 use roxmltree::{Document, Node};
 
 #[test]
-fn every_sphere_of_a_picture_is_drawn_once_and_hides_only_those_behind() {
+fn spheres_are_drawn_once_from_back_to_front() {
     for pile in piles() {
         let svg = figure::pile(&subject(&pile)).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
@@ -25,7 +25,7 @@ fn every_sphere_of_a_picture_is_drawn_once_and_hides_only_those_behind() {
         let mut sites: Vec<Site> = drawn.iter().map(site).collect();
         sites.sort();
         assert!(sites.into_iter().eq(pile.shape().sites()));
-        // Each stands on something: one floor, and a shadow for each sphere on it.
+        // There is one floor, and a shadow for each bottom sphere.
         assert_eq!(of_class(&document, "floor").len(), 1);
         let discs = pile.shape().dimension().number() == 2;
         let shadows = if discs {
@@ -38,7 +38,7 @@ fn every_sphere_of_a_picture_is_drawn_once_and_hides_only_those_behind() {
             shadows.to_string()
         );
     }
-    // The nearest sphere of the paper's pile is at a corner of the base, the farthest at another.
+    // In the pile of the paper, both the nearest and the farthest sphere are at corners of the base.
     let pile = Pile::triangular(4).unwrap();
     let svg = figure::pile(&subject(&pile)).unwrap().to_string();
     let document = Document::parse(&svg).unwrap();
@@ -51,7 +51,7 @@ fn every_sphere_of_a_picture_is_drawn_once_and_hides_only_those_behind() {
 }
 
 #[test]
-fn near_spheres_look_larger_and_touching_ones_touch() {
+fn perspective_scales_spheres_and_keeps_contacts() {
     let pile = Pile::triangular(5).unwrap();
     let svg = figure::pile(&subject(&pile)).unwrap().to_string();
     let document = Document::parse(&svg).unwrap();
@@ -65,7 +65,7 @@ fn near_spheres_look_larger_and_touching_ones_touch() {
             let Some(lower) = pile.shape().below(*upper, direction) else {
                 continue;
             };
-            // Seen across, two spheres in contact never look farther apart than their radii.
+            // In a projection, spheres in contact are never farther apart than the sum of their radii.
             let ([u, v], other) = seen[&lower];
             assert!(
                 (x - u).hypot(y - v) < (radius + other) * 1.02,
@@ -73,7 +73,7 @@ fn near_spheres_look_larger_and_touching_ones_touch() {
             );
         }
     }
-    // The camera stands where x is negative: there the frame of the files, z up, has y on its left.
+    // The camera is at negative x, where the right-handed axes of the files have y on the left.
     let left = |i| seen[&Site { i, j: 0, k: 4 }].0[0];
     assert!(left(0) > left(2) && left(2) > left(4));
     let height = |k| seen[&Site { i: 0, j: 0, k }].0[1];
@@ -81,7 +81,7 @@ fn near_spheres_look_larger_and_touching_ones_touch() {
 }
 
 #[test]
-fn from_above_all_lies_as_in_the_files() {
+fn views_from_above_have_the_axes_of_the_files() {
     for pile in piles() {
         let packing = Packing::new(&pile, &spacing()).unwrap();
         let svg = figure::indexing(&subject(&pile), pile.layers() - 1)
@@ -93,7 +93,7 @@ fn from_above_all_lies_as_in_the_files() {
             let ([x, y], radius) = disc(&node);
             let place = packing.position(site(&node)).unwrap();
             let [u, v, _] = place.map(|part| part.nearest::<f64>().unwrap());
-            // x to the right and y upwards, with R = 1.
+            // x points to the right and y upwards, with R = 1.
             let here = [x - u * radius, y + v * radius];
             let [a, b] = *offset.get_or_insert(here);
             assert!((here[0] - a).abs() < 1e-2 && (here[1] - b).abs() < 1e-2);
@@ -102,7 +102,7 @@ fn from_above_all_lies_as_in_the_files() {
 }
 
 #[test]
-fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
+fn base_cells_have_exact_forces_and_ordered_colours() {
     for pile in piles() {
         let svg = figure::base(&subject(&pile)).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
@@ -133,7 +133,7 @@ fn base_cells_have_the_exact_forces_and_colours_in_their_order() {
     }
 }
 
-/// How bright `#rrggbb` looks; an oracle for the library's own.
+/// Returns the relative luminance of `#rrggbb`, an oracle for the function of the library.
 fn luminance(colour: &str) -> f64 {
     let part = |n: usize| {
         let byte = u8::from_str_radix(&colour[n..n + 2], 16).unwrap();
@@ -148,7 +148,7 @@ fn luminance(colour: &str) -> f64 {
 }
 
 #[test]
-fn cells_tile_the_base_without_overlap() {
+fn cells_tile_the_base() {
     let pile = Pile::triangular(6).unwrap();
     let svg = figure::base(&subject(&pile)).unwrap().to_string();
     let document = Document::parse(&svg).unwrap();
@@ -168,7 +168,7 @@ fn cells_tile_the_base_without_overlap() {
             .iter()
             .all(|cell| (area(cell) - one).abs() < 1e-2 * one)
     );
-    // A corner within belongs to three cells, one on the rim to one or two.
+    // An inner corner belongs to three cells, and a corner on the rim to one or two.
     let mut shared: BTreeMap<[i64; 2], usize> = BTreeMap::new();
     for [x, y] in cells.iter().flatten() {
         #[expect(clippy::cast_possible_truncation, reason = "pixels")]
@@ -176,11 +176,11 @@ fn cells_tile_the_base_without_overlap() {
         *shared.entry(place).or_default() += 1;
     }
     assert_eq!(shared.values().sum::<usize>(), 6 * 21);
-    // One inner corner for each small triangle of neighbours: n² of them for a side of n = 5 steps.
+    // Each triangle of neighbours has one inner corner: n² for a side of n = 5 steps.
     assert_eq!(shared.values().filter(|count| **count == 3).count(), 25);
 }
 
-/// The contacts of a network: upper sphere, direction, force, and ends on the page.
+/// Returns the contacts of a network: upper sphere, direction, force, and ends on the page.
 fn links(document: &Document<'_>) -> Vec<(Site, Direction, f64, [f64; 4])> {
     let links = of_class(document, "contact");
     let link = |node: &Node<'_, '_>| {
@@ -194,7 +194,7 @@ fn links(document: &Document<'_>) -> Vec<(Site, Direction, f64, [f64; 4])> {
 }
 
 #[test]
-fn sections_show_forces_between_neighbours_and_mirror_images() {
+fn sections_have_neighbours_and_mirror_images() {
     for pile in piles() {
         let packing = Packing::new(&pile, &spacing()).unwrap();
         let svg = figure::section(&subject(&pile)).unwrap().to_string();
@@ -204,12 +204,12 @@ fn sections_show_forces_between_neighbours_and_mirror_images() {
             let exact = packing.contact(*site, *direction).unwrap();
             assert_eq!(Some(*force), exact.nearest());
         }
-        // Each sphere of a section is supported in it, unless it is on the floor or its row is a surface.
+        // Each sphere of a section has a support in it, unless it is on the floor or its row is a surface.
         if pile.layers() > 1 {
             assert!(!links.is_empty());
         }
     }
-    // y → −y exchanges α and β, and leaves γ: in a pile of its own mirror image the forces of the section too.
+    // The reflection y → −y exchanges α and β and keeps γ. A symmetric pile has the same forces in the reflected section.
     let pile = Pile::under(Region::SITE, Stacking::hcp(9).unwrap()).unwrap();
     let svg = figure::section(&subject(&pile)).unwrap().to_string();
     let document = Document::parse(&svg).unwrap();
@@ -237,17 +237,17 @@ fn sections_show_forces_between_neighbours_and_mirror_images() {
 }
 
 #[test]
-fn a_section_of_the_papers_pile_takes_one_row_a_layer() {
+fn section_has_one_row_of_each_layer() {
     let pile = Pile::triangular(10).unwrap();
     let svg = figure::section(&subject(&pile)).unwrap().to_string();
     let document = Document::parse(&svg).unwrap();
     let spheres = of_class(&document, "sphere");
     let mut rows: Vec<(i128, i128)> = spheres.iter().map(site).map(|s| (s.k, s.j)).collect();
     rows.dedup();
-    // The row under the apex: j = k/3, rounded.
+    // The row under the apex has j = k/3, rounded.
     let expected: Vec<_> = (0..10).map(|k| (k, (k + 1) / 3)).collect();
     assert_eq!(rows, expected);
-    // Rows of k − j + 1 spheres; below each but the last two links where the row stays, one where it changes.
+    // A row has k − j + 1 spheres. Above the floor each has two contacts below if j stays the same, one if j changes.
     let count: i128 = (0..9)
         .map(|k| {
             let j = (k + 1) / 3;
@@ -260,7 +260,7 @@ fn a_section_of_the_papers_pile_takes_one_row_a_layer() {
 }
 
 #[test]
-fn layers_show_every_contact_once() {
+fn layers_have_every_contact_once() {
     for pile in piles() {
         let subject = subject(&pile);
         let packing = Packing::new(&pile, &spacing()).unwrap();
@@ -292,7 +292,7 @@ fn layers_show_every_contact_once() {
             for (site, direction, force, [a, b, c, d]) in links {
                 let exact = packing.contact(site, direction).unwrap();
                 assert_eq!(Some(force), exact.nearest());
-                // A contact is 2R long, and leans by θ: 2R sinθ seen from above.
+                // From above a contact has the length 2R sinθ.
                 let length = (a - c).hypot(b - d);
                 assert!(!pile.is_regular() || (length - 2.0 * sin * radius).abs() < 4e-4);
             }
@@ -323,7 +323,7 @@ fn responses_add_up_to_the_load() {
 }
 
 #[test]
-fn no_number_of_a_cell_reads_as_zero() {
+fn labels_of_cells_are_nonzero() {
     for layers in 2..9 {
         let top = Region::hexagon(5, 5).unwrap();
         let pile = Pile::under(top, Stacking::hcp(layers).unwrap()).unwrap();
@@ -338,7 +338,7 @@ fn no_number_of_a_cell_reads_as_zero() {
         for text in texts.filter_map(|node| node.text()) {
             let digits = text.trim_start_matches('−');
             let vanishes = digits.parse::<f64>().is_ok_and(|number| number == 0.0);
-            // The tick of an axis or of the bar.
+            // Ticks of axes and of the colour bar may be 0.
             assert!(!vanishes || text == "0", "{text}");
         }
         let shown = of_class(&document, "cell");
@@ -348,7 +348,7 @@ fn no_number_of_a_cell_reads_as_zero() {
 }
 
 #[test]
-fn a_responses_layer_is_the_floor_of_a_lower_pile() {
+fn response_of_a_layer_equals_base_of_a_lower_pile() {
     let top = Region::hexagon(2, 2).unwrap();
     let cells = |layers| {
         let pile = Pile::under(top, Stacking::hcp(layers).unwrap()).unwrap();
@@ -364,7 +364,7 @@ fn a_responses_layer_is_the_floor_of_a_lower_pile() {
     assert!(!below.is_empty());
 }
 
-/// The arrows of the forces on a sphere: name, magnitude and vector.
+/// Returns the arrows of the forces on a sphere: name, magnitude and vector.
 fn arrows(svg: &str) -> Vec<(String, f64, [f64; 3])> {
     let document = Document::parse(svg).unwrap();
     let arrows = of_class(&document, "arrow");
@@ -377,7 +377,7 @@ fn arrows(svg: &str) -> Vec<(String, f64, [f64; 3])> {
 }
 
 #[test]
-fn forces_on_a_sphere_are_in_balance() {
+fn forces_on_a_sphere_are_in_equilibrium() {
     for pile in piles() {
         let pile = if pile.is_weightless() {
             pile
@@ -399,7 +399,7 @@ fn forces_on_a_sphere_are_in_balance() {
                 }
             }
             assert!(sum.iter().all(|part| part.abs() < 1e-10), "{site}: {sum:?}");
-            // An arrow for each force that acts.
+            // Each nonzero force has an arrow.
             let acts = |force: &BigRational| usize::from(!force.is_zero());
             let above = forces.from_above(site).unwrap();
             let mut acting: usize = above.iter().map(acts).sum();
@@ -420,14 +420,14 @@ fn forces_on_a_sphere_are_in_balance() {
 }
 
 #[test]
-fn the_papers_names_of_forces() {
+fn forces_have_the_names_of_the_paper() {
     let pile = Pile::triangular(10).unwrap();
     let site = Site { i: 1, j: 2, k: 5 };
     let svg = figure::sphere(&subject(&pile), site).unwrap().to_string();
     let forces = arrows(&svg);
     assert_eq!(forces.len(), 7);
     let cos = (13.0_f64 / 25.0).sqrt();
-    // Paper, (10): α′ = k−i−j, β′ = i, γ′ = j in mg/(3cosθ), and one more each below.
+    // Paper, (10): α′ = k−i−j, β′ = i, γ′ = j in mg/(3cosθ), and one more for each contact below.
     let multiples = [
         ("a′", 2.0),
         ("b′", 1.0),
@@ -439,14 +439,14 @@ fn the_papers_names_of_forces() {
     for (name, multiple) in multiples {
         let (_, magnitude, [x, _, z]) = forces.iter().find(|force| force.0 == name).unwrap();
         assert!((magnitude - multiple / (3.0 * cos)).abs() < 1e-15);
-        // From above down, from below up; α and β lean to one side of x, γ to the other.
+        // Forces from above point down, those from below up. α and β have the same sign of x, γ the opposite one.
         assert_eq!(*z < 0.0, name.ends_with('′'));
         assert_eq!(*x < 0.0, name.starts_with('c') != name.ends_with('′'));
     }
 }
 
 #[test]
-fn what_pulls_is_seen_and_said() {
+fn tensile_contacts_are_visible_and_noted() {
     let pile = Pile::under(Region::SITE, Stacking::hcp(7).unwrap()).unwrap();
     let site = Site { i: 1, j: -2, k: 4 };
     let sphere = figure::sphere(&subject(&pile), site).unwrap();
@@ -456,25 +456,21 @@ fn what_pulls_is_seen_and_said() {
         .filter(|force| force.1 < 0.0)
         .collect();
     assert_eq!(pulling.len(), 1);
-    // Its arrow is a speck: a ring shows where it is, and the table says so.
+    // The arrow is too short, so there is a ring, which the table explains.
     let document = Document::parse(&svg).unwrap();
     assert_eq!(of_class(&document, "small").len(), 1);
-    assert!(svg.contains("− is pull") && svg.contains("○ is too small for an arrow"));
-    // That the pile cannot stand is in the picture, and how many contacts pull.
+    assert!(svg.contains("− is tension") && svg.contains("○ is too small for an arrow"));
+    // The figures note that the pile is unstable, and the section has the number of tensile contacts.
     for figure in [
         sphere,
         figure::shear(&subject(&pile)).unwrap(),
         figure::base(&subject(&pile)).unwrap(),
     ] {
-        assert!(
-            figure
-                .note()
-                .is_some_and(|note| note.contains("does not stand"))
-        );
+        assert!(figure.note().is_some_and(|note| note.contains("unstable")));
         assert!(
             figure
                 .to_string()
-                .contains(">This pile does not stand without further contacts: ")
+                .contains(">This pile is unstable without further contacts: ")
         );
     }
     let forces = pile.forces::<BigRational>();
@@ -488,13 +484,13 @@ fn what_pulls_is_seen_and_said() {
         .iter()
         .filter(|link| link.2 < 0.0)
         .count();
-    assert!(svg.contains(&format!("{pulling} contacts pull,")) && svg.contains("does not stand"));
+    assert!(svg.contains(&format!("{pulling} contacts in tension,")) && svg.contains("unstable"));
     assert!(svg.contains(&if shown == 0 {
         "none of them here".into()
     } else {
         format!("{shown} of them here")
     }));
-    // Nothing of the kind of a pile that stands, or of spheres without weight.
+    // A stable pile and spheres without weight have no note.
     let stands = Pile::triangular(7).unwrap();
     assert_eq!(figure::section(&subject(&stands)).unwrap().note(), None);
     let response = figure::with_unit_load(pile).unwrap();
@@ -505,7 +501,7 @@ fn what_pulls_is_seen_and_said() {
 }
 
 #[test]
-fn captions_name_what_the_pile_is_grown_from() {
+fn captions_name_top_and_base() {
     let hcp = || Stacking::hcp(4).unwrap();
     let region = Region::new(0..=1, 0..=4, 0..=4).unwrap();
     for (pile, words) in [
@@ -541,7 +537,7 @@ fn captions_name_what_the_pile_is_grown_from() {
 }
 
 #[test]
-fn layouts_change_the_page_and_not_what_is_drawn() {
+fn layouts_keep_the_glyphs() {
     let pile = Pile::triangular(5).unwrap();
     let figure = || figure::base(&subject(&pile)).unwrap();
     let page = |figure: Figure| {
@@ -583,7 +579,7 @@ fn of_tag(document: &Document<'_>, name: &str) -> usize {
 }
 
 #[test]
-fn indices_are_those_of_the_paper() {
+fn labels_have_the_indices_of_the_paper() {
     let pile = Pile::triangular(10).unwrap();
     let svg = figure::indexing(&subject(&pile), 3).unwrap().to_string();
     let document = Document::parse(&svg).unwrap();
@@ -595,14 +591,14 @@ fn indices_are_those_of_the_paper() {
     assert_eq!(spheres.len(), 10);
     for (Site { i, j, k }, [x, y]) in &spheres {
         let (i, j, k) = (*i, *j, *k);
-        // i upwards; j upwards by half as much, and to the right.
+        // i increases upwards, and j to the right and half as much upwards.
         if let Some(next) = spheres.get(&Site { i: i + 1, j, k }) {
             assert!((next[0] - x).abs() < 1e-3 && next[1] < *y);
         }
         if let Some(next) = spheres.get(&Site { i, j: j + 1, k }) {
             assert!(next[0] > *x && next[1] < *y);
         }
-        // Its own label, in its middle.
+        // Each sphere has its label in the middle.
         let labels = document
             .descendants()
             .filter(|node| node.tag_name().name() == "text");
@@ -618,7 +614,7 @@ fn indices_are_those_of_the_paper() {
 }
 
 #[test]
-fn too_many_marks_are_refused_before_they_are_computed() {
+fn too_many_glyphs_fail_before_the_computation() {
     let huge = Pile::triangular(10_i128.pow(30)).unwrap();
     let subject_of_huge = subject(&huge);
     let refusals = [
@@ -636,7 +632,7 @@ fn too_many_marks_are_refused_before_they_are_computed() {
             "{refused:?}"
         );
     }
-    // One sphere of it, or a layer near its top, is as good as of any other.
+    // A single sphere and a layer near the top of the same pile can be drawn.
     let far = Site {
         i: 10_i128.pow(28),
         j: 17,
@@ -652,7 +648,7 @@ fn too_many_marks_are_refused_before_they_are_computed() {
             .count(),
         10
     );
-    // Not a site away from where they belong, though 10³⁰ R from the apex.
+    // The positions are exact at a distance of 10³⁰ R from the apex.
     let base = Region::new(
         10_i128.pow(30)..=10_i128.pow(30) + 2,
         0..=2,
@@ -698,6 +694,6 @@ fn numbers_beyond_floats_are_errors() {
         figure::base(&wide),
         Err(Error::Core(cannonpile::Error::Overflow { .. }))
     ));
-    // Where lengths are not shown they are not asked for.
+    // A figure without lengths does not need the radius.
     assert!(figure::pile(&wide).is_ok());
 }

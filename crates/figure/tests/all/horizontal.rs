@@ -1,4 +1,4 @@
-//! Horizontal contacts in figures: what pushes, what is open, and what bottom spheres can bear.
+//! Horizontal contacts in figures: closed and open ones, and the bounds of base normal forces.
 
 use cannonpile::Pile;
 use cannonpile::geometry::Spacing;
@@ -15,7 +15,7 @@ fn touching() -> Spacing {
 }
 
 #[test]
-fn horizontal_contacts_of_a_layer_are_lines_dashed_where_they_are_open() {
+fn open_horizontal_contacts_are_dashed() {
     let bare = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
     let elastic = cannonpile_horizontal::elastic(&bare, &ratio(1, 1)).unwrap();
     let pile = elastic.pile();
@@ -49,7 +49,7 @@ fn horizontal_contacts_of_a_layer_are_lines_dashed_where_they_are_open() {
 }
 
 #[test]
-fn both_bounds_of_every_bottom_sphere_are_in_the_halves_of_its_cell() {
+fn halves_of_cells_have_both_bounds() {
     for pile in [
         Pile::triangular(6).unwrap(),
         Pile::discs(5).unwrap(),
@@ -68,7 +68,7 @@ fn both_bounds_of_every_bottom_sphere_are_in_the_halves_of_its_cell() {
             assert_eq!([site(greatest), site(least)], [at, at]);
             assert_eq!(exact(greatest), bounds.greatest.normal);
             assert_eq!(exact(least), bounds.least.normal);
-            // They meet in a line, the greatest above: y points down.
+            // The halves meet in a line, with the largest force above. On the page y points down.
             let [upper, lower] = [greatest, least].map(|half| {
                 let heights: Vec<f64> = corners(half).into_iter().map(|[_, y]| y).collect();
                 let end = |most: fn(f64, f64) -> f64| heights.iter().copied().reduce(most).unwrap();

@@ -1,4 +1,4 @@
-//! A ladder in a figure: marks, lines and triangle are where its numbers say.
+//! The figure of a refinement study: positions of glyphs, lines and triangle.
 
 use cannonpile_dem::verify::{Ladder, Norm, Refinement, Rung};
 use cannonpile_figure as figure;
@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 
 use crate::svg::{number, of_class};
 
-/// Errors of 4/k down to a floor, with a coarsest rung that has lost contacts.
+/// Returns errors of 4/k down to a floor. The coarsest level has lost contacts.
 fn stiffnesses() -> Ladder {
     let rungs = [1e3, 1e4, 1e5, 1e6, 1e7, 1e8].map(|k| {
         let error = 4.0 / k + 2e-15 * k;
@@ -21,7 +21,7 @@ fn stiffnesses() -> Ladder {
     ladder.predicted(|k| 4.4 / k).unwrap()
 }
 
-/// The middle of a disc or a square.
+/// Returns the middle of a disc or a square.
 fn middle(mark: &Node<'_, '_>) -> [f64; 2] {
     if mark.has_tag_name("circle") {
         return ["cx", "cy"].map(|name| number(mark, name));
@@ -39,7 +39,7 @@ fn points(mark: &Node<'_, '_>) -> Vec<[f64; 2]> {
     points.collect()
 }
 
-/// How far on the page a factor of ten is to the right, and upwards, with the place of h = e = 1.
+/// Returns, for each axis, the length of a factor of ten on the page and the position of h = e = 1.
 fn decades(document: &Document<'_>, h: impl Fn(f64) -> f64) -> [[f64; 2]; 2] {
     let rungs = of_class(document, "rung");
     let log = |mark: &Node<'_, '_>| {
@@ -67,7 +67,7 @@ fn check(ladder: &Ladder) {
             "{log:?}"
         );
     };
-    // To the right h grows, and upwards the error.
+    // h increases to the right, and the error upwards.
     assert!(axes[0][0] > 0.0 && axes[1][0] < 0.0);
     let rungs = of_class(&document, "rung");
     for norm in Norm::ALL {
@@ -134,26 +134,26 @@ fn check(ladder: &Ladder) {
 }
 
 #[test]
-fn marks_are_where_the_errors_are() {
+fn glyphs_are_at_the_errors() {
     check(&stiffnesses());
     let steps =
         [0.1, 0.05, 0.025].map(|step: f64| Rung::of_errors(step, 30, step.powi(2), step.powi(3)));
     check(&Ladder::new(Refinement::TimeStep, steps).unwrap());
-    // Errors that stay are where the key would be: there is room for both.
+    // Constant errors would be under the legend, so the chart becomes higher.
     let staying =
         [1.0, 0.1, 0.01, 0.001].map(|step: f64| Rung::of_errors(step, 30, step.max(0.1), step));
     check(&Ladder::new(Refinement::TimeStep, staying).unwrap());
 }
 
 #[test]
-fn the_key_tells_orders_and_the_floor() {
+fn legend_has_orders_and_floor() {
     let svg = figure::ladder(&stiffnesses()).to_string();
     for says in [
         "largest error, order 1.000",
         "rms error, order 1.000",
-        "theory of springs",
-        "on the floor",
-        "6 rungs, 3 of them above the floor",
+        "spring theory",
+        "on the round-off floor",
+        "6 levels, 3 of them above the round-off floor",
         "log₁₀ 1/k",
     ] {
         assert!(svg.contains(says), "{says}");
@@ -165,11 +165,11 @@ fn the_key_tells_orders_and_the_floor() {
         svg.contains("largest error, order 1.000 ± 0.2") && svg.contains("log₁₀ Δt"),
         "{svg}"
     );
-    assert!(!svg.contains("theory") && !svg.contains("on the floor"));
+    assert!(!svg.contains("theory") && !svg.contains("on the round-off floor"));
 }
 
 #[test]
-fn what_has_no_logarithm_is_left_out() {
+fn zero_and_infinite_errors_are_left_out() {
     let rungs =
         [(1e3, 0.0), (1e4, f64::INFINITY)].map(|(k, error)| Rung::of_errors(k, 30, error, error));
     let none = Ladder::new(Refinement::Stiffness, rungs).unwrap();

@@ -1,6 +1,6 @@
-//! The fixed and the exhaustive tests of figures and of the page, a file for each subject.
+//! Tests of figures and of the viewer, a file for each subject.
 //!
-//! Figures are read back from their SVG. The piles of the page are the scenes of `cannonpile_testkit`.
+//! The tests parse the SVG of the figures. The piles of the viewer are the scenes of `cannonpile_testkit`.
 
 mod disorder;
 mod error;

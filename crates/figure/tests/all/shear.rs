@@ -1,4 +1,4 @@
-//! The shear field, arrow by arrow.
+//! The arrows of the base shear forces.
 
 use crate::svg::{corners, number, of_class, piles, site, subject};
 use cannonpile::geometry::Spacing;
@@ -10,7 +10,7 @@ use cannonpile_figure::{self as figure, Subject};
 use num_rational::BigRational;
 use roxmltree::{Document, Node};
 
-/// From the tail to the tip of an arrow, y up.
+/// Returns the vector from the tail to the tip of an arrow, y up.
 fn vector(arrow: &Node<'_, '_>) -> [f64; 2] {
     let corners = corners(arrow);
     assert_eq!(corners.len(), 7);
@@ -19,7 +19,7 @@ fn vector(arrow: &Node<'_, '_>) -> [f64; 2] {
     [tip[0] - tail[0], tail[1] - tip[1]]
 }
 
-/// Pixels to a unit of force, by the key.
+/// Returns the length of a unit force in pixels, from the key.
 fn scale(document: &Document<'_>) -> f64 {
     let keys = of_class(document, "key");
     let [key] = &keys[..] else {
@@ -30,9 +30,8 @@ fn scale(document: &Document<'_>) -> f64 {
     x / number(key, "data-force")
 }
 
-/// Whether every arrow of a document is as long and leads where the paper says, (14), for `layers` layers;
-/// an oracle in floats.
-fn is_the_papers(svg: &str, layers: i32) -> bool {
+/// Returns whether every arrow agrees with formula (14) of the paper for `layers` layers; an oracle in floats.
+fn agrees_with_paper(svg: &str, layers: i32) -> bool {
     let document = Document::parse(svg).unwrap();
     let pixels = scale(&document);
     let arrows = of_class(&document, "arrow");
@@ -47,20 +46,20 @@ fn is_the_papers(svg: &str, layers: i32) -> bool {
         } else {
             vector(mark)
         };
-        // Two coordinates, each rounded to a ten thousandth of a pixel.
+        // Both coordinates are rounded to 1/10000 of a pixel.
         (right - x * pixels).abs() < 4e-4 && (up - y * pixels).abs() < 4e-4
     })
 }
 
 #[test]
-fn arrows_are_as_long_as_the_papers_formula_says() {
+fn arrows_agree_with_the_formula_of_the_paper() {
     for layers in [2, 3, 4, 7, 10, 19] {
         let pile = Pile::triangular(layers.into()).unwrap();
         let svg = figure::shear(&subject(&pile)).unwrap().to_string();
-        assert!(is_the_papers(&svg, layers), "{layers} layers");
-        // A test that could not fail would be none.
-        assert!(!is_the_papers(&svg, layers + 1));
-        assert!(!is_the_papers(
+        assert!(agrees_with_paper(&svg, layers), "{layers} layers");
+        // The oracle rejects the arrows of another pile.
+        assert!(!agrees_with_paper(&svg, layers + 1));
+        assert!(!agrees_with_paper(
             &svg.replacen(
                 "class=\"arrow\" data-i=\"1\"",
                 "class=\"arrow\" data-i=\"0\"",
@@ -71,13 +70,13 @@ fn arrows_are_as_long_as_the_papers_formula_says() {
         let document = Document::parse(&svg).unwrap();
         let count = of_class(&document, "arrow").len() + of_class(&document, "vanishing").len();
         assert_eq!(count.to_string(), pile.base_sphere_count().to_string());
-        // Under the apex the force vanishes: a sphere is there if L ≡ 1 (mod 3).
+        // The force under the apex is zero. A sphere is there if L ≡ 1 (mod 3).
         let still = usize::from(layers % 3 == 1);
         assert_eq!(of_class(&document, "vanishing").len(), still);
     }
 }
 
-/// The forces that are drawn, by sphere.
+/// Returns the forces in a figure, by sphere.
 fn forces(document: &Document<'_>) -> Vec<(Site, [f64; 2])> {
     let marks = document
         .descendants()
@@ -92,7 +91,7 @@ fn forces(document: &Document<'_>) -> Vec<(Site, [f64; 2])> {
 }
 
 #[test]
-fn arrows_of_any_pile_are_the_exact_forces() {
+fn arrows_equal_the_exact_forces() {
     for pile in piles() {
         let svg = figure::shear(&subject(&pile)).unwrap().to_string();
         let document = Document::parse(&svg).unwrap();
@@ -127,7 +126,7 @@ fn arrows_of_any_pile_are_the_exact_forces() {
 }
 
 #[test]
-fn units_are_newtons_if_they_are_asked_for() {
+fn units_follow_the_subject() {
     let pile = Pile::triangular(10).unwrap();
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).unwrap();
     let packing = Packing::new(&pile, &spacing).unwrap();

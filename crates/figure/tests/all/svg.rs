@@ -1,4 +1,4 @@
-//! The piles of figures, and the elements of a figure, read back from its SVG.
+//! The piles of the tests, and functions that read the SVG of a figure.
 
 use cannonpile::Pile;
 use cannonpile::geometry::Spacing;
@@ -17,7 +17,7 @@ pub(crate) fn subject(pile: &Pile) -> Subject<'_> {
     Subject::of_pile(pile, &spacing()).unwrap()
 }
 
-/// The paper's pile, HCP under one sphere and under a hexagon, on a base, discs, and an isosceles base.
+/// Returns the pile of the paper, HCP under one sphere and under a hexagon, a pile on a base, discs, and an isosceles base.
 pub(crate) fn piles() -> Vec<Pile> {
     let hexagon = Region::hexagon(3, 2).unwrap();
     vec![
@@ -33,7 +33,7 @@ pub(crate) fn piles() -> Vec<Pile> {
     ]
 }
 
-/// The elements of a class, in the order of the document.
+/// Returns the elements of a class, in the order of the document.
 pub(crate) fn of_class<'a>(document: &'a Document<'_>, class: &str) -> Vec<Node<'a, 'a>> {
     let elements = document.descendants();
     let class = class.to_owned();
@@ -56,18 +56,18 @@ pub(crate) fn site(node: &Node<'_, '_>) -> Site {
     }
 }
 
-/// Where a circle is, y down, and how large.
+/// Returns the centre of a circle, y down, and its radius.
 pub(crate) fn disc(node: &Node<'_, '_>) -> ([f64; 2], f64) {
     let [x, y, radius] = ["cx", "cy", "r"].map(|name| number(node, name));
     ([x, y], radius)
 }
 
-/// The exact number of a cell.
+/// Returns the exact number of a cell.
 pub(crate) fn exact(node: &Node<'_, '_>) -> BigRational {
     node.attribute("data-exact").unwrap().parse().unwrap()
 }
 
-/// The corners of a polygon.
+/// Returns the corners of a polygon.
 pub(crate) fn corners(node: &Node<'_, '_>) -> Vec<[f64; 2]> {
     let points = node.attribute("points").unwrap().split(' ');
     points

@@ -1,4 +1,4 @@
-//! The page: its data against the tables, texts that would be markup, what it may ask for, and what is too large for it.
+//! The viewer: data compared with the tables, escaping of markup, content security policy, and size limits.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -19,7 +19,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use serde_json::Value;
 
-/// What stands in the script of data.
+/// Returns the content of the data script.
 fn json_of(page: &str) -> &str {
     let data = page.split_once("<script type=\"application/json\" id=\"data\">");
     let (_, data) = data.expect("data");
@@ -30,7 +30,7 @@ fn data(page: &str) -> Value {
     serde_json::from_str(json_of(page)).expect("JSON")
 }
 
-/// The data of the page of a pile.
+/// Returns the data of the viewer of a pile.
 fn data_of(export: &PileExport<'_>) -> Value {
     let page = Page::new(export.packing()).expect("a page");
     data(&page.to_html().expect("a text"))
@@ -67,7 +67,7 @@ fn numbers(value: &Value) -> Vec<i64> {
         .collect()
 }
 
-/// Exact numbers, with the floats that stand beside them.
+/// The exact values of a quantity, with their floats.
 struct Quantity {
     exact: Vec<BigRational>,
     multiples: Vec<f64>,
@@ -90,14 +90,14 @@ impl Quantity {
     }
 }
 
-/// Both spheres of the sloping contacts, by the rows of the page.
+/// Returns both spheres of each contact between layers, from the rows of the viewer.
 fn sloping(rows: &Value) -> Vec<[u64; 2]> {
     let (mut ends, mut first) = (Vec::new(), 1);
     let below = rows["below"].as_array().expect("spheres below");
     for (row, spheres) in numbers(&rows["spheres"]).into_iter().enumerate() {
         let spheres = u64::try_from(spheres).expect("some");
         for n in 0..spheres {
-            // The rows on the floor stand last, and have none.
+            // The rows of the bottom layer come last, and have no spheres below.
             let below = below.get(row).map(numbers).unwrap_or_default();
             let below = below
                 .into_iter()
@@ -126,9 +126,9 @@ fn exact_column(units: &Units<'_>, column: &str) -> Vec<BigRational> {
     cells.collect::<Result<_, _>>().expect("rationals")
 }
 
-/// Sloping contacts stand first in `contacts.csv`, as on the page; in tables horizontal ones stand after each sphere.
+/// In `contacts.csv` and in the viewer horizontal contacts come last. In tables they follow their sphere.
 #[test]
-fn contacts_are_those_of_the_csv() {
+fn contacts_equal_the_csv() {
     for_each_pile(|scene, export| {
         let page = data_of(export);
         let csv = columns(&text(export, PileFile::ContactsCsv));
@@ -185,9 +185,9 @@ fn contacts_are_those_of_the_csv() {
     });
 }
 
-/// What spheres pass down is the vertical part of what `contacts.csv` says; what the floor feels is `base.csv`.
+/// The transmitted loads follow from the vertical forces in `contacts.csv`, and the base forces from `base.csv`.
 #[test]
-fn loads_and_shears_are_those_of_the_csv() {
+fn loads_and_shears_equal_the_csv() {
     for_each_pile(|scene, export| {
         let page = data_of(export);
         let contacts = columns(&text(export, PileFile::ContactsCsv));
@@ -227,7 +227,7 @@ fn loads_and_shears_are_those_of_the_csv() {
                 .map(|place| quantity.newtons[place])
                 .collect();
             if let Some(wanted) = base.get(axis) {
-                // Of −0 the sign is not kept.
+                // The sign of −0 is not kept.
                 let unsigned = |shears: &[f64]| shears.iter().map(|x| x + 0.0).collect::<Vec<_>>();
                 assert_eq!(unsigned(&shears), unsigned(wanted), "{scene:?}");
             }
@@ -236,7 +236,7 @@ fn loads_and_shears_are_those_of_the_csv() {
 }
 
 #[test]
-fn spheres_are_where_the_csv_has_them() {
+fn positions_equal_the_csv() {
     for_each_pile(|scene, export| {
         let page = data_of(export);
         let csv = columns(&text(export, PileFile::SpheresCsv));
@@ -310,12 +310,12 @@ fn texts_are_never_markup() {
     assert!(!json.contains(['<', '\u{2028}', '\u{2029}']));
     assert_eq!(said["scene"], MARKUP);
     assert_eq!(said["purpose"], MARKUP);
-    // All but the data is the same for every pile, but for what is allowed to run, which is the same too.
+    // Apart from the data, the file is the same for every pile.
     assert_eq!(named.replace(json, ""), plain.replace(json_of(&plain), ""));
 }
 
 #[test]
-fn nothing_is_asked_of_others() {
+fn viewer_loads_nothing() {
     let pile = Pile::triangular(3).expect("a pile");
     let page = page(&pile).to_html().expect("a page");
     assert_eq!(page.matches("http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'sha256-").count(), 1);
@@ -338,7 +338,7 @@ fn nothing_is_asked_of_others() {
 }
 
 #[test]
-fn two_states_stand_beside_each_other() {
+fn viewer_has_both_states() {
     let states = |page: &Page<'_>| {
         let data = data(&page.to_html().expect("a page"));
         let states = data["states"].as_array().expect("states");
@@ -396,7 +396,7 @@ fn two_states_stand_beside_each_other() {
         Some(3)
     );
 
-    // All horizontal contacts are open here, and the page is to say so.
+    // All horizontal contacts are open here, and the viewer must contain them.
     let scene = elastic("+++");
     let pile = scene
         .pile()
@@ -414,7 +414,7 @@ fn two_states_stand_beside_each_other() {
 }
 
 #[test]
-fn what_is_too_large_is_refused() {
+fn rejects_piles_that_are_too_large() {
     let most = usize::try_from(Page::MAX_SPHERES).expect("few");
     let row = |spheres: usize| {
         let pile = Pile::under(
@@ -426,9 +426,11 @@ fn what_is_too_large_is_refused() {
     };
     assert!(row(most).is_ok_and(|bytes| bytes < 3_000_000));
     let refused = row(most + 1).expect_err("too many");
-    assert!(matches!(&refused, Error::TooManyGlyphs { glyphs, .. } if *glyphs == (most + 1).into()));
+    assert!(
+        matches!(&refused, Error::TooManyGlyphs { glyphs, .. } if *glyphs == (most + 1).into())
+    );
     assert!(refused.to_string().contains("--to vtp"));
-    // A pile that its other files can hold is refused, too.
+    // The viewer also rejects a pile that other exports support.
     let pile = Pile::triangular(84).expect("a pile");
     let packing = packing(&pile);
     assert!(PileExport::new(&packing).is_ok());
@@ -436,7 +438,7 @@ fn what_is_too_large_is_refused() {
 }
 
 #[test]
-fn an_output_without_room_is_told_wherever_it_is_full() {
+fn full_output_is_an_error() {
     let pile = Pile::triangular(4).expect("a pile");
     let page = page(&pile);
     let size = page.to_html().expect("a page").len();
@@ -451,9 +453,9 @@ fn an_output_without_room_is_told_wherever_it_is_full() {
     assert!(page.write(&mut &mut vec![0; size][..]).is_ok());
 }
 
-/// As one file of many, with nothing left of the others.
+/// A failed export leaves no file.
 #[test]
-fn numbers_beyond_floats_are_refused() {
+fn overflow_is_an_error() {
     let pile = Pile::triangular(3).expect("a pile");
     let folder = tempfile::tempdir().expect("a folder");
     for (radius, mass) in [("1e400", "1"), ("1", "1e400")] {
@@ -482,9 +484,9 @@ fn numbers_beyond_floats_are_refused() {
     }
 }
 
-/// 10³⁰ away from the apex, where floats of places and indices are the same for all spheres.
+/// At a distance of 10³⁰ R from the apex, absolute positions of all spheres round to the same float.
 #[test]
-fn far_away_spheres_are_told_apart() {
+fn distant_spheres_are_distinct() {
     let far = 10_i128.pow(30);
     let shape = format!("region:{far}..{},0..2,{far}..{}", far + 2, far + 4);
     let pile = Pile::under(

@@ -1,4 +1,4 @@
-//! Every figure of every pile is a whole document: well formed, all of it on the page, all numbers finite.
+//! Every figure of every pile is well formed, with all glyphs on the page and all numbers finite.
 
 use cannonpile::lattice::{Region, Site};
 use cannonpile::{Packing, Pile};
@@ -9,7 +9,7 @@ use roxmltree::Document;
 use crate::svg::{corners, number, piles, spacing, subject};
 use cannonpile_testkit::answers::ratio;
 
-/// Every figure of a pile.
+/// Returns all figures of a pile.
 fn figures(pile: &Pile, subject: &Subject<'_>) -> Vec<(&'static str, Figure)> {
     let last = pile.layers() - 1;
     let mut figures = vec![
@@ -29,8 +29,8 @@ fn figures(pile: &Pile, subject: &Subject<'_>) -> Vec<(&'static str, Figure)> {
     figures
 }
 
-/// Why a document is not whole, if it is not.
-fn fault(svg: &str) -> Option<String> {
+/// Returns the first defect of a document.
+fn defect(svg: &str) -> Option<String> {
     let document = match Document::parse(svg) {
         Ok(document) => document,
         Err(error) => return Some(error.to_string()),
@@ -69,7 +69,7 @@ fn fault(svg: &str) -> Option<String> {
                 vec![[x, y], [x + w, y + h]]
             }
             "text" => {
-                // Roughly where its ends are, in a usual font; narrower than the library assumes.
+                // The ends of a text in a usual font, which is narrower than the library assumes.
                 let [x, y, size] = ["x", "y", "font-size"].map(|name| number(&node, name));
                 let letters =
                     f64::from(u32::try_from(node.text().unwrap().chars().count()).unwrap());
@@ -100,11 +100,11 @@ fn fault(svg: &str) -> Option<String> {
 }
 
 #[test]
-fn all_is_on_the_page() {
+fn glyphs_are_on_the_page() {
     for pile in piles() {
         for (name, figure) in figures(&pile, &subject(&pile)) {
             assert_eq!(
-                fault(&figure.to_string()),
+                defect(&figure.to_string()),
                 None,
                 "{name} of {} layers",
                 pile.layers()
@@ -114,7 +114,7 @@ fn all_is_on_the_page() {
                 title: false,
             });
             assert_eq!(
-                fault(&bare.to_string()),
+                defect(&bare.to_string()),
                 None,
                 "{name} of {} layers",
                 pile.layers()
@@ -124,10 +124,10 @@ fn all_is_on_the_page() {
 }
 
 #[test]
-fn a_fault_would_be_found() {
+fn defects_are_found() {
     let pile = Pile::triangular(4).unwrap();
     let svg = figure::shear(&subject(&pile)).unwrap().to_string();
-    assert_eq!(fault(&svg), None);
+    assert_eq!(defect(&svg), None);
     for (from, to) in [
         ("</svg>", ""),
         ("<circle cx=\"", "<circle cx=\"9"),
@@ -137,12 +137,12 @@ fn a_fault_would_be_found() {
     ] {
         let faulty = svg.replacen(from, to, 1);
         assert_ne!(faulty, svg, "{from}");
-        assert!(fault(&faulty).is_some(), "{from}");
+        assert!(defect(&faulty).is_some(), "{from}");
     }
 }
 
 #[test]
-fn sizes_that_are_great_small_and_long() {
+fn figures_of_extreme_sizes() {
     let tiny = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(310));
     let great = BigRational::from_integer(num_bigint::BigInt::from(10).pow(300));
     let long = ratio(1_000_003, 999_983);
@@ -153,14 +153,14 @@ fn sizes_that_are_great_small_and_long() {
             let packing = packing.with_radius(size.clone()).unwrap();
             let packing = packing.with_mass(weight.clone()).unwrap();
             for (name, figure) in figures(&pile, &Subject::of_packing(packing)) {
-                assert_eq!(fault(&figure.to_string()), None, "{name}");
+                assert_eq!(defect(&figure.to_string()), None, "{name}");
             }
         }
     }
 }
 
 #[test]
-fn loads_that_are_long_and_many() {
+fn figures_of_long_and_many_loads() {
     let site = |i, k| Site { i, j: 0, k };
     let mut pile = Pile::triangular(6).unwrap().weightless();
     for n in 0..6 {
@@ -177,7 +177,7 @@ fn loads_that_are_long_and_many() {
         .unwrap();
     for pile in [pile, one] {
         for (name, figure) in figures(&pile, &subject(&pile)) {
-            assert_eq!(fault(&figure.to_string()), None, "{name}");
+            assert_eq!(defect(&figure.to_string()), None, "{name}");
         }
     }
 }

@@ -203,7 +203,7 @@ fn distribution_of_a_record() {
         "ensemble --layers 5 --all --shard 1/2 --output {part}"
     ));
     let svg = stdout(&format!("plot distribution {whole}"));
-    assert!(svg.contains("those that stand") && svg.contains("q = 1/2"));
+    assert!(svg.contains("stable stackings") && svg.contains("q = 1/2"));
     let normals = stdout(&format!(
         "plot distribution {whole} --histogram normals --fault-probability 1/4"
     ));

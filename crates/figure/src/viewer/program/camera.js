@@ -1,27 +1,27 @@
 "use strict";
-// The eye: it looks at a point, and goes around it.
+// The camera: it looks at a target and rotates around it.
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const plus = (a, b, times = 1) => [a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]];
 
-/** Half the angle of view, across the shorter side of the picture. */
+/** Half the angle of view, across the shorter side of the picture, in radians. */
 const HALF_VIEW = 0.30;
 
 class Camera {
-  /** `size` is how far from the middle all spheres reach. */
+  /** `size` is the radius of a ball around all spheres. */
   constructor(size) {
     Object.assign(this, { size, around: 0, above: 0, target: [0, 0, 0], distance: 2 * size });
   }
 
-  /** Looks at spheres of radius 1, all of them, from as near as a picture of this shape allows. */
+  /** Looks at spheres of radius 1, from the smallest distance that shows all of them in a picture of this shape. */
   look(around, above, centres, width, height) {
     this.around = around;
     this.above = above;
     const axes = this.axes();
     const lens = this.lens(width, height);
-    // From the middle of what is seen, not of the box.
+    // The target is the middle of the visible extent, not of the bounding box.
     const [least, most] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
     const each = (see) => {
       for (let n = 0; n < centres.length; n += 3) {
@@ -52,14 +52,14 @@ class Camera {
     this.distance = Math.min(Math.max(this.distance * factor, 3), (6 * this.size) / Math.sin(HALF_VIEW));
   }
 
-  /** Moves what is looked at, by parts of the picture's shorter side. */
+  /** Moves the target, by fractions of the shorter side of the picture. */
   shift(right, up) {
     const [toRight, upwards] = this.axes();
     const scale = 2 * this.distance * Math.tan(HALF_VIEW);
     this.target = plus(plus(this.target, toRight, right * scale), upwards, up * scale);
   }
 
-  /** Right, up and forward. */
+  /** Returns the unit vectors right, up and forward. */
   axes() {
     const [around, above] = [this.around, this.above];
     const forward = [-Math.cos(above) * Math.cos(around), -Math.cos(above) * Math.sin(around), -Math.sin(above)];
@@ -71,21 +71,21 @@ class Camera {
     return plus(this.target, this.axes()[2], -this.distance);
   }
 
-  /** How much of a unit at a distance of one fills half of a picture of this shape. */
+  /** Returns the scales of x/z and y/z that map a picture of this shape to −1 … 1. */
   lens(width, height) {
     const unit = 1 / Math.tan(HALF_VIEW);
     const shorter = Math.min(width, height);
     return [(unit * shorter) / width, (unit * shorter) / height];
   }
 
-  /** The depths that are told apart: clip depth is z·a + b over z. */
+  /** Returns a and b of the clip depth (a·z + b)/z, which resolves the depths of the pile. */
   range() {
     const far = this.distance + 1.5 * this.size + 5;
     const near = Math.max(this.distance - 2.2 * this.size - 10, 0.3);
     return [(far + near) / (far - near), (-2 * far * near) / (far - near)];
   }
 
-  /** Where a point is in a picture of this size, from its upper left corner. */
+  /** Returns the position of a point in a picture of this size, from the upper left corner, and its depth. */
   project(point, width, height) {
     const from = minus(point, this.eye());
     const [x, y, z] = this.axes().map((axis) => dot(axis, from));
@@ -93,7 +93,7 @@ class Camera {
     return [(width * (1 + (x * lens[0]) / z)) / 2, (height * (1 - (y * lens[1]) / z)) / 2, z];
   }
 
-  /** The ray from the eye through a point of the picture. */
+  /** Returns the ray from the eye through a point of the picture. */
   ray(x, y, width, height) {
     const [right, up, forward] = this.axes();
     const lens = this.lens(width, height);

@@ -1,17 +1,17 @@
 "use strict";
-// The drawing: spheres and rods as squares that the processor of the screen makes round.
+// The drawing: the shaders turn squares into spheres and ribbons into rods.
 
-/** What marks mean to the shaders. */
+/** The flags of spheres and rods in the shaders. */
 const SPHERE = { pulls: 1, chosen: 2, neighbour: 4, idle: 8 };
 const ROD = { open: 1, pulls: 2, chosen: 4, unknown: 8 };
 
-/** Spheres or contacts in a row of a texture. */
+/** The number of spheres or contacts in a row of a texture. */
 const ROW = 1024;
 
-/** Radii of spheres where forces are to be seen between them. */
+/** The radius of spheres among rods. */
 const SMALL = 0.3;
 
-/** And of spheres that bear nothing, where these are small. */
+/** The radius of spheres without a force, if these are small. */
 const IDLE = 0.2;
 
 class Drawing {
@@ -52,7 +52,7 @@ class Drawing {
     return { program, at };
   }
 
-  /** Numbers of all spheres or contacts, `parts` of each, as a texture that the shaders look them up in. */
+  /** Returns a texture with `parts` values for each sphere or contact, which the shaders read. */
   #table(values, parts) {
     const { gl } = this;
     const rows = Math.max(Math.ceil(values.length / parts / ROW), 1);
@@ -70,7 +70,7 @@ class Drawing {
     return texture;
   }
 
-  /** A colour map as a texture of one row. */
+  /** Returns a colour map as a texture of one row. */
   #map(colours) {
     const { gl } = this;
     const bytes = Uint8Array.from(colours.match(/../g), (digits) => parseInt(digits, 16));
@@ -83,7 +83,7 @@ class Drawing {
     return texture;
   }
 
-  /** Centres and layers of some spheres. */
+  /** Returns a texture with the centres and layers of some spheres. */
   #places(ids) {
     const { centres, layerOf } = this.pile;
     const places = new Float32Array(4 * ids.length);
@@ -94,7 +94,7 @@ class Drawing {
     return this.#table(places, 4);
   }
 
-  /** Takes the colours and marks of each state. */
+  /** Sets the colours and flags of each state. */
   colour(looks) {
     const { gl } = this;
     for (const texture of (this.looks ?? []).flatMap(({ sphere, rod }) => [sphere, rod].flatMap(Object.values))) gl.deleteTexture(texture);
@@ -105,7 +105,7 @@ class Drawing {
     }));
   }
 
-  /** Marks of some spheres and rods have changed. */
+  /** Updates the flags of some spheres and rods. */
   mark(spheres, rods) {
     const { gl } = this;
     for (const { sphere, rod, sphereMarks, rodMarks } of this.looks) {
@@ -118,7 +118,7 @@ class Drawing {
     }
   }
 
-  /** Draws each state into its part of the canvas; `panes` are rectangles in CSS pixels from the upper left corner. */
+  /** Draws each state into its pane. Panes are rectangles in CSS pixels, from the upper left corner. */
   draw(panes, camera, scene) {
     const { gl } = this;
     const { width, height } = gl.canvas;
@@ -172,7 +172,7 @@ class Drawing {
   }
 }
 
-/** What a ray from the eye meets first: a sphere or, where they are shown, a contact. */
+/** Returns the sphere or, if contacts are visible, the contact that a ray from the eye meets first. */
 const pick = (pile, eye, ray, { layers, showsForces, shrinks }, marks) => {
   let met = { depth: Infinity, sphere: null, contact: null };
   for (let id = 1; id <= pile.count; id += 1) {
@@ -191,7 +191,7 @@ const pick = (pile, eye, ray, { layers, showsForces, shrinks }, marks) => {
     if (pile.layerOf[first - 1] < layers[0] || pile.layerOf[second - 1] > layers[1]) continue;
     const from = minus(pile.centre(first), eye);
     const way = minus(pile.centre(second), pile.centre(first));
-    // Where the ray and the line between the centres are nearest to each other.
+    // The points of smallest distance between the ray and the line through the centres.
     const normal = cross(ray, way);
     const square = dot(normal, normal);
     if (square === 0) continue;

@@ -1,13 +1,13 @@
 "use strict";
-// Exact numbers: integers over one denominator, as multiples of a unit and in SI, and the floats nearest to them.
+// Exact numbers: integers over a common denominator, as multiples of a unit and in SI, and their rounded floats.
 
-/** The bytes that base64 stands for. */
+/** Decodes base64. */
 const bytesOf = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
 
-/** Floats of 64 bits; browsers that have WebGL2 are all little-endian. */
+/** Decodes floats of 64 bits. All browsers with WebGL2 are little-endian. */
 const floatsOf = (base64) => new Float64Array(bytesOf(base64).buffer);
 
-/** Indices of 1, 2 or 4 bytes. */
+/** Decodes indices of 1, 2 or 4 bytes. */
 const indicesOf = ({ bytes, base64 }) => {
   const Kind = { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array }[bytes];
   return new Kind(bytesOf(base64).buffer);
@@ -19,14 +19,14 @@ const gcd = (a, b) => {
   return x;
 };
 
-/** `7/3`, or `4`, in lowest terms. */
+/** Returns a fraction in lowest terms: `7/3` or `4`. */
 const fraction = (numerator, denominator) => {
   const common = gcd(numerator, denominator);
   const [n, d] = [numerator / common, denominator / common];
   return d === 1n ? `${n}` : `${n}/${d}`;
 };
 
-/** The numbers of one kind that occur in the pile, each by its place in a list. */
+/** The values of a quantity. Spheres and contacts refer to them by their position in the list. */
 class Quantity {
   constructor({ unit, newtons, denominator, numerators, multiples, floats }) {
     this.unit = unit;
@@ -41,12 +41,12 @@ class Quantity {
     };
   }
 
-  /** As a multiple of the unit: `5/2`. */
+  /** Returns a value as a multiple of the unit: `5/2`. */
   exact(place) {
     return fraction(BigInt(this.numerators[place]), this.denominator);
   }
 
-  /** In N: `5/39*sqrt(13)`. */
+  /** Returns a value in N: `5/39*sqrt(13)`. */
   exactNewtons(place) {
     const { numerator, denominator, radicand } = this.si;
     const coefficient = fraction(BigInt(this.numerators[place]) * numerator, this.denominator * denominator);
@@ -56,9 +56,9 @@ class Quantity {
   }
 }
 
-/** Which colour a number has: rising from the least, or around zero where one of them is negative. */
+/** A colour scale: from the smallest value, or around zero if a value is negative. */
 class Scale {
-  /** `palest` is the part of the map on each side of zero that is left out, so that thin rods show their sign. */
+  /** `palest` is the fraction of the map left out on each side of zero, so that thin rods show their sign. */
   constructor(lists, palest = 0) {
     this.palest = palest;
     let [least, most] = [Infinity, -Infinity];
@@ -76,10 +76,10 @@ class Scale {
     this.reach = Math.max(Math.abs(least), Math.abs(most)) || 1;
   }
 
-  /** The number as a part of the colour map, from 0 to 1; the darkest ends of the map around zero are left out. */
+  /** Returns the position of a value on the colour map, 0 to 1. A map around zero is used without its darkest ends. */
   tone(value) {
     if (this.isAroundZero) {
-      // Where spheres pull is seen, however little they do.
+      // Small tensile forces are visible too.
       const palest = value < 0 ? 2 * this.palest : this.palest;
       const part = Math.sign(value) * (palest + (1 - palest) * Math.abs(value / this.reach));
       return 0.5 - 0.4 * part;
@@ -88,5 +88,5 @@ class Scale {
   }
 }
 
-/** A float for a legend: four digits. */
+/** Returns a float with four digits. */
 const short = (value) => String(Number(value.toPrecision(4)));

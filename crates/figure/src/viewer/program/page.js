@@ -1,5 +1,5 @@
 "use strict";
-// The page: its data, its parts, and what hands and keys do.
+// The page: data, parts, and the actions of pointers and keys.
 
 const begun = performance.now();
 const at = (id) => document.getElementById(id);
@@ -9,7 +9,7 @@ const canvas = at("picture");
 const shader = (name) => ({ vertex: at(`${name}-vert`).textContent, fragment: at(`${name}-frag`).textContent });
 const shaders = { sphere: shader("sphere"), contact: shader("contact") };
 
-/** The drawing, or null, and a word on the page, where the browser cannot draw. */
+/** Returns the drawing. If the browser cannot draw, it returns null and shows a message. */
 const draw = () => {
   try {
     return new Drawing(canvas, pile, shaders);
@@ -34,7 +34,7 @@ const choose = (what, shows = false) => {
   else report.nothing();
 };
 
-/** What the pile is. */
+/** Shows the description of the pile. */
 const describe = () => {
   const { data } = pile;
   const count = (number, noun) => `${number} ${noun}${Number(number) === 1 ? "" : "s"}`;
@@ -59,12 +59,12 @@ const describe = () => {
     .map(([number, name]) => `${count(number, "contact")}${pile.states.length > 1 ? ` of the ${name} state` : ""}`);
   if (pulls.length === 0) return;
   at("verdict").textContent = data.weightless
-    ? `A response: in ${pulls.join(", and ")} spheres pull at each other.`
-    : `In ${pulls.join(", and ")} spheres would have to pull at each other: without further contacts the pile does not stand.${
-      pulls.length < pile.states.length ? " With horizontal ones it does." : ""}`;
+    ? `In ${pulls.join(", and ")} this response has tensile forces.`
+    : `In ${pulls.join(", and ")} equilibrium needs tension: without further contacts the pile is unstable.${
+      pulls.length < pile.states.length ? " With horizontal contacts it is stable." : ""}`;
 };
 
-/** The legend: a bar of colours with its ends, exactly and in N, and what marks mean. */
+/** Shows the legend: the colour bar with its ends, exactly and in N, and the meaning of the patterns. */
 const legend = () => {
   const isOfRods = view.showsForces;
   const scale = isOfRods ? view.rodScale : view.sphereScale;
@@ -80,7 +80,7 @@ const legend = () => {
     return text.length <= 12 ? text : short(value);
   };
   const newtons = (value) => short(quantity.newtons[quantity.multiples.indexOf(value)]);
-  // Zero, where there is room between the ends.
+  // Zero has a tick if it is far enough from both ends.
   const zero = -scale.least / (scale.most - scale.least);
   const ends = scale.isUniform ? [scale.most] : zero > 0.25 && zero < 0.75 ? [scale.least, 0, scale.most] : [scale.least, scale.most];
   const tick = (value, text) => {
@@ -95,12 +95,12 @@ const legend = () => {
   at("unit").textContent = quantity.unit;
   const hasPull = view.pulling.some((number) => number > 0);
   at("mark-pulls").hidden = !hasPull;
-  at("mark-pulls-text").textContent = isOfRods ? "banded: would have to pull" : "with a belt: a contact of it would have to pull";
+  at("mark-pulls-text").textContent = isOfRods ? "banded: needs tension" : "with a belt: has a contact that needs tension";
   at("mark-open").hidden = !isOfRods;
-  at("map").textContent = scale.isAroundZero ? (ofLoads ? "blue is upwards, red downwards" : "blue pulls, red pushes") : "dark is least, bright is most";
+  at("map").textContent = scale.isAroundZero ? (ofLoads ? "blue: upwards, red: downwards" : "blue: tension, red: compression") : "dark: smallest, bright: largest";
 };
 
-/** Which layers are shown. */
+/** Shows the layers from `from` to `to`. */
 const cut = (from, to) => {
   view.layers = [Math.max(0, Math.min(from, to)), Math.min(pile.layers - 1, Math.max(from, to))];
   at("cut-from").value = view.layers[0];
@@ -109,12 +109,12 @@ const cut = (from, to) => {
   view.redraw();
 };
 
-/** Shows a layer that was cut away. */
+/** Extends the visible layers to include this one. */
 const uncut = (layer) => {
   if (layer < view.layers[0] || layer > view.layers[1]) cut(Math.min(layer, view.layers[0]), Math.max(layer, view.layers[1]));
 };
 
-/** Whether spheres that bear nothing are small. */
+/** Sets whether spheres without a force are small. */
 const shrink = (shrinks) => {
   view.shrinks = shrinks;
   at("shrink").checked = shrinks;
@@ -129,7 +129,7 @@ const showForces = (shows) => {
   view.redraw();
 };
 
-/** Names of the states above their panes. */
+/** Shows the names of the states in their panes. */
 const label = () => {
   const panes = view.panes();
   at("labels").replaceChildren(...pile.states.map((state, n) => {
@@ -141,7 +141,7 @@ const label = () => {
   at("labels").hidden = pile.states.length === 1;
 };
 
-/** The contact with the greatest or the least force, or the next that pulls or bears nothing, in the last state. */
+/** Selects a contact in the last state: that with the greatest or least force, or the next in tension or without a force. */
 const seek = (wanted) => {
   const state = pile.states[pile.states.length - 1];
   const forces = Array.from(state.forces, (_, contact) => pile.force(state, contact));
@@ -160,7 +160,7 @@ const seek = (wanted) => {
     }
   }
   if (found < 0) {
-    at("found").textContent = wanted === "pulls" ? "No contact pulls." : "There is no such contact.";
+    at("found").textContent = wanted === "pulls" ? "No contact is in tension." : "There is no such contact.";
     return;
   }
   at("found").textContent = "";
@@ -218,7 +218,7 @@ const hands = () => {
   }, { passive: false });
 };
 
-/** What keys do on the picture. */
+/** The actions of keys on the picture. */
 const KEYS = {
   ArrowLeft: () => view.camera.turn(-0.1, 0),
   ArrowRight: () => view.camera.turn(0.1, 0),
@@ -260,7 +260,7 @@ const controls = () => {
   for (const [id, value] of [["cut-from", 0], ["cut-to", pile.layers - 1]]) {
     Object.assign(at(id), { min: 0, max: pile.layers - 1, step: 1, value });
     at(id).addEventListener("input", () => {
-      // The one that is moved stops at the other.
+      // A slider stops at the other one.
       const [from, to] = ["cut-from", "cut-to"].map((name) => Number(at(name).value));
       if (id === "cut-from") cut(Math.min(from, to), to);
       else cut(from, Math.max(from, to));
@@ -312,7 +312,7 @@ canvas.addEventListener("webglcontextrestored", () => {
   view.redraw();
 });
 
-// For scripts: where spheres are on the canvas, and what is chosen.
+// For scripts: positions of spheres on the canvas, and the selection.
 globalThis.cannonpile = {
   pile,
   view,

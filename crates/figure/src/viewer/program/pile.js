@@ -1,7 +1,7 @@
 "use strict";
-// The pile: spheres by number, contacts in the order of contacts.csv, and who touches whom.
+// The pile: spheres by number, contacts in the order of contacts.csv, and the contacts of each sphere.
 
-/** Where the other sphere of a horizontal contact is, along alpha-beta, alpha-gamma and gamma-beta: in i and j. */
+/** The steps in i and j to the other sphere of a horizontal contact: alpha-beta, alpha-gamma and gamma-beta. */
 const STEPS = [[1, 0], [0, 1], [1, -1]];
 
 /** The forces of one state. */
@@ -10,9 +10,9 @@ class State {
     this.name = name;
     this.loads = indicesOf(loads);
     this.shears = [indicesOf(shear_x), indicesOf(shear_y)];
-    // Whether neighbours of a layer have forces here, or are open; in the isostatic state nothing is known of them.
+    // The isostatic state has no horizontal contacts.
     this.hasHorizontal = name !== "isostatic";
-    // Of each contact the place of its force; −1 where it has none because it is horizontal and open.
+    // The position of the force of each contact in the list of values; −1 for an open horizontal contact.
     this.forces = new Int32Array(pile.contactCount).fill(-1);
     this.forces.set(indicesOf(contacts));
     horizontal.ids.forEach((id, n) => {
@@ -35,10 +35,10 @@ class Pile {
     this.special = new Map(data.special.map(([id, weight, load]) => [id, { weight, load }]));
   }
 
-  /** Centres, from the middle of the pile, in radii; layers; rows by their indices. */
+  /** Computes the centres, relative to the middle of the pile and in radii, and the layers and rows of the spheres. */
   #placeSpheres() {
     const { rows } = this.data;
-    // From a sphere of a row to the next.
+    // The step between neighbours in a row.
     const along = floatsOf(rows.step);
     const [xs, ys, zs] = [floatsOf(rows.x), floatsOf(rows.y), floatsOf(rows.z)];
     this.centres = new Float32Array(3 * this.count);
@@ -67,7 +67,7 @@ class Pile {
     this.firstOnFloor = this.firstOfRow[rows.k.indexOf(this.layers - 1)];
   }
 
-  /** Contacts: both spheres of each and how it lies, and of each sphere its contacts. */
+  /** Computes both spheres and the direction of each contact, and the contacts of each sphere. */
   #linkSpheres() {
     const { rows, directions, touching } = this.data;
     const ways = directions.length;
@@ -99,7 +99,7 @@ class Pile {
     this.wayOf = Uint8Array.from(lies);
     this.wayNames = [...directions, ...this.data.axes];
     this.contactCount = this.wayOf.length;
-    // The contacts of a sphere stand together, from those above it to those below.
+    // `touches` lists the contacts of each sphere in turn, from those above it to those below.
     this.starts = new Uint32Array(this.count + 2);
     for (const ids of this.ends) for (const id of ids) this.starts[id + 1] += 1;
     for (let id = 1; id < this.starts.length; id += 1) this.starts[id] += this.starts[id - 1];
@@ -114,7 +114,7 @@ class Pile {
     return this.horizontals.get(3 * id + axis);
   }
 
-  /** Indices from those of the first sphere of all. */
+  /** Returns the indices of a sphere, i and j relative to the first sphere. */
   indices(id) {
     const { rows } = this.data;
     const row = this.rowOf[id - 1];
@@ -129,7 +129,7 @@ class Pile {
     return n >= 0 && n < rows.spheres[row] ? this.firstOfRow[row] + n : null;
   }
 
-  /** `2,1,0`, the indices k, i, j as tables have them; of discs k, i. */
+  /** Returns the indices k, i, j (for discs k, i) as in tables: `2,1,0`. */
   place(id) {
     const { origin } = this.data.rows;
     const { k, i, j } = this.indices(id);
@@ -137,7 +137,7 @@ class Pile {
     return (this.data.dimension === 2 ? parts.slice(0, 2) : parts).join(",");
   }
 
-  /** The sphere that a text names: its number, or its indices k, i, j. */
+  /** Returns the sphere with the number, or with the indices k, i, j, in a text. */
   find(text) {
     const numbers = text.trim().split(/[\s,;]+/).map((part) => (/^[-−]?\d+$/.test(part) ? BigInt(part.replace("−", "-")) : null));
     if (numbers.includes(null)) return null;
@@ -161,7 +161,7 @@ class Pile {
     return [...this.centres.subarray(3 * id - 3, 3 * id)];
   }
 
-  /** The force of a contact as a multiple of the unit; null where nothing is known of it. */
+  /** Returns the force of a contact as a multiple of the unit; null for a horizontal contact of the isostatic state. */
   force(state, contact) {
     const place = state.forces[contact];
     if (place >= 0) return this.quantities.contact.multiples[place];

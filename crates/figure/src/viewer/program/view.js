@@ -1,9 +1,9 @@
 "use strict";
-// What is seen: the states in their panes, colours and marks, the cut, and what is chosen.
+// The view: the states in their panes, colours and flags, visible layers, and the selection.
 
-/** What the colour of a sphere can stand for. */
+/** The quantities that the colour of a sphere can show. */
 const SPHERE_COLOURS = {
-  load: "load passed down",
+  load: "load transmitted",
   most: "greatest contact force",
   least: "least contact force",
 };
@@ -16,14 +16,14 @@ class View {
     this.camera = new Camera(pile.size);
     this.layers = [0, pile.layers - 1];
     this.showsForces = false;
-    // Spheres that bear nothing are small, so that the others are seen.
+    // Small spheres without a force do not hide the others.
     this.shrinks = pile.data.weightless;
     this.sphereColour = "load";
     this.chosen = {};
     this.colour();
   }
 
-  /** What the colour of a sphere stands for, as a float in its unit. */
+  /** Returns the value that the colour of a sphere shows, in its unit. */
   #value(state, id) {
     const { pile, sphereColour } = this;
     if (sphereColour === "load") return pile.load(state, id);
@@ -35,12 +35,12 @@ class View {
     return Number.isFinite(value) ? value : 0;
   }
 
-  /** Colours all spheres and contacts, on one scale for all states. */
+  /** Computes the colours of all spheres and contacts, on one scale for all states. */
   colour() {
     const { pile } = this;
     const ids = Array.from({ length: pile.count }, (_, n) => n + 1);
     const values = pile.states.map((state) => Float64Array.from(ids, (id) => this.#value(state, id)));
-    // Not a number where nothing is known of a contact.
+    // NaN for the horizontal contacts of the isostatic state.
     const forces = pile.states.map((state) => Float64Array.from(state.forces, (_, contact) => pile.force(state, contact) ?? NaN));
     this.sphereScale = new Scale(values);
     this.rodScale = new Scale(forces, 0.3);
@@ -56,7 +56,7 @@ class View {
         if (!(force < 0)) return;
         for (const ends of pile.ends) sphereMarks[ends[contact] - 1] |= SPHERE.pulls;
       });
-      // Of each its colour, and its part of the greatest force.
+      // The colour of each contact, and its force relative to the largest one.
       const rodTones = new Float32Array(2 * pile.contactCount);
       forces[n].forEach((force, contact) => {
         rodTones[2 * contact] = this.rodScale.tone(force || 0);
@@ -99,7 +99,7 @@ class View {
     this.redraw();
   }
 
-  /** One part of the canvas for each state: beside each other, or one above the other where it is narrow. */
+  /** Returns a pane of the canvas for each state: side by side, or stacked if the canvas is narrow. */
   panes() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const count = this.pile.states.length;
@@ -111,7 +111,7 @@ class View {
         : { x: 0, y: n * part * height, width, height: part * height });
   }
 
-  /** The pane that a point of the canvas is in, and where there. */
+  /** Returns the pane that contains a point of the canvas, and the position of the point in it. */
   pane(x, y) {
     const panes = this.panes();
     const state = Math.max(panes.findIndex((of) => x >= of.x && x < of.x + of.width && y >= of.y && y < of.y + of.height), 0);
@@ -126,7 +126,7 @@ class View {
     return pick(this.pile, this.camera.eye(), ray, this, sphereMarks);
   }
 
-  /** Looks from somewhere, from a corner and a little above if nothing is said, and at the whole pile; at discs from the front. */
+  /** Looks at the whole pile from these angles. By default the view is from a corner and a little above, for discs from the front. */
   look(around, above) {
     const [first, second] = this.pile.data.dimension === 2 ? [-Math.PI / 2, 0] : [-Math.PI / 3 - 0.35, 0.42];
     const { width, height } = this.panes()[0];
@@ -135,14 +135,14 @@ class View {
     this.redraw();
   }
 
-  /** Where a point of the pile is on the canvas, in the pane of a state. */
+  /** Returns the position of a point of the pile on the canvas, in the pane of a state. */
   project(point, state = 0) {
     const pane = this.panes()[state];
     const [x, y, depth] = this.camera.project(point, pane.width, pane.height);
     return [pane.x + x, pane.y + y, depth];
   }
 
-  /** The neighbour of the chosen sphere that lies farthest in a direction of the picture. */
+  /** Returns the neighbour of the selected sphere that is farthest in a direction of the picture. */
   neighbour(right, up) {
     const { sphere } = this.chosen;
     if (sphere === undefined) return null;
@@ -156,7 +156,7 @@ class View {
     return steps.length > 0 && steps[0].part > 0.3 ? steps[0].id : null;
   }
 
-  /** Spheres that touch one, and those beside it in its row and in those next to it, that are shown. */
+  /** Returns the visible spheres that touch a sphere, and its visible neighbours in the layer. */
   #nearby(sphere) {
     const { pile } = this;
     const { k, i, j } = pile.indices(sphere);
@@ -191,7 +191,7 @@ class View {
     this.frames = (this.frames ?? 0) + 1;
   }
 
-  /** Colours of the page, as the style has them. */
+  /** Returns the colours of the page, from its style. */
   theme() {
     const style = getComputedStyle(this.canvas);
     const colour = (name) => style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/gi).map((digits) => parseInt(digits, 16) / 255);

@@ -1,5 +1,5 @@
 #version 300 es
-// The rod that the ribbon stands for, with its depth. Rods that pull are banded, open ones dashed.
+// Shades the ribbon of a contact as a rod, with its depth. Tensile rods are banded, open ones dashed.
 precision highp float;
 precision highp sampler2D;
 

@@ -1,5 +1,5 @@
 #version 300 es
-// A ribbon for each contact, between the centres of its spheres, that faces the eye; thicker for greater forces.
+// Draws a ribbon for each contact, between the centres of its spheres. It faces the eye, and is wider for larger forces.
 precision highp float;
 precision highp sampler2D;
 precision highp usampler2D;
@@ -9,11 +9,11 @@ uniform vec3 eye;
 uniform vec2 lens;
 uniform vec2 range;
 uniform vec2 layers;
-uniform float radius;   // of a sphere
+uniform float radius;   // radius of the spheres
 
-uniform sampler2D places;    // of each contact the centre and the layer of one sphere
-uniform sampler2D others;    // and of the other
-uniform sampler2D tones;     // and where its colour is on the map, and its part of the greatest force there is
+uniform sampler2D places;    // centre and layer of the first sphere of each contact
+uniform sampler2D others;    // centre and layer of the second sphere
+uniform sampler2D tones;     // position on the colour map, and force relative to the largest one
 uniform usampler2D marksOf;
 
 out vec3 onRibbon;

@@ -1,16 +1,16 @@
 #version 300 es
-// The sphere that a ray through the square meets, with its depth.
+// Shades the square of a sphere as the sphere, with its depth.
 precision highp float;
 precision highp sampler2D;
 
 uniform vec2 range;
 uniform sampler2D colours;
-uniform vec3 upwards;   // z of the pile, as the eye sees it
-uniform vec3 grey;      // of spheres that have no colour of their own
-uniform vec3 accent;    // of what is chosen
+uniform vec3 upwards;   // axis z of the pile, in the axes of the camera
+uniform vec3 grey;      // colour of spheres without a value
+uniform vec3 accent;    // colour of the selection
 uniform bool coloured;
 uniform bool shrinks;
-uniform bool ghost;     // only the outline of what is chosen, through all that is before it
+uniform bool ghost;     // draw only the outline of the selection, over everything else
 
 in vec3 onSquare;
 flat in vec3 middle;
@@ -25,7 +25,7 @@ const uint PULLS = 1u, CHOSEN = 2u, NEIGHBOUR = 4u, IDLE = 8u;
 void main() {
   vec3 ray = normalize(onSquare);
   float along = dot(ray, middle);
-  // The square of the distance at which the ray passes the centre, in radii.
+  // The squared distance of the ray from the centre, in radii.
   vec3 passing = along * ray - middle;
   float off = dot(passing, passing) / (size * size);
   float soft = max(fwidth(off), 1e-4);
@@ -47,7 +47,7 @@ void main() {
   if (!coloured && (marks & CHOSEN) != 0u) base = accent;
   float height = dot(normal, upwards);
   if (coloured && (marks & PULLS) != 0u) {
-    // A belt across the sphere, from wherever it is seen: it tells without colours, too.
+    // The belt always faces the eye, and shows tension without colours.
     float edge = max(fwidth(normal.y), 1e-3);
     vec3 belt = vec3(dot(base, vec3(0.3, 0.59, 0.11)) > 0.45 ? 0.08 : 0.97);
     base = mix(base, belt, 1.0 - smoothstep(0.11 - edge, 0.11 + edge, abs(normal.y)));

@@ -1,21 +1,21 @@
 #version 300 es
-// A square for each sphere, across the ray from the eye to its centre, as large as the sphere looks from there. Six corners in
-// a row make two triangles: squares of their own, one by one, would take far longer.
+// Draws a square for each sphere, perpendicular to the ray from the eye to its centre, with the apparent size of the sphere.
+// Six vertices in a row make two triangles, which is much faster than one instance for each square.
 precision highp float;
 precision highp sampler2D;
 precision highp usampler2D;
 
-uniform mat3 turn;    // from the pile's axes to right, up and forward
+uniform mat3 turn;    // rotation from the axes of the pile to right, up and forward
 uniform vec3 eye;
-uniform vec2 lens;    // how much of a unit at a distance of one fills half the picture
-uniform vec2 range;   // what depths are made of
-uniform vec2 layers;  // the first and the last that are shown
+uniform vec2 lens;    // scales of x/z and y/z that map the picture to -1 ... 1
+uniform vec2 range;   // coefficients of the clip depth
+uniform vec2 layers;  // first and last visible layer
 uniform float radius;
 uniform bool coloured;
-uniform bool shrinks; // spheres that bear nothing
+uniform bool shrinks; // draw spheres without a force small
 
-uniform sampler2D places;    // of each sphere its centre and its layer
-uniform sampler2D tones;     // and where its colour is on the map
+uniform sampler2D places;    // centre and layer of each sphere
+uniform sampler2D tones;     // position on the colour map
 uniform usampler2D marksOf;
 
 out vec3 onSquare;
@@ -42,7 +42,7 @@ void main() {
   shade = texelFetch(tones, texel, 0).r;
   marks = mark;
   size = shrinks && (mark & IDLE) != 0u ? min(radius, 0.2) : radius;
-  // What is chosen is seen among rods, too.
+  // A selected sphere is larger, to be visible among rods.
   if (!coloured && (mark & CHOSEN) != 0u) size *= 1.6;
   float apart = dot(middle, middle) - size * size;
   if (layer < layers.x || layer > layers.y || apart <= 0.0 || middle.z < size) {
@@ -53,7 +53,7 @@ void main() {
   vec3 ahead = normalize(middle);
   vec3 right = normalize(cross(ahead, vec3(0.0, 1.0, 0.001)));
   vec3 up = cross(right, ahead);
-  // Where the cone that touches the sphere is cut.
+  // The radius of the tangent cone of the sphere at the distance of its centre.
   float reach = size * sqrt(dot(middle, middle) / apart);
   onSquare = middle + reach * (corner.x * right + corner.y * up);
   gl_Position = vec4(onSquare.xy * lens, onSquare.z * range.x + range.y, onSquare.z);
