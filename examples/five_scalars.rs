@@ -1,7 +1,8 @@
-//! One formula in six scalar types: the load that a sphere transmits, in fractions, floats, bounds and symbols.
+//! One formula in several scalars: the force of a sphere on the floor as a fraction, a fraction of fixed width, a float, a
+//! double-double, an interval, and a polynomial that covers every pile.
 //!
-//! The generic body is written once, over `Algebra`. The scalar type decides how exact the answer is, and a polynomial
-//! gives the answer for every pile at once. Run it with `cargo run --example five_scalars`.
+//! The formula is written once, generic over the scalar type. The scalar determines the accuracy of the result.
+//! Run it with `cargo run --example five_scalars`.
 
 use core::array;
 
@@ -15,21 +16,22 @@ use cannonpile::{Error, Pile};
 use num_rational::BigRational;
 use num_traits::Signed;
 
-/// Returns the vertical force that sphere (i, j) of layer k transmits to the layer below, in units of mg/(2(1+s)). Its own
-/// weight is included, and s = sin φ is the angle of the base triangle.
+/// Returns the vertical force of sphere (i, j) of layer k on the layer below, with its own weight, in mg/(2(1+s)).
+///
+/// s = sin φ is the sine of the angle of the base triangle.
 fn carried<T: Algebra>([i, j, k, s]: [T; 4]) -> T {
     let (above, own) = (count::above(&i, &j, &k), increments(&s));
     let received = array::from_fn(|line| force(above[line].clone(), &own[line]));
     handed_on(&received, &directions(&s), &weight(&own)).z
 }
 
-/// The answer for these numbers, each turned into the scalar.
+/// Evaluates the formula at these numbers in the scalar `T`.
 fn answer<T: Algebra>(numbers: &[BigRational; 4]) -> T {
     carried(numbers.each_ref().map(T::from_rational))
 }
 
 fn main() -> Result<(), Error> {
-    // Layer 9 of the pile, sphere (4, 1), on a base with sin φ = 1/3. No float is equal to 1/3.
+    // Sphere (4, 1) of layer 9, on a base with sin φ = 1/3, which f64 cannot represent exactly.
     let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
     let numbers = [ratio(4, 1), ratio(1, 1), ratio(9, 1), ratio(1, 3)];
 
@@ -61,14 +63,14 @@ fn main() -> Result<(), Error> {
     );
     assert!(bounds.contains(&exact));
 
-    // Symbols in place of the numbers give one answer for every sphere of every pile.
+    // With symbols instead of numbers, the result covers every sphere of every pile.
     let symbols = ["i", "j", "k", "s"].map(Symbol);
     let formula = carried(symbols.map(Polynomial::from));
     println!("a polynomial             {formula}");
     let values: Vec<_> = symbols.into_iter().zip(numbers.clone()).collect();
     assert_eq!(formula.evaluate(&values), Some(exact.clone()));
 
-    // A pile answers queries in the same scalar types, in units of mg.
+    // A `Pile` computes the same force in any of these scalars, in mg.
     let pile = Pile::isosceles(10, numbers[3].clone())?;
     let site = Site { i: 4, j: 1, k: 9 };
     let normal = pile.forces::<BigRational>().on_floor(site)?.normal;

@@ -1,8 +1,8 @@
-//! A theorem of one's own: how much energy do the contacts of a cannonball stack store?
+//! A new theorem: the elastic energy of the contacts of a straight pile.
 //!
-//! The energy of a linear spring is proportional to the square of its force. This program runs the force formula on
-//! symbols, squares it and sums over the pile, so the result holds for every number of layers. Run it with
-//! `cargo run --example own_theorem`.
+//! If every contact is a linear spring, its energy is proportional to the square of its force. This program evaluates the
+//! formula of the forces with symbols, squares it, and sums it over the pile. The result holds for every number of layers,
+//! without a fit. Run it with `cargo run --example own_theorem`.
 
 use core::num::NonZeroI64;
 
@@ -23,22 +23,22 @@ fn symbol(name: &'static str) -> P {
     Symbol(name).into()
 }
 
-/// Σ f² over the contacts of L layers, in f₀² = (mg/(3 cosθ))².
+/// Returns Σ f² over the contacts of L layers, in f₀² = (mg/(3 cosθ))².
 fn energy() -> P {
     let [i, j, k, layers] = ["i", "j", "k", "L"].map(symbol);
     let half = P::one().div_int(TWO);
     let lines = count::above(&i, &j, &k).into_iter().zip(increments(&half));
-    // A sphere with n others above it on a line receives n increments along it, and passes one more on.
+    // A sphere with n others above it on a contact line receives n increments and transmits n + 1.
     let forces = lines.map(|(n, own)| passed_on(force(n, &own), &own));
     let squares = forces.fold(P::zero(), |sum, f| sum + &(f.clone() * &f));
-    // The sites of layer k are 0 ≤ j ≤ k, 0 ≤ i ≤ k − j; those of layer L − 1 have the floor below.
+    // The sites of layer k are 0 ≤ j ≤ k, 0 ≤ i ≤ k − j. The sum ends at layer L − 2, because layer L − 1 is on the floor.
     let zero = P::zero();
     let row = squares.sum(Symbol("i"), &zero, &(k.clone() - &j));
     let layer = row.sum(Symbol("j"), &zero, &k);
     layer.sum(Symbol("k"), &zero, &(layers - &P::from_i128(2)))
 }
 
-/// Returns (L−1) L (L+1) (L+2) (2L+1), forty times the energy.
+/// Returns (L−1) L (L+1) (L+2) (2L+1), which is 40 times the energy.
 fn claimed() -> P {
     let layers = symbol("L");
     let plus = |n| layers.clone() + &P::from_i128(n);
@@ -50,15 +50,15 @@ fn main() -> Result<(), Error> {
     println!("Theorem. The squares of all contact forces of a stack of L layers sum to");
     println!("(L-1) L (L+1) (L+2) (2L+1) / 40 in units of (mg/(3 cosθ))^2.\n");
     println!("Proof. Summed over the pile, the formulas give\n  {energy}");
-    // Two polynomials are equal if and only if they are the same function: this is the proof.
+    // Polynomials that are equal are equal for every L, so this line is the proof.
     assert_eq!(energy.clone() * &P::from_i128(40), claimed());
     println!("which, times 40, is\n  {}\nas claimed.\n", claimed());
 
-    // Nearly right is not right.
+    // A slightly different polynomial is not equal.
     let nearly = claimed() + &(symbol("L") - &P::one());
     assert_ne!(energy.clone() * &P::from_i128(40), nearly);
 
-    // Nobody has to believe it: piles of numbers agree.
+    // Numerical piles agree with the theorem.
     println!("   L   sum of squares");
     for layers in 1..=12 {
         let pile = Pile::triangular(layers)?;

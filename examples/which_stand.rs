@@ -1,7 +1,7 @@
-//! Which stackings are stable? Frictionless spheres cannot pull, so a pile with a tensile contact force is unstable.
+//! Stable stackings. Frictionless contacts carry compression only, so a pile that needs tension is unstable.
 //!
-//! The census lists the stable stackings of eight layers under one sphere, and of 10³⁰ layers. A wider top layer makes
-//! hexagonal close packing unstable one layer earlier. Run it with `cargo run --example which_stand`.
+//! This program lists the stable stackings of eight layers under one sphere, the first unstable height of HCP, and the
+//! effect of a wider top. Run it with `cargo run --example which_stand`.
 
 use cannonpile::lattice::Region;
 use cannonpile::stacking::{Notation, Stacking};
@@ -10,7 +10,7 @@ use cannonpile::{Error, Pile, Verdict, census};
 fn main() -> Result<(), Error> {
     let standing: Vec<_> = census::under_one_sphere(8, false)?.collect::<Result<_, _>>()?;
     println!(
-        "Of 64 stackings of eight layers, but for mirror images, {} stand:\n",
+        "Of 64 stackings of eight layers, up to mirror images, {} are stable:\n",
         standing.len()
     );
     println!("  {:10}{:12}least contact force", "Hägg", "Zhdanov");
@@ -33,30 +33,30 @@ fn main() -> Result<(), Error> {
     }
     assert_eq!(standing.len(), 11);
 
-    // However high: after three changes of sign at most, the pile goes straight down for ever.
+    // At any height: a tall stable pile has at most three sign changes, and is straight below them.
     let layers = 10_i128.pow(30);
     let tall: Vec<_> = census::under_one_sphere(layers, false)?.collect::<Result<_, _>>()?;
-    println!("\nOf 10^30 layers there stand {}, too.", tall.len());
+    println!("\nOf 10^30 layers also {} are stable.", tall.len());
     assert_eq!(tall.len(), 11);
     assert!(
         tall.iter()
             .all(|entry| entry.pile.shape().stacking().changes() <= 3)
     );
 
-    // Hexagonal close packing stands up to five layers; in the sixth a contact would have to pull.
+    // Hexagonal close packing is stable up to five layers. With six layers a contact needs tension.
     let hcp = |layers| Pile::under(Region::SITE, Stacking::hcp(layers)?);
     assert_eq!(hcp(5)?.standing()?.verdict(&[]), Verdict::Yes);
     let fallen = hcp(6)?.standing()?;
     assert_eq!(fallen.verdict(&[]), Verdict::No);
     if let Some(pull) = fallen.least {
         println!(
-            "\nSix layers of hcp fall: sphere {} would have to pull along {} with {} mg/(3 cosθ).",
+            "\nSix layers of hcp are unstable: below sphere {} the contact along {} needs a tension of {} mg/(3 cosθ).",
             pull.site, pull.direction, -pull.force
         );
     }
 
-    // Under a wider top one layer sooner.
-    println!("\nLayers of hcp that stand under a hexagon of n spheres a side:");
+    // Under a wider top the stable height is one layer less.
+    println!("\nLargest stable number of layers of hcp under a hexagon of n spheres a side:");
     for (side, most) in [(1, 5), (2, 4), (3, 4), (4, 4)] {
         let top = Region::hexagon(side, side)?;
         let stands = |layers: &i128| {

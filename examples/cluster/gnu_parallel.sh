@@ -1,10 +1,10 @@
 #!/bin/bash
-# N parts of an ensemble, as many at a time as there are cores:
+# Runs N parts of an ensemble, one for each core at a time:
 #
 #   gnu_parallel.sh N FOLDER OPTIONS
 #   examples/cluster/gnu_parallel.sh 8 parts --layers 22 --all
 #
-# Run again it does what has failed, and nothing else. On other machines too, with a folder that all of them see:
+# A second run repeats only the failed parts. To use other machines, with a shared folder:
 # PARALLEL='--sshlogin HOST1,HOST2 --workdir .' (`man parallel`).
 set -euo pipefail
 

@@ -1,10 +1,10 @@
 #!/bin/bash
-# One part of an ensemble for each rank, into a folder that all nodes see:
+# Runs one part of an ensemble for each rank, into a shared folder:
 #
 #   mpirun -n N mpirun.sh FOLDER OPTIONS
 #   mpirun -n 8 examples/cluster/mpirun.sh parts --layers 22 --all
 #
-# The ranks have nothing to say to each other; mpirun only starts them. Of Open MPI, and of MPICH and its kin.
+# The ranks do not communicate; mpirun only starts them. This works with Open MPI and with MPICH and its derivatives.
 set -euo pipefail
 
 folder=$1

@@ -1,11 +1,11 @@
 #!/bin/bash
-# One part of an ensemble for each task of a job array. N parts of what the options say, into a folder that all nodes see:
+# Runs one part of an ensemble for each task of a job array: N parts in all, into a shared folder:
 #
 #   sbatch --array=1-N slurm.sh N FOLDER OPTIONS
 #   sbatch --array=1-8 examples/cluster/slurm.sh 8 parts --layers 22 --all
 #
 # When all are done: cannonpile merge parts/part-*.json --output whole.json
-# A part that is missing, here the third, is run again alone:
+# To run a missing part again, here the third:
 #
 #   sbatch --array=3 examples/cluster/slurm.sh 8 parts --layers 22 --all
 #
@@ -13,7 +13,7 @@
 #SBATCH --cpus-per-task=1
 set -euo pipefail
 
-# The size of the array is no number of parts: one that is run again is alone in its own.
+# N is an argument, because the array of a repeated part has the size 1.
 parts=$1 folder=$2
 shift 2
 mkdir -p "$folder"

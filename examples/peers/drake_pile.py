@@ -1,16 +1,16 @@
-"""Drake: an exported pile of rigid spheres comes to rest on the springs of point contacts; forces.
+"""Drake: relaxes an exported pile of spheres on point contacts with springs, and writes the contact forces.
 
     drake_pile.py FOLDER [STIFFNESS [SOLVER]]
 
-writes FOLDER/drake.csv for `cannonpile verify`; the stiffness of a contact of two spheres is in mg/R, 1e7 where none is given;
-the solver is kTamsi, kLagged, kSimilar or kSap.
+writes FOLDER/drake.csv for `cannonpile verify`. STIFFNESS is that of a contact of two spheres, in mg/R (1e7). SOLVER is kTamsi
+(the default), kLagged, kSimilar or kSap.
 
-What is left is the compliance of the springs: ten times as stiff, a tenth of the error. So says TAMSI, which is taken where none
-is named; over some hundred spheres it does not converge, or takes long. kLagged, which Drake takes by itself, and its kin do
-hundreds of spheres in seconds, and leave a noise of up to some 1e-6 that does not go with the stiffness. Contacts that are
-stiff for the time step are softened by kSap, unless its threshold is set to 0.
+The error comes from the compliance of the springs, and is inversely proportional to the stiffness. TAMSI shows this, but it is
+slow or does not converge for more than some hundred spheres. kLagged, the default of Drake, and related solvers relax hundreds
+of spheres in seconds, with a noise of up to about 1e-6 that does not depend on the stiffness. kSap softens contacts that are
+stiff for the time step, unless its threshold is 0.
 
-The script is not called drake.py: Drake imports a module of that name.
+The script is not called drake.py, because Drake imports a module of this name.
 """
 
 import math
@@ -26,7 +26,7 @@ from pydrake.systems.framework import DiagramBuilder
 
 import exported
 
-# In sqrt(R/g).
+# The time step and the end, in sqrt(R/g).
 STEP, UNTIL = 0.01, 3
 
 folder = Path(sys.argv[1])
@@ -43,14 +43,14 @@ plant.set_discrete_contact_approximation(getattr(multibody.DiscreteContactApprox
 plant.set_sap_near_rigid_threshold(0)
 plant.mutable_gravity_field().set_gravity_vector([0, 0, -gravity])
 properties = ProximityProperties()
-# Of one sphere: those of two are put in series.
+# The stiffness of one sphere. A contact has two such springs in series.
 spring = 2 * stiffness * piled[0].mass * gravity / piled[0].radius
 AddContactMaterial(0.0, spring, multibody.CoulombFriction(0.0, 0.0), properties)
 numbers, bodies = {}, {}
 for number, sphere in enumerate(piled):
     body, place = plant.world_body(), RigidTransform(sphere.place)
     if not sphere.fixed:
-        # A load is heavy as what it weighs.
+        # Drake has no load at a sphere, so the load adds to its mass.
         inertia = SpatialInertia(sphere.down / gravity, [0, 0, 0], UnitInertia.SolidSphere(sphere.radius))
         body, place = plant.AddRigidBody(f"{number}", inertia), RigidTransform()
         bodies[number] = body
@@ -68,7 +68,7 @@ rows = []
 for index in range(results.num_point_pair_contacts()):
     contact = results.point_pair_contact_info(index)
     touch = contact.point_pair()
-    # Drake gives the force on the second.
+    # Drake reports the force on the second sphere.
     rows.append(((numbers[touch.id_A], numbers[touch.id_B]), -contact.contact_force()))
 exported.write(folder / "drake.csv", rows)
 print(f"Drake: {len(rows)} contacts, fastest sphere {abs(plant.GetVelocities(state)).max():.0e} m/s")

@@ -1,6 +1,6 @@
-"""The spheres of an exported pile and the pairs that touch, found by their places alone; and a table of forces for `verify`.
+"""Reads the spheres of an exported pile, finds the pairs that touch from the positions, and writes a table for `verify`.
 
-What imports this has nothing else of cannonpile: no list of contacts, no force, no equation.
+Scripts that import this module use nothing else of cannonpile: no list of contacts, no force, no equation.
 """
 
 import csv
@@ -10,18 +10,18 @@ from collections import namedtuple
 from fractions import Fraction
 from pathlib import Path
 
-# `place` in m, `down` in N: what pulls the sphere down, its weight and its load.
+# `place` is the centre in m. `down` is the weight plus the load, in N.
 Sphere = namedtuple("Sphere", "place radius mass down fixed")
 
 
 def gravity(folder):
-    """g in m/s², as scene.toml says."""
+    """Returns g of scene.toml, in m/s²."""
     with open(Path(folder) / "scene.toml", "rb") as file:
         return float(Fraction(tomllib.load(file)["gravity"]))
 
 
 def spheres(folder):
-    """The spheres of spheres.csv; the first has number 1 there, and 0 here."""
+    """Returns the spheres of spheres.csv, numbered from 0."""
     with open(Path(folder) / "spheres.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     pull, read = gravity(folder), []
@@ -35,7 +35,7 @@ def spheres(folder):
 
 
 def touching(piled):
-    """The pairs that touch, one of them free, counted from 0; cells are a little wider than a diameter."""
+    """Returns the pairs that touch, without pairs of fixed spheres. Cells are a little wider than a diameter."""
     diameter = 2 * piled[0].radius
     cells = {}
     for number, sphere in enumerate(piled):
@@ -53,14 +53,14 @@ def touching(piled):
 
 
 def normal(piled, pair):
-    """The unit vector along which a contact pushes the first of the two."""
+    """Returns the unit vector of the contact force on the first sphere of a pair."""
     one, other = (piled[number].place for number in pair)
     apart = math.dist(one, other)
     return [(a - b) / apart for a, b in zip(one, other)]
 
 
 def write(path, rows):
-    """Writes the table that `verify` reads, of rows (pair, force on the first of the two)."""
+    """Writes the table for `verify` from rows (pair, force on the first sphere)."""
     with open(path, "w", newline="") as file:
         table = csv.writer(file)
         table.writerow(["id1", "id2", "fx", "fy", "fz"])

@@ -1,4 +1,4 @@
-/* What the frictional contact library says of a problem and its solution: the merit, 0 where it is solved.
+/* Prints the merit that fclib computes for a contact problem and its solution; it is 0 for an exact solution.
  *
  *     cc fclib_merit.c -o fclib_merit $(pkg-config --cflags --libs fclib)
  *     ./fclib_merit pile/pile.hdf5
@@ -21,6 +21,6 @@ int main(int arguments, char **argument)
     }
     double merit = fclib_merit_local(problem, MERIT_1, solution);
     printf("%d contacts, merit %.1e\n", problem->W->m / problem->spacedim, merit);
-    /* A merit that is not a number is refused too. */
+    /* A NaN is an error too. */
     return !(merit <= 1e-12);
 }

@@ -1,13 +1,13 @@
-"""fclib: an exported pile and its exact forces as a problem of contact solvers and its solution, in one HDF5 file.
+"""fclib: writes an exported pile as a contact problem with its exact forces as the solution, in one HDF5 file.
 
     fclib_pile.py FOLDER [FORCES]
 
-writes FOLDER/pile.hdf5; FORCES is a table like FOLDER/contacts.csv, which is read where none is given. The library of fclib
-reads the file and judges the solution: see fclib_merit.c.
+writes FOLDER/pile.hdf5. FORCES is a table of forces, by default FOLDER/contacts.csv. The program fclib_merit.c reads the file
+and computes the merit of the solution.
 
-A contact has a frame of its normal and two tangents. W r + q = u are the accelerations of the contacts in their frames, for
-forces r in them and masses m: W = H^T H/m, q = H^T (what pulls the spheres)/m. Without friction, mu = 0, the tangential forces
-are 0. Solvers read the problem from fclib_local; what they find is to be compared with the group solution.
+Each contact has a frame of its normal and two tangents. The accelerations of the contacts in their frames are u = W r + q, with
+the forces r, W = H^T H/m and q = H^T (weights and loads)/m. Without friction, mu = 0, the tangential forces are 0. Solvers read
+the problem from fclib_local. The group `solution` contains the forces for comparison.
 """
 
 import csv
@@ -27,13 +27,13 @@ pairs = exported.touching(piled)
 frames = []
 for pair in pairs:
     normal = numpy.array(exported.normal(piled, pair))
-    # Across the normal and the axis that is farthest from it.
+    # A tangent perpendicular to the normal and to the coordinate axis with the largest angle to it.
     tangent = numpy.cross(normal, numpy.eye(3)[abs(normal).argmin()])
     tangent /= numpy.linalg.norm(tangent)
     frames.append([normal, tangent, numpy.cross(normal, tangent)])
 frames = numpy.array(frames)
 
-# By contact and direction, and by sphere and axis.
+# H has a row for each contact and direction, and a column for each sphere and axis.
 motion = numpy.zeros((len(pairs), 3, len(piled), 3))
 for row, (one, other) in enumerate(pairs):
     motion[row, :, one] = frames[row]
@@ -57,9 +57,9 @@ forces = forces.ravel()
 
 with h5py.File(folder / "pile.hdf5", "w") as file:
     local = file.create_group("fclib_local")
-    # The library reads each number as an array of one.
+    # fclib reads each number as an array of length one.
     local["spacedim"] = numpy.array([3], "i4")
-    # By columns: merits of matrices in triplets are wrong, without a word.
+    # The matrix is in compressed columns, because fclib computes wrong merits for triplets.
     column, row = matrix.T.nonzero()
     starts = numpy.searchsorted(column, numpy.arange(len(matrix) + 1))
     numbers = {"nzmax": len(row), "m": len(matrix), "n": len(matrix), "nz": -1}

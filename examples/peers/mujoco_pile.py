@@ -1,16 +1,16 @@
-"""MuJoCo: an exported pile falls onto its soft contacts and comes to rest; forces.
+"""MuJoCo: relaxes an exported pile on regularised contacts, and writes the contact forces.
 
     mujoco_pile.py FOLDER [IMPEDANCE TIME]
 
-writes FOLDER/mujoco.csv for `cannonpile verify`, with what MuJoCo takes by itself where the two are not given: an impedance
-d of 0.9 to 0.95 and a time constant t of 0.02 s.
+writes FOLDER/mujoco.csv for `cannonpile verify`. The defaults are those of MuJoCo: an impedance d of 0.9 to 0.95 and a time
+constant t of 0.02 s.
 
-MuJoCo's solver never finds the forces of rigid contacts. It adds a regularisation (1 - d)/d to the inverse masses A that a
-contact feels, so that its problem always has one solution, and pushes spheres that overlap apart with the time constant t. At
-rest that is a spring of the stiffness 1/(A t² (1 - d)), with A = 2/m between free spheres and 1/m on a fixed one: the pile is
-compressed, its angles change, and forces differ from the exact ones by (1 - d) t² g L/R or so. No tolerance of the solver
-makes that less; d closer to 1 and a lesser t do, with a time step of t/2, as MuJoCo takes no t under two steps. The stiffness goes
-with the mass, not with the weight: with MuJoCo's own numbers a pile of 1 mm spheres under 9.81 m/s² is gone.
+MuJoCo regularises contacts. It adds (1 - d)/d to the inverse mass A of a contact, so that the problem always has one solution,
+and separates overlapping spheres with the time constant t. At rest a contact is a spring of the stiffness 1/(A t² (1 - d)),
+with A = 2/m between free spheres and 1/m on a fixed one. So the pile is compressed, and its forces have a relative error of
+about (1 - d) t² g L/R. The tolerance of the solver does not change this error. It decreases with d closer to 1 and with a
+smaller t. The time step is t/2, because MuJoCo requires t to be at least two steps. The stiffness is proportional to the mass,
+not to the weight: with the default parameters a pile of 1 mm spheres under 9.81 m/s² collapses.
 """
 
 import sys
@@ -29,7 +29,7 @@ contact = {"condim": 1}  # No friction.
 spec = mujoco.MjSpec()
 if len(sys.argv) > 2:
     impedance, time = float(sys.argv[2]), float(sys.argv[3])
-    # The same impedance at any overlap; critical damping.
+    # The impedance is the same at any overlap, with critical damping.
     contact |= {"solimp": [impedance, impedance, 0.001, 0.5, 2], "solref": [time, 1]}
     spec.option.timestep = time / 2
 spec.option.gravity = [0, 0, 0]
@@ -46,7 +46,7 @@ model = spec.compile()
 state = mujoco.MjData(model)
 for number, sphere in enumerate(piled):
     if not sphere.fixed:
-        # Weight and load.
+        # The mass carries weight and load.
         state.body(f"{number}").xfrc_applied[2] = -sphere.down
 mujoco.mj_step(model, state, STEPS)
 mujoco.mj_forward(model, state)
@@ -56,7 +56,7 @@ for number, touch in enumerate(state.contact):
     force = numpy.zeros(6)
     mujoco.mj_contactForce(model, state, number, force)
     pair = [int(model.geom(geom).name) for geom in touch.geom]
-    # The first axis of its frame points from the first sphere to the second.
+    # The first axis of the contact frame points from the first sphere to the second.
     rows.append((pair, -force[0] * touch.frame[:3]))
 exported.write(folder / "mujoco.csv", rows)
 print(f"MuJoCo {mujoco.__version__}: {len(rows)} contacts, fastest sphere {abs(state.qvel).max():.0e} m/s")

@@ -1,12 +1,12 @@
-"""Siconos: the contact problem of rigid spheres without friction, as a linear complementarity problem, by Lemke's pivots.
+"""Siconos: solves the contact problem of frictionless rigid spheres as a linear complementarity problem, with Lemke's method.
 
     siconos_lcp.py FOLDER
 
 writes FOLDER/siconos.csv for `cannonpile verify`.
 
-Spheres of mass m that are pulled down by w and pushed by forces f along the normals N of their contacts have accelerations
-N^T f/m - w/m. Contacts do not pull, do not close, and push only where they do not open: 0 <= f, 0 <= N (N^T f - w)/m, and one
-of the two is 0 in each contact. No stiffness and no time step are in it, so nothing is left but rounding.
+Spheres of mass m with weights w and contact forces f along the normals N have the accelerations (N^T f - w)/m. Contact forces
+are compressive, contacts do not penetrate, and an opening contact has no force: 0 <= f, 0 <= N (N^T f - w)/m, and one of the two
+is 0 in each contact. There is no stiffness and no time step, so the only error is rounding.
 """
 
 import sys
@@ -38,6 +38,6 @@ options = siconos.SolverOptions(siconos.SICONOS_LCP_LEMKE)
 options.iparam[siconos.SICONOS_IPARAM_MAX_ITER] = 100 * len(pairs)
 failed = siconos.linearComplementarity_driver(siconos.LCP(matrix, offset), forces, opening, options)
 if failed:
-    sys.exit(f"Siconos found no forces: {failed}")
+    sys.exit(f"the solver of Siconos failed with status {failed}")
 exported.write(folder / "siconos.csv", [(p, f * numpy.array(exported.normal(piled, p))) for p, f in zip(pairs, forces)])
 print(f"Siconos: {len(pairs)} contacts, fastest opening {opening.max():.1e} m/s2")

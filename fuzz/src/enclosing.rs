@@ -1,4 +1,4 @@
-//! Intervals hold the exact result, double-doubles are within 2^−100 of it.
+//! Intervals contain the exact result, and double-doubles are within 2^−100 of it.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::scalar::{
@@ -11,13 +11,13 @@ use num_traits::{One, Signed, Zero};
 use cannonpile_testkit::generators::number;
 use cannonpile_testkit::pair::Pair;
 
-/// All claims about the numbers that the bytes make.
+/// Checks all claims on numbers generated from the bytes.
 ///
 /// # Errors
-/// If the bytes make none.
+/// There are too few bytes.
 ///
 /// # Panics
-/// If a claim is refuted.
+/// A claim fails.
 pub fn enclosing(data: &mut Unstructured<'_>) -> Result<()> {
     points(data)?;
     intervals(data)?;
@@ -52,7 +52,7 @@ impl Operation {
     }
 }
 
-/// Two floats: any, opposite, or with a product or quotient at the limits of the floats.
+/// Two floats: arbitrary, opposite, or with a product or quotient at the limits of f64.
 fn floats(u: &mut Unstructured<'_>) -> Result<(f64, f64)> {
     let (x, y) = (number::float(u)?, number::float(u)?);
     let near = 1.0 - f64::from(u.arbitrary::<u16>()?) * 1e-11;
@@ -75,12 +75,12 @@ fn floats(u: &mut Unstructured<'_>) -> Result<(f64, f64)> {
     ))
 }
 
-/// x ≤ r, for an end x of an interval.
+/// Returns whether x ≤ r, for an end x of an interval.
 fn is_below(x: f64, r: &BigRational) -> bool {
     BigRational::from_float(x).map_or(x < 0.0, |x| x <= *r)
 }
 
-/// The interval holds all from `least` to `greatest`, and its ends are at most a float further out than need be.
+/// Checks that the interval contains `least` and `greatest`, and that its ends are at most one float too wide.
 fn assert_tight(got: &Interval, least: &BigRational, greatest: &BigRational, witness: &str) {
     for (end, r) in [(got.lower(), least.clone()), (-got.upper(), -greatest)] {
         assert!(
@@ -95,7 +95,7 @@ fn assert_tight(got: &Interval, least: &BigRational, greatest: &BigRational, wit
     }
 }
 
-/// Every operation on two floats.
+/// Checks every operation on two floats.
 fn points(u: &mut Unstructured<'_>) -> Result<()> {
     let (x, y) = floats(u)?;
     let (a, b) = (Interval::point(x), Interval::point(y));
@@ -115,7 +115,7 @@ fn points(u: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Every operation on two intervals, which may be rays.
+/// Checks every operation on two intervals, which may be unbounded.
 fn intervals(u: &mut Unstructured<'_>) -> Result<()> {
     let mut interval = || {
         let (x, y) = floats(u)?;
@@ -128,7 +128,7 @@ fn intervals(u: &mut Unstructured<'_>) -> Result<()> {
         Ok((Interval::new(lower, upper).expect("lower ≤ upper"), inside))
     };
     let ((a, part_a), (b, part_b)) = (interval()?, interval()?);
-    // From a finite end on, by a part of the width.
+    // A point of the interval, at a fraction of the width from a finite end.
     let inside = |of: &Interval, part: &BigRational| {
         let ends = [of.lower(), of.upper()].map(BigRational::from_float);
         match ends {
@@ -159,7 +159,7 @@ fn intervals(u: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A number of two parts, half a unit apart or less.
+/// A double-double: the lower part is at most half a unit in the last place of the upper one.
 fn double_double(u: &mut Unstructured<'_>, high: f64) -> Result<DoubleDouble> {
     let low = match u.int_in_range(0..=3)? {
         0 => 0.0,
@@ -191,7 +191,7 @@ fn exactly(a: &DoubleDouble) -> Option<BigRational> {
     a.enclosure().map(|bounds| bounds.lower)
 }
 
-/// Within 2^−100 of results between 2^−900 and 2^1023, in normal form.
+/// Checks that a double-double is normalised and within 2^−100 of a result between 2^−900 and 2^1023.
 fn assert_near(got: &DoubleDouble, want: &BigRational, witness: &str) {
     let size = want.abs();
     if size > number::power(2, 1023) {
@@ -203,7 +203,7 @@ fn assert_near(got: &DoubleDouble, want: &BigRational, witness: &str) {
         "{witness} gave {got:?}, not in normal form"
     );
     let value = exactly(got).unwrap_or_else(|| panic!("{witness} gave {got:?}"));
-    // Below the range errors are no greater than at its end.
+    // Below this range the absolute error is at most that at its lower end.
     let limit = size.max(number::power(2, -900)) * number::power(2, -100);
     assert!(
         (value - want).abs() <= limit,
@@ -211,7 +211,7 @@ fn assert_near(got: &DoubleDouble, want: &BigRational, witness: &str) {
     );
 }
 
-/// Rationals and integers as they are taken in, and the law suite on them.
+/// Checks the conversions from rationals and integers, and runs the law suite on them.
 fn images(u: &mut Unstructured<'_>) -> Result<()> {
     let (r, s, n) = (
         number::rational(u)?,
@@ -239,7 +239,7 @@ fn obeys<T: Field + RealEmbeddable>(r: &BigRational, s: &BigRational) {
     }
 }
 
-/// A computation of some steps, in rationals and intervals side by side: they never part.
+/// Runs the same computation in rationals and intervals, and checks that each interval contains the rational.
 fn computation(u: &mut Unstructured<'_>) -> Result<()> {
     type Checked = Pair<BigRational, Interval>;
     let mut values = vec![Checked::one()];
@@ -256,7 +256,7 @@ fn computation(u: &mut Unstructured<'_>) -> Result<()> {
         };
         assert!(next.parting().is_none(), "{:?}", next.parting());
         assert!(next.second().contains(next.first()), "{next:?}");
-        // A long fraction makes every further step slow, and strains no float.
+        // Long fractions slow down all further steps, and test nothing more.
         if next.first().denom().bits() + next.first().numer().bits() < 20_000 {
             values.push(next);
         }

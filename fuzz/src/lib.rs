@@ -1,12 +1,12 @@
-//! The claims that each fuzz target makes.
+//! The claims of each fuzz target.
 //!
-//! The claims and their generators are those of the property tests, from `cannonpile-testkit`; here libFuzzer chooses the bytes.
-//! The first byte of an input chooses among the claims of its target. The others are the bytes of the claim: those of a crash file
-//! fail the same claim in `cannonpile_testkit::properties`.
+//! The claims and their generators are those of the property tests, from `cannonpile-testkit`. Here libFuzzer chooses the
+//! bytes. The first byte of an input selects a claim of its target, and the generators read the others. The bytes of a crash
+//! file fail the same claim in `cannonpile_testkit::properties`.
 //!
-//! `RUSTC_WRAPPER=$PWD/fuzz/rustc cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes one on a stable
-//! toolchain. An input takes some hundred bytes: the last option gives them from the start. The wrapper has only this project's code
-//! watched, which makes it three to ten times as fast.
+//! `RUSTC_WRAPPER=$PWD/fuzz/rustc cargo fuzz run TARGET --sanitizer none -- -max_len=512 -len_control=0` fuzzes a target on a
+//! stable toolchain. Inputs have some hundred bytes, and the last option starts at this length. The wrapper instruments only
+//! the code of this project, which is three to ten times as fast.
 
 mod enclosing;
 mod polynomial;
@@ -16,7 +16,7 @@ use cannonpile_testkit::claims;
 use cannonpile_testkit::claims::{Checked, Claim, Failure};
 use libfuzzer_sys::Corpus;
 
-/// Every sphere of a small pile and one of any pile, any sin φ, are in exact equilibrium; other sites are none.
+/// For any sin φ, every sphere of a small pile and one sphere of any pile are in exact equilibrium. Other sites are errors.
 #[must_use]
 pub fn equilibrium(bytes: &[u8]) -> Corpus {
     holds(
@@ -31,7 +31,7 @@ pub fn equilibrium(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// A spacing is allowed just if no two spheres overlap, and answers in SI have its geometry.
+/// A spacing is valid if and only if no two spheres overlap. Forces and positions in SI follow its geometry.
 #[must_use]
 pub fn overlap(bytes: &[u8]) -> Corpus {
     holds(
@@ -45,10 +45,10 @@ pub fn overlap(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// No parser panics, each reads what is printed, and a scene is a pile or is refused; scene files and JSON too.
+/// No parser panics, and each reads its own output. A scene, a scene file or a JSON text gives a pile or an error.
 #[must_use]
 pub fn parsers(bytes: &[u8]) -> Corpus {
-    // The crates share a claim where they parse the same text: the inputs in `seeds` were found so.
+    // Parsers of the same text share a claim, because the inputs in `seeds` were collected this way.
     holds(
         bytes,
         &[
@@ -81,7 +81,7 @@ pub fn parsers(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Roots round to the nearest float and keep their order; float forces are a few roundings off.
+/// Roots are correctly rounded and keep their order. Forces in floats have an error of a few roundings.
 #[must_use]
 pub fn rounding(bytes: &[u8]) -> Corpus {
     holds(
@@ -97,7 +97,7 @@ pub fn rounding(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Every scalar keeps its laws; fixed-width answers are right or overflow.
+/// Every scalar satisfies its laws. Results of fixed width are correct or overflow.
 #[must_use]
 pub fn scalar_laws(bytes: &[u8]) -> Corpus {
     holds(
@@ -112,7 +112,7 @@ pub fn scalar_laws(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Any text is a stacking by the rules or is refused, and what is one is printed and read again in every notation.
+/// Any text gives a stacking or an error. A stacking round-trips in every notation.
 #[must_use]
 pub fn stackings(bytes: &[u8]) -> Corpus {
     holds(
@@ -121,7 +121,7 @@ pub fn stackings(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Regions of any size are tight, grow and shrink as their sites do, and the spheres of piles on them are counted.
+/// Regions of any size are tight, and their dilation, erosion and sphere counts agree with their sites.
 #[must_use]
 pub fn regions(bytes: &[u8]) -> Corpus {
     holds(
@@ -135,8 +135,8 @@ pub fn regions(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// The forces of a small pile are those of the equations of equilibrium, by every way to ask for them and in every scalar; so are
-/// their extremes and sums.
+/// The forces of a small pile solve the equations of equilibrium, by every method and in every scalar. Their extremes and
+/// sums agree.
 #[must_use]
 pub fn engine(bytes: &[u8]) -> Corpus {
     holds(
@@ -152,7 +152,7 @@ pub fn engine(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Tallies of ensembles are what plain enumeration counts, parts make the whole, and files of them are read or refused.
+/// Tallies of ensembles agree with plain enumeration, parts merge to the whole, and any file is read or rejected.
 #[must_use]
 pub fn ensemble(bytes: &[u8]) -> Corpus {
     holds(
@@ -165,13 +165,13 @@ pub fn ensemble(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// What a tiny pile with horizontal contacts can bear is proved, and is what an exact linear program says.
+/// The bounds of a tiny pile with horizontal contacts have certificates, and agree with an exact linear program.
 #[must_use]
 pub fn horizontal(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::horizontal::any_pile])
 }
 
-/// Whatever is changed in a certificate, or in its file: what is accepted is true.
+/// A modified certificate or certificate file is accepted only if its claim is true.
 #[must_use]
 pub fn certificates(bytes: &[u8]) -> Corpus {
     holds(
@@ -180,13 +180,13 @@ pub fn certificates(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// The checker in Python and the library's come to one verdict.
+/// The checker in Python and that of the library give the same verdict.
 #[must_use]
 pub fn python_checker(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::certificates::judged_twice])
 }
 
-/// The mean over random stackings is that of all stackings, looked at one by one.
+/// The mean over random stackings agrees with the enumeration of all stackings.
 #[must_use]
 pub fn mean(bytes: &[u8]) -> Corpus {
     holds(
@@ -195,8 +195,8 @@ pub fn mean(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Measured forces are read as they were written or refused, exact ones accepted, and a planted fault is found; ladders of
-/// runs have the order that they were made with, and records of them are read back or refused.
+/// Tables of measured forces are read correctly or rejected. Exact forces are accepted, and a wrong force is found.
+/// Refinement studies have the order of their generator, and their records are read back or rejected.
 #[must_use]
 pub fn measured(bytes: &[u8]) -> Corpus {
     holds(
@@ -213,31 +213,31 @@ pub fn measured(bytes: &[u8]) -> Corpus {
     )
 }
 
-/// Exact forces are accepted by the places of their contacts alone, in any frame and any order.
+/// Exact forces are accepted by position, in any frame and any order.
 #[must_use]
 pub fn placed(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::measured::by_place])
 }
 
-/// What is written for Coq is what the formulas give in rationals.
+/// The definitions for Coq have the values of the formulas in rationals.
 #[must_use]
 pub fn recorded(bytes: &[u8]) -> Corpus {
     holds(bytes, &[claims::recorded::any_values])
 }
 
-/// Polynomials compute what their values compute.
+/// Operations on polynomials agree with those on their values.
 #[must_use]
 pub fn polynomial(bytes: &[u8]) -> Corpus {
     kept(polynomial::polynomial(&mut Unstructured::new(bytes)))
 }
 
-/// Intervals hold the exact result, double-doubles are near it.
+/// Intervals contain the exact result, and double-doubles are close to it.
 #[must_use]
 pub fn enclosing(bytes: &[u8]) -> Corpus {
     kept(enclosing::enclosing(&mut Unstructured::new(bytes)))
 }
 
-/// Bytes that make no input teach nothing.
+/// Rejects bytes that are too short for an input.
 fn kept(outcome: arbitrary::Result<()>) -> Corpus {
     if outcome.is_ok() {
         Corpus::Keep
@@ -246,7 +246,7 @@ fn kept(outcome: arbitrary::Result<()>) -> Corpus {
     }
 }
 
-/// Makes several claims about the same bytes.
+/// Checks several claims on the same bytes.
 fn each(u: &mut Unstructured<'_>, claims: &[Claim]) -> Checked {
     let bytes = u.peek_bytes(u.len()).unwrap_or_default();
     claims
@@ -254,7 +254,7 @@ fn each(u: &mut Unstructured<'_>, claims: &[Claim]) -> Checked {
         .try_for_each(|claim| claim(&mut Unstructured::new(bytes)))
 }
 
-/// Makes one of the claims, chosen by the first byte, about the input that it draws from the others.
+/// Checks one claim, selected by the first byte, on an input generated from the others.
 fn holds(bytes: &[u8], claims: &[Claim]) -> Corpus {
     let Some((first, bytes)) = bytes.split_first() else {
         return Corpus::Reject;

@@ -1,6 +1,6 @@
-//! Polynomials compute what their values compute: arithmetic, division, sums.
+//! Operations on polynomials agree with those on their values: arithmetic, division, sums.
 //!
-//! The oracle is a list of terms, which may repeat or cancel, evaluated at rational points.
+//! The oracle is a list of terms, with repeated and cancelling ones, evaluated at rational points.
 
 use core::num::NonZeroI64;
 
@@ -16,13 +16,13 @@ const SYMBOLS: [Symbol; 3] = [Symbol("x"), Symbol("y"), Symbol("z")];
 
 type Point = [BigRational; 3];
 
-/// All claims about the polynomials that the bytes make.
+/// Checks all claims on polynomials generated from the bytes.
 ///
 /// # Errors
-/// If the bytes make none.
+/// There are too few bytes.
 ///
 /// # Panics
-/// If a claim is refuted.
+/// A claim fails.
 pub fn polynomial(data: &mut Unstructured<'_>) -> Result<()> {
     let (f, g) = (Terms::arbitrary(data)?, Terms::arbitrary(data)?);
     arithmetic(&f, &g, &point(data)?, data)?;
@@ -31,7 +31,7 @@ pub fn polynomial(data: &mut Unstructured<'_>) -> Result<()> {
     sums(&f, data)
 }
 
-/// c · x^a y^b z^c, any number of times.
+/// A list of terms c · x^a y^b z^c.
 #[derive(Debug)]
 struct Terms(Vec<(BigRational, [u32; 3])>);
 
@@ -76,7 +76,7 @@ fn sum_of<'a>(terms: impl Iterator<Item = &'a (BigRational, [u32; 3])>) -> Polyn
     })
 }
 
-/// Small numbers, any rational now and then.
+/// Generates small numbers, and sometimes an arbitrary rational.
 fn point(u: &mut Unstructured<'_>) -> Result<Point> {
     let mut coordinate = || {
         if rarely(u, 8)? {
@@ -96,7 +96,7 @@ fn value(p: &Polynomial, point: &Point) -> BigRational {
     p.evaluate(&values).expect("a value for every symbol")
 }
 
-/// Evaluation respects every operation, and the form does not depend on the way there.
+/// Evaluation commutes with every operation, and equal polynomials have the same form.
 fn arithmetic(f: &Terms, g: &Terms, point: &Point, u: &mut Unstructured<'_>) -> Result<()> {
     let (p, q) = (f.build(), g.build());
     let (a, b) = (f.value(point), g.value(point));
@@ -117,7 +117,7 @@ fn arithmetic(f: &Terms, g: &Terms, point: &Point, u: &mut Unstructured<'_>) -> 
     Ok(())
 }
 
-/// Putting a polynomial in is evaluating at its value.
+/// Substituting a polynomial equals evaluation at its value.
 fn substitution(f: &Terms, g: &Terms, point: &Point, which: usize) {
     let symbol = SYMBOLS[which];
     let composed = f.build().substitute(symbol, &g.build());
@@ -130,7 +130,7 @@ fn substitution(f: &Terms, g: &Terms, point: &Point, which: usize) {
     );
 }
 
-/// A product divides by its factor; another quotient, if there is one, times the divisor is the dividend.
+/// A product is divisible by its factors. Any other exact quotient times the divisor equals the dividend.
 fn division(f: &Terms, g: &Terms, rest: &Terms) {
     let (quotient, divisor, rest) = (f.build(), g.build(), rest.build());
     let product = quotient.clone() * &divisor;
@@ -154,14 +154,14 @@ fn division(f: &Terms, g: &Terms, rest: &Terms) {
     }
 }
 
-/// A sum in closed form is the sum term by term, for bounds that are numbers or polynomials.
+/// A sum in closed form equals the sum of its terms, for numeric and polynomial bounds.
 fn sums(f: &Terms, u: &mut Unstructured<'_>) -> Result<()> {
     let (p, [x, _, _]) = (f.build(), SYMBOLS);
     let [a, b, c, d, at_x, at_y] = {
         let mut small = || u.int_in_range(-4..=4_i64);
         [small()?, small()?, small()?, small()?, small()?, small()?]
     };
-    // Σ from ax + b to cy + d, where x in a bound is the one outside the sum.
+    // Σ from ax + b to cy + d, where the x of a bound is not the summation variable.
     let line = |slope: i64, symbol, height: i64| {
         Polynomial::from(symbol) * &Polynomial::constant(&number::ratio(slope, 1))
             + &Polynomial::constant(&number::ratio(height, 1))
@@ -183,7 +183,7 @@ fn sums(f: &Terms, u: &mut Unstructured<'_>) -> Result<()> {
         "{f:?}: {from} … {to}"
     );
 
-    // Σ from x+1 to x is empty; Σ of one term is the term.
+    // Σ from x+1 to x is empty, and Σ of one term equals the term.
     let next = line(1, x, 1);
     assert!(p.sum(x, &next, &Polynomial::from(x)).is_zero());
     assert_eq!(
