@@ -1,8 +1,9 @@
-//! What random stackings cost: means in floats, by faults in integers, and exactly at one probability; and all of them, or
-//! samples, one by one.
+//! The cost of random stackings: means in floats, in integers by faults, and exact at one probability; enumerations and
+//! samples.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench disorder`
-//! asserts the sum of every mean, and how many stand, and prints seconds and the exponents of the cost; with `-- --smoke` it takes few layers.
+//! asserts the sum of every mean and the number of stable stackings. It prints seconds and the exponents of the cost. With
+//! `-- --smoke` it uses few layers.
 
 use std::env;
 use std::time::Instant;
@@ -19,7 +20,7 @@ fn stackings(steps: u32) -> RandomStackings {
     RandomStackings::new(i128::from(steps) + 1, FirstSign::Plus).expect("few layers")
 }
 
-/// One load on the plane.
+/// Returns a plane with one load.
 fn plane(steps: u32) -> RandomPiles {
     let plane = RandomPiles::plane(stackings(steps)).weightless();
     plane
@@ -27,7 +28,7 @@ fn plane(steps: u32) -> RandomPiles {
         .expect("a load")
 }
 
-/// One sphere and all that it stands on.
+/// Returns piles under one sphere, with weight.
 fn pile(steps: u32) -> RandomPiles {
     RandomPiles::under(Region::SITE, stackings(steps))
 }
@@ -43,7 +44,7 @@ fn in_floats(piles: &RandomPiles) {
 fn by_faults(piles: &RandomPiles) {
     let by_faults = piles.by_faults().expect("sums");
     let first = by_faults.rows().next().expect("a row").expect("a sum");
-    // In the corner of FCC the load is a third.
+    // In FCC the load on the corner is a third.
     if piles.is_weightless() {
         assert_eq!(first.normal, BigRational::new(1.into(), 3.into()));
     }
@@ -58,7 +59,7 @@ fn exactly(piles: &RandomPiles) {
     }
 }
 
-/// The least time of a few runs, in seconds.
+/// Returns the smallest time of a few runs, in seconds.
 fn seconds(run: impl Fn()) -> f64 {
     let runs = (0..3).map(|_| {
         let start = Instant::now();
@@ -68,7 +69,7 @@ fn seconds(run: impl Fn()) -> f64 {
     runs.fold(f64::INFINITY, f64::min)
 }
 
-/// Times at two depths, the second twice the first, and the exponent.
+/// Prints the times of n and 2n layers, and the exponent.
 fn measure(name: &str, steps: [u32; 2], run: impl Fn(u32)) {
     let times = steps.map(|steps| seconds(|| run(steps)));
     for (steps, time) in steps.iter().zip(times) {
@@ -79,7 +80,7 @@ fn measure(name: &str, steps: [u32; 2], run: impl Fn(u32)) {
     println!("ratio exponent_{word} {exponent:.2}");
 }
 
-/// All stackings under one sphere, and samples of twelve layers.
+/// Measures all stackings under one sphere, and samples of twelve layers.
 fn one_by_one(layers: i128, smoke: bool) {
     let under = |layers| {
         let stackings = RandomStackings::new(layers, FirstSign::Plus).expect("stackings");

@@ -1,8 +1,7 @@
-//! One contact and one base sphere cost the same in a pile of 10 layers and of 10³⁶.
+//! The cost of one contact and of one base sphere, in piles of 10 and of 10³⁶ layers.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench one_contact`
-//! prints nanoseconds and, last, lines `ratio NAME VALUE`; with
-//! `-- --smoke` it only checks the answers and that the bench runs.
+//! prints nanoseconds and, last, lines `ratio NAME VALUE`. With `-- --smoke` it only asserts the results.
 
 use std::env;
 use std::hint::black_box;
@@ -28,7 +27,7 @@ fn main() {
     }
 }
 
-/// Times both queries on both piles in turn, and keeps the ratio of the medians.
+/// Times both queries on both piles alternately, and returns the ratio of the medians.
 fn measure<T: Field>(small: &Pile, great: &Pile, pairs: usize, ratios: &mut Vec<(String, f64)>) {
     let queries: [(&str, Timer); 2] = [
         ("contact", time_contact::<T>),
@@ -59,7 +58,7 @@ fn time_contact<T: Algebra>(pile: &Pile) -> Duration {
         j: k / 3,
         k,
     };
-    // Site (1, 1, 5) of the small pile: three spheres above on the line, and itself.
+    // Site (1, 1, 5) of the small pile has three spheres above on the line, so its force is 4.
     let want = T::from_i128(k - site.i - site.j + 1);
     assert_eq!(
         forces.contact(site, Direction::Alpha).expect("a contact"),
@@ -81,7 +80,7 @@ fn time_floor<T: Field>(pile: &Pile) -> Duration {
     };
     let third = 3.try_into().expect("not zero");
     let want = T::from_i128(pile.layers() + 2).div_int(third);
-    // In floats L + 2 and the sum of the counts may round apart.
+    // In floats L + 2 and the sum of the counts may round differently.
     let normal = forces.on_floor(site).expect("a base sphere").normal;
     let off = (normal.clone() - &want)
         .checked_div(&want)
@@ -97,7 +96,7 @@ fn time_floor<T: Field>(pile: &Pile) -> Duration {
     start.elapsed() / CALLS
 }
 
-/// The median, in nanoseconds.
+/// Returns the median, in nanoseconds.
 fn median(mut times: Vec<Duration>) -> f64 {
     times.sort_unstable();
     times[times.len() / 2].as_secs_f64() * 1e9

@@ -1,8 +1,7 @@
-//! How long it takes to prove every theorem, for every pile at once.
+//! The time of the proof of every theorem.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench prove`
-//! asserts that all theorems hold and prints milliseconds; with `-- --smoke` it
-//! proves each once.
+//! asserts that all theorems hold, and prints milliseconds. With `-- --smoke` it proves each theorem once.
 
 use std::env;
 use std::hint::black_box;
@@ -37,7 +36,7 @@ fn main() {
     }
 }
 
-/// The median time of a proof in milliseconds, and the proof.
+/// Returns the median time of a proof in milliseconds, and the proof.
 fn measure(theorem: &Theorem, repetitions: usize) -> (f64, Proof) {
     let mut proof = theorem.prove();
     let mut times: Vec<f64> = (0..repetitions)
@@ -54,7 +53,7 @@ fn measure(theorem: &Theorem, repetitions: usize) -> (f64, Proof) {
     (times[times.len() / 2], proof)
 }
 
-/// The terms of all sides, as a person would have to write them.
+/// Returns the number of terms of all sides of the equations.
 fn terms(proof: &Proof) -> usize {
     let sides = proof
         .steps

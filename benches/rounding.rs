@@ -1,14 +1,13 @@
-//! Is every float the nearest one? Ten million random and adversarial values of each quantity.
+//! Correct rounding of ten million random and adversarial values of each quantity.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench rounding`
-//! rounds roots, rationals and every physical quantity of piles of all kinds to `f64` and
-//! `f32`, and has each float judged in integers, by the squares of the points halfway to its neighbours. It prints how
-//! many values were judged, how many roundings were wrong, and nanoseconds a value, of which making it and judging it are
-//! the greater part; and it asserts that none is wrong. With `-- --smoke` it tries some hundreds; with the name of a
-//! quantity, or a part of it, only that one.
+//! rounds roots, rationals and every physical quantity of all kinds of piles to `f64` and `f32`. It checks each float in
+//! integers, by the squares of the midpoints to its neighbours, and asserts that no float is wrong. It prints the number of
+//! values, the number of wrong roundings, and nanoseconds for each value. Most of this time generates and checks the value.
+//! With `-- --smoke` it checks some hundred values. With a name, or a part of it, it checks this quantity only.
 //!
-//! With `-- --stress` it measures the tables of `crates/testkit/src/stress` instead, those of hundreds of changes of sign in every scalar,
-//! which takes some minutes.
+//! With `-- --stress` it measures the tables of `crates/testkit/src/stress` instead: the errors after hundreds of sign
+//! changes in every scalar. This takes some minutes.
 
 use std::env;
 use std::time::Instant;
@@ -71,7 +70,7 @@ type Source = fn(&mut Random, u64) -> Tally;
 
 fn report(name: &str, tally: impl FnOnce(&mut Random) -> Tally) {
     let start = Instant::now();
-    // Another sequence than that of the tests.
+    // This seed differs from that of the tests.
     let Tally {
         cases,
         wrong,

@@ -1,12 +1,11 @@
-//! Intervals and double-doubles against exact arithmetic, on millions of operands, and what they cost.
+//! The accuracy and the cost of intervals and double-doubles, on millions of operands.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench scalars`
-//! tries each operation on two million pairs, asserts that every interval holds
-//! the exact result and is at most a float wider than it must be, and that every double-double is within
-//! 2^−100 of it. It prints the worst cases, nanoseconds, and lines `ratio NAME VALUE` over `f64`; with
-//! `-- --smoke` it tries some thousands.
+//! applies each operation to two million pairs. It asserts that every interval contains the exact result and is at most one
+//! float too wide at each end, and that every double-double is within 2^−100 of the result. It prints the worst cases,
+//! nanoseconds, and lines `ratio NAME VALUE` relative to `f64`. With `-- --smoke` it uses some thousand pairs.
 //!
-//! Exact is a fraction of integers that nothing reduces: a finite float is an integer times 2^−1074.
+//! The exact result is an unreduced fraction of integers, because a finite float is an integer times 2^−1074.
 
 use std::env;
 use std::hint::black_box;
@@ -70,7 +69,7 @@ impl Operation {
         }
     }
 
-    /// The result for x/2^1074 and y/2^1074, over 2^1074, as a fraction with a positive denominator.
+    /// Returns the result for x/2^1074 and y/2^1074, in units of 2^−1074, as a fraction with a positive denominator.
     fn exactly(self, x: &BigInt, y: &BigInt) -> (BigInt, BigInt) {
         match self {
             Self::Sum => (x + y, 1.into()),
@@ -81,12 +80,12 @@ impl Operation {
     }
 }
 
-/// The worst that came out.
+/// The worst cases.
 #[derive(Default)]
 struct Worst {
     /// By how many floats an end was further out than it had to be.
     wider: u32,
-    /// Relative, where the result lies between 2^−900 and 2^1023.
+    /// The relative error of double-doubles, for results between 2^−900 and 2^1023.
     error: f64,
 }
 
@@ -97,7 +96,7 @@ impl Worst {
             return;
         };
         let (n, d) = operation.exactly(&scaled(x), &scaled(y));
-        // Upper ends are lower ends of the mirror image.
+        // An upper end is the lower end of the negated interval.
         for (end, n) in [(got.lower(), n.clone()), (-got.upper(), -n)] {
             let is_below = |end: f64| {
                 let infinite = end.is_infinite();
@@ -124,7 +123,7 @@ impl Worst {
         }
         let parts = |a: &DoubleDouble| scaled(a.high()) + scaled(a.low());
         let (n, d) = operation.exactly(&parts(&a), &parts(&b));
-        // |n/d| lies between 2^(bits−1) and 2^(bits+1), over 2^1074.
+        // |n/d| lies between 2^(bits−1) and 2^(bits+1), in units of 2^−1074.
         let bits = n.bits().cast_signed() - d.bits().cast_signed() - 1074;
         let Some(got) = operation
             .apply(a, &b)
@@ -142,7 +141,7 @@ impl Worst {
     }
 }
 
-/// The integer x·2^1074.
+/// Returns the integer x·2^1074.
 fn scaled(x: f64) -> BigInt {
     let bits = x.abs().to_bits();
     let (exponent, mantissa) = (bits >> 52, bits & ((1 << 52) - 1));
@@ -157,15 +156,15 @@ fn scaled(x: f64) -> BigInt {
     }
 }
 
-/// n/d to a few digits.
+/// Returns n/d as a float, with a small error.
 fn quotient(n: &BigUint, d: &BigUint) -> f64 {
     let shift = d.bits().saturating_sub(64);
     let top = |n: &BigUint| (n >> shift).to_f64().unwrap_or(f64::INFINITY);
-    // A numerator this much smaller keeps its digits if it is scaled first.
+    // A much smaller numerator is scaled first, to keep its digits.
     top(&(n << 160_u32)) / top(d) * 2.0_f64.powi(-160)
 }
 
-/// Bits that are the same in every run (xorshift).
+/// Pseudo-random bits, the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {
@@ -180,7 +179,7 @@ impl Random {
         choices[usize::try_from(self.bits() >> 40).unwrap_or(0) % choices.len()]
     }
 
-    /// Any finite float, a moderate one, or one at a limit of the floats or the algorithms.
+    /// Returns any finite float, a moderate one, or one at a limit of f64 or of the algorithms.
     fn float(&mut self) -> f64 {
         let limit = self.of(&[0, 1, 122, 123, 222, 572, 1534, 1982, 1983, 2045, 2046]);
         let moderate = 990 + (self.bits() >> 58);
@@ -191,7 +190,7 @@ impl Random {
         f64::from_bits((exponent << 52) | mantissa) * self.of(&[1.0, -1.0])
     }
 
-    /// Two floats: independent, cancelling, or with a product at a limit.
+    /// Returns two floats: independent, cancelling, or with a product at a limit.
     fn pair(&mut self) -> (f64, f64) {
         let (x, y) = (self.float(), self.float());
         let most = f64::MAX * (1.0 - 1e-7 / (1.0 + self.float().abs()));
@@ -207,7 +206,7 @@ impl Random {
         (x, if partner.is_finite() { partner } else { y })
     }
 
-    /// Two numbers of two parts each, the lower one half a unit or missing now and then.
+    /// Returns two double-doubles. The lower part is sometimes half a unit in the last place, or zero.
     fn numbers(&mut self) -> [DoubleDouble; 2] {
         let (x, y) = self.pair();
         [x, y].map(|high| {
@@ -219,7 +218,7 @@ impl Random {
     }
 }
 
-/// Nanoseconds an operation takes in `f64`, double-double and interval.
+/// Returns the nanoseconds of an operation in `f64`, double-double and interval.
 fn times(operation: Operation, calls: u32) -> [f64; 3] {
     let mut random = Random(1998);
     let mut moderate = || f64::from_bits((1023 << 52) | (random.bits() >> 12));
@@ -241,7 +240,7 @@ fn taken<T>(floats: &[[f64; 2]], image: impl Fn(f64) -> T) -> Vec<[T; 2]> {
     floats.iter().map(|pair| pair.map(&image)).collect()
 }
 
-/// The best of five rounds, as others only disturb.
+/// Returns the smallest time of five rounds, which has the least disturbance.
 fn time<T: Field>(operation: Operation, calls: u32, pairs: &[[T; 2]]) -> f64 {
     let round = || {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! The programs over all contacts of a pile at a = R, in floats, solved by an interior point alone: nothing exact.
+//! The linear and quadratic programs over all contacts of a pile at a = R, solved by an interior point method in floats only.
 
 use std::collections::HashMap;
 
@@ -9,19 +9,19 @@ use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
 };
 
-/// The balance of every sphere off the floor, for unknown sloping and horizontal forces.
+/// The equilibrium of every sphere above the floor, for unknown sloping and horizontal forces.
 pub(crate) struct Floats {
-    /// Equation, unknown, coefficient.
+    /// Triplets of equation, unknown and coefficient.
     entries: Vec<(usize, usize, f64)>,
-    /// The last of them horizontal.
+    /// The number of unknowns; the horizontal ones come last.
     unknowns: usize,
     equations: usize,
-    /// The unknowns that rest on each bottom sphere.
+    /// The unknowns of the contacts above each bottom sphere.
     onto: HashMap<Site, Vec<usize>>,
 }
 
 impl Floats {
-    /// Of a pile of equal spheres.
+    /// Returns the program of a pile of equal spheres.
     pub(crate) fn of(pile: &Pile) -> Self {
         let (shape, floor) = (pile.shape(), pile.layers() - 1);
         let spheres: Vec<Site> = shape.sites().take_while(|site| site.k < floor).collect();
@@ -42,7 +42,7 @@ impl Floats {
                     this.onto.entry(below).or_default().push(unknown);
                     continue;
                 };
-                // Where the sign changes, as the half-turn hands it on.
+                // At a sign change the half-turn transforms the forces.
                 let is_kept = shape.sign_below(site.k) == shape.sign_below(below.k);
                 for m in 0..3 {
                     let share = match (is_kept, m == l) {
@@ -71,7 +71,7 @@ impl Floats {
         this
     }
 
-    /// The greatest normal force of a bottom sphere, in mg.
+    /// Returns the largest normal force of a bottom sphere, in mg.
     pub(crate) fn greatest(&self, site: Site) -> f64 {
         let mut cost = vec![0.0; self.unknowns];
         for unknown in &self.onto[&site] {
@@ -81,12 +81,12 @@ impl Floats {
         1.0 + onto / 3.0
     }
 
-    /// Half of Σ f² + Σ X², at least.
+    /// Returns the minimum of ½ (Σ f² + Σ X²).
     pub(crate) fn energy(&self) -> f64 {
         self.minimum(&vec![1.0; self.unknowns], &vec![0.0; self.unknowns])
     }
 
-    /// Of ½ Σ curvature x² + Σ cost x.
+    /// Minimises ½ Σ curvature x² + Σ cost x.
     fn minimum(&self, curvature: &[f64], cost: &[f64]) -> f64 {
         let (equations, unknowns) = (self.equations, self.unknowns);
         let signs = (0..unknowns).map(|unknown| (equations + unknown, unknown, -1.0));

@@ -1,9 +1,9 @@
-//! What exact bounds and elastic states of piles with horizontal contacts cost, beside the floats of an interior point.
+//! The cost of exact bounds and elastic states, compared with an interior point method in floats.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench horizontal`
-//! prints seconds and, last, lines `ratio NAME VALUE`: medians of pairs that are measured in turn in one run. With
-//! `-- --smoke` it only checks the answers, of small piles. Every certificate is checked again, outside of what is
-//! measured; the formula and the floats must say the same.
+//! prints seconds and, last, lines `ratio NAME VALUE`: medians of ratios of two times, measured alternately in one run. With
+//! `-- --smoke` it only asserts the results of small piles. It checks every certificate again, outside the measured time,
+//! and compares the results with the formulas and the floats.
 
 mod floats;
 
@@ -20,21 +20,21 @@ use num_traits::{One, ToPrimitive};
 
 use floats::Floats;
 
-/// How much is measured.
+/// The extent of the measurement.
 #[derive(Clone, Copy)]
 struct Extent {
-    /// Only that the answers are right.
+    /// Assert the results only.
     smoke: bool,
     repetitions: usize,
 }
 
 impl Extent {
-    /// The size of a pile to measure, or one that is quickly checked.
+    /// Returns the size of the pile to measure, or the small one for `--smoke`.
     fn size(self, full: usize, smoke: usize) -> usize {
         if self.smoke { smoke } else { full }
     }
 
-    /// The answer, and the median of the seconds that it takes.
+    /// Returns the result, and the median time in seconds.
     fn timed<T>(self, mut run: impl FnMut() -> T) -> (T, f64) {
         let mut once = || {
             let begun = Instant::now();
@@ -52,20 +52,20 @@ fn main() {
     let smoke = env::args().any(|argument| argument == "--smoke");
     let repetitions = if smoke { 1 } else { 5 };
     let extent = Extent { smoke, repetitions };
-    println!("seconds  what");
+    println!("seconds  computation");
     let ratios = [bounds(extent), elastic(extent)];
     for (name, value) in ratios {
         println!("ratio {name} {value:.2}");
     }
 }
 
-/// Both bounds of one sphere and of all, and the ratio of the greatest to its floats.
+/// Measures both bounds of one sphere and of all, and the ratio of an upper bound to the same in floats.
 fn bounds(extent: Extent) -> (&'static str, f64) {
     for layers in [extent.size(10, 4), extent.size(16, 7)] {
         let (pile, site) = straight(layers);
         let (bounds, seconds) = extent.timed(|| horizontal::bounds(&pile, site).expect("bounds"));
         prove(&bounds);
-        // 1 + C(k+2, 3).
+        // The upper bound is 1 + C(k+2, 3).
         let k = (layers - 1) / 3;
         let most = BigRational::from_integer((1 + k * (k + 1) * (k + 2) / 6).into());
         assert_eq!(bounds.greatest.normal, most);
@@ -110,7 +110,7 @@ fn bounds(extent: Extent) -> (&'static str, f64) {
     ("bounds_16_centre_over_clarabel", ratio)
 }
 
-/// The elastic states of stackings that stand only with horizontal contacts, and the ratio of one to its floats.
+/// Measures elastic states of stackings that are stable only with horizontal contacts, and the ratio of one to floats.
 fn elastic(extent: Extent) -> (&'static str, f64) {
     let stiffness_ratio = BigRational::one();
     let solve = |pile: &Pile| horizontal::elastic(pile, &stiffness_ratio).expect("a state");
@@ -120,7 +120,7 @@ fn elastic(extent: Extent) -> (&'static str, f64) {
         let certificate = state.certificate().expect("a certificate");
         assert_eq!(certificate.check(), Ok(()));
         let (layers, pushing) = (pile.layers(), state.pile().horizontal_forces().len());
-        let what = format!("elastic state, {signs}…, {layers} layers, {pushing} contacts push");
+        let what = format!("elastic state, {signs}…, {layers} layers, {pushing} closed contacts");
         say(&what, seconds);
     }
     let pile = under_one_sphere("+-+-+", extent.size(14, 7));
@@ -129,7 +129,7 @@ fn elastic(extent: Extent) -> (&'static str, f64) {
     ("elastic_14_over_clarabel", ratio)
 }
 
-/// The straight pile, and the bottom sphere at the centre or next to it.
+/// Returns the straight pile, and the bottom sphere at the centre or next to it.
 fn straight(layers: usize) -> (Pile, Site) {
     let layers = i128::try_from(layers).expect("few");
     let (k, i) = (layers - 1, (layers - 1) / 3);
@@ -137,7 +137,7 @@ fn straight(layers: usize) -> (Pile, Site) {
     (pile, Site { i, j: i, k })
 }
 
-/// These steps, the last of them repeated.
+/// Returns the pile with these signs, the last one repeated.
 fn under_one_sphere(signs: &str, layers: usize) -> Pile {
     let last = signs.chars().last();
     let more = core::iter::repeat_n(last, layers - 1 - signs.len()).flatten();
@@ -146,7 +146,7 @@ fn under_one_sphere(signs: &str, layers: usize) -> Pile {
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
 
-/// ½ (Σ f² + Σ X²).
+/// Returns ½ (Σ f² + Σ X²).
 fn energy(state: &ElasticState) -> BigRational {
     let pile = state.pile();
     let forces = pile.forces::<BigRational>();
@@ -157,7 +157,7 @@ fn energy(state: &ElasticState) -> BigRational {
     squares.sum::<BigRational>() / BigRational::from_integer(2.into())
 }
 
-/// Where there is a certificate, it is of this bound.
+/// Checks that a certificate, if there is one, claims this bound.
 fn prove(bounds: &NormalBounds) {
     for bound in [&bounds.least, &bounds.greatest] {
         assert!(bound.attained, "{bound:?}");
@@ -167,7 +167,7 @@ fn prove(bounds: &NormalBounds) {
     }
 }
 
-/// The median of the ratios of the times of an exact answer and the same in floats.
+/// Returns the median ratio of the times of an exact result and the same in floats.
 fn ratio(extent: Extent, exact: impl Fn() -> BigRational, floats: impl Fn() -> f64) -> f64 {
     let once = Extent {
         repetitions: 1,

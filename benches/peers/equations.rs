@@ -4,25 +4,25 @@ use num_traits::Float;
 
 use super::network::Network;
 
-/// A f = b: as many equations as unknowns, so that the forces are unique.
+/// The system A f = b with as many equations as unknowns, in mg.
 ///
-/// The unknowns are the magnitudes of the contact forces of all spheres above the floor, three for each; equations 3n, 3n+1,
-/// 3n+2 say that sphere n feels no force along x, y, z: what its six neighbours push, and its weight. In mg.
+/// The unknowns are the magnitudes of the contact forces, three for each sphere above the floor. Equations 3n, 3n+1 and 3n+2
+/// state that the contact forces on sphere n and its weight sum to zero along x, y and z.
 pub(crate) struct Equations<F> {
     pub(crate) matrix: Columns<F>,
     pub(crate) loads: Vec<F>,
 }
 
-/// A square sparse matrix, column by column: the rows of each in ascending order.
+/// A square sparse matrix in compressed columns, with ascending rows in each column.
 pub(crate) struct Columns<F> {
-    /// Where each column begins, and where the last one ends.
+    /// The start of each column, and the end of the last one.
     pub(crate) starts: Vec<usize>,
     pub(crate) rows: Vec<usize>,
     pub(crate) values: Vec<F>,
 }
 
 impl<F: Float> Equations<F> {
-    /// The equations of all spheres above the floor.
+    /// Returns the equations of all spheres above the floor.
     pub(crate) fn new(network: &Network) -> Self {
         let spheres = network.below.len();
         let float = |x: f64| F::from(x).expect("every float rounds to another");
@@ -34,7 +34,7 @@ impl<F: Float> Equations<F> {
         let contacts = network.below.iter().zip(&network.directions).enumerate();
         for (upper, (below, directions)) in contacts {
             for (&lower, direction) in below.iter().zip(directions) {
-                // The upper sphere is pushed back, the lower one along.
+                // A contact force acts on the lower sphere along the direction, and on the upper one against it.
                 matrix.entries(upper, direction.map(|x| float(-x)));
                 if lower < spheres {
                     matrix.entries(lower, direction.map(float));
@@ -43,7 +43,7 @@ impl<F: Float> Equations<F> {
             }
         }
         let weights = &network.weights[..spheres];
-        // z points down: a weight pulls along it.
+        // z points down, so the weight is along z.
         let loads = weights.iter().flat_map(|&w| [0.0, 0.0, -w].map(float));
         Self {
             loads: loads.collect(),
@@ -51,7 +51,7 @@ impl<F: Float> Equations<F> {
         }
     }
 
-    /// b − A f, freshly computed.
+    /// Returns the residual b − A f.
     pub(crate) fn residual(&self, forces: &[F]) -> Vec<F> {
         let product = self.matrix.times(forces);
         self.loads
@@ -63,7 +63,7 @@ impl<F: Float> Equations<F> {
 }
 
 impl<F: Float> Columns<F> {
-    /// The force along x, y and z on a sphere, in the last column.
+    /// Returns the three entries of a contact on a sphere, in the last column.
     fn entries(&mut self, sphere: usize, force: [F; 3]) {
         for (axis, value) in force.into_iter().enumerate() {
             if !value.is_zero() {
@@ -73,7 +73,7 @@ impl<F: Float> Columns<F> {
         }
     }
 
-    /// Rows and columns.
+    /// Returns the number of rows, which is also that of columns.
     pub(crate) fn size(&self) -> usize {
         self.starts.len() - 1
     }
@@ -86,7 +86,7 @@ impl<F: Float> Columns<F> {
         })
     }
 
-    /// A x.
+    /// Returns A x.
     pub(crate) fn times(&self, x: &[F]) -> Vec<F> {
         let mut product = vec![F::zero(); self.size()];
         for (column, &x) in self.columns().zip(x) {
@@ -97,7 +97,7 @@ impl<F: Float> Columns<F> {
         product
     }
 
-    /// Aᵀ y.
+    /// Returns Aᵀ y.
     pub(crate) fn transposed_times(&self, y: &[F]) -> Vec<F> {
         let dot = |sum, (row, value): (usize, F)| sum + value * y[row];
         self.columns()

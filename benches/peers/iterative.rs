@@ -1,18 +1,18 @@
-//! The equations solved by conjugate gradients on the least-squares problem (CGLS: Hestenes and Stiefel 1952, §10).
+//! Conjugate gradients on the least-squares problem (CGLS: Hestenes and Stiefel 1952, §10).
 
 use num_traits::Float;
 
 use super::equations::Equations;
 
-/// Where an iteration stopped.
+/// The result of an iteration.
 pub(crate) struct Iterated<F> {
     pub(crate) forces: Vec<F>,
     pub(crate) iterations: usize,
-    /// Whether ‖b − A f‖ came down to what was asked, by the recurrence.
+    /// True if the residual of the recurrence is at most the tolerance.
     pub(crate) converged: bool,
 }
 
-/// Iterates from f = 0 until ‖b − A f‖ ≤ `tolerance`·‖b‖, or in vain for `most` iterations.
+/// Iterates from f = 0 until ‖b − A f‖ ≤ `tolerance`·‖b‖, for at most `most` iterations.
 pub(crate) fn forces<F: Float>(equations: &Equations<F>, tolerance: F, most: usize) -> Iterated<F> {
     let matrix = &equations.matrix;
     let mut forces = vec![F::zero(); matrix.size()];
@@ -44,12 +44,12 @@ pub(crate) fn forces<F: Float>(equations: &Equations<F>, tolerance: F, most: usi
     }
 }
 
-/// ‖x‖².
+/// Returns ‖x‖².
 pub(crate) fn squared<F: Float>(x: &[F]) -> F {
     x.iter().fold(F::zero(), |sum, &x| sum + x * x)
 }
 
-/// x + factor·y in place of x.
+/// Replaces x by x + factor·y.
 fn add_multiple<F: Float>(x: &mut [F], factor: F, y: &[F]) {
     for (x, &y) in x.iter_mut().zip(y) {
         *x = *x + factor * y;

@@ -1,7 +1,7 @@
-//! The equations solved by a sparse LU factorisation, step by step.
+//! A sparse LU factorisation of the equations, step by step.
 //!
-//! The pattern depends on the pile alone, the factors on its shape, the right-hand side on its weights: who has many
-//! right-hand sides pays the first two steps once.
+//! The sparsity pattern and the factors depend on the pile, and the right-hand side on its weights. For several right-hand
+//! sides the first two steps run once.
 
 use faer::Col;
 use faer::linalg::solvers::Solve;
@@ -12,19 +12,19 @@ use faer::traits::ComplexField;
 
 use super::equations::{Columns, Equations};
 
-/// The matrix, as the solver wants it.
+/// Returns the matrix in the format of the solver.
 pub(crate) fn matrix<F: ComplexField>(columns: &Columns<F>) -> SparseColMat<usize, F> {
     let (size, starts) = (columns.starts.len() - 1, columns.starts.clone());
     let pattern = SymbolicSparseColMat::new_checked(size, size, starts, None, columns.rows.clone());
     SparseColMat::new(pattern, columns.values.clone())
 }
 
-/// An order of elimination that keeps the factors sparse, and where they will have entries.
+/// Returns the symbolic factorisation: an elimination order with little fill-in, and the pattern of the factors.
 pub(crate) fn analyse<F>(matrix: &SparseColMat<usize, F>) -> SymbolicLu<usize> {
     SymbolicLu::try_new(matrix.symbolic()).expect("room for the pattern")
 }
 
-/// The factors.
+/// Returns the numeric factors.
 pub(crate) fn factorise<F: ComplexField>(
     pattern: SymbolicLu<usize>,
     matrix: &SparseColMat<usize, F>,
@@ -32,14 +32,14 @@ pub(crate) fn factorise<F: ComplexField>(
     Lu::try_new_with_symbolic(pattern, matrix.rb()).expect("a regular matrix")
 }
 
-/// The forces under these loads.
+/// Returns the forces for a right-hand side.
 pub(crate) fn solve<F: ComplexField + Copy>(factors: &Lu<usize, F>, loads: &[F]) -> Vec<F> {
     let mut forces = Col::from_fn(loads.len(), |row| loads[row]);
     factors.solve_in_place(forces.as_mut());
     forces.iter().copied().collect()
 }
 
-/// All steps, one after the other.
+/// Runs all steps.
 pub(crate) fn forces<F: ComplexField + Copy>(equations: &Equations<F>) -> Vec<F> {
     let matrix = matrix(&equations.matrix);
     let factors = factorise(analyse(&matrix), &matrix);

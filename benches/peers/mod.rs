@@ -1,8 +1,7 @@
-//! Other ways to the same forces: what one would do who does not know the closed formulas.
+//! Other methods for the same forces, without the closed formulas.
 //!
-//! They see a pile through the public interface, as spheres at places that touch, and know nothing of lines, half-turns
-//! or multiples of f₀: their answers are forces in mg, for spheres of a/R = 6/5. That makes them independent
-//! of what they are compared with.
+//! They use the public interface of a pile only: positions of spheres, and contacts. They do not use contact lines,
+//! half-turns or multiples of f₀, so they are independent of the library. Their forces are in mg, for a/R = 6/5.
 
 pub(crate) mod equations;
 pub(crate) mod iterative;
@@ -16,13 +15,13 @@ use cannonpile::lattice::Dimension;
 use cannonpile::scalar::Algebra;
 use num_rational::BigRational;
 
-/// θ at a/R = 6/5, where horizontal neighbours do not touch.
+/// Returns θ at a/R = 6/5, where horizontal neighbours do not touch.
 pub(crate) fn inclination() -> Inclination {
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     Inclination::new(&spacing, Dimension::Three).expect("an inclination")
 }
 
-/// (sinθ, 2cosφ·sinθ, cosθ): what the symbolic basis of vectors stands for.
+/// Returns (sinθ, 2cosφ·sinθ, cosθ), the values of the symbolic basis of vectors.
 fn basis(pile: &Pile) -> [f64; 3] {
     let inclination = inclination();
     let [sin, cos] =

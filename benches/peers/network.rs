@@ -1,4 +1,4 @@
-//! A pile as numbered spheres and which of them touch.
+//! A pile as numbered spheres and contacts.
 
 use std::collections::HashMap;
 
@@ -9,11 +9,10 @@ use cannonpile::shape::Selection;
 
 use super::basis;
 
-/// The spheres of a pile, numbered from the top, so that those on the floor come last.
+/// The spheres of a pile, numbered from the top. The bottom spheres come last.
 pub(crate) struct Network {
     pub(crate) sites: Vec<Site>,
-    /// The three spheres below each sphere that is not on the floor. Contact c is that of sphere c/3 with the sphere
-    /// below it in direction c mod 3.
+    /// The three spheres below each sphere above the floor. Contact c belongs to sphere c/3, in direction c mod 3.
     pub(crate) below: Vec<[usize; 3]>,
     /// The weight of each sphere, in mg.
     pub(crate) weights: Vec<f64>,
@@ -24,7 +23,7 @@ pub(crate) struct Network {
 }
 
 impl Network {
-    /// The spheres of a pile in three dimensions without loads.
+    /// Returns the spheres of a pile in three dimensions without loads.
     pub(crate) fn new(pile: &Pile) -> Self {
         assert_eq!(pile.dimension(), Dimension::Three, "discs touch two below");
         let sites: Vec<Site> = pile.shape().sites().collect();
@@ -47,7 +46,7 @@ impl Network {
                 .map(|direction| numbers[&pile.shape().below(site, direction).expect("a support")])
         });
 
-        // The same for all spheres of a layer; as a difference of positions they would lose digits in high piles.
+        // All spheres of a layer have the same vectors. Differences of positions would lose digits in high piles.
         let mut directions = Vec::new();
         for k in 0..pile.layers() - 1 {
             let layer = || pile.rows(Selection::Layer(k)).expect("a layer").flatten();
@@ -70,7 +69,7 @@ impl Network {
         }
     }
 
-    /// Contacts between spheres.
+    /// Returns the number of contacts between spheres.
     pub(crate) fn contacts(&self) -> usize {
         3 * self.below.len()
     }

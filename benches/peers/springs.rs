@@ -1,20 +1,19 @@
-//! Stiff springs that only push, damped until nothing moves: what a discrete-element method does.
+//! Stiff unilateral springs with damping, relaxed to rest, as in a discrete-element method.
 //!
-//! R = m = g = 1. Springs give way: the pile sinks, its angles with it, and forces are off by some 0.48·L/k. Positions are
-//! rounded: forces are off by some 10⁻¹⁵·k. So neither soft springs are good nor stiff ones. Below k ≈ 0.06·L³ the pile
-//! collapses.
+//! The units are R = m = g = 1. The springs deform, so that the forces have an error of about 0.48·L/k. The positions are
+//! rounded, which gives an error of about 10⁻¹⁵·k. So the best stiffness is in between. Below k ≈ 0.06·L³ the pile collapses.
 
 use std::fmt;
 
 use super::network::Network;
 
-/// How a relaxation ended.
+/// The result of a relaxation.
 pub(crate) enum Relaxed {
     /// At rest, with these contact forces in mg.
     Rest { forces: Vec<f64>, steps: usize },
-    /// A sphere went further than half a radius.
+    /// A sphere moved by more than half a radius.
     Collapse { steps: usize },
-    /// Some force is still out of balance.
+    /// The residual force is still too large.
     Unrest { steps: usize, out_of_balance: f64 },
 }
 
@@ -37,17 +36,19 @@ impl fmt::Display for Relaxed {
     }
 }
 
-/// Of √(m/k): the fastest mode of a sphere between six others has ω² < 6.3·k/m, and ω·Δt must stay below 2.
+/// The time step in √(m/k). The fastest mode of a sphere between six others has ω² < 6.3·k/m, and ω·Δt must be below 2.
 const TIME_STEP: f64 = 0.6;
 
-/// Steps between two looks at what is out of balance.
+/// The number of steps between two checks of the residual force.
 const LOOK: usize = 16;
 
-/// What a force may be out of balance at rest, in mg.
+/// The largest residual force at rest, in mg.
 const ENOUGH: f64 = 1e-10;
 
-/// Relaxes a pile of `layers` layers that starts at its exact positions, without overlap, its base held fast, until no
-/// sphere is out of balance, or only by the rounding of positions, and no less so for a while.
+/// Relaxes a pile of `layers` layers from its exact positions, with a fixed base.
+///
+/// The relaxation ends when the residual force is small, or when it is of the size of the rounding of positions and no
+/// longer decreases.
 pub(crate) fn relax(network: &Network, layers: u16, stiffness: f64) -> Relaxed {
     let mut positions = network.positions.clone();
     let moving = network.below.len();
@@ -56,7 +57,7 @@ pub(crate) fn relax(network: &Network, layers: u16, stiffness: f64) -> Relaxed {
     let mut forces = vec![0.0; network.contacts()];
 
     let step = TIME_STEP / stiffness.sqrt();
-    // Critical for the slowest mode.
+    // Critical damping of the slowest mode.
     let damping = SLOWEST * 2.0 * stiffness.sqrt() / f64::from(layers);
     let kept = (1.0 - damping * step / 2.0) / (1.0 + damping * step / 2.0);
     let gained = step / (1.0 + damping * step / 2.0);
@@ -66,7 +67,7 @@ pub(crate) fn relax(network: &Network, layers: u16, stiffness: f64) -> Relaxed {
         .copied()
         .map(f64::abs)
         .fold(0.0, f64::max);
-    // Six contacts, each between two rounded positions, and a little.
+    // The rounding of six contacts, each between two rounded positions, with a margin.
     let roundings = 16.0 * f64::EPSILON * extent * stiffness;
     let (patience, most) = (10 * usize::from(layers), 400 * usize::from(layers));
     let (mut least, mut fallen) = (f64::INFINITY, 0);
@@ -98,10 +99,10 @@ pub(crate) fn relax(network: &Network, layers: u16, stiffness: f64) -> Relaxed {
     }
 }
 
-/// ω of the slowest mode, in √(k/m)/L, about: piles of 10 to 40 layers come to rest in 30 to 50 steps for each.
+/// The approximate ω of the slowest mode, in √(k/m)/L. Piles of 10 to 40 layers relax in 30 to 50 steps for each layer.
 const SLOWEST: f64 = 1.0;
 
-/// The force of every contact, and what is out of balance on every sphere.
+/// Returns the force of every contact, and the residual force on every sphere.
 fn push(
     network: &Network,
     positions: &[[f64; 3]],
@@ -141,7 +142,7 @@ fn greatest(vectors: &[[f64; 3]]) -> f64 {
     vectors.iter().copied().map(length).fold(0.0, f64::max)
 }
 
-/// The greatest distance between where spheres are and where they were.
+/// Returns the largest displacement of a sphere.
 fn apart(now: &[[f64; 3]], then: &[[f64; 3]]) -> f64 {
     let moved = now.iter().zip(then);
     let moved = moved.map(|(now, then)| length(std::array::from_fn(|axis| now[axis] - then[axis])));

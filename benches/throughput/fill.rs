@@ -1,4 +1,4 @@
-//! All contact forces of a straight pile, written into slices, against filling the slices with one value.
+//! All contact forces of a straight pile written into slices, compared with filling the slices with one value.
 
 use std::fmt::Debug;
 use std::hint::black_box;
@@ -46,7 +46,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     results.push(("fill_exact_i64_over_memset".into(), fill));
 }
 
-/// One slice for each direction, buffers touched before, and a value that is not zero.
+/// Returns a slice for each direction, with a nonzero value, so that the memory is already mapped.
 fn over_memset<V: Copy + PartialEq + Debug + Send + Sync>(
     pile: &Pile,
     mut filling: impl FnMut([&mut [V]; 3]) -> f64,
@@ -84,7 +84,7 @@ pub(crate) fn memset<V: Copy>(slices: &mut [Vec<V>; 3], value: V) {
     }
 }
 
-/// Every thousandth sphere's forces, asked for one by one.
+/// Compares the forces of every thousandth sphere with single queries.
 pub(crate) fn check<V: PartialEq + Debug + Copy>(
     pile: &Pile,
     slices: &[Vec<V>; 3],

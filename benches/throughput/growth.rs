@@ -1,4 +1,4 @@
-//! How time grows with the pile.
+//! The growth of the time with the size of the pile.
 
 use std::hint::black_box;
 
@@ -35,7 +35,7 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
         let sum: f64 = contacts
             .map(|contact| contact.expect("a force").force)
             .sum();
-        // Contacts that carry n: 3(L−n)(L−n+1)/2.
+        // The number of contacts with the force n is 3(L−n)(L−n+1)/2.
         let layers = pile.layers();
         let exact: i128 = (1..layers)
             .map(|n| 3 * n * (layers - n) * (layers - n + 1) / 2)
@@ -66,7 +66,7 @@ fn one_contact(extent: Extent, layers: i128) -> f64 {
     median(times) / f64::from(repeats) * 1e9
 }
 
-/// The power of L that the time of a question grows with, between two sizes.
+/// Returns the exponent of L in the time of a query, from two sizes.
 fn exponent(extent: Extent, layers: [i128; 2], ask: impl Fn(&Pile)) -> f64 {
     let [small, large] = layers.map(|layers| Pile::triangular(layers).expect("a pile"));
     let ratios = (0..extent.pairs).map(|_| seconds(|| ask(&large)) / seconds(|| ask(&small)));
@@ -74,7 +74,7 @@ fn exponent(extent: Extent, layers: [i128; 2], ask: impl Fn(&Pile)) -> f64 {
     median(ratios).ln() / (large / small).ln()
 }
 
-/// One exact contact below six changes of sign, far below them and nearer.
+/// Measures one exact contact below six sign changes, far below them and close to them.
 fn runs(extent: Extent) -> f64 {
     let layers = [1_000_000_i128, 1_000_000_000_000_000];
     let piles = layers.map(|layers| {
@@ -86,7 +86,7 @@ fn runs(extent: Extent) -> f64 {
     let [small, large] = &piles;
     let ask = |pile: &Pile| {
         let forces = pile.forces::<BigRational>();
-        // In the middle, below all changes.
+        // A site in the middle, below all sign changes.
         let region = pile.shape().layer(pile.layers() - 2).expect("a layer");
         let [x, y] = [region.x(), region.y()].map(|range| range.start().midpoint(*range.end()));
         let site = Site {
@@ -95,7 +95,7 @@ fn runs(extent: Extent) -> f64 {
             k: pile.layers() - 2,
         };
         let three = Direction::ALL.map(|d| forces.contact(site, d).expect("a force"));
-        // Every sphere is in balance, which no line alone shows.
+        // The sphere is in equilibrium, which a single line cannot show.
         let left = forces.unbalanced(site).expect("forces");
         assert_eq!(left.into_array(), [(); 3].map(|()| BigRational::default()));
         black_box(three);

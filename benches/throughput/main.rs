@@ -1,10 +1,8 @@
-//! How fast forces are found, against what they are worth comparing with: filling the same memory, plain floats, plain
-//! rationals, a sparse solver.
+//! The throughput of forces, compared with filling the same memory, plain floats, plain rationals and a sparse solver.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench throughput`
-//! prints, last, lines `ratio NAME VALUE`: medians of pairs that are
-//! measured in turn in one run. With `-- --smoke` it only checks the answers, on small piles. Every answer is compared
-//! with one that was found another way.
+//! prints, last, lines `ratio NAME VALUE`: medians of ratios of two times, measured alternately in one run. With `-- --smoke`
+//! it only asserts the results of small piles. Every result is compared with that of another method.
 
 #[expect(dead_code, reason = "another bench uses the rest")]
 #[path = "../peers/mod.rs"]
@@ -17,17 +15,17 @@ mod solver;
 mod sweeps;
 mod time;
 
-/// How much is measured.
+/// The extent of the measurement.
 #[derive(Clone, Copy)]
 pub(crate) struct Extent {
-    /// Only that the answers are right.
+    /// Assert the results only.
     pub(crate) smoke: bool,
-    /// Pairs of measurements.
+    /// Measure this number of pairs of times.
     pub(crate) pairs: usize,
 }
 
 impl Extent {
-    /// The size of a pile to measure, or one that is quickly checked.
+    /// Returns the size of the pile to measure, or the small one for `--smoke`.
     pub(crate) fn size(self, full: i128, smoke: i128) -> i128 {
         if self.smoke { smoke } else { full }
     }
@@ -52,11 +50,11 @@ fn main() {
     }
 }
 
-/// Times are compared thread by thread.
+/// Runs a measurement on one thread.
 fn on_one_thread(measure: impl FnOnce() + Send) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     pool.expect("a thread").install(measure);
 }
 
-/// What is printed at the end.
+/// The ratios, printed at the end.
 pub(crate) type Results = Vec<(String, f64)>;

@@ -1,4 +1,4 @@
-//! Rationals as one would write them down: every sum reduced to lowest terms, no common denominator.
+//! Plain rationals: every sum is reduced to lowest terms, without a common denominator.
 
 use std::num::NonZeroI64;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -7,7 +7,7 @@ use cannonpile::scalar::{Algebra, Exactness, OwnNumerators, Ring};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-/// A rational whose numerators are rationals again.
+/// A rational whose numerators are rationals too.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Plain(pub(crate) BigRational);
 
@@ -18,7 +18,7 @@ impl Ring for Plain {
 }
 
 impl Algebra for Plain {
-    // An exact scalar would be swept in limbs.
+    // For an exact scalar the library would sweep in limbs.
     const EXACTNESS: Exactness = Exactness::Rounded { bits: 1 << 20 };
     const NAME: &'static str = "plain rational";
 

@@ -1,4 +1,4 @@
-//! The closed form against a sparse solver of the equations of equilibrium.
+//! The closed form compared with a sparse solver of the equations of equilibrium.
 
 use std::hint::black_box;
 
@@ -14,8 +14,7 @@ use crate::peers::network::Network;
 use crate::time::{ratio, seconds};
 use crate::{Extent, Results};
 
-/// Analysis, factorisation and solve, without assembly, against all forces written into slices, the table of them
-/// included.
+/// Compares analysis, factorisation and solve, without assembly, with writing all forces into slices, with their table.
 pub(crate) fn measure(extent: Extent, results: &mut Results) {
     let pile = Pile::triangular(extent.size(60, 8)).expect("a pile");
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");

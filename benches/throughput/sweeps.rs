@@ -1,4 +1,4 @@
-//! Sweeps of alternating layers: in floats, in the exact engine, in plain rationals, on two threads.
+//! Sweeps of HCP layers: in floats, in the exact engine, in plain rationals, on two threads.
 
 use std::hint::black_box;
 
@@ -39,13 +39,13 @@ pub(crate) fn measure(extent: Extent, results: &mut Results) {
     }
 
     let pile = alternating(extent.size(60, 6));
-    // The slow one once for each of a few pairs.
+    // The slow method runs in a few pairs only.
     let few = pairs.min(3);
     let over_integer = ratio(few, || time_in::<Plain>(&pile), || time_exact(&pile));
     results.push(("bigrational_over_integer".into(), over_integer));
 }
 
-/// The sweeps in floats and in the exact engine on one thread, against two.
+/// Compares sweeps in floats and in the exact engine on one thread with those on two.
 pub(crate) fn measure_threads(extent: Extent, results: &mut Results) {
     let pile = alternating(extent.size(200, 30));
     let pool = |threads| {
@@ -67,14 +67,14 @@ fn alternating(layers: i128) -> Pile {
     Pile::under(Region::SITE, stacking).expect("a pile")
 }
 
-/// A slice for each direction, a number for each sphere that is not on the floor.
+/// Returns a slice for each direction, with a number for each sphere above the floor.
 fn slices(pile: &Pile) -> [Vec<f64>; 3] {
     let layers = pile.forces::<f64>().layers(Selection::All);
     let spheres = layers.expect("room").slice_len().expect("as many as fit");
     [(); 3].map(|()| vec![1.5; spheres])
 }
 
-/// All contact forces by a sweep in floats, written into slices, against filling them with one value.
+/// Compares a sweep in floats that writes all contact forces into slices with filling the slices with one value.
 fn over_memset(pile: &Pile, pairs: usize) -> f64 {
     let (mut slices, mut other) = (slices(pile), slices(pile));
     let ratio = ratio(
@@ -113,7 +113,7 @@ fn over_memset(pile: &Pile, pairs: usize) -> f64 {
     ratio
 }
 
-/// The way down to the lowest contacts in a scalar: all numbers are reached, and none is written elsewhere.
+/// Sweeps down to the lowest contacts in a scalar, without writing the forces.
 fn time_in<T: Algebra>(pile: &Pile) -> f64 {
     seconds(|| {
         let layer = Selection::Layer(pile.layers() - 2);
@@ -122,14 +122,14 @@ fn time_in<T: Algebra>(pile: &Pile) -> f64 {
     })
 }
 
-/// The way down in the exact engine, its numbers in place as limbs.
+/// Sweeps down in the exact engine, with numerators as limbs in place.
 fn time_exact(pile: &Pile) -> f64 {
     time_in::<BigRational>(pile)
 }
 
-/// The engine and single questions, which follow the lines up, agree where the pile is small enough for both.
+/// Checks that the engine agrees with single queries, which follow the contact lines upwards.
 fn check_engine(pile: &Pile) {
-    // Below more layers a single question meets too many spheres.
+    // With more layers a single query visits too many spheres.
     let k = (pile.layers() - 2).min(60);
     let forces = pile.forces::<BigRational>();
     let mut layers = forces.layers(Selection::Layer(k)).expect("room");

@@ -1,10 +1,10 @@
-//! The piles that are measured.
+//! The measured piles.
 
 use cannonpile::Pile;
 use cannonpile::lattice::Region;
 use cannonpile::stacking::Stacking;
 
-/// A pile and what it is called.
+/// A pile and its name.
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) pile: Pile,
@@ -12,7 +12,7 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// The paper's pile.
+    /// Returns the pile of the paper.
     fn straight(layers: u16) -> Self {
         Self {
             name: format!("straight, {layers} layers"),
@@ -21,7 +21,7 @@ impl Case {
         }
     }
 
-    /// Hexagonal close packing, which changes sign at every layer, on a hexagon of `side` spheres a side.
+    /// Returns hexagonal close packing, with a sign change at every layer, under a hexagon of `side` spheres a side.
     fn alternating(side: u16, layers: u16) -> Self {
         let top = Region::hexagon(side.into(), side.into()).expect("a hexagon");
         let stacking = Stacking::hcp(layers.into()).expect("a stacking");
@@ -32,7 +32,7 @@ impl Case {
         }
     }
 
-    /// Contacts between spheres.
+    /// Returns the number of contacts between spheres.
     pub(crate) fn contacts(&self) -> f64 {
         let contacts: u32 = self
             .pile
@@ -43,8 +43,8 @@ impl Case {
     }
 }
 
-/// Straight piles; a wide low one with changes of sign, which stands; and one with many changes, which only glue would
-/// hold: some contacts pull.
+/// Returns straight piles, a low wide pile with sign changes that is stable, and a pile with many sign changes and tensile
+/// contacts.
 pub(crate) fn cases(smoke: bool) -> Vec<Case> {
     if smoke {
         return vec![

@@ -19,7 +19,7 @@ struct Row {
     relative_error: Option<f64>,
 }
 
-/// A row that has numbers.
+/// A row with numbers.
 struct Mark<'a> {
     row: &'a Row,
     /// Decades of time.
@@ -28,7 +28,7 @@ struct Mark<'a> {
     error: Option<f64>,
 }
 
-/// Methods: what is computed from formulas is filled, what solves equations is open.
+/// The shapes of methods. Formulas have filled shapes, solvers of equations open ones.
 const METHODS: [(&str, bool, Shape); 7] = [
     (
         "closed form, table",
@@ -59,7 +59,7 @@ const METHODS: [(&str, bool, Shape); 7] = [
     ),
 ];
 
-/// Scalars in the colours of Okabe and Ito, which the colour-blind can tell apart.
+/// The colours of scalars, by Okabe and Ito, which are safe for colour-blind readers.
 const SCALARS: [(&str, RGBColor); 6] = [
     ("f32", RGBColor(230, 159, 0)),
     ("f64", RGBColor(0, 114, 178)),
@@ -89,7 +89,7 @@ const HEAD: u32 = 60;
 const PANEL: u32 = 330;
 const FOOT: u32 = 160;
 
-/// The width of the column of exact answers, as a part of the decades.
+/// The width of the column of exact results, relative to that of the decades.
 const COLUMN: f64 = 0.24;
 
 /// Draws the table at `csv` as a chart at `svg`.
@@ -142,7 +142,7 @@ impl<'a> Mark<'a> {
     }
 }
 
-/// Draws the runs of one pile, and returns how many there are.
+/// Draws the runs of one pile, and returns their number.
 fn panel(area: &Area<'_>, marks: &[&Mark<'_>], times: Range<f64>) -> Result<usize, Box<dyn Error>> {
     let errors = decades(marks.iter().filter_map(|mark| mark.error));
     let column = COLUMN * (errors.end - errors.start);
@@ -191,7 +191,7 @@ fn panel(area: &Area<'_>, marks: &[&Mark<'_>], times: Range<f64>) -> Result<usiz
         let x = mark.error.unwrap_or(exact.start + column * part);
         (x, mark.time)
     };
-    // Those of one method in one scalar follow each other.
+    // Runs of one method in one scalar are consecutive.
     for settings in marks.chunk_by(|a, b| key(a) == key(b)) {
         let colour = colour(&settings[0].row.scalar);
         let line = settings.iter().map(|mark| place(mark));
@@ -207,7 +207,7 @@ fn panel(area: &Area<'_>, marks: &[&Mark<'_>], times: Range<f64>) -> Result<usiz
     Ok(marks.len())
 }
 
-/// Draws which shape and which colour mean what.
+/// Draws the legend of shapes and colours.
 fn legend(area: &Area<'_>) -> Result<(), Box<dyn Error>> {
     let (left, top) = area.get_base_pixel();
     let entry = |n: usize, y: i32, words: &str, method: &str, colour| {
@@ -228,7 +228,7 @@ fn legend(area: &Area<'_>) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Draws a mark at a place of the page.
+/// Draws a glyph at a position of the page.
 fn shape(
     area: &Area<'_>,
     method: &str,
@@ -274,7 +274,7 @@ fn float(count: usize) -> f64 {
     u32::try_from(count).map_or(f64::MAX, f64::from)
 }
 
-/// The decades in which some logarithms lie, with room for marks at both ends.
+/// Returns the decades that contain some logarithms, with a margin for glyphs at both ends.
 fn decades(logarithms: impl Iterator<Item = f64>) -> Range<f64> {
     let ends = logarithms
         .map(|x| (x, x))

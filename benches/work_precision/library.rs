@@ -1,4 +1,4 @@
-//! The methods of the library, in every scalar, each held to what its scalar promises.
+//! The methods of the library, in every scalar, with an assertion of the accuracy of each scalar.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::scalar::{
@@ -12,7 +12,7 @@ use crate::Bench;
 use crate::reference::{Unit, by_sphere};
 use crate::run::{Measured, Method, Run, timed};
 
-/// All methods in all scalars.
+/// Runs all methods in all scalars.
 pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
     let straight = bench.case.pile.shape().stacking().is_straight();
     let mut runs = Vec::new();
@@ -42,7 +42,7 @@ pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
     runs
 }
 
-/// Slices filled with forces in mg, each the nearest float, and with multiples of f₀.
+/// Fills slices with correctly rounded forces in mg, and with multiples of f₀.
 fn tables(bench: &Bench) -> [Run; 3] {
     let spacing = Spacing::new(BigRational::new(6.into(), 5.into())).expect("a spacing");
     let packing = Packing::new(&bench.case.pile, &spacing).expect("room");
@@ -125,7 +125,7 @@ fn engine(bench: &Bench) -> Run {
     }
 }
 
-/// All contact forces, layer after layer.
+/// Computes all contact forces, layer by layer.
 fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
     let forces = pile.forces::<T>().with_method(cannonpile::Method::Sweep);
     let layers = forces.and_then(|forces| forces.layers(Selection::All));
@@ -138,7 +138,7 @@ fn swept<T: Algebra>(pile: &Pile) -> Vec<[T; 3]> {
     by_direction(forces)
 }
 
-/// All contact forces, as they are asked for one after the other.
+/// Computes all contact forces by single queries.
 fn contacts<T: Algebra>(forces: &Forces<'_, T>) -> Vec<[T; 3]> {
     let contacts = forces.contacts(Selection::All).expect("a plan");
     by_sphere(contacts.map(|c| c.expect("a force").force).collect())
@@ -154,10 +154,10 @@ fn measured<T: Algebra + RealEmbeddable>(
     bench.run(method, T::NAME, Measured { seconds, error })
 }
 
-/// The error, which must be what the scalar promises: none, one that the bounds enclose, or one that roundings explain.
+/// Returns the error, and asserts that it agrees with the scalar: zero, inside the enclosure, or a few roundings.
 ///
-/// Of the closed form a few roundings. Of the recursion, where no step amplifies what came before, ten for each layer,
-/// each of what no force exceeds: √(3KN) f₀ for N spheres in K layers.
+/// The closed form has a few roundings. The recursion has at most ten roundings for each layer, because no step amplifies
+/// errors. Each rounding is relative to the largest possible force, √(3KN) f₀ for N spheres in K layers.
 fn held<T: Algebra + RealEmbeddable>(
     bench: &Bench,
     method: Method,
@@ -187,7 +187,7 @@ fn held<T: Algebra + RealEmbeddable>(
                 "{name}, {scalar}: error {error:e} exceeds {bound:e}"
             );
         }
-        // Exact, one way or the other.
+        // Exact scalars have no error.
         _ => assert!(
             error <= 0.0,
             "{name}, {scalar}: error {error:e} of an exact scalar"

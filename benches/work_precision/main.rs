@@ -1,16 +1,17 @@
-//! Run time against error, for every method in every scalar.
+//! A work–precision diagram: run time and error of every method in every scalar.
 //!
 //! `cargo bench --manifest-path benches/Cargo.toml --bench work_precision`
-//! computes all contact forces of some piles in every way there is, prints a table, and
-//! writes it as CSV and as a log–log chart, to `work_precision.csv` and `work_precision.svg` in the directory of targets or to
-//! `-- --csv FILE --svg FILE`. With `-- --smoke` it tries small piles once, and writes to `smoke.csv` and `smoke.svg` there;
-//! with `-- --draw` it measures nothing, and draws the CSV that is there.
+//! computes all contact forces of some piles with every method, and prints a table. It also writes the table as CSV and as a
+//! log–log chart, to `work_precision.csv` and `work_precision.svg` in the target folder or to `-- --csv FILE --svg FILE`.
+//! With `-- --smoke` it runs small piles once, and writes `smoke.csv` and `smoke.svg`. With `-- --draw` it only draws the
+//! existing CSV.
 //!
-//! The error is the greatest difference of a contact force from the exact one, in rational arithmetic, over the
-//! greatest exact force; the exact forces are proved to be in equilibrium. 0 means that every force is exact. It is
-//! asserted that exact methods have no error, that intervals hold the exact forces, and that no float is further off
-//! than its bound. The time is the median of three runs, or of the only one if it takes over 10 s; which spheres touch,
-//! and where they are, is given.
+//! The error is the largest difference between a contact force and the exact one, relative to the largest exact force, in
+//! rational arithmetic. The exact forces are checked to be in equilibrium. The bench asserts that exact methods have no
+//! error, that intervals contain the exact forces, and that floats are within their bounds.
+//!
+//! The time is the median of three runs, or a single run if it takes more than 10 s. It does not include the geometry of the
+//! pile.
 
 mod cases;
 mod chart;
@@ -35,7 +36,7 @@ fn main() {
     if !options.draw {
         measure(&options);
     }
-    // From the table as it was written.
+    // The chart is drawn from the written table.
     chart::draw(&options.csv, &options.svg).expect("a table, and a place for the chart");
     println!("\n{}\n{}", options.csv.display(), options.svg.display());
 }
@@ -54,7 +55,7 @@ fn measure(options: &Options) {
 
 struct Options {
     smoke: bool,
-    /// Only the chart, from a table that is there.
+    /// Draw the chart of an existing table only.
     draw: bool,
     csv: PathBuf,
     svg: PathBuf,
@@ -70,7 +71,7 @@ impl Options {
                 "--draw" => draw = true,
                 "--csv" => csv = Some(file()),
                 "--svg" => svg = Some(file()),
-                // Cargo's own.
+                // Options that Cargo adds.
                 "--bench" => {}
                 other => {
                     panic!("{other}: the options are --smoke, --draw, --csv FILE and --svg FILE")
@@ -88,7 +89,7 @@ impl Options {
     }
 }
 
-/// A pile, and what its forces are compared with.
+/// A pile and its reference forces.
 pub(crate) struct Bench {
     pub(crate) case: Case,
     pub(crate) network: Network,
@@ -120,7 +121,7 @@ impl Bench {
         }
     }
 
-    /// A row that says why there are no numbers.
+    /// Adds a row with the reason of missing numbers.
     pub(crate) fn without(&self, method: Method, scalar: &'static str, why: &str) -> Run {
         let unmeasured = Measured {
             seconds: f64::NAN,

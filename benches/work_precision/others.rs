@@ -1,6 +1,6 @@
-//! The methods of those who do not know the closed form, in floats.
+//! Methods that do not use the closed form, in floats.
 //!
-//! Their time includes the equations of equilibrium, and not the geometry of the pile, which they are given.
+//! Their time includes the assembly of the equations of equilibrium, but not the geometry of the pile.
 
 use cannonpile::scalar::{Algebra, RealEmbeddable};
 use faer::traits::ComplexField;
@@ -14,7 +14,7 @@ use crate::peers::{inclination, iterative, lu};
 use crate::reference::{Unit, by_sphere};
 use crate::run::{Measured, Method, Run, timed};
 
-/// LU and conjugate gradients in two floats, springs of several stiffnesses.
+/// Runs LU and conjugate gradients in two float types, and springs of several stiffnesses.
 pub(crate) fn runs(bench: &Bench) -> Vec<Run> {
     let mut runs = vec![factorised::<f32>(bench), factorised::<f64>(bench)];
     runs.extend([1e-3, 1e-5].map(|tolerance: f32| iterated(bench, tolerance)));
@@ -32,7 +32,7 @@ fn factorised<F: Algebra + RealEmbeddable + ComplexField + Float>(bench: &Bench)
 }
 
 fn iterated<F: Algebra + RealEmbeddable + Float>(bench: &Bench, tolerance: F) -> Run {
-    // In exact arithmetic it would end after as many iterations as there are unknowns.
+    // In exact arithmetic the iteration ends after at most as many steps as there are unknowns.
     let most = 40 * usize::from(bench.case.layers);
     let (seconds, answer) = timed(bench.repetitions, || {
         iterative::forces(&Equations::new(&bench.network), tolerance, most)
@@ -45,14 +45,16 @@ fn iterated<F: Algebra + RealEmbeddable + Float>(bench: &Bench, tolerance: F) ->
         remark: if answer.converged {
             format!("{iterations} iterations")
         } else {
-            format!("did not come down to that in {iterations} iterations")
+            format!("did not converge in {iterations} iterations")
         },
         ..run
     }
 }
 
-/// The error, which the residual r bounds: √K·‖r‖/σ in every layer, with σ the least singular value of the unit vectors of
-/// three contacts. For a layer adds at most ‖r_k‖/σ to what comes from above, and passes that on unamplified.
+/// Returns the error, and asserts that the residual r bounds it by √K·‖r‖/σ.
+///
+/// σ is the smallest singular value of the unit vectors of three contacts. Layer k adds at most ‖r_k‖/σ to the error from
+/// above, which it does not amplify.
 fn held<F: Algebra + RealEmbeddable + Float>(bench: &Bench, forces: Vec<F>) -> f64 {
     let Bench {
         case,
@@ -66,7 +68,7 @@ fn held<F: Algebra + RealEmbeddable + Float>(bench: &Bench, forces: Vec<F>) -> f
         .collect();
     let residual = squared(&Equations::new(network).residual(&floats)).sqrt();
     let greatest = floats.iter().copied().map(f64::abs).fold(1.0, f64::max);
-    // The residual and the directions are rounded themselves: six products and a weight.
+    // The margin covers the rounding of the residual and of the directions: six products and a weight.
     let rounded = 16.0 * f64::EPSILON * greatest * case.contacts().sqrt();
 
     let [sin2, cos2] = [inclination().sin2(), &inclination().cos2()].map(f64::from_rational);
@@ -101,7 +103,7 @@ fn springs(bench: &Bench) -> Vec<Run> {
         .into()
 }
 
-/// Springs of a stiffness in mg/R.
+/// Runs springs of a stiffness in mg/R.
 fn relaxed(bench: &Bench, stiffness: f64) -> Run {
     let layers = f64::from(bench.case.layers);
     let (seconds, answer) = timed(bench.repetitions, || {
@@ -114,7 +116,7 @@ fn relaxed(bench: &Bench, stiffness: f64) -> Run {
         return Run { setting, ..run };
     };
     let error = bench.reference.error(&by_sphere(forces), Unit::Weights);
-    // Compliance and the rounding of positions: twice what was measured, and no theorem. Near collapse there is more.
+    // This bound is twice the measured error of compliance and rounding. It is no theorem, and fails near collapse.
     let bound = layers / stiffness + 1e-15 * layers * stiffness;
     let near_collapse = stiffness < layers.powi(3);
     assert!(

@@ -1,4 +1,4 @@
-//! The exact forces of a pile, certified, and how far other answers are from them.
+//! The exact forces of a pile, checked for equilibrium, and the error of other forces.
 
 use cannonpile::Pile;
 use cannonpile::geometry::Vector;
@@ -12,7 +12,7 @@ use num_traits::{Signed, Zero};
 use crate::peers;
 use crate::peers::network::Network;
 
-/// The unit in which a method gives its forces.
+/// The unit of the forces of a method.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Unit {
     /// f₀ = mg/(3 cosθ).
@@ -24,15 +24,16 @@ pub(crate) enum Unit {
 /// The exact contact forces, in f₀, three for each sphere above the floor.
 pub(crate) struct Reference {
     pub(crate) forces: Vec<[BigRational; 3]>,
-    /// The greatest of them.
+    /// The largest force.
     pub(crate) greatest: BigRational,
     /// mg/f₀ = 3 cosθ to 60 digits.
     weight: BigRational,
 }
 
 impl Reference {
-    /// The library's exact answer, and the proof that it is right: every sphere is in equilibrium, exactly, and as many
-    /// equations as forces have one solution.
+    /// Returns the exact forces of the library, and checks them.
+    ///
+    /// Every sphere must be in exact equilibrium. There are as many equations as forces, so the solution is unique.
     pub(crate) fn new(pile: &Pile, network: &Network) -> Self {
         let contacts = pile.forces::<BigRational>().contacts(Selection::All);
         let contacts = contacts.expect("a plan");
@@ -42,7 +43,7 @@ impl Reference {
 
         let magnitudes = forces.iter().flatten().map(Signed::abs);
         let greatest = magnitudes.max().expect("a contact");
-        // 3 cosθ = √(9 cos²θ), down to the 60th digit.
+        // 3 cosθ = √(9 cos²θ), rounded down to 60 digits.
         let digits = BigInt::from(10).pow(60);
         let square = peers::inclination().cos2() * BigInt::from(9) * &digits * &digits;
         Self {
@@ -52,9 +53,9 @@ impl Reference {
         }
     }
 
-    /// The greatest error of all forces, over the greatest exact force: 0 if and only if all are exact.
+    /// Returns the largest error of a force, relative to the largest exact force. It is 0 if and only if all are exact.
     ///
-    /// The error of an enclosure is that of the worst value in it.
+    /// The error of an enclosure is the largest error of its values.
     pub(crate) fn error<T: RealEmbeddable>(&self, forces: &[[T; 3]], unit: Unit) -> f64 {
         let scaled = |bound: BigRational| match unit {
             Unit::PileUnits => bound,
@@ -67,7 +68,7 @@ impl Reference {
         self.relative(errors.max().expect("a contact"))
     }
 
-    /// That every force holds the exact one.
+    /// Asserts that every enclosure contains the exact force.
     pub(crate) fn is_enclosed_by<T: RealEmbeddable>(&self, forces: &[[T; 3]]) -> bool {
         let mut compared = self.compared(forces);
         compared.all(|(force, exact)| {
@@ -76,11 +77,11 @@ impl Reference {
         })
     }
 
-    /// A force in f₀ over the greatest exact one.
+    /// Returns a force in f₀ relative to the largest exact one.
     pub(crate) fn relative(&self, force: BigRational) -> f64 {
         let exact = force.is_zero();
         let relative = f64::from_rational(&(force / &self.greatest));
-        assert!(exact || relative > 0.0, "no error is lost to underflow");
+        assert!(exact || relative > 0.0, "an error underflows");
         relative
     }
 
@@ -93,7 +94,7 @@ impl Reference {
     }
 }
 
-/// Contact forces, three to a sphere.
+/// Contact forces, three for each sphere.
 pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
     let mut forces = forces.into_iter();
     let mut spheres = Vec::with_capacity(forces.len() / 3);
@@ -103,7 +104,7 @@ pub(crate) fn by_sphere<T>(forces: Vec<T>) -> Vec<[T; 3]> {
     spheres
 }
 
-/// That what a sphere is pushed up by, what it is pushed down by and its weight, 3 f₀ cosθ, add up to nothing.
+/// Asserts that the contact forces on each sphere and its weight, 3 f₀ cosθ, sum to zero.
 fn certify(pile: &Pile, network: &Network, passed_on: &[[BigRational; 3]]) {
     let forces = pile.forces::<BigRational>();
     let mut left = vec![Vector::zero(); network.sites.len()];

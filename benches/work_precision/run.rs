@@ -1,9 +1,9 @@
-//! What is measured of a method on a pile.
+//! The measurement of a method on a pile.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// A way to all contact forces.
+/// A method that computes all contact forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Method {
     /// Slices filled from a table of the distinct forces.
@@ -44,9 +44,9 @@ pub(crate) struct Run {
     pub(crate) scalar: &'static str,
     /// Tolerance or stiffness, if the method has one.
     pub(crate) setting: String,
-    /// Time and error, or why there is none.
+    /// Time and error, or the reason why there are none.
     pub(crate) outcome: Result<Measured, String>,
-    /// What is to be said besides.
+    /// A remark on the result.
     pub(crate) remark: String,
 }
 
@@ -58,10 +58,10 @@ pub(crate) struct Measured {
     pub(crate) error: f64,
 }
 
-/// A run that takes longer, in seconds, is not repeated: noise is no part of its time.
+/// The time in seconds from which a run is not repeated, because noise does not affect it.
 const LONG: f64 = 10.0;
 
-/// The median time of some runs, and the last answer.
+/// Returns the median time of some runs, and the last result.
 pub(crate) fn timed<A>(repetitions: usize, mut run: impl FnMut() -> A) -> (f64, A) {
     let mut once = || {
         let begun = Instant::now();

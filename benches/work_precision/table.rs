@@ -1,4 +1,4 @@
-//! The measurements as text and as CSV.
+//! The table of measurements, as text and as CSV.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ pub(crate) fn print(runs: &[Run]) {
     }
 }
 
-/// Writes all runs; a row without numbers says why in its remark.
+/// Writes all runs. The remark of a row without numbers gives the reason.
 pub(crate) fn write(file: &Path, runs: &[Run]) -> Result<(), csv::Error> {
     let mut table = csv::Writer::from_path(file)?;
     table.write_record([
