@@ -1,4 +1,4 @@
-"""A browser without a screen, driven over the DevTools protocol: Debian's chromium and python3-websocket."""
+"""A headless browser, controlled over the DevTools protocol: chromium and python3-websocket of Debian."""
 
 import base64
 import io
@@ -26,7 +26,7 @@ FLAGS = [
 
 
 class Browser:
-    """One tab; `errors` and `requests` are what its pages said and asked for."""
+    """A tab, with the `errors` and `requests` of its pages."""
 
     def __init__(self, *flags):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -69,7 +69,7 @@ class Browser:
         raise TimeoutError(otherwise)
 
     def send(self, method, **parameters):
-        """What the browser answers; what it tells meanwhile is kept."""
+        """Sends a command and returns the response. Events that arrive meanwhile are recorded."""
         self.sent += 1
         message = {"id": self.sent, "method": method, "params": parameters}
         if self.session:
@@ -99,14 +99,14 @@ class Browser:
                 self.loaded = True
 
     def show(self, width, height, dark=False, scale=1, touch=False):
-        """The size of the window, and what its user likes."""
+        """Sets the size of the window and the preferences of the user."""
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=touch)
         self.send("Emulation.setTouchEmulationEnabled", enabled=touch)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.send("Emulation.setEmulatedMedia", features=[scheme])
 
     def open(self, path):
-        """Opens a file from the disk; returns the seconds until its first picture."""
+        """Opens a file; returns the seconds until its first picture."""
         begun = time.monotonic()
         self.loaded = False
         self.send("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
@@ -116,11 +116,11 @@ class Browser:
         return time.monotonic() - begun
 
     def settle(self):
-        """Waits until what has changed is drawn."""
+        """Waits until changes are drawn."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def run(self, script):
-        """The value of a script, as JSON has it; promises are waited for."""
+        """Returns the JSON value of a script, after waiting for promises."""
         said = self.send("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in said:
             raise RuntimeError(f"{script}: {said['exceptionDetails']}")
@@ -141,7 +141,7 @@ class Browser:
         self.settle()
 
     def touch(self, *steps):
-        """Fingers: a list of points at each step, from the first touch to the last."""
+        """Moves fingers: a list of points for each step, from the first touch to the last."""
         for n, points in enumerate(steps):
             fingers = [{"x": x, "y": y, "id": n} for n, (x, y) in enumerate(points)]
             self.send("Input.dispatchTouchEvent", type="touchMove" if n else "touchStart", touchPoints=fingers)
@@ -156,7 +156,7 @@ class Browser:
         self.settle()
 
     def picture(self, path=None, whole=False):
-        """What is seen, as an image; kept as a file if a path is given."""
+        """Returns a screenshot, and writes it to a file if a path is given."""
         shot = self.send("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
         image = Image.open(io.BytesIO(base64.b64decode(shot["data"]))).convert("RGB")
         if path:

@@ -1,4 +1,4 @@
-"""Compares forces that a code of springs has measured with those of an elastic state, by the greatest force of all.
+"""Compares measured forces of a code with springs with those of an elastic state, relative to the largest force.
 
 Usage: compare_elastic.py MEASURED CONTACTS, a LAMMPS dump or a csv with id1, id2 and force, and contacts.csv of the export
 with its spheres.csv beside it. What bears a force must bear that one, what does not must not, to 1e-5 of the greatest.
@@ -12,7 +12,7 @@ ACCEPTED = 1e-5
 
 
 def measured(path):
-    """The forces by pair of numbers, of the last snapshot of a dump."""
+    """Returns the forces of the last snapshot of a dump, by pair of numbers."""
     lines = path.read_text().splitlines()
     heads = [n for n, line in enumerate(lines) if line.startswith("ITEM: ENTRIES")]
     if heads:
@@ -36,7 +36,7 @@ def main(forces, contacts):
     errors = {pair: abs(found.get(pair, 0.0) - exact.get(pair, 0.0)) / greatest for pair in exact.keys() | found.keys()}
     worst = max(errors, key=errors.get)
     print(f"{len(exact)} contacts, {horizontal} of them horizontal, and {len(found.keys() - exact.keys())} open ones:")
-    print(f"largest error {errors[worst]:.1e} of the greatest force, at spheres {sorted(worst)}")
+    print(f"largest error {errors[worst]:.1e} relative to the largest force, at spheres {sorted(worst)}")
     return 0 if errors[worst] <= ACCEPTED else 1
 
 

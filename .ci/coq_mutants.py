@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Changes recorded definitions of Formulas.v in turn, and sees Coq refuse a proof: coq_mutants.py FOLDER few|one|all.
+"""Changes recorded definitions of Formulas.v, one at a time, and checks that Coq rejects a proof: coq_mutants.py FOLDER few|one|all.
 
 FOLDER has the files of `cannonpile prove --to coq`, compiled. An operator, a number or a name is changed; `one` takes one of
 each definition, the one in its middle, `few` does so for every 27th definition, `all` takes all. Exit status 1 if a change
@@ -15,10 +15,10 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-# What is looked for, and what it becomes.
+# The patterns of operators and numbers, with their replacements.
 CHANGES = [
     (re.compile(r" \+ "), lambda m: " - "),
-    # Less nothing is more nothing.
+    # x - 0 = x + 0, so this change would not be a mutant.
     (re.compile(r" - (?!0\b)"), lambda m: " + "),
     (re.compile(r" \* "), lambda m: " + "),
     (re.compile(r"\(- "), lambda m: "(2 * "),
@@ -28,19 +28,19 @@ CHANGES = [
     (re.compile(r"(?<=\()(-?\d+), (-?\d+)(?=\)%Z)"), lambda m: f"{int(m[1]) + 1}, {m[2]}"),
     (re.compile(r"\.\((alpha|beta|gamma|along_x|along_y|along_z)\)"), lambda m: f".({NEXT[m[1]]})"),
 ]
-# What a direction is compressed by against itself is nothing, however often it is taken.
+# Equivalent mutants: the compression of a direction against itself is zero, whatever its factor.
 NOTHING = re.compile(r"\|\s+(\w+),\s+\1,\s+\w+\s+=>\s+(?=\(- )")
 NEXT = dict(alpha="beta", beta="gamma", gamma="alpha", along_x="along_y", along_y="along_z", along_z="along_x")
 
 
 def definitions(text):
-    """Where each definition begins, its body begins, and it ends."""
+    """Returns the start, the start of the body, and the end of each definition."""
     for found in re.finditer(r"^Definition (\w+).*? :=\n(.*?\.)\n(?=\n|\Z)", text, re.M | re.S):
         yield found[1], found.start(2), found.end(2)
 
 
 def variants(body):
-    """The body with one change, for each place that can be changed, in their order."""
+    """Returns the body with one change, for each possible change, in order."""
     nothing = {found.end() for found in NOTHING.finditer(body)}
     places = sorted(
         (found.start(), found.end(), becomes(found))
@@ -48,20 +48,20 @@ def variants(body):
         for found in what.finditer(body)
         if found.start() not in nothing
     )
-    # A definition that only names a parameter.
+    # The definition is only a parameter.
     if not places:
         places = [(len(body) - 1, len(body) - 1, " + 1")]
     return [body[:start] + new + body[end:] for start, end, new in places]
 
 
 def refused_by(folder, order, name):
-    """Which file Coq refuses first, if any: those that name the definition before all others, against mere statements."""
+    """Returns the first file that Coq rejects, if any. Files that use the definition are checked first."""
 
     def coqc(file, *options):
         run = ["coqc", "-q", *options, "-Q", ".", "Cannonpile", f"{file}.v"]
-        # What takes too long is not refused: then this ends with an error.
+        # A check that takes too long is not a rejection, so this fails.
         done = subprocess.run(run, cwd=folder, capture_output=True, text=True, timeout=1200)
-        # Killed, or out of memory, is no answer either.
+        # A killed check, for example out of memory, is not a rejection either.
         assert done.returncode in (0, 1) and "Out of memory" not in done.stderr, (file, done.returncode, done.stderr[-500:])
         return done.returncode == 0
 
@@ -98,7 +98,7 @@ def main():
             (Path(folder) / "Formulas.v").write_text(mutant)
             return name, new, refused_by(Path(folder), order[first:], name)
 
-    # As it is, it passes in the same way.
+    # Without a change the same check must pass.
     name, start, end = found[0]
     unchanged = attempt((name, text, text[start:end]))[2]
     if unchanged is not None:
@@ -111,7 +111,7 @@ def main():
             if refused is None:
                 survived.append((name, new))
                 print(f"SURVIVES: {name} := {' '.join(new.split())}", flush=True)
-    print(f"{len(tasks)} changes: refused in", ", ".join(f"{file} {n}" for file, n in by_file.items() if file))
+    print(f"{len(tasks)} changes: rejected in", ", ".join(f"{file} {n}" for file, n in by_file.items() if file))
     sys.exit(1 if survived else 0)
 
 

@@ -1,11 +1,11 @@
-"""The bounds of bottom spheres once more, by an exact linear program: QSopt_ex solves it in rationals.
+"""Checks the bounds of base normal forces with an exact linear program, which QSopt_ex solves in rationals.
 
-Usage: exact_lp.py FOLDER BOUNDS, the folder that `cannonpile export --to csv --spacing 1` has written and the csv file
-of `cannonpile bounds`; exact_lp.py FOLDER, for a pile that cannot stand.
+Usage: exact_lp.py FOLDER BOUNDS, with the folder of `cannonpile export --to csv --spacing 1` and the csv file of
+`cannonpile bounds`; exact_lp.py FOLDER, for an unstable pile.
 
-In a = R all places are integers in thirds of the two lattice vectors of a layer and in layers, and all contacts as long
-as each other. So the balance of a sphere has integer coefficients: the force of a contact over the rise of a layer
-between its ends is mu (1, da, db), and sum mu da = sum mu db = 0, sum mu dk = w.
+At a = R all positions are integers in units of a third of the two lattice vectors and of a layer, and all contacts have the
+same length. So the equilibrium of a sphere has integer coefficients. With mu, the force of a contact divided by its length
+in these units, it is sum mu da = sum mu db = 0 and sum mu dk = w.
 """
 
 import math
@@ -20,7 +20,7 @@ from touching import bounds, pairs, spheres
 
 
 def integers(place):
-    """The place in thirds of (0, 2) and (sqrt(3), 1), and in layers of height sqrt(8/3), all in radii."""
+    """Returns the position in thirds of (0, 2) and (sqrt(3), 1), and in layers of height sqrt(8/3), all in radii."""
     x, y, z = place
     b = x / math.sqrt(3)
     numbers = (3 * (y - b) / 2, 3 * b, z / math.sqrt(8 / 3))
@@ -31,7 +31,7 @@ def integers(place):
 
 
 class Program:
-    """All forces mu >= 0 that balance the free spheres."""
+    """The linear program of all forces mu >= 0 with the free spheres in equilibrium."""
 
     def __init__(self, piled, folder):
         self.piled, self.touching, self.folder = piled, pairs(piled), folder
@@ -53,7 +53,7 @@ class Program:
                 self.rows.append(f" r{len(self.rows)}:{terms} = {total * weight.denominator}")
 
     def extreme(self, sense, number):
-        """The least or the greatest sum of mu on a bottom sphere; None if no forces balance the pile."""
+        """Returns the smallest or largest sum of mu on a bottom sphere, or None if there is no equilibrium."""
         goal = " + ".join(f"m{name}" for name in self.bearing[number]) or "0 m0"
         file, answer = (Path(self.folder) / name for name in ("pile.lp", "pile.sol"))
         lines = [f"{sense}\n goal: {goal}", "Subject To", *self.rows, "End"]
@@ -77,7 +77,7 @@ def main(folder, file=None):
         if file is None:
             if program.extreme("Minimize", next(iter(program.bearing))) is not None:
                 raise SystemExit("FAILED: forces balance a pile that cannot stand")
-            print(f"no forces balance {len(piled)} spheres")
+            print(f"{len(piled)} spheres have no equilibrium")
             return
         claimed = bounds(file)
         if len(claimed) != len(program.bearing):
@@ -88,7 +88,7 @@ def main(folder, file=None):
             exact = [weight + program.extreme(sense, number) for sense in ("Minimize", "Maximize")]
             if exact != [least, greatest] and (attained or not least <= exact[0] <= exact[1] <= greatest):
                 raise SystemExit(f"FAILED: {piled[number].site} bears {exact[0]} to {exact[1]}, not {least} to {greatest}")
-    print(f"{2 * len(claimed)} bounds are those of QSopt_ex: {len(piled)} spheres, {len(program.touching)} contacts")
+    print(f"{2 * len(claimed)} bounds agree with QSopt_ex: {len(piled)} spheres, {len(program.touching)} contacts")
 
 
 main(*sys.argv[1:])

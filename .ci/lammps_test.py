@@ -1,9 +1,9 @@
-"""Runs a test in the style of unittest/granular of LAMMPS as the drivers there do, which are in C++ and are not built here.
+"""Runs a test in the style of unittest/granular of LAMMPS, in place of the C++ drivers, which are not built here.
 
-Usage: lammps_test.py FILE. Reads the YAML with PyYAML; gives LAMMPS the commands in the order of test_dem_common.cpp
-(newton, variables, pre_commands, pair_style, pair_coeff, post_commands), runs the segments, and compares positions by the
-same relative error, with newton on and off. Beyond that run_forces, the reactions of the floor, which the drivers read and
-do not compare.
+Usage: lammps_test.py FILE. The script reads the YAML with PyYAML and sends LAMMPS the commands in the order of
+test_dem_common.cpp: newton, variables, pre_commands, pair_style, pair_coeff, post_commands. It runs the segments, and
+compares positions with the same relative error, with newton on and off. It also compares run_forces, the reactions of the
+floor, which the drivers read but do not compare.
 """
 
 import sys
@@ -18,7 +18,7 @@ def require(condition, message):
 
 
 def relative(found, wanted):
-    """The error of LAMMPS' EXPECT_FP_LE_WITH_EPS."""
+    """Returns the error of EXPECT_FP_LE_WITH_EPS of LAMMPS."""
     apart, least = abs(found - wanted), min(abs(found), abs(wanted))
     return apart / least if least else apart
 
@@ -28,7 +28,7 @@ def rows(block):
 
 
 def of_atoms(lmp, name):
-    """A vector of each atom, by its number."""
+    """Returns a vector for each atom, by its number."""
     count = lmp.extract_global("nlocal")
     tags, vectors = lmp.extract_atom("id"), lmp.extract_atom(name)
     return {tags[atom]: [vectors[atom][axis] for axis in range(3)] for atom in range(count)}
@@ -71,7 +71,7 @@ def main(path):
     test = {key: value.removeprefix("| ") if isinstance(value, str) else value for key, value in test.items()}
     errors = [run(test, newton) for newton in ("on", "off")]
     position, force = map(max, zip(*errors))
-    print(f"{test['natoms']} atoms, newton on and off: positions off by {position:.2g}, reactions by {force:.2g} of the greatest")
+    print(f"{test['natoms']} atoms, newton on and off: error of positions {position:.2g}, of reactions {force:.2g} relative to the largest")
 
 
 main(*sys.argv[1:])

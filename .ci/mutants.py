@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
-"""Plants every fault that cargo-mutants lists, one at a time, and asks the tests whether they notice.
+"""Runs the tests on every mutant that cargo-mutants lists, in a single build.
 
     .ci/mutants [--room ROOM]… [--changed COMMIT] [--sample N] [--shard I/N] [--slowest S] [--most S] [--seconds S] [--jobs N] DIR
 
-cargo-mutants builds the tests anew for each fault, half a minute each and more; here are thousands of faults. So all are built at
-once: where a fault could be, the code asks `mutants::active(NUMBER)`, which is true of the one that the environment names. Each test
-is run once beforehand, and says which of these questions it came by; a fault is then shown to those tests alone, the quickest first,
-until one fails. What does not compile by its types is left out, as cargo-mutants leaves it out ("unviable").
+cargo-mutants builds the tests again for each mutant, which takes half a minute or more, and there are thousands of mutants. This
+script builds all of them at once. Each mutated expression calls `mutants::active(NUMBER)`, which is true for the mutant that the
+environment names. A first run of each test records the mutants that it reaches. Then each mutant runs with the tests that reach
+it, the fastest first, until one fails. A mutant that does not compile is left out ("unviable"), as cargo-mutants does.
 
-DIR keeps the instrumented copy, its build and all results; a second run goes on where the first one ended, and with a greater --most
-shows what survived so far, and is not listed, to more tests.
-`.ci/mutants.survivors` lists the faults that no test notices, with the reason, a line each; a fault that survives and is not
-listed there, or that is listed and is noticed, makes this fail.
+DIR contains the instrumented copy, its build and all results. A second run continues the first one. With a larger --most it runs
+unlisted survivors with more tests. `.ci/mutants.survivors` lists the mutants that no test kills, a line each with the reason.
+The script fails if an unlisted mutant survives, or if a listed one is killed.
 
 The examples in the documentation are not among the tests.
 
@@ -39,23 +38,23 @@ import tree_sitter_rust
 
 HERE = Path(__file__).parent.parent
 SURVIVORS = HERE / ".ci" / "mutants.survivors"
-# Rooms and files that read, write, draw or make inputs of tests: their faults are seen, and no number comes from them.
+# Modules and files that read, write, draw or generate test inputs. They compute no results, so they are left out.
 TOOLS = {"arbitrary", "cli", "data", "dem", "figure", "testing"}
 RECORDS = {
     "crates/disorder/src/ensemble/record.rs",
     "crates/horizontal/src/certificate/file.rs",
     "crates/horizontal/src/certificate/record.rs",
 }
-# The unpublished crate that tests share has its own tests.
+# The unpublished crate for tests is left out too.
 TESTKIT = "cannonpile-testkit"
 # The sources of all crates, for git.
 SOURCES = ["src", "crates/*/src/*"]
-# Ends of an attack.
+# The results of a mutant that no test kills.
 UNNOTICED = ["survives", "survives so far", "not reached"]
 PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_rust.language()))
 
-# Asked where a fault could be. What is computed while compiling has none: a constant with faults, of a file or a block, is a function
-# for what reads it there; in other files, in macros, patterns and paths it stays as it is.
+# The module that mutated code calls. Constant evaluation has no mutants, so a constant with mutants becomes a function for the
+# readers in its file or block. Other files, macros, patterns and paths read the original constant.
 ASKED = """
 //! Which fault is planted: none, or the one that the environment names.
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
@@ -122,17 +121,17 @@ impl<A: Iterator<Item = B::Item>, B: Iterator> Iterator for Either<A, B> {
 
 
 def room(file):
-    """The crate of a file, or its room of the core: a file of src, and the folder of the same name."""
+    """Returns the crate of a file, or its module of the core."""
     return Path(file).parts[1].removesuffix(".rs")
 
 
 def path_to_questions(file):
-    """Where the code of a file finds the questions: `exact-surd` has them, and the core hands them to the crates beside it."""
+    """Returns the path of the module `mutants`: it is in `exact-surd`, and the core re-exports it for the other crates."""
     return "crate" if file.startswith(("src/", "crates/surd/")) else "cannonpile"
 
 
 class Fault:
-    """One of cargo-mutants, with its place in the file."""
+    """A mutant of cargo-mutants, with its position in the file."""
 
     def __init__(self, number, listed, text):
         self.number = number
@@ -146,7 +145,7 @@ class Fault:
         line = lines[start["line"] - 1]
         self.at = len("\n".join(lines[: start["line"] - 1]).encode()) + (start["line"] > 1)
         self.at += len(line[: start["column"] - 1].encode())
-        # Without numbers of lines, which change.
+        # The key has no line numbers, because they change.
         self.key = f"{self.file}: {self.words}: {line.strip()}"
 
 
@@ -157,14 +156,14 @@ def enclosing_node(node, kinds):
 
 
 class Rewriter:
-    """Rewrites one file so that it holds all faults that are left."""
+    """Rewrites one file with all remaining mutants."""
 
     def __init__(self, source, faults, path):
         self.source = source
         self.path = path
         self.by_node = collections.defaultdict(list)
         self.apart = []
-        # Constants with faults: by node, and by name where they are read.
+        # Constants with mutants, by node and by name.
         self.constants = {}
         tree = PARSER.parse(source)
         self.root = tree.root_node
@@ -177,13 +176,13 @@ class Rewriter:
                 self.note_constant(node)
 
     def note_constant(self, node):
-        """Notes the constant that an expression is of, unless it is that of a type or of a module within the file."""
+        """Records the constant that contains an expression, unless it belongs to a type or to a module inside the file."""
         item = enclosing_node(node, {"const_item"})
         if item is not None and item.parent.type in {"source_file", "block"}:
             self.constants[item.id] = (item.child_by_field_name("name").text, item, item.parent)
 
     def constant_read(self, node):
-        """The function for the constant with faults that an identifier names, if it does."""
+        """Returns the function for the constant with mutants that an identifier names, if any."""
         for name, item, scope in self.constants.values():
             if node.text == name and scope.start_byte <= node.start_byte < scope.end_byte and enclosing_node(
                 node, {"match_pattern", "use_declaration", "token_tree", "scoped_identifier", "shorthand_field_initializer"}
@@ -223,7 +222,7 @@ class Rewriter:
         return self.plain(node)
 
     def plain(self, node, changed=()):
-        """The text of a node, with that of some children given."""
+        """Returns the text of a node, with replacements for some children."""
         if node.child_count == 0:
             read = self.constant_read(node) if node.type == "identifier" else None
             return read or self.slice(node.start_byte, node.end_byte)
@@ -237,7 +236,7 @@ class Rewriter:
         return "".join(parts)
 
     def as_function(self, item):
-        """A constant with its faults: it is computed when it is read."""
+        """Rewrites a constant with its mutants as a function."""
         name, kind, value = (item.child_by_field_name(field) for field in ("name", "type", "value"))
         return f" const fn planted_{name.text.decode()}() -> {self.plain(kind)} {{ {self.text(value)} }}"
 
@@ -245,7 +244,7 @@ class Rewriter:
         return f"{self.path}::mutants::active({fault.number})"
 
     def choice(self, faults, original, alternative):
-        """if … else if … else; each alternative between marks, so that an error in it is known to be its own."""
+        """Returns if … else if … else, with marks around each alternative, which attribute compiler errors to it."""
         text = ""
         for fault in faults:
             text += f"if {self.active(fault)} {{/*[{fault.number}*/{alternative(fault)}/*]*/}} else "
@@ -306,7 +305,7 @@ class Rewriter:
         return f"(match {scrutinee} {{ (mutant_l, mutant_r) => {alternatives} }})"
 
     def unnamed(self, body, faults):
-        """A body whose type has no name."""
+        """Returns a body whose type has no name."""
         planted = f"{self.path}::mutants::Either::Planted"
         dynamic = "::std::boxed::Box<dyn ::core::iter::Iterator<Item = _>>"
         text = ""
@@ -389,7 +388,7 @@ class Copy:
         )
 
     def blamed(self, error):
-        """The faults in whose text an error lies: of one alternative, or else of one expression."""
+        """Returns the mutants whose text contains an error: those of one alternative, or of one expression."""
         found = set()
         for span in error["spans"]:
             if not span["is_primary"]:
@@ -406,7 +405,7 @@ class Copy:
         return found
 
     def arms(self, text, at):
-        """The faults that remove an arm of a match which needs it."""
+        """Returns the mutants that remove a required arm of a match."""
         node = PARSER.parse(text).root_node.descendant_for_byte_range(at, at)
         while node.type != "match_expression":
             node = node.parent
@@ -414,7 +413,7 @@ class Copy:
         return {number for number in inside if number in self.faults and self.faults[number].genre == "MatchArm"}
 
     def settle(self):
-        """Leaves out what does not compile, until the rest does."""
+        """Removes mutants that do not compile, until the rest compiles."""
         while True:
             said = self.cargo("check", "--lib", "--bins")
             errors = [
@@ -430,7 +429,7 @@ class Copy:
                     files.add(self.faults[number].file)
                     self.drop(self.faults[number], error["message"])
                     lost += 1
-            print(f"{len(errors)} errors, {lost} faults left out", flush=True)
+            print(f"{len(errors)} errors, {lost} mutants left out", flush=True)
             if not lost:
                 for error in errors[:20]:
                     print(error["rendered"])
@@ -443,7 +442,7 @@ class Copy:
         if said.returncode:
             print(said.stderr[-4000:])
             raise SystemExit("the tests do not build")
-        # Each with the folder of its package, where cargo runs it. Examples have no list of tests.
+        # Each binary runs in the folder of its package, as with cargo. Examples have no list of tests.
         return [
             (line["executable"], str(Path(line["manifest_path"]).parent))
             for line in map(json.loads, said.stdout.splitlines())
@@ -455,7 +454,7 @@ class Copy:
 
 
 def enclosing(text, at, opening, closing):
-    """The numbers of the innermost pair of marks around a place."""
+    """Returns the numbers of the innermost pair of marks around a position."""
     depth = 0
     pattern = rb"/\*(?:" + re.escape(opening) + rb"([\d,]+)|" + re.escape(closing) + rb")\*/"
     for mark in reversed(list(re.finditer(pattern, text[:at]))):
@@ -469,20 +468,20 @@ def enclosing(text, at, opening, closing):
 
 
 def limits():
-    """A fault may ask for all memory there is."""
+    """Limits the memory, because a mutant may allocate without bound."""
     resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     os.setsid()
 
 
 class Tests:
-    """All tests, with their times and what they reach."""
+    """All tests, with their times and the mutants that they reach."""
 
     def __init__(self, copy):
         self.copy = copy
 
     def run(self, binary, names, seconds, **environment):
-        """Whether tests of a binary pass: in time, one after the other. `None` where they do not end in time."""
+        """Returns whether tests of a binary pass, one after the other, or `None` after a timeout."""
         executable, folder = binary
         own = {"CARGO_MANIFEST_DIR": folder, "PROPTEST_FAILURE_PERSISTENCE": "off"}
         process = subprocess.Popen(
@@ -506,7 +505,7 @@ class Tests:
             process.wait()
 
     def record(self, binaries, jobs, slowest):
-        """Runs each test alone; those that take longer are left out."""
+        """Runs each test alone, and leaves out slow ones."""
         tests = []
         for binary in binaries:
             listing = [binary[0], "--list", "--format", "terse"]
@@ -530,7 +529,7 @@ class Tests:
 
 
 class Attack:
-    """Shows faults to tests."""
+    """Runs tests on mutants."""
 
     def __init__(self, tests, recorded, most):
         self.tests = tests
@@ -544,7 +543,7 @@ class Attack:
         self.lock = threading.Lock()
 
     def order(self, fault):
-        """Those that noticed faults in the same file, then what is quick and reaches little."""
+        """Orders the tests: those that killed mutants of the same file, then fast ones that reach few mutants."""
         with self.lock:
             kills = dict(self.kills[fault.file])
 
@@ -555,7 +554,7 @@ class Attack:
         return sorted(self.reaching[fault.number], key=cost)
 
     def passes(self, binary, chunk, fault):
-        """Whether these tests of a binary pass though the fault is there."""
+        """Returns whether these tests of a binary pass with the mutant."""
         tests = [self.recorded[index] for index in chunk]
         seconds = 10 + 5 * sum(test["seconds"] for test in tests)
         return self.tests.run(binary, [test["name"] for test in tests], seconds, MUTANT=str(fault.number))
@@ -577,7 +576,7 @@ class Attack:
                 return {"outcome": "survives so far", "seconds": time.monotonic() - began, "left": len(order) - at + len(chunk)}
             spent += expected
             if not self.passes(binary, chunk, fault):
-                # Alone, and again: what fails of something else does so once.
+                # A second run, alone, rules out an unrelated failure.
                 by = next((index for index in chunk if not self.passes(binary, [index], fault)), None)
                 if by is not None:
                     with self.lock:
@@ -588,7 +587,7 @@ class Attack:
 
 
 def listed(folder):
-    """What cargo-mutants lists, numbered."""
+    """Returns the mutants of cargo-mutants, numbered."""
     path = folder / "listed.json"
     listing = ["cargo", "mutants", "--workspace", "--list", "--json"]
     said = subprocess.run(listing, cwd=HERE, check=True, capture_output=True, text=True)
@@ -602,7 +601,7 @@ def listed(folder):
             texts[file] = (HERE / file).read_text()
         fault = Fault(number, one, texts[file])
         times[fault.key] += 1
-        # The second like it, in the same line or in another that reads the same.
+        # A further mutant with the same key, in the same line or in an equal one.
         if times[fault.key] > 1:
             fault.key += f" #{times[fault.key]}"
         faults.append(fault)
@@ -610,7 +609,7 @@ def listed(folder):
 
 
 def changed_lines(commit):
-    """The lines of sources that differ from a commit, as (file, line). A line of a file that was moved does not differ."""
+    """Returns the source lines that differ from a commit, as (file, line). Moved files do not differ."""
     diff = ["git", "diff", "-U0", "--find-renames=40%", "-l0", commit, "--", *SOURCES]
     said = subprocess.run(diff, cwd=HERE, check=True, capture_output=True, text=True).stdout
     lines, file = set(), None
@@ -661,12 +660,12 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     state = folder / "state.json"
     planted = listed(folder)
-    # Of a line that was rewritten.
+    # Mutants of changed lines.
     if stale := sorted(survivors().keys() - {fault.key for fault in planted}):
         raise SystemExit("listed, but not to be planted:\n" + "\n".join(stale))
     copy = Copy(folder, chosen(planted, asked), asked.jobs)
     everything = dict(copy.faults)
-    print(f"{len(everything)} faults", flush=True)
+    print(f"{len(everything)} mutants", flush=True)
     if not everything:
         return 0
     if state.exists():
@@ -687,9 +686,9 @@ def main():
     slow = [test["name"] for test in recorded if test["passed"] is None]
     print(f"{len(recorded)} tests, {sum(t['seconds'] for t in recorded):.0f} s of them, {time.monotonic() - began:.0f} s", flush=True)
     if failing:
-        print(f"left out, for they fail of the copy itself: {', '.join(failing)}", flush=True)
+        print(f"left out, because they fail without a mutant: {', '.join(failing)}", flush=True)
     if slow:
-        print(f"left out, for they take longer than {asked.slowest:.0f} s: {', '.join(slow)}", flush=True)
+        print(f"left out, because they take longer than {asked.slowest:.0f} s: {', '.join(slow)}", flush=True)
 
     results = folder / "results.jsonl"
     done = {}
@@ -699,13 +698,13 @@ def main():
     reasons = survivors()
 
     def is_to_be_shown(fault):
-        """Also again, to tests that would have taken too long before."""
+        """Runs a mutant, also again with tests that were too slow before."""
         one = done.get(fault.number)
         if one is None or one["outcome"] != "survives so far":
             return one is None
         return asked.most > one["most"] and fault.key not in reasons
 
-    # Any part of them is a sample of all.
+    # After shuffling, any part is a random sample.
     todo = [fault for fault in copy.faults.values() if is_to_be_shown(fault)]
     random.Random(2).shuffle(todo)
     with results.open("a") as out, concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
@@ -724,7 +723,7 @@ def main():
 
 
 def survivors():
-    """The reasons of what is listed."""
+    """Returns the reasons of the listed survivors."""
     reasons = {}
     if SURVIVORS.exists():
         for line in SURVIVORS.read_text().splitlines():
@@ -735,7 +734,7 @@ def survivors():
 
 
 def report(copy, everything, done, least):
-    """The table by room, and what survives; 1 where the list of survivors does not agree, or fewer than the least are noticed."""
+    """Prints the table by module and the survivors. Returns 1 if the list of survivors disagrees, or if too few mutants are killed."""
     reasons = survivors()
     table = collections.defaultdict(collections.Counter)
     for number, fault in everything.items():
@@ -745,7 +744,7 @@ def report(copy, everything, done, least):
         table[room(fault.file)][outcome] += 1
         table["all"][outcome] += 1
     columns = ["noticed", "listed", *UNNOTICED, "not run", "unviable"]
-    print("| room | " + " | ".join(columns) + " | noticed of viable |")
+    print("| module | " + " | ".join(columns) + " | killed of viable |")
     print("|---|" + "--:|" * (len(columns) + 1))
     for name, counts in sorted(table.items(), key=lambda entry: (entry[0] == "all", entry[0])):
         judged = sum(counts[column] for column in columns[:5])

@@ -58,7 +58,7 @@ ROWS = """var rows = () => [...document.querySelectorAll('#chosen tbody tr')].ma
 
 
 class Shown:
-    """A page that is open."""
+    """An open viewer."""
 
     def __init__(self, browser, path, **how):
         self.browser = browser
@@ -75,25 +75,25 @@ class Shown:
         return value
 
     def at(self, sphere, state=0):
-        """Where a sphere is in the window."""
+        """Returns the position of a sphere in the window."""
         return self.run(
             f"(() => {{ const box = document.getElementById('picture').getBoundingClientRect(); "
             f"const [x, y] = cannonpile.project({sphere}, {state}); return [box.left + x, box.top + y]; }})()"
         )
 
     def rows(self):
-        """The rows of the table: head, neighbour, and the exact numbers of each cell."""
+        """Returns the rows of the table: head, neighbour, and the exact numbers of each cell."""
         return self.browser.run(f"{ROWS}; rows()")
 
     def spheres(self, ids):
-        """For each sphere, chosen by its number, its place and the rows of its table."""
+        """Selects each sphere by its number; returns its indices and the rows of its table."""
         return self.browser.run(
             f"{ROWS}; {ids}.map((sphere) => {{ cannonpile.choose({{ sphere }});"
             " return { sphere, place: cannonpile.pile.place(sphere).split(','), rows: rows() }; })"
         )
 
     def chosen(self):
-        """The same of the one that is chosen."""
+        """Returns the same for the selected sphere."""
         sphere = self.run("cannonpile.view.chosen.sphere")
         return {"sphere": sphere, "place": self.run(f"cannonpile.pile.place({sphere}).split(',')"), "rows": self.rows()}
 
@@ -101,7 +101,7 @@ class Shown:
         return self.run("document.querySelector('#chosen h2').textContent")
 
     def quiet(self):
-        """Nothing went wrong, and nothing but the file was asked for."""
+        """Checks that there were no errors, and no requests except for the file."""
         check(self.browser.errors == [], self.browser.errors)
         check(len(self.browser.requests) == 1 and self.browser.requests[0].startswith("file:///"), self.browser.requests)
 
@@ -110,14 +110,14 @@ GREEK = {"α": "alpha", "β": "beta", "γ": "gamma", "αβ": "alpha-beta", "αγ
 
 
 def said(row, state=0, states=1):
-    """The exact multiple and the exact force in N that a row has for a state; None where it has none."""
+    """Returns the exact multiple and the exact force in N of a row for a state, or None."""
     cells = row["exact"] if states == 1 else [row["exact"][state]]
     numbers = [number.removesuffix(" N") for cell in cells for number in cell]
     return numbers if len(numbers) == 2 else ["0", "0"] if numbers == ["0"] else None
 
 
 def judge_sphere(told, exact, newtons, state=0, states=1):
-    """The table of a sphere says what `contacts` says, exactly and in N; returns of how many contacts."""
+    """Compares the table of a sphere with `contacts`, exactly and in N; returns the number of contacts."""
     judged = 0
     for row in told["rows"]:
         if row["other"] is None:
@@ -144,7 +144,7 @@ def forces(*scene):
     return exact, newtons
 
 
-# Matplotlib's viridis, at quarters from the least to the greatest.
+# Viridis of Matplotlib, at quarters from the smallest to the largest value.
 VIRIDIS = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]
 
 
@@ -154,7 +154,7 @@ def viridis(part):
 
 
 def loads(*scene):
-    """What each sphere passes down, in mg: a third of its forces below, or the normal force on the floor."""
+    """Returns the load that each sphere transmits, in mg: a third of its forces below, or the base normal force."""
     passed = {}
     for row in table("contacts", *scene):
         place = (row["k"], row["i"], row["j"])
@@ -169,7 +169,7 @@ def hue(colour):
 
 
 def cut(shown, end, layer):
-    """Moves a slider of the cut."""
+    """Moves a slider for the visible layers."""
     shown.run(
         f"(() => {{ const cut = document.getElementById('cut-{end}'); cut.value = {layer};"
         " cut.dispatchEvent(new Event('input')); })()"
@@ -181,7 +181,7 @@ def draws_and_picks(browser):
     exact, newtons = forces(*scene)
     shown = Shown(browser, page("hcp", *scene))
     shown.run("document.getElementById('above').click()")
-    # From above all 19 spheres of the top layer are seen: each in its colour, and between the pile and the edge the ground.
+    # From above all 19 spheres of the top layer are visible with their colours, and the background around the pile.
     picture = browser.picture(folder / "hcp.png")
     ground = shown.run("cannonpile.view.theme().ground.map((part) => Math.round(255 * part))")
     box = shown.run("(({ left, top }) => [left, top])(document.getElementById('picture').getBoundingClientRect())")
@@ -199,7 +199,7 @@ def draws_and_picks(browser):
             check(max(abs(a - b) for a, b in zip(hue(seen), hue(wanted))) < 0.12, "sphere", sphere, "is", seen, "not", wanted)
 
     judge_colours(range(1, 20), picture)
-    # And the bottom layer, when the others are cut off.
+    # The bottom layer alone.
     first = shown.run("cannonpile.pile.firstOnFloor")
     cut(shown, "from", 3)
     judge_colours(range(first, shown.run("cannonpile.pile.count") + 1, 5), browser.picture())
@@ -210,7 +210,7 @@ def draws_and_picks(browser):
         check(shown.heading().startswith(f"Sphere {sphere} ("), shown.heading())
         judge_sphere(shown.chosen(), exact, newtons)
     check(not near(browser.picture().getpixel(tuple(round(x) for x in box)), (0, 0, 0), 1), "black")
-    # By keyboard: the middle of the picture, and from there to its right.
+    # By keyboard: the sphere in the middle of the picture, then its right neighbour.
     shown.run("document.getElementById('picture').focus()")
     browser.press("Escape")
     check(shown.heading() == "Nothing chosen", shown.heading())
@@ -221,7 +221,7 @@ def draws_and_picks(browser):
     second = shown.run("cannonpile.view.chosen.sphere")
     check(second != first and shown.at(second)[0] > shown.at(first)[0] + 5, first, second)
     judge_sphere(shown.chosen(), exact, newtons)
-    # By its neighbours, and by number and place.
+    # By a button of a neighbour, by number, and by indices.
     shown.run("document.querySelector('#chosen td button').click()")
     third = shown.run("cannonpile.view.chosen.sphere")
     check(third != second, third)
@@ -232,7 +232,7 @@ def draws_and_picks(browser):
         judge_sphere(shown.chosen(), exact, newtons)
     shown.run("document.getElementById('sphere').value = '9999'; document.getElementById('find').requestSubmit()")
     check("no such sphere" in shown.run("document.getElementById('found').textContent"), "9999")
-    # All of them, and the floor.
+    # All spheres, and the base forces.
     everything = shown.spheres("Array.from({ length: cannonpile.pile.count }, (_, n) => n + 1)")
     judged = sum(judge_sphere(told, exact, newtons) for told in everything)
     check(judged == 2 * len(exact), judged, "contacts, not", 2 * len(exact))
@@ -267,7 +267,7 @@ def contacts_are_picked(browser):
         browser.click(box[0] + x, box[1] + y)
         check(shown.run("cannonpile.view.chosen.contact") == contact, contact)
         judge_contact(shown, contact, exact, newtons)
-    # What pulls is told, and found by its button.
+    # The header has the number of tensile contacts, and the button finds them.
     pulling = sum(Fraction(force) < 0 for force in exact.values())
     check(f"In {pulling} contacts" in shown.run("document.getElementById('verdict').textContent"), pulling)
     met = set()
@@ -306,14 +306,14 @@ def cut_takes_layers_off(browser):
     check(near(pixel(), ground, 3), "the apex is still there")
     browser.click(x, y)
     check(shown.heading() == "Nothing chosen", "what was cut off is picked")
-    # What is chosen by its number is shown again; keys cut too.
+    # Selecting a hidden sphere by number shows its layer. Keys change the visible layers too.
     shown.run("document.getElementById('sphere').value = '1'; document.getElementById('find').requestSubmit()")
     check(shown.run("cannonpile.view.layers[0]") == 0 and not near(pixel(), ground, 20), "not shown again")
     shown.run("document.getElementById('picture').focus()")
     browser.press("]")
     check(shown.run("document.getElementById('cut-says').textContent") == "k = 1 to 9", "the key ] does not cut")
     browser.press("[")
-    # Turning and zooming by hand and by key.
+    # Rotation and zoom by pointer and by key.
     before = shown.at(100)
     browser.drag((400, 300), (470, 330))
     turned = shown.at(100)
@@ -341,7 +341,7 @@ def both_states_are_shown(browser):
         sloping += judge_sphere(told, isostatic, of_isostatic, state=0, states=2)
         pushing += judge_sphere(told, exact, newtons, state=1, states=2)
     check(pushing == sloping + 2 * (len(exact) - len(isostatic)) and len(exact) == len(isostatic) + 3, sloping, pushing)
-    # The three that push are beside, with a force; others are open.
+    # Three horizontal contacts have a force, and the others are open.
     shown.run("document.getElementById('show-forces').click(); cannonpile.choose({ sphere: cannonpile.pile.find('2,0,-1') })")
     beside = [row for row in shown.rows() if row["head"].startswith("beside")]
     wanted = exact["2", "0", "-1", "alpha-beta"]
@@ -379,7 +379,7 @@ def dark_and_small(browser):
 
 
 def without_webgl(path):
-    """The table is there where nothing can be drawn."""
+    """Checks that the table works without WebGL2."""
     with Browser("--disable-gpu", "--disable-webgl", "--disable-3d-apis") as browser:
         browser.show(*SCREEN)
         browser.open(path)
@@ -392,7 +392,7 @@ def without_webgl(path):
 
 
 def texts_are_no_markup(browser):
-    """A text of markup among the data changes nothing but what is read."""
+    """Checks that markup in the data is displayed as text."""
     path = page("plain", "--layers", "3")
     planted = folder / "planted.html"
     page_text = path.read_text()
@@ -403,7 +403,7 @@ def texts_are_no_markup(browser):
     check("<img src=x" in shown.run("document.getElementById('title').textContent"), "the title is not shown as it is")
     check(shown.run("document.images.length") == 0, "a picture was made of a text")
     shown.quiet()
-    # The policy holds: another script does not run, and nothing is fetched.
+    # The content security policy blocks other scripts and all requests.
     planted.write_text(page_text.replace("</body>", "<script>globalThis.ran = 1</script><img src='https://example.org/'></body>"))
     shown = Shown(browser, planted)
     check(shown.run("globalThis.ran === undefined"), "another script has run")

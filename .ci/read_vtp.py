@@ -1,4 +1,4 @@
-"""Reads spheres.vtp and contacts.vtp of a folder with VTK itself, and compares them with the csv files beside them.
+"""Reads spheres.vtp and contacts.vtp of a folder with VTK, and compares them with the csv files.
 
 Numbers of points, vertices and lines, and every array: the same, to the last digit. Usage: read_vtp.py FOLDER
 """
@@ -59,7 +59,7 @@ def check_spheres(folder, spheres):
     same("layer", found["layer"], [row["k"] for row in spheres])
     same("radius", found["radius"], [row["radius"] for row in spheres])
     require(len(found["weight"]) == n and len(found["load"]) == n, "weights and loads")
-    # The floor pushes with what it feels, turned round; nothing acts above it.
+    # The force of the floor is opposite to base.csv, and is zero for spheres above the floor.
     base = iter(table(folder / "base.csv"))
     reactions = []
     for row in spheres:
@@ -90,7 +90,7 @@ def check_contacts(folder, spheres):
         same(name, cells["force_vector"][:, axis], [row[name] for row in contacts])
     require(set(cells["direction"]) <= {0, 1, 2}, "directions")
     same("force at the ends", points["force"], [row["force"] for row in contacts for _ in range(2)])
-    # Each line joins the centres of its two spheres, the upper one first.
+    # Each line connects the centres of its spheres, from the upper to the lower one.
     if n:
         lines = vtk_to_numpy(data.GetLines().GetConnectivityArray()).reshape(n, 2)
         ends = vtk_to_numpy(data.GetPoints().GetData())[lines]

@@ -1,13 +1,13 @@
-"""A rigid code against the bounds of bottom spheres: Siconos solves the contact problem of nonsmooth dynamics.
+"""Compares forces of rigid spheres, computed by Siconos (nonsmooth contact dynamics), with the bounds of base normal forces.
 
-Usage: rigid.py FOLDER BOUNDS, the folder that `cannonpile export --to csv --spacing 1` has written and the csv file of
-`cannonpile bounds`; rigid.py FOLDER, for a pile that cannot stand.
+Usage: rigid.py FOLDER BOUNDS, with the folder of `cannonpile export --to csv --spacing 1` and the csv file of
+`cannonpile bounds`; rigid.py FOLDER, for an unstable pile.
 
-Rigid spheres without friction that touch accelerate by a, with a = H^T f + g for unit masses, 0 <= f, 0 <= H a,
-f (H a) = 0: a linear complementarity problem w = H H^T f + H g. It always has a solution, and a is unique: zero just if
-the pile stands. Where horizontal contacts are, f is not: which forces are found depends on where the solver begins. Each
-must lie within the bounds. H H^T is singular, and pivots of Lemke's method fail on it; projected Gauss-Seidel, the
-method of contact dynamics, and a Newton method do not.
+The accelerations a of frictionless rigid spheres with unit masses satisfy a = H^T f + g, 0 <= f, 0 <= H a, f (H a) = 0. This is
+the linear complementarity problem w = H H^T f + H g. It always has a solution, and a is unique. It is zero if and only if the
+pile is stable. With horizontal contacts f is not unique, and depends on the start of the solver. Every f must be within the
+bounds. H H^T is singular, so Lemke's pivoting method fails. Projected Gauss-Seidel, the method of contact dynamics, and a
+Newton method succeed.
 """
 
 import math
@@ -18,13 +18,13 @@ import siconos.numerics as siconos
 
 from touching import bounds, pairs, spheres
 
-# Of forces and accelerations, in mg.
+# The tolerance of forces and accelerations, in mg.
 TOLERANCE = 1e-9
 STARTS = 30
 
 
 def problem(piled):
-    """H by contact and free sphere, in three columns each, the weights, and the contacts."""
+    """Returns H, with a row for each contact and three columns for each free sphere, the weights, and the contacts."""
     touching = pairs(piled)
     free = [number for number, sphere in enumerate(piled) if not sphere.fixed]
     column = {number: 3 * place for place, number in enumerate(free)}
@@ -40,7 +40,7 @@ def problem(piled):
 
 
 def solved(name, matrix, offset, start, order, scale):
-    """Forces by a solver of Siconos, of contacts in another order and in other units; None if it finds none."""
+    """Returns the forces of a solver of Siconos, with contacts in another order and other units, or None if it fails."""
     solver, number, turns = {
         "Gauss-Seidel": (siconos.lcp_pgs, siconos.SICONOS_LCP_PGS, 200_000),
         "Newton": (siconos.lcp_newton_FB, siconos.SICONOS_LCP_NEWTON_FB_FBLSA, 1_000),
@@ -62,7 +62,7 @@ def solved(name, matrix, offset, start, order, scale):
 
 
 def solutions(matrix, offset):
-    """Forces from many starts: at rest, and pushed at random, a few contacts much harder than others."""
+    """Returns the forces from many starts: zero, and random ones with a few much larger forces."""
     size = len(offset)
     chance = numpy.random.default_rng(1998)
     yield solved("Newton", matrix, offset, numpy.zeros(size), numpy.arange(size), numpy.ones(size))
@@ -91,8 +91,8 @@ def main(folder, file=None):
         return
     require(max(fastest) < 100 * TOLERANCE, f"something moves, by {max(fastest)} g")
     claimed = bounds(file)
-    # What is left of accelerations is weight that the forces do not bear, or bear beside the spheres': by virtual work it moves
-    # a normal force by as much, times displacements of a few diameters at most.
+    # Residual accelerations are an error of the loads. By virtual work they change a normal force by at most their size times a
+    # displacement of a few diameters.
     moved = [10 * accelerations.sum() for accelerations in left]
     require(max(moved) < 10_000 * TOLERANCE, f"accelerations may move a normal force by {max(moved)} mg")
     used = []
@@ -106,15 +106,15 @@ def main(folder, file=None):
         for one, by in zip(normal, moved):
             slack = TOLERANCE * float(greatest) + by
             inside = least - slack <= one <= greatest + slack
-            require(inside, f"{sphere.site} bears {one}, not within {least} to {greatest}, to within {slack}")
+            require(inside, f"the normal force {one} of {sphere.site} is not within {least} to {greatest}, with tolerance {slack}")
         if least < greatest:
             used.append((max(normal) - min(normal)) / float(greatest - least))
     mean = math.fsum(used) / max(1, len(used))
-    # What always bears the same proves little.
-    require(not used or mean > 0.1, "the states are hardly different")
+    # If all starts give nearly the same forces, the comparison tests little.
+    require(not used or mean > 0.1, "the states are nearly equal")
     print(
-        f"{len(claimed)} normal forces lie within their bounds, in {len(found)} states of {len(piled)} spheres that take up "
-        f"{mean:.0%} of what the bounds leave; what is left of accelerations moves a force by {max(moved):.0e} mg at most"
+        f"{len(claimed)} normal forces lie within their bounds, in {len(found)} states of {len(piled)} spheres; on average they use "
+        f"{mean:.0%} of the range; residual accelerations change a force by at most {max(moved):.0e} mg"
     )
 
 

@@ -1,6 +1,6 @@
-"""The spheres of an exported pile at a = R and the pairs that touch, found by their places alone.
+"""The spheres of an exported pile at a = R and the pairs that touch, computed from their positions.
 
-What reads this takes nothing else of the library: no direction, no sign, no equation.
+Programs that use this module take nothing else from the library: no direction, no sign, no equation.
 """
 
 import csv
@@ -19,19 +19,19 @@ def table(path):
 
 
 def spheres(folder):
-    """The spheres of spheres.csv, by their id less one."""
+    """Returns the spheres of spheres.csv, indexed by id - 1."""
     read = []
     for row in table(Path(folder) / "spheres.csv"):
         radius, mass = float(row["radius"]), float(row["mass"])
         place = [float(row[axis]) / radius for axis in "xyz"]
-        # The load is a force; g is 1 m/s² where none is given.
+        # The load is a force in N, which equals mg for the default g = 1 m/s².
         weight = 1 + Fraction(row["load"]) / Fraction(mass)
         read.append(Sphere(place, weight, row["fixed"] == "1", (int(row["i"]), int(row["j"]))))
     return read
 
 
 def pairs(piled):
-    """The pairs (upper, lower) that touch, one of them free; cells are a little wider than a diameter."""
+    """Returns the pairs (upper, lower) that touch, without pairs of fixed spheres; cells are a little wider than a diameter."""
     cells = {}
     for number, sphere in enumerate(piled):
         cells.setdefault(tuple(math.floor(c / 2.1) for c in sphere.place), []).append(number)
@@ -49,7 +49,7 @@ def pairs(piled):
 
 
 def bounds(path):
-    """The least and the greatest normal force by site, and whether both are attained."""
+    """Returns the smallest and largest normal force by site, and whether both are attained."""
     return {
         (int(row["i"]), int(row["j"])): (Fraction(row["normal_min"]), Fraction(row["normal_max"]), row["proved"] == "yes")
         for row in table(path)
