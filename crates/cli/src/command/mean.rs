@@ -121,8 +121,8 @@ impl Mean {
         }
         drop(progress);
         print_message(
-            "note: this is over all stackings, those that cannot stand included; where a normal is negative it is that of \
-             prestressed piles alone, glued or pressed together",
+            "note: the mean is over all stackings, unstable ones included; a negative normal force occurs in prestressed or \
+             glued piles only",
         );
         Ok(true)
     }

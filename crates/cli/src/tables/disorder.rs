@@ -63,8 +63,8 @@ fn of_rows<T: 'static>(
         measured("shear_y", "√3·mg·tanθ"),
     ];
     let noun = match over {
-        Over::All => "means, over all stackings with none counted as 0, at bottom places",
-        Over::Some => "means, over the stackings with a sphere there, at bottom places",
+        Over::All => "means over all stackings, where an empty position counts as 0",
+        Over::Some => "means over the stackings with a sphere at the position",
     };
     let count = mean.rows().len().into();
     let rows = mean.into_rows().into_iter().map(move |row| {
@@ -108,7 +108,7 @@ pub(crate) fn by_faults(by_faults: &ByFaults) -> Table<'_> {
             normal.into(),
         ])
     };
-    let noun = "sums, over the stackings with so many faults, at bottom places";
+    let noun = "sums over the stackings with this number of faults";
     Table::of_rows(columns, noun, by_faults.rows().map(row))
 }
 

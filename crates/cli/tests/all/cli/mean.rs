@@ -208,15 +208,15 @@ fn note_and_help_define_the_mean() {
     for (options, footer) in [
         (
             "",
-            "13 means, over all stackings with none counted as 0, at bottom places",
+            "13 means over all stackings, where an empty position counts as 0",
         ),
         (
             "--given sphere",
-            "13 means, over the stackings with a sphere there, at bottom places",
+            "13 means over the stackings with a sphere at the position",
         ),
         (
             "--by faults",
-            "13 sums, over the stackings with so many faults, at bottom places",
+            "13 sums over the stackings with this number of faults",
         ),
     ] {
         let table = stdout(&format!("mean --layers 3 {options}"));
