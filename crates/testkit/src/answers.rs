@@ -1,6 +1,6 @@
-//! All that is said about one pile, as plain data: it can be compared, and corrupted.
+//! The library's answers about one pile as plain data. Tests can compare them and corrupt them.
 //!
-//! The sites are those of `paper`, "Notation", listed here by its definition and not by the library.
+//! The sites follow the definition in `paper`, "Notation". This file lists them without the library.
 
 use std::collections::BTreeMap;
 
@@ -10,28 +10,28 @@ use cannonpile::{FloorForce, Pile};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// Numerator and denominator as a big rational.
+/// Returns n/d as a rational.
 pub fn ratio(numer: i64, denom: i64) -> BigRational {
     BigRational::new(numer.into(), denom.into())
 }
 
-/// Which spheres, without how many layers of them.
+/// The form of a straight pile, without its number of layers.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// The plane pile, with two contacts below each disc.
     Discs,
-    /// The pile on a triangle with this sin φ.
+    /// A pile on a triangle with this sin φ.
     Spheres(BigRational),
 }
 
 impl Shape {
-    /// The paper's own, φ = π/6.
+    /// The base of the paper, φ = π/6.
     pub fn equilateral() -> Self {
         Self::Spheres(ratio(1, 2))
     }
 
-    /// Isosceles bases from the needle to the nearly flat triangle; ½ is among them, and 5/6, beyond
-    /// which no spacing fits tall piles.
+    /// Isosceles bases from the needle to the nearly flat triangle. They include ½ and 5/6. No spacing fits tall piles
+    /// beyond 5/6.
     pub fn isosceles() -> impl Iterator<Item = Self> {
         let sines = [
             (1, 1000),
@@ -60,7 +60,7 @@ impl Shape {
         sines.into_iter().map(|(n, d)| Self::Spheres(ratio(n, d)))
     }
 
-    /// The pile of this shape with so many layers.
+    /// Returns the pile of this shape with `layers` layers.
     pub fn pile(&self, layers: i128) -> Pile {
         let pile = match self {
             Self::Discs => Pile::discs(layers),
@@ -69,7 +69,7 @@ impl Shape {
         pile.unwrap()
     }
 
-    /// The dimension it lives in, as the library names it.
+    /// The dimension of the pile, in the library's type.
     pub fn dimension(&self) -> Dimension {
         match self {
             Self::Discs => Dimension::Two,
@@ -77,7 +77,7 @@ impl Shape {
         }
     }
 
-    /// The directions of its contacts.
+    /// The directions of the contacts.
     pub fn directions(&self) -> &'static [Direction] {
         match self {
             Self::Discs => &[Direction::Alpha, Direction::Beta],
@@ -85,7 +85,7 @@ impl Shape {
         }
     }
 
-    /// By `paper`, "Notation": 0 ≤ k ≤ L−1, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j; of discs, those with j = 0.
+    /// The sites by `paper`, "Notation": 0 ≤ k ≤ L−1, 0 ≤ j ≤ k, 0 ≤ i ≤ k−j. A pile of discs has only those with j = 0.
     pub fn sites(&self, layers: i128) -> Vec<Site> {
         let mut sites = Vec::new();
         for k in 0..layers {
@@ -101,7 +101,7 @@ impl Shape {
     }
 }
 
-/// The site below (i, j, k) in a direction, in a pile without end: A, B or C of the paper.
+/// The site below (i, j, k) in a direction, in an infinite pile: A, B or C of the paper.
 pub fn below(site: Site, direction: Direction) -> Site {
     let Site { i, j, k } = site;
     match direction {
@@ -119,7 +119,7 @@ pub fn below(site: Site, direction: Direction) -> Site {
     }
 }
 
-/// The site above (i, j, k) in a direction, in a pile without end: A′, B′ or C′ of the paper.
+/// The site above (i, j, k) in a direction, in an infinite pile: A′, B′ or C′ of the paper.
 pub fn above(site: Site, direction: Direction) -> Site {
     let Site { i, j, k } = site;
     match direction {
@@ -137,7 +137,7 @@ pub fn above(site: Site, direction: Direction) -> Site {
     }
 }
 
-/// What is said of the contact of a sphere with one below it.
+/// The answers about the contact of a sphere with a sphere below it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// The magnitude, in f₀.
@@ -146,18 +146,18 @@ pub struct Contact {
     pub vector: Vector<BigRational>,
 }
 
-/// What is said of one sphere.
+/// The answers about one sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sphere {
-    /// From the apex, in 2R and the symbolic basis.
+    /// The position relative to the apex, in units of 2R and the symbolic basis.
     pub position: Vector<BigRational>,
     /// The forces from above by direction, in f₀.
     pub from_above: [BigRational; 3],
-    /// Their sum.
+    /// The sum of the forces from above.
     pub resultant_above: Vector<BigRational>,
 }
 
-/// A pile and what is said of it: by the library ([`Answers::of`]), or by the oracle.
+/// A pile and the answers about it, from the library ([`Answers::of`]) or from the oracle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answers {
     /// The shape of the pile.
@@ -166,17 +166,16 @@ pub struct Answers {
     pub layers: i128,
     /// The weight of a sphere, in f₀ cosθ.
     pub weight: BigRational,
-    /// What is said of each sphere.
+    /// The answers by sphere.
     pub spheres: BTreeMap<Site, Sphere>,
-    /// By upper sphere and direction.
+    /// The answers by upper sphere and direction.
     pub contacts: BTreeMap<(Site, Direction), Contact>,
-    /// The forces on the floor: shear along x and y, and the normal force as z; in mg times
-    /// (tanθ, 2cosφ·tanθ, 1).
+    /// The forces on the floor: shear along x and y, and the normal force as z. They are in mg times (tanθ, 2cosφ·tanθ, 1).
     pub floor: BTreeMap<Site, Vector<BigRational>>,
 }
 
 impl Answers {
-    /// Asks the library for every sphere and every contact.
+    /// Collects the library's answers about every sphere and every contact.
     pub fn of(shape: &Shape, layers: i128) -> Self {
         let pile = shape.pile(layers);
         let forces = pile.forces::<BigRational>();
@@ -214,7 +213,7 @@ impl Answers {
         answers
     }
 
-    /// A pile of which nothing is said yet.
+    /// A pile without any answers.
     pub fn none(shape: &Shape, layers: i128, weight: BigRational) -> Self {
         Self {
             shape: shape.clone(),
@@ -226,7 +225,7 @@ impl Answers {
         }
     }
 
-    /// The contact of `site` with the sphere above it, if there is one.
+    /// The contact of `site` with the sphere above it. `None` if that sphere does not exist.
     pub fn contact_above(&self, site: Site, direction: Direction) -> Option<&Contact> {
         self.contacts.get(&(above(site, direction), direction))
     }

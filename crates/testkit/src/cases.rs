@@ -1,4 +1,4 @@
-//! The piles of the tests, each made twice: for the library and for the oracle.
+//! The piles of the tests. Each is built twice: for the library and for the oracle.
 
 use cannonpile::Pile;
 use cannonpile::lattice::{Axis, HorizontalContact, Region, Sign};
@@ -8,7 +8,7 @@ use num_traits::{One, Zero};
 
 use crate::oracles::balance::{Balance, Place, Sites, ratio, site};
 
-/// The sites x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁, s₀ ≤ i+j ≤ s₁.
+/// The sites with x₀ ≤ i ≤ x₁, y₀ ≤ j ≤ y₁ and s₀ ≤ i+j ≤ s₁.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// Least and greatest i.
@@ -23,7 +23,7 @@ impl Bounds {
     /// One site.
     pub const SITE: Self = Self::hexagon(1, 1);
 
-    /// A hexagon with sides of p and q sites in turn.
+    /// A hexagon whose sides have p and q sites alternately.
     pub const fn hexagon(p: i128, q: i128) -> Self {
         let range = (1 - q, p - 1);
         Self {
@@ -33,7 +33,7 @@ impl Bounds {
         }
     }
 
-    /// A triangle with sides of n sites.
+    /// A triangle with n sites on each side.
     pub const fn triangle(n: i128) -> Self {
         Self::hexagon(n, 1)
     }
@@ -53,17 +53,17 @@ impl Bounds {
     }
 }
 
-/// One pile, twice.
+/// One pile in two forms.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// For the library.
+    /// The form for the library.
     pub pile: Pile,
-    /// For the oracle.
+    /// The form for the oracle.
     pub balance: Balance,
 }
 
 impl Case {
-    /// Under a top layer, with these signs from the top.
+    /// A pile that grows down from a top layer. The signs are listed from the top.
     pub fn under(top: &Bounds, signs: &str) -> Self {
         Self {
             pile: Pile::under(top.region(), stacking(signs)).expect("a small pile"),
@@ -71,23 +71,26 @@ impl Case {
         }
     }
 
-    /// `None` if the base does not carry that many layers, by the oracle.
+    /// A pile that grows up from a base. `None` if the oracle finds that the base does not support that many layers.
     pub fn on(base: &Bounds, signs: &str) -> Option<Self> {
         let balance = Balance::on(&base.sites(), signs)?;
         let pile = Pile::on(base.region(), stacking(signs)).expect("a pile that fits");
         Some(Self { pile, balance })
     }
 
-    /// The same with spheres that weigh nothing.
+    /// The same pile with weightless spheres.
     #[must_use]
     pub fn weightless(self) -> Self {
         let (pile, mut balance) = (self.pile.weightless(), self.balance);
-        assert!(balance.weights.is_empty(), "loads come after");
+        assert!(
+            balance.weights.is_empty(),
+            "make the spheres weightless before adding loads"
+        );
         balance.ordinary = BigRational::zero();
         Self { pile, balance }
     }
 
-    /// With a load more on a sphere.
+    /// The same pile with one more load on a sphere.
     #[must_use]
     pub fn with_load(self, place: Place, load: &BigRational) -> Self {
         let (pile, mut balance) = (self.pile, self.balance);
@@ -100,7 +103,7 @@ impl Case {
         }
     }
 
-    /// With another weight for a sphere without a load.
+    /// The same pile with another weight for a sphere that has no load.
     #[must_use]
     pub fn with_weight(self, place: Place, weight: &BigRational) -> Self {
         let (pile, mut balance) = (self.pile, self.balance);
@@ -112,7 +115,7 @@ impl Case {
         }
     }
 
-    /// With random forces in `n` random horizontal contacts off the floor, where there are any.
+    /// Adds random forces in at most `n` random horizontal contacts above the bottom layer.
     #[must_use]
     pub fn pushed(mut self, n: usize, random: &mut Random) -> Self {
         let steps = [
@@ -140,7 +143,7 @@ impl Case {
         self
     }
 
-    /// With random weights and loads on `n` random spheres.
+    /// Adds random weights and loads on `n` random spheres.
     #[must_use]
     pub fn loaded(mut self, n: usize, random: &mut Random) -> Self {
         let places: Vec<Place> = self.balance.places().collect();
@@ -167,7 +170,7 @@ pub fn stacking(signs: &str) -> Stacking {
     Stacking::from_signs(signs).expect("a few layers")
 }
 
-/// All sign strings of a length, in order of binary numbers.
+/// All sign strings of one length, in the order of binary numbers.
 pub fn all_signs(steps: usize) -> impl Iterator<Item = String> {
     (0..1_u32 << steps).map(move |bits| {
         let sign = |step| if bits >> step & 1 == 0 { '+' } else { '-' };
@@ -175,12 +178,12 @@ pub fn all_signs(steps: usize) -> impl Iterator<Item = String> {
     })
 }
 
-/// `period` repeated, cut to a number of steps.
+/// Repeats `period` and cuts it to `steps` signs.
 pub fn repeated(period: &str, steps: usize) -> String {
     period.chars().cycle().take(steps).collect()
 }
 
-/// All stackings that a base carries, of every height, read from the top.
+/// All stackings of every height that a base supports, read from the top.
 pub fn all_on(base: &Bounds) -> Vec<String> {
     let sites = base.sites();
     let mut found = vec![String::new()];
@@ -197,7 +200,7 @@ pub fn all_on(base: &Bounds) -> Vec<String> {
     found
 }
 
-/// Numbers that are the same in every run: Knuth's linear congruence.
+/// Pseudorandom numbers that are the same in every run, from Knuth's linear congruential generator.
 pub struct Random(pub u64);
 
 impl Random {
@@ -210,7 +213,7 @@ impl Random {
         self.0 >> 33
     }
 
-    /// 0 … n−1.
+    /// A number from 0 to n − 1.
     pub fn below(&mut self, n: usize) -> usize {
         usize::try_from(self.bits()).expect("31 bits") % n
     }
@@ -220,9 +223,9 @@ impl Random {
         i128::from(self.bits()) % (n + 1)
     }
 
-    /// So many random signs.
+    /// Random signs, `steps` of them.
     pub fn signs(&mut self, steps: usize) -> String {
-        // Long runs and changes at every step alike.
+        // Long runs and a change at every step are about equally likely.
         let change = 1 + self.below(4);
         let mut plus = self.below(2) == 0;
         let sign = |_| {
@@ -232,14 +235,14 @@ impl Random {
         (0..steps).map(sign).collect()
     }
 
-    /// Not negative; zero, small, and with denominators that have thirds or not.
+    /// A nonnegative rational: zero, small, or with a denominator that may contain a factor of 3.
     pub fn rational(&mut self) -> BigRational {
         let numer = [0, 1, 2, 7, 100, 12_345_678_901][self.below(6)];
         let denom = [1, 2, 3, 9, 10, 35, 1_000_003][self.below(7)];
         ratio(numer, denom)
     }
 
-    /// A region of any of its forms that has a site, with bounds that need not be tight.
+    /// A nonempty region of any form. Its bounds need not be tight.
     pub fn bounds(&mut self, size: i128) -> Bounds {
         loop {
             let [x0, y0] = [0; 2].map(|_: i32| self.up_to(4) - 2);

@@ -1,10 +1,10 @@
-//! Tables of contacts as codes write them.
+//! Contact tables in the formats of DEM codes.
 
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Packing};
 use cannonpile_dem::verify::{Measured, Preset};
 
-/// Where the spheres are, as the nearest floats.
+/// The centres of the spheres as correctly rounded floats.
 pub fn centres(packing: &Packing<'_>) -> Result<Vec<[f64; 3]>, Error> {
     let places = packing.positions(Selection::All)?;
     places
@@ -17,13 +17,13 @@ fn joined(numbers: &[f64]) -> String {
     texts.join(",")
 }
 
-/// A contact as a code writes it.
+/// A contact in the format of a code.
 pub fn row(preset: Preset, measured: &Measured, centres: &[[f64; 3]]) -> String {
     let ([one, other], force) = (measured.ids, measured.force);
     let vector = measured.vector.unwrap();
     let [a, b] = [one, other].map(|id| centres[usize::try_from(id - 1).unwrap()]);
     let point = joined(&[0, 1, 2].map(|x: usize| a[x].midpoint(b[x])));
-    // Numbers of its own.
+    // The code numbers the spheres in its own way.
     let [n, m] = [50 - one, 50 - other];
     match preset {
         Preset::Lammps => format!("{one},{other},{force:?},{}\n", joined(&vector)),
@@ -38,7 +38,7 @@ pub fn row(preset: Preset, measured: &Measured, centres: &[[f64; 3]]) -> String 
     }
 }
 
-/// What stands before the contacts, a contact with a wall among it; none for a code that writes no tables.
+/// The lines before the contacts, including a contact with a wall. `None` for a code that writes no tables.
 pub fn head(preset: Preset) -> Option<&'static str> {
     Some(match preset {
         Preset::Lammps => "patom1,patom2,force,fx,fy,fz\n",

@@ -1,4 +1,4 @@
-//! Every answer of the library beside that of the oracle. An error says where they part.
+//! Compares every answer of the library with the oracle's. An error says where they differ.
 
 use cannonpile::shape::Selection;
 use cannonpile::{ContactForce, FloorForce, Pile};
@@ -7,10 +7,10 @@ use num_rational::BigRational;
 use crate::cases::Case;
 use crate::oracles::balance::{Forces, direction, place, site};
 
-/// Nothing, or where two answers part.
+/// `Ok`, or the place where two answers differ.
 pub type Outcome = Result<(), String>;
 
-/// All comparisons of one pile.
+/// Makes all comparisons of one pile.
 pub fn agrees(case: &Case) -> Outcome {
     let forces = case.balance.forces();
     all_agree(&case.pile, &forces).map_err(|parted| {
@@ -21,7 +21,7 @@ pub fn agrees(case: &Case) -> Outcome {
     })
 }
 
-/// All comparisons of a pile with forces that are known.
+/// Makes all comparisons of a pile with known forces.
 pub fn all_agree(pile: &Pile, forces: &Forces) -> Outcome {
     one_by_one(pile, forces)?;
     in_rows(pile, forces)?;
@@ -32,14 +32,16 @@ fn same<T: PartialEq + std::fmt::Debug>(what: &str, library: &T, oracle: &T) -> 
     if library == oracle {
         return Ok(());
     }
-    Err(format!("{what}: {library:?}, by the oracle {oracle:?}"))
+    Err(format!(
+        "{what}: {library:?}, but the oracle has {oracle:?}"
+    ))
 }
 
 fn text(error: &cannonpile::Error) -> String {
     error.to_string()
 }
 
-/// Sphere by sphere, contact by contact: by lines.
+/// Compares sphere by sphere and contact by contact. The library finds these answers by lines.
 pub fn one_by_one(pile: &Pile, known: &Forces) -> Outcome {
     let forces: cannonpile::Forces<BigRational> = pile.forces();
     for (at, expected) in &known.above {
@@ -60,13 +62,13 @@ pub fn one_by_one(pile: &Pile, known: &Forces) -> Outcome {
     Ok(())
 }
 
-/// All contacts, and the base, in the order of tables: by a sweep, where the stacking is not straight.
+/// Compares all contacts and the base in the order of tables. The library uses a sweep if the stacking is not straight.
 pub fn in_rows(pile: &Pile, forces: &Forces) -> Outcome {
     contacts_in_rows(pile, Selection::All, forces)?;
     base_in_rows(pile, forces)
 }
 
-/// The contacts of a part of the pile.
+/// Compares the contacts of a part of the pile.
 pub fn contacts_in_rows(pile: &Pile, selection: Selection, known: &Forces) -> Outcome {
     let layers = match selection {
         Selection::Layer(k) => k..k + 1,
@@ -87,7 +89,7 @@ pub fn contacts_in_rows(pile: &Pile, selection: Selection, known: &Forces) -> Ou
             same("a contact in rows", &contact, &expected)?;
         }
     }
-    same("contacts beyond", &contacts.count(), &0)
+    same("the number of surplus contacts", &contacts.count(), &0)
 }
 
 fn base_in_rows(pile: &Pile, known: &Forces) -> Outcome {
@@ -99,14 +101,14 @@ fn base_in_rows(pile: &Pile, known: &Forces) -> Outcome {
         same("a bottom sphere", &place(force.site), at)?;
         same(&format!("floor {at:?}"), &components(force), expected)?;
     }
-    same("bottom spheres beyond", &base.count(), &0)
+    same("the number of surplus bottom spheres", &base.count(), &0)
 }
 
 fn components(force: FloorForce<BigRational>) -> [BigRational; 3] {
     [force.normal, force.shear_x, force.shear_y]
 }
 
-/// The least force and where it is, the first failure.
+/// Compares the least force, its contact, and the first failure.
 pub fn standing(pile: &Pile, forces: &Forces) -> Outcome {
     let standing = pile.standing().map_err(|e| text(&e))?;
     let least = forces.least().map(|(force, at, m)| ContactForce {

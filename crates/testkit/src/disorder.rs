@@ -1,4 +1,4 @@
-//! Piles of random stackings made twice: for the library, and for an oracle that looks at all stackings one by one.
+//! Piles of random stackings in two forms: for the library, and for an oracle that enumerates all stackings.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
@@ -12,10 +12,10 @@ use num_traits::{One, ToPrimitive, Zero, pow};
 
 use super::oracles::one_by_one::{self, Floor, Grown, faults, of_site, sequences};
 
-/// What the piles grow from.
+/// The origin of the piles: a plane, a top layer or a base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
-    /// The plane: all piles on it are one.
+    /// An infinite plane. All piles on it have the same sites.
     Plane,
     /// A top layer.
     Top(Region),
@@ -23,25 +23,26 @@ pub enum Anchor {
     Base(Region),
 }
 
-/// Piles of random stackings as they were described.
+/// Piles of random stackings and their description.
 #[derive(Clone, Debug)]
 pub struct Piles {
-    /// What they grow from.
+    /// Their origin.
     pub anchor: Anchor,
     /// The steps between layers.
     pub steps: usize,
     /// The first sign.
     pub first: FirstSign,
-    /// Whether the spheres weigh nothing.
+    /// True if the spheres are weightless.
     pub weightless: bool,
-    /// On sites of the top layer.
+    /// The loads on sites of the top layer.
     pub loads: Vec<([i64; 2], BigRational)>,
 }
 
-/// By place and number of faults: how many stackings have a sphere there, and the sum of what the floor feels.
+/// By position and number of faults: the number of stackings that have a sphere there, and the sum of its forces on the
+/// floor.
 pub type Sums = BTreeMap<(one_by_one::Place, usize), (BigUint, Floor)>;
 
-/// Probability, normal, shear_x, shear_y by place.
+/// Probability, normal, shear_x and shear_y by position.
 pub type Means = BTreeMap<one_by_one::Place, [BigRational; 4]>;
 
 fn zeros<const N: usize>() -> [BigRational; N] {
@@ -49,10 +50,10 @@ fn zeros<const N: usize>() -> [BigRational; N] {
 }
 
 fn small(n: i128) -> i64 {
-    i64::try_from(n).expect("piles of tests are small")
+    i64::try_from(n).expect("the piles in tests are small")
 }
 
-/// The oracle's name of a place.
+/// The position in the oracle's type.
 pub fn named(place: Place) -> one_by_one::Place {
     [small(place.a), small(place.b)]
 }
@@ -76,7 +77,7 @@ impl Piles {
         }
     }
 
-    /// Piles under their own weight.
+    /// Piles under their own weight, without loads.
     pub fn heavy(anchor: Anchor, steps: usize, first: FirstSign) -> Self {
         Self {
             anchor,
@@ -87,7 +88,7 @@ impl Piles {
         }
     }
 
-    /// As the library makes them.
+    /// The piles in the library's type.
     pub fn piles(&self) -> Result<RandomPiles, Error> {
         let stackings = RandomStackings::new(self.steps as i128 + 1, self.first)?;
         let mut piles = match self.anchor {
@@ -106,7 +107,7 @@ impl Piles {
         })
     }
 
-    /// All stackings, by their signs.
+    /// All stackings, as signs.
     pub fn stackings(&self) -> Vec<Vec<i64>> {
         let first = match self.first {
             FirstSign::Plus => Some(1),
@@ -116,7 +117,7 @@ impl Piles {
         sequences(self.steps, first)
     }
 
-    /// What the floor feels under each sphere of one stacking, one by one; none of a pile that is none.
+    /// The force on the floor below each sphere of one stacking. Empty if the stacking is not a pile.
     pub fn bottom(&self, signs: &[i64]) -> BTreeMap<one_by_one::Place, Floor> {
         let grown = match self.anchor {
             Anchor::Plane => Grown::Plane,
@@ -136,7 +137,7 @@ impl Piles {
         }
         let mut bottom = one_by_one::bottom(&grown, &weight, &loads, signs).unwrap_or_default();
         if self.anchor == Anchor::Plane {
-            // Every other sphere that the load could have come to bears nothing.
+            // The force of every other sphere within reach of the load is zero.
             let n = i64::try_from(self.steps).expect("few steps");
             let net: i64 = signs.iter().sum();
             for [x, y] in loads.keys() {
@@ -151,7 +152,7 @@ impl Piles {
         bottom
     }
 
-    /// The sums over all stackings, by their faults.
+    /// The sums over all stackings, by number of faults.
     pub fn sums(&self) -> Sums {
         let mut sums = Sums::new();
         for signs in self.stackings() {
@@ -167,7 +168,7 @@ impl Piles {
         sums
     }
 
-    /// The means at a fault probability: each stacking with its own.
+    /// The means at a fault probability. Each stacking counts with its own probability.
     pub fn means(&self, sums: &Sums, q: &BigRational) -> Means {
         let choices = self.steps.saturating_sub(1);
         let firsts = if self.first == FirstSign::Random && self.steps > 0 {
@@ -191,7 +192,7 @@ impl Piles {
     }
 }
 
-/// What the library says by faults.
+/// The library's sums by number of faults.
 pub fn by_faults(piles: &RandomPiles) -> Result<Sums, Error> {
     let by_faults = piles.by_faults()?;
     let rows = by_faults.rows().map(|row| {
@@ -202,23 +203,23 @@ pub fn by_faults(piles: &RandomPiles) -> Result<Sums, Error> {
     rows.collect()
 }
 
-/// The numbers of a row.
+/// The four values of a row.
 pub fn numbers<T>(row: MeanForce<T>) -> [T; 4] {
     [row.probability, row.normal, row.shear_x, row.shear_y]
 }
 
-/// What a mean says, by place.
+/// The library's means by position.
 pub fn by_place(mean: Mean<BigRational>) -> Means {
     let rows = mean.into_rows().into_iter();
     rows.map(|row| (named(row.place), numbers(row))).collect()
 }
 
-/// The fault probabilities at which means are compared: FCC, HCP, all stackings alike, and others.
+/// The fault probabilities of the comparisons: FCC, HCP, equal weights of all stackings, and others.
 pub fn probabilities() -> [BigRational; 5] {
     [(0, 1), (1, 3), (1, 2), (5, 7), (1, 1)].map(|(n, d)| BigRational::new(n.into(), d.into()))
 }
 
-/// Says where two answers differ.
+/// Compares two maps. An error says where they differ.
 pub fn alike<K: Ord + Debug, V: PartialEq + Debug>(
     what: &str,
     expected: &BTreeMap<K, V>,
@@ -233,13 +234,13 @@ pub fn alike<K: Ord + Debug, V: PartialEq + Debug>(
     Ok(())
 }
 
-/// All that the library says of these piles is what all stackings say one by one: by faults, at [`probabilities`], as
-/// polynomials and in floats.
+/// Compares all answers of the library about these piles with an enumeration of all stackings: by faults, at
+/// [`probabilities`], as polynomials, and in floats.
 pub fn agrees(described: &Piles) -> Result<(), String> {
     agrees_at(described, &described.sums(), &probabilities())
 }
 
-/// The same at other fault probabilities, for sums that were made before.
+/// Makes the same comparison at other fault probabilities, for given sums.
 pub fn agrees_at(
     described: &Piles,
     expected: &Sums,
@@ -248,7 +249,7 @@ pub fn agrees_at(
     let said = |error: Error| format!("{described:?}: {error}");
     let piles = described.piles().map_err(said)?;
     let by_faults = match piles.by_faults() {
-        // No stacking is as high.
+        // No stacking is that high.
         Err(Error::NoStacking { .. }) if expected.is_empty() => return Ok(()),
         by_faults => by_faults.map_err(said)?,
     };
@@ -286,10 +287,10 @@ pub fn agrees_at(
     Ok(())
 }
 
-/// Floats are this near to the exact numbers.
+/// The floats differ from the exact values by at most `within`.
 pub fn near(exact: &Mean<BigRational>, float: &Mean<f64>, within: f64) -> Result<(), String> {
     if exact.rows().len() != float.rows().len() {
-        return Err("floats of other places".to_owned());
+        return Err("the floats have other positions".to_owned());
     }
     for (exact, float) in exact.rows().iter().zip(float.rows()) {
         let place = (exact.place, float.place);
@@ -301,7 +302,7 @@ pub fn near(exact: &Mean<BigRational>, float: &Mean<f64>, within: f64) -> Result
             .zip(numbers(float.clone()));
         for (exact, float) in pairs {
             let error = (exact.to_f64().expect("a float") - float).abs();
-            // A number that is no number is not near.
+            // Not-a-number is never near a value.
             if error.is_nan() || error > within {
                 return Err(format!("{float} for {exact} at {place:?}"));
             }

@@ -1,11 +1,11 @@
-//! Values written and read: as JSON, and in a format that does not describe itself.
+//! Round trips of values through JSON and through a format that does not describe itself.
 
 use core::fmt::Debug;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Written and read, in text and in bytes; the text.
+/// Writes and reads a value as text and as bytes. Returns the text.
 pub fn back<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> String {
     let text = serde_json::to_string(value).expect("json");
     assert_eq!(&serde_json::from_str::<T>(&text).expect(&text), value);
@@ -16,7 +16,7 @@ pub fn back<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> S
     text
 }
 
-/// Why a text is refused.
+/// The error message for an invalid text.
 pub fn refusal<T: DeserializeOwned + Debug>(text: &str) -> String {
     let error = serde_json::from_str::<T>(text).expect_err(text);
     error.to_string()

@@ -1,11 +1,11 @@
-//! Which float is nearest to a number, decided without a root and without the library's way of rounding.
+//! Decides whether a float is correctly rounded, without a root and without the library's rounding.
 //!
-//! The number is known by its sign and its square. x = m·2^e is nearest to it if the square lies between those of the
-//! points halfway to the neighbours of x, which are (2m ± 1)·2^(e−1); below a power of two the floats are twice as dense.
-//! All of these are integers over powers of two, so that a comparison takes one product and one shift.
+//! The reference is a sign and a square. The float x = m·2^e is correct if the square lies between the squares of the
+//! midpoints to its neighbours, which are (2m ± 1)·2^(e−1). Below a power of two the floats are twice as dense. All these
+//! values are integers over powers of two, so a comparison costs one product and one shift.
 //!
-//! The exhaustive tests, the random ones, fuzzing and the bench of roundings share this judge; `scalar/nearest` plants
-//! its faults.
+//! The exhaustive tests, the random ones, fuzzing and the bench of roundings share this check. `claims::nearest` injects its
+//! faults.
 
 use core::cmp::Ordering;
 use core::fmt::Debug;
@@ -16,18 +16,18 @@ use num_rational::BigRational;
 use num_traits::float::FloatCore;
 use num_traits::{Signed, Zero};
 
-/// Nothing, or which float is not the nearest to what.
+/// `Ok`, or the wrong float and the exact value.
 pub type Verdict = Result<(), String>;
 
-/// A float format: what the judge needs of `f32` and `f64`.
+/// The operations that the check needs of `f32` and `f64`.
 pub trait Float: NearestFloat + FloatCore + Debug {
-    /// The next float on the real line.
+    /// The next greater float.
     #[must_use]
     fn up(self) -> Self;
-    /// The one before.
+    /// The next smaller float.
     #[must_use]
     fn down(self) -> Self;
-    /// Whether the last bit of the significand is 0.
+    /// True if the last bit of the significand is 0.
     fn is_even(self) -> bool {
         significand(self).0.is_multiple_of(2)
     }
@@ -49,18 +49,18 @@ macro_rules! float {
 
 float!(f32 f64);
 
-/// A real number by its sign and its square, a fraction that nobody reduces.
+/// A real number by its sign and its square. The fraction is not reduced.
 #[derive(Clone, Debug)]
 pub struct Value {
     negative: bool,
-    /// Of the square.
+    /// The numerator of the square.
     numer: BigUint,
-    /// Of the square, not zero.
+    /// The denominator of the square, not zero.
     denom: BigUint,
 }
 
 impl Value {
-    /// `coefficient`·√`radicand`, for a radicand that is not negative.
+    /// `coefficient`·√`radicand`, for a nonnegative radicand.
     pub fn root(coefficient: &BigRational, radicand: &BigRational) -> Self {
         let (n, d) = (
             coefficient.numer().magnitude(),
@@ -73,7 +73,7 @@ impl Value {
         }
     }
 
-    /// The number that a surd is.
+    /// The value of a surd.
     pub fn of(surd: &Surd) -> Self {
         let (c, radicand) = (surd.coefficient(), surd.radicand());
         let (n, d) = (c.numer().magnitude(), c.denom().magnitude());
@@ -98,12 +98,12 @@ impl Value {
         BigRational::new(self.numer.clone().into(), self.denom.clone().into())
     }
 
-    /// Whether it is less than zero.
+    /// True if it is less than zero.
     pub fn is_negative(&self) -> bool {
         self.negative && !self.numer.is_zero()
     }
 
-    /// The order of |value| and m·2^e.
+    /// Compares |value| with m·2^e.
     fn cmp_magnitude(&self, m: u64, e: i64) -> Ordering {
         // n/d against m²·4^e
         let product = &self.denom * (u128::from(m) * u128::from(m));
@@ -116,10 +116,10 @@ impl Value {
     }
 }
 
-/// `got` is the float nearest to the value, ties to even; `None` stands for an infinite one.
+/// Checks that `got` is the value correctly rounded, with ties to even. `None` stands for infinity.
 pub fn is_nearest<F: Float>(got: Option<F>, value: &Value) -> Verdict {
     let holds = match got {
-        // The greatest float is odd: halfway to what would follow it belongs to the infinity.
+        // The significand of the greatest float is odd, so the midpoint above it rounds to infinity.
         None => against_half_above(F::max_value(), value).is_ge(),
         Some(x) => {
             let sign_agrees = x.is_zero() || (x < F::zero()) == value.is_negative();
@@ -129,18 +129,18 @@ pub fn is_nearest<F: Float>(got: Option<F>, value: &Value) -> Verdict {
     if holds {
         Ok(())
     } else {
-        Err(format!("{got:?} is not nearest to {value:?}"))
+        Err(format!("{got:?} is not the float nearest to {value:?}"))
     }
 }
 
-/// Whether |value| rounds to x ≥ 0.
+/// Tells whether |value| rounds to x ≥ 0.
 fn is_between_halves<F: Float>(x: F, value: &Value) -> bool {
     let to_even = |order: Ordering| order.is_eq() && x.is_even();
     let above = against_half_above(x, value);
     let (m, e) = significand(x);
     let (least, least_exponent) = significand(F::min_positive_value());
     let below = if x.is_zero() {
-        // Nothing lies below zero.
+        // Zero has no lower neighbour here.
         Ordering::Greater
     } else if m == least && e > least_exponent {
         value.cmp_magnitude(4 * m - 1, e - 2)
@@ -150,7 +150,7 @@ fn is_between_halves<F: Float>(x: F, value: &Value) -> bool {
     (above.is_lt() || to_even(above)) && (below.is_gt() || to_even(below))
 }
 
-/// The order of |value| and the point halfway from x ≥ 0 to what follows it, were exponents not limited.
+/// Compares |value| with the midpoint of x ≥ 0 and its successor, for unbounded exponents.
 fn against_half_above<F: Float>(x: F, value: &Value) -> Ordering {
     let (m, e) = significand(x);
     value.cmp_magnitude(2 * m + 1, e - 1)
@@ -160,7 +160,7 @@ fn against_half_above<F: Float>(x: F, value: &Value) -> Ordering {
 pub fn significand<F: FloatCore>(x: F) -> (u64, i64) {
     let (m, e, _) = x.integer_decode();
     let (_, least_exponent, _) = F::min_positive_value().integer_decode();
-    // Subnormals are decoded with a zero more.
+    // Decoding adds a zero bit to subnormals.
     if e < least_exponent {
         (m / 2, i64::from(e) + 1)
     } else {
@@ -168,19 +168,19 @@ pub fn significand<F: FloatCore>(x: F) -> (u64, i64) {
     }
 }
 
-/// The float as the rational it is.
+/// The exact value of a float.
 pub fn exact<F: FloatCore>(x: F) -> BigRational {
     BigRational::from_float(x).expect("a finite float")
 }
 
-/// The number that would follow the greatest float, were exponents not limited.
+/// The successor of the greatest float, if exponents were unbounded.
 pub fn beyond_greatest<F: Float>() -> BigRational {
     let greatest = exact(F::max_value());
     let before = exact(F::max_value().down());
     &greatest + (&greatest - before)
 }
 
-/// Halfway between two numbers.
+/// The midpoint of two numbers.
 pub fn midpoint(a: &BigRational, b: &BigRational) -> BigRational {
     (a + b) / BigRational::from_integer(2.into())
 }

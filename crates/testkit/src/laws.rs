@@ -1,4 +1,4 @@
-//! The law suite of scalars on operands chosen to break it.
+//! The law suite of scalars on operands that are likely to break it.
 
 use cannonpile::scalar::{Algebra, Field, RealEmbeddable, laws};
 use num_bigint::BigInt;
@@ -7,7 +7,7 @@ use num_traits::{Pow, Zero};
 
 use crate::answers::ratio;
 
-/// Panics unless the laws of algebra hold of every triple of the operands.
+/// Panics unless the laws of algebra hold for every triple of the operands.
 pub fn obeys_algebra<T: Algebra>(operands: &[T]) {
     for a in operands {
         for b in operands {
@@ -18,7 +18,7 @@ pub fn obeys_algebra<T: Algebra>(operands: &[T]) {
     }
 }
 
-/// Panics unless the laws of the embedding hold of every pair of these rationals.
+/// Panics unless the laws of the embedding hold for every pair of these rationals.
 pub fn obeys_embedding<T: Field + RealEmbeddable>(rationals: &[Q]) {
     for x in rationals {
         for y in rationals {
@@ -27,14 +27,14 @@ pub fn obeys_embedding<T: Field + RealEmbeddable>(rationals: &[Q]) {
     }
 }
 
-/// Panics unless the laws of integers hold about the limits of all formats.
+/// Panics unless the laws of integers hold near the limits of all formats.
 pub fn obeys_integers<T: Algebra>() {
     for n in integers() {
         assert_eq!(laws::integers::<T>(n), Ok(()), "{n}");
     }
 }
 
-/// Rationals taken apart over a common denominator, and put together, are themselves again.
+/// Panics unless rationals survive a split into numerators over a common denominator.
 pub fn keeps_numerators<T: Algebra>(rationals: &[Q]) {
     for x in rationals {
         for y in rationals {
@@ -53,7 +53,7 @@ fn ratios<const N: usize>(small: [(i64, i64); N]) -> impl Iterator<Item = Q> {
     small.into_iter().map(|(n, d)| ratio(n, d))
 }
 
-/// What strains a float or a rational of fixed width: not representable, halfway, next to a limit, long.
+/// Difficult operands for a float or a fixed-width rational: not representable, ties, next to a limit, long.
 pub fn narrow() -> Vec<Q> {
     let two = power_of_two;
     let small = [
@@ -79,7 +79,7 @@ pub fn narrow() -> Vec<Q> {
     ratios(small).chain(large).collect()
 }
 
-/// What strains what encloses or is longer than a float: halfway between two double-doubles, next to a limit, long.
+/// Difficult operands for enclosures and double-doubles: midpoints of two double-doubles, next to a limit, long.
 pub fn wide() -> Vec<Q> {
     let small = [
         (0, 1),

@@ -1,32 +1,32 @@
-//! Test support that all crates of the workspace share: oracles, piles made twice, random inputs and claims about them.
+//! Test support for all crates of the workspace: oracles, piles in two forms, random inputs, and claims about them.
 //!
 //! The crate is unpublished. Tests, fuzz targets and benches of the other crates depend on it. Without features it depends
-//! on the core only; each feature adds the parts that need one of the crates beside the core.
+//! only on the core. Each feature adds the parts that need another crate.
 //!
 //! | module | contents | feature |
 //! |---|---|---|
-//! | [`answers`] | everything the library answers about one straight pile, as plain data | |
-//! | [`cases`], [`compare`] | piles of any stacking built twice, for the library and for an oracle; comparison of both | |
-//! | [`claims`] | statements that hold for every input, as functions of bytes | some |
+//! | [`answers`] | all answers of the library about one straight pile, as plain data | |
+//! | [`cases`], [`compare`] | piles of any stacking, for the library and for an oracle; comparison of both | |
+//! | [`claims`] | properties that hold for every input, as functions of bytes | some |
 //! | `codes` | contact tables as DEM codes write them | `dem` |
-//! | `disorder` | piles of random stackings built twice | `disorder` |
-//! | [`errors`] | what an error says | |
+//! | `disorder` | piles of random stackings, for the library and for an oracle | `disorder` |
+//! | [`errors`] | checks of error messages | |
 //! | [`generators`] | random inputs from plain bytes | some |
-//! | [`judge`] | whether a float is the one nearest to a number | |
-//! | `json` | values written and read, as text and as bytes | `serde` |
-//! | [`laws`] | the law suite of scalars on operands chosen to break it | |
-//! | [`oracles`] | slow, simple computations that the library is compared with | some |
-//! | [`pair`] | two scalars in step, and the first operation at which they differ | |
-//! | [`proofs`] | what must hold of the theorems of a crate, and wrong formulas that they refuse | |
-//! | [mod@properties] | the runner that tests a claim on random bytes | |
+//! | [`judge`] | decides whether a float is correctly rounded | |
+//! | `json` | round trips of values as text and as bytes | `serde` |
+//! | [`laws`] | the law suite of scalars on difficult operands | |
+//! | [`oracles`] | slow, simple computations of the same results | some |
+//! | [`pair`] | two scalars in parallel, and the first operation at which they differ | |
+//! | [`proofs`] | checks of the theorems of a crate, and wrong formulas that they must reject | |
+//! | [mod@properties] | runs a claim on random bytes | |
 //! | [`python_checker`] | the second certificate checker, as a Python process | |
 //! | [`rounding`] | inputs that are critical for correct rounding | some |
 //! | `scenes` | scenes of every kind, and the files of their piles | `dem` |
-//! | [`stress`] | piles at the limits of floats, and the errors of each way to compute there | |
-//! | `tally` | ensembles of stackings, counted one by one | `disorder` |
-//! | [`theorems`] | what must hold of the answers about any straight pile | |
+//! | [`stress`] | piles at the limits of floats, and the errors of each scalar there | |
+//! | `tally` | ensembles of stackings, enumerated one by one | `disorder` |
+//! | [`theorems`] | theorems about the answers for any straight pile | |
 //!
-//! The tests of this crate show that each judge notices planted faults.
+//! The tests of this crate inject faults and show that each check catches them.
 
 #![allow(
     clippy::missing_errors_doc,

@@ -1,4 +1,4 @@
-//! Two scalars in step: which operation is the first at which they part?
+//! Two scalars in parallel, to find the first operation at which they differ.
 
 use core::fmt;
 use core::num::NonZeroI64;
@@ -11,12 +11,12 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-/// The first operation after which two scalars stood for different numbers.
+/// The first operation after which two scalars represented different numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parting {
     /// The operation, such as `a * b`.
     pub operation: &'static str,
-    /// What each scalar made of it.
+    /// The value in each scalar.
     pub values: String,
 }
 
@@ -26,12 +26,11 @@ impl fmt::Display for Parting {
     }
 }
 
-/// A checker: runs every operation in two scalars and remembers the first at which they parted.
+/// Runs every operation in two scalars and records the first at which they differ.
 ///
-/// Two values *part* when their enclosures are disjoint; that of a rounded scalar of p bits is widened by
-/// 2^(−p/2) of its value first, so it parts when half its digits are wrong. One of them undefined is a parting
-/// too. The record is carried along by every operation, so a whole computation is checked by looking at its
-/// result.
+/// Two values *differ* if their enclosures are disjoint. The enclosure of a rounded scalar of p bits is first widened by
+/// 2^(−p/2) of its value, so a difference means that half of its digits are wrong. Two values also differ if one is
+/// undefined. Every operation keeps the record, so a check of the result covers a whole computation.
 #[derive(Clone, Debug)]
 pub struct Pair<A, B> {
     first: A,
@@ -44,7 +43,7 @@ where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
 {
-    /// Two values that are meant to be the same number.
+    /// Two values that should be the same number.
     pub fn new(first: A, second: B) -> Self {
         Self {
             first,
@@ -64,12 +63,12 @@ where
         &self.second
     }
 
-    /// The first operation on the way here at which the two parted.
+    /// The first operation at which the two scalars differed.
     pub fn parting(&self) -> Option<&Parting> {
         self.parting.as_deref()
     }
 
-    /// Records a parting, unless there has been one.
+    /// Records a difference unless there already is one.
     fn watched(mut self, operation: &'static str) -> Self {
         if self.parting.is_none() && !meet(&self.first, &self.second) {
             let values = format!("{:?} and {:?}", self.first, self.second);
@@ -94,7 +93,7 @@ where
     }
 }
 
-/// Whether two values may be the same number, as far as their scalars can tell.
+/// Tells whether two values may be the same number, as far as their scalars can decide.
 fn meet<A, B>(a: &A, b: &B) -> bool
 where
     A: Field + RealEmbeddable,
@@ -102,7 +101,7 @@ where
 {
     match (widened(a), widened(b)) {
         (Some(a), Some(b)) => a.lower <= b.upper && b.lower <= a.upper,
-        // An enclosure without finite bounds holds everything.
+        // An enclosure without finite bounds contains every number.
         _ => a.is_defined() && b.is_defined(),
     }
 }
@@ -223,7 +222,7 @@ where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
 {
-    /// The weaker of the two.
+    /// The weaker of the two scalars.
     const EXACTNESS: Exactness = A::EXACTNESS.weaker(B::EXACTNESS);
     const NAME: &'static str = "Pair";
 
@@ -264,7 +263,7 @@ where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
 {
-    /// `None` if either has no quotient.
+    /// `None` if either scalar cannot divide.
     fn checked_div(&self, divisor: &Self) -> Option<Self> {
         let quotient = Self {
             first: self.first.checked_div(&divisor.first)?,
@@ -280,7 +279,7 @@ where
     A: Field + RealEmbeddable,
     B: Field + RealEmbeddable,
 {
-    /// The sign on which the two agree.
+    /// The sign if both scalars agree on it.
     fn sign(&self) -> RealSign {
         if self.first.sign() == self.second.sign() {
             self.first.sign()
@@ -289,7 +288,7 @@ where
         }
     }
 
-    /// The bounds of the first, as it is the second that is checked; none if either is undefined.
+    /// The enclosure of the first scalar, because this type checks the second. `None` if either value is undefined.
     fn enclosure(&self) -> Option<Enclosure> {
         self.is_defined().then(|| self.first.enclosure())?
     }

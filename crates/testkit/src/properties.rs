@@ -1,6 +1,6 @@
-//! Runs a claim on random bytes: deterministic, from the generators that fuzzing shares.
+//! Runs a claim on random bytes. The runs are deterministic and use the same generators as fuzzing.
 //!
-//! A failure prints the shortest bytes that proptest could find, and the claim's own witness.
+//! A failure prints the shortest bytes that proptest finds, and the witness of the claim.
 
 use core::cell::RefCell;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunne
 
 use crate::claims::{Claim, Failure};
 
-/// As many bytes as any claim uses up; one that gets fewer reads zeros.
+/// No claim uses more bytes. A claim with fewer bytes reads zeros.
 const BYTES: usize = 256;
 
 /// Declares a test for each claim: `name: claim, number of cases;`.
@@ -26,7 +26,7 @@ macro_rules! properties {
     )*};
 }
 
-/// Panics unless the claim holds for `cases` random byte strings, the same in every run.
+/// Panics unless the claim holds for `cases` random byte strings. They are the same in every run.
 pub fn holds(claim: Claim, cases: u32) {
     let judged = |u: &mut Unstructured<'_>| {
         claim(u).map_err(|failure| match failure {
@@ -53,7 +53,7 @@ fn for_all(
     TestRunner::new(config).run(&bytes, |bytes| test(&mut Unstructured::new(&bytes)))
 }
 
-/// Counts how often each kind of input comes up in 400 random byte strings.
+/// Counts how often each kind of input occurs in 400 random byte strings.
 pub fn census(
     kind: impl Fn(&mut Unstructured<'_>) -> arbitrary::Result<String>,
 ) -> BTreeMap<String, u32> {
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use crate::claims::demand;
 
-    /// A claim that is wrong for one byte in 256 is refuted, and a claim that is true is not.
+    /// Proptest refutes a claim that is wrong for one byte in 256, and confirms a true one.
     #[test]
     fn a_rare_exception_is_found() {
         let below = |limit: u8| {

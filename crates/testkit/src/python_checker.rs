@@ -1,6 +1,7 @@
-//! The second checker of certificates, in Python, as a process that stays: a certificate a line, a verdict a line.
+//! The second checker of certificates, in Python. It is one process that reads a certificate per line and prints a verdict
+//! per line.
 //!
-//! It needs `python3`. Without it whoever asks fails, unless `CANNONPILE_WITHOUT_PYTHON` is set.
+//! It needs `python3`. Without it, a call panics unless `CANNONPILE_WITHOUT_PYTHON` is set.
 
 use std::env;
 use std::io::{BufRead, BufReader, Write};
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// Reads certificates from lines, and answers with the exit status of the checker and what it says.
+/// The Python program: reads certificates from lines, and prints the exit status and the message of the checker.
 const LINES: &str = "
 import io, sys
 sys.path.insert(0, sys.argv[1])
@@ -27,13 +28,13 @@ struct Checker {
 
 static CHECKER: OnceLock<Option<Mutex<Checker>>> = OnceLock::new();
 
-/// What its exit status would be of this file: 0 accepted, 1 refused, 2 no certificate. `None` if somebody said that there is no
-/// Python to ask.
+/// The exit status of the checker for this file: 0 accepted, 1 rejected, 2 not a certificate. `None` if Python is missing
+/// and `CANNONPILE_WITHOUT_PYTHON` is set.
 pub fn status(certificate: &[u8]) -> Option<u8> {
     verdict(certificate).map(|(status, _)| status)
 }
 
-/// The [`status`], and what it says, in one line.
+/// The [`status`] and the message, which is one line.
 pub fn verdict(certificate: &[u8]) -> Option<(u8, String)> {
     let checker = CHECKER.get_or_init(|| Checker::start().map(Mutex::new));
     let mut checker = checker
@@ -43,7 +44,7 @@ pub fn verdict(certificate: &[u8]) -> Option<(u8, String)> {
     let answer = checker.ask(certificate);
     let verdict = answer.trim_end().split_once(' ');
     let verdict = verdict.and_then(|(status, said)| Some((status.parse().ok()?, said.into())));
-    Some(verdict.unwrap_or_else(|| panic!("the checker in Python fell silent: {answer:?}")))
+    Some(verdict.unwrap_or_else(|| panic!("no verdict from the Python checker: {answer:?}")))
 }
 
 impl Checker {
@@ -74,7 +75,7 @@ impl Checker {
 
     fn ask(&mut self, certificate: &[u8]) -> String {
         let mut line = certificate.to_vec();
-        // No string in it has an end of line.
+        // Line breaks occur only between JSON tokens, so a space can replace them.
         for byte in &mut line {
             if *byte == b'\n' {
                 *byte = b' ';
@@ -96,7 +97,7 @@ impl Drop for Checker {
     }
 }
 
-/// The folder of the script, beside the crate that writes certificates.
+/// The folder of the script, in the crate that writes certificates.
 fn folder() -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../horizontal");
     let script = folder.join("check_certificate.py");

@@ -1,4 +1,4 @@
-//! Scenes of every kind, and the files of their piles, read back.
+//! Scenes of every kind, and the files of their piles.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,8 @@ use cannonpile::{Packing, Pile};
 use cannonpile_dem::scene::{Anchor, Scene, State, parse};
 use cannonpile_dem::{PileExport, PileFile};
 
-/// Returns scenes of every kind: straight, isosceles, discs; stackings under and on regions; loads, no weight; SI scales.
+/// Returns scenes of every kind: straight, isosceles and discs, stackings under and on regions, loads, zero weight, SI
+/// scales.
 pub fn scenes() -> Vec<Scene> {
     let rational = |text| parse::rational(text).expect("a number");
     let region = |text: &str| text.parse().expect("a region");
@@ -88,7 +89,7 @@ pub fn scenes() -> Vec<Scene> {
     ]
 }
 
-/// Calls `judge` with each of the [`scenes`] and its files.
+/// Calls `judge` with each of the [`scenes`] and its export.
 pub fn for_each_pile(mut judge: impl FnMut(&Scene, &PileExport<'_>)) {
     for scene in scenes() {
         let pile = scene.pile().and_then(|pile| scene.in_state(pile));
@@ -98,12 +99,12 @@ pub fn for_each_pile(mut judge: impl FnMut(&Scene, &PileExport<'_>)) {
     }
 }
 
-/// Returns the pile with the radius, the mass, the gravity and the spacing of a scene that names none.
+/// Returns the pile with the default radius, mass, gravity and spacing of a scene.
 pub fn packing(pile: &Pile) -> Packing<'_> {
     Scene::default().packing(pile).expect("room")
 }
 
-/// Writes a file into memory, and checks that all its rows are reported.
+/// Writes a file into memory and checks that the export reports all rows.
 pub fn bytes(export: &PileExport<'_>, file: PileFile) -> Vec<u8> {
     let (mut out, mut rows) = (Vec::new(), 0);
     export
@@ -113,23 +114,23 @@ pub fn bytes(export: &PileExport<'_>, file: PileFile) -> Vec<u8> {
     out
 }
 
-/// Writes a file into a text.
+/// Returns a file as text.
 pub fn text(export: &PileExport<'_>, file: PileFile) -> String {
     String::from_utf8(bytes(export, file)).expect("text")
 }
 
-/// Returns the columns of a csv that hold numbers, as floats.
+/// Returns the numeric columns of a CSV file as floats.
 pub fn columns(csv: &str) -> BTreeMap<String, Vec<f64>> {
     let mut lines = csv.lines();
-    let heads: Vec<&str> = lines.next().expect("a head").split(',').collect();
-    let mut columns: BTreeMap<String, Vec<f64>> = heads
+    let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let mut columns: BTreeMap<String, Vec<f64>> = names
         .iter()
-        .map(|head| ((*head).to_owned(), Vec::new()))
+        .map(|name| ((*name).to_owned(), Vec::new()))
         .collect();
     for line in lines {
-        for (head, cell) in heads.iter().zip(line.split(',')) {
-            let column = columns.get_mut(*head).expect("a column");
-            if *head != "direction" {
+        for (name, cell) in names.iter().zip(line.split(',')) {
+            let column = columns.get_mut(*name).expect("a column");
+            if *name != "direction" {
                 column.push(cell.parse().expect("a number"));
             }
         }

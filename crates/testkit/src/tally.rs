@@ -1,4 +1,4 @@
-//! Tallies of ensembles, counted plainly: every stacking made as a pile, its forces asked for one by one.
+//! Tallies of ensembles by plain enumeration: every stacking is built as a pile, and each force is a separate query.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use cannonpile_disorder::{
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 
-/// A force, and the signs of the stacking that has it.
+/// A force, and the signs of its stacking.
 type Found = Option<(BigRational, String)>;
 
-/// What a distribution says, counted plainly.
+/// The contents of a distribution, from a plain enumeration.
 #[derive(Debug, Default, PartialEq)]
 pub struct Counted {
     stackings: u64,
@@ -31,7 +31,7 @@ pub struct Counted {
 }
 
 impl Counted {
-    /// Counts a pile, whose stacking comes after all those before.
+    /// Adds a pile. Its stacking must come after all earlier ones.
     pub fn meet(&mut self, pile: &Pile, signs: &str, width: &BigRational) -> Result<(), Error> {
         let forces = pile.forces::<BigRational>();
         let bin = |x: &BigRational| (x / width).floor().to_integer().to_i64().unwrap();
@@ -56,7 +56,7 @@ impl Counted {
         Ok(())
     }
 
-    /// What a distribution says.
+    /// The contents of a distribution of the library.
     fn of(distribution: &Distribution) -> Self {
         let bins = |histogram: &Histogram| {
             let counts = histogram.counts.iter().map(|n| n.to_u64().unwrap());
@@ -93,12 +93,12 @@ fn better(
     }
 }
 
-/// Signs as text.
+/// The signs as text.
 pub fn text(signs: impl Iterator<Item = Sign>) -> String {
     signs.map(Sign::symbol).collect()
 }
 
-/// All signs of so many steps, in order.
+/// All sequences of `steps` signs, in order.
 pub fn all_signs(steps: u32, first: FirstSign) -> Vec<Vec<Sign>> {
     let all = (0..1_u32 << steps).map(|bits| {
         let signs = (0..steps).rev().map(|bit| match bits >> bit & 1 {
@@ -115,14 +115,14 @@ pub fn all_signs(steps: u32, first: FirstSign) -> Vec<Vec<Sign>> {
     all.filter(begins).collect()
 }
 
-/// A scene: the top, its loads, and whether spheres weigh nothing.
+/// A scene: the top layer, its loads, and the weight.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The top layer.
     pub top: Region,
     /// Loads on sites of the top layer.
     pub loads: Vec<([i128; 2], BigRational)>,
-    /// Whether the spheres weigh nothing.
+    /// True if the spheres are weightless.
     pub weightless: bool,
     /// The first sign.
     pub first: FirstSign,
@@ -131,7 +131,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Under its weight, with bins of a third.
+    /// A scene with weight, without loads, and with bins of width 1/3.
     pub fn of(top: &str, first: FirstSign) -> Self {
         Self {
             top: top.parse().unwrap(),
@@ -142,7 +142,7 @@ impl Scene {
         }
     }
 
-    /// The ensemble as the library makes it.
+    /// The ensemble in the library's type.
     pub fn ensemble(&self, steps: u32) -> Result<Ensemble, Error> {
         let stackings = RandomStackings::new(i128::from(steps) + 1, self.first)?;
         let mut ensemble = Ensemble::under(self.top, stackings)?.with_bins(self.width.clone())?;
@@ -171,18 +171,18 @@ impl Scene {
         })
     }
 
-    /// What is counted of all stackings and of those that stand, by faults.
+    /// The counts of all stackings and of the stable ones, by number of faults.
     pub fn counted(&self, steps: u32) -> Result<Vec<[Counted; 2]>, Error> {
         self.counted_of(steps, &all_signs(steps, self.first))
     }
 
-    /// What is counted of these stackings, and of those of them that stand, by faults.
+    /// The counts of these stackings and of the stable ones among them, by number of faults.
     pub fn counted_of(
         &self,
         steps: u32,
         stackings: &[Vec<Sign>],
     ) -> Result<Vec<[Counted; 2]>, Error> {
-        // Of equal forces the first in order is named.
+        // The tally names the first stacking with an extreme force.
         let mut stackings = stackings.to_vec();
         stackings.sort_unstable();
         let mut counted = Vec::new();
@@ -202,7 +202,7 @@ impl Scene {
     }
 }
 
-/// What a tally says of all stackings and of those that stand, by faults.
+/// The counts of a tally for all stackings and for the stable ones, by number of faults.
 pub fn counted(tally: &Tally) -> Vec<[Counted; 2]> {
     let faults = tally.faults.iter().enumerate();
     let both = faults.map(|(d, with)| {

@@ -1,4 +1,5 @@
-//! Piles of discs and of spheres on isosceles bases, with weights and loads, bear what elimination says sphere by sphere.
+//! Elimination, sphere by sphere, confirms the forces in piles of discs and of spheres on isosceles bases. Both have weights
+//! and loads.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +15,7 @@ use crate::answers::{Answers, Shape};
 use crate::generators::{number, rarely, region};
 use crate::oracles::elimination;
 
-/// All contacts and the base, and what is said of one sphere.
+/// Compares all contacts, the base, and the answers about one sphere.
 pub fn any_base(u: &mut Unstructured<'_>) -> Checked {
     let Loaded {
         shape,
@@ -32,7 +33,7 @@ pub fn any_base(u: &mut Unstructured<'_>) -> Checked {
     same("a position", &forces.position(site)?, &sphere.position)
 }
 
-/// A pile, and what acts on each of its spheres, in mg.
+/// A pile and the external force on each of its spheres, in mg.
 struct Loaded {
     shape: Shape,
     pile: Pile,
@@ -105,7 +106,7 @@ mod planted {
     use crate::generators::number::ratio;
 
     #[test]
-    fn a_load_elsewhere_is_caught() {
+    fn a_misplaced_load_is_caught() {
         let loads = |at: Site, load: i64| {
             move |site: Site| ratio(1, 1) + ratio(if site == at { load } else { 0 }, 1)
         };

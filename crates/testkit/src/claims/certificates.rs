@@ -1,8 +1,8 @@
-//! A certificate that is accepted says the truth, whatever was changed in it, and both checkers say the same of it.
+//! An accepted certificate states the truth, even after random changes. Both checkers agree on it.
 //!
-//! Certificates that the library gives of a tiny pile are changed in a few places. What
-//! [`check`](cannonpile_horizontal::certificate::Certificate::check) still accepts must hold by the exact programs of `States`. The
-//! second checker, in Python, is asked by way of [`python_checker`](crate::python_checker).
+//! The claims change certificates of a tiny pile in a few places. If
+//! [`check`](cannonpile_horizontal::certificate::Certificate::check) still accepts one, the exact programs of `States` must
+//! confirm it. The second checker, in Python, runs in [`python_checker`](crate::python_checker).
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
@@ -19,17 +19,17 @@ use crate::generators::region::light;
 use crate::oracles::admissible::at;
 use crate::oracles::balance::place;
 
-/// What is accepted is true.
+/// An accepted certificate is true.
 pub fn changed(u: &mut Unstructured<'_>) -> Checked {
     let mut drawn = drawn(u)?;
     let certificate = any(u, &mut drawn)?;
     let accepted = certificate.check().is_ok();
     demand(!accepted || is_true(&drawn, &certificate), || {
-        format!("accepted, and not true: {certificate:?}")
+        format!("accepted but false: {certificate:?}")
     })
 }
 
-/// Both checkers accept it, or both refuse it; and it comes back from its file.
+/// Both checkers accept the certificate, or both reject it. The certificate also survives a round trip through its file.
 pub fn judged_twice(u: &mut Unstructured<'_>) -> Checked {
     use cannonpile_horizontal::certificate::{read_certificate, write_certificate};
 
@@ -42,19 +42,19 @@ pub fn judged_twice(u: &mut Unstructured<'_>) -> Checked {
     let mut file = Vec::new();
     write_certificate(&certificate, &mut file).map_err(refuted)?;
     let read = read_certificate(file.as_slice()).map_err(refuted)?;
-    same("what was read back", &read, &certificate)?;
+    same("the value read back", &read, &certificate)?;
     let Some(status) = python_checker::status(&file) else {
         return Ok(());
     };
     let checked = certificate.check();
-    // 2 says that it is none.
+    // Status 2 means that the file is not a certificate.
     let agree = status == u8::from(checked.is_err());
     demand(agree, || {
         format!("{checked:?}, but {status} in Python: {certificate:?}")
     })
 }
 
-/// A file with some letters exchanged is refused, or what is read comes back and is true if it is accepted.
+/// A file with some replaced letters is rejected, or its certificate survives a round trip and is true if accepted.
 pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     use cannonpile_horizontal::certificate::{
         read_certificate, read_certificates, write_certificate,
@@ -84,16 +84,16 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     let mut again = Vec::new();
     write_certificate(&read, &mut again).map_err(refuted)?;
     same(
-        "what was read back",
+        "the value read back",
         &read_certificate(&*again).ok(),
         &Some(read.clone()),
     )?;
-    // Of another pile the truth is not known.
+    // The truth is unknown for another pile.
     let holds = read.check().is_err() || read.pile != drawn.pile || is_true(&drawn, &read);
-    demand(holds, || format!("accepted, and not true: {read:?}"))
+    demand(holds, || format!("accepted but false: {read:?}"))
 }
 
-/// One of the certificates of the pile, with a few changes, now and then of the pile too: then it is that of another.
+/// Returns one of the certificates of the pile with a few changes. Sometimes the pile changes too.
 fn any(u: &mut Unstructured<'_>, drawn: &mut Drawn) -> Result<Certificate, Failure> {
     let mut certificate = given(u, drawn)?;
     for _ in 0..u.int_in_range(0..=3)? {
@@ -106,7 +106,7 @@ fn any(u: &mut Unstructured<'_>, drawn: &mut Drawn) -> Result<Certificate, Failu
     Ok(certificate)
 }
 
-/// The same pile with a load more, or any.
+/// Returns the same pile with one more load, or an unrelated pile.
 fn another(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Drawn, Failure> {
     if rarely(u, 3)? {
         return super::horizontal::drawn(u);
@@ -116,7 +116,7 @@ fn another(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Drawn, Failure> {
     Ok(drawn.loaded(site, load)?)
 }
 
-/// What the library says of it.
+/// Returns a certificate that the library gives for the pile.
 fn given(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Certificate, Failure> {
     let Drawn { pile, bottom, .. } = drawn;
     let bounds = || cannonpile_horizontal::bounds(pile, *bottom).ok();
@@ -131,12 +131,12 @@ fn given(u: &mut Unstructured<'_>, drawn: &Drawn) -> Result<Certificate, Failure
     };
     Ok(match given {
         Some(certificate) => certificate,
-        // What cannot stand has no other.
+        // An unstable pile has only this certificate.
         None => cannonpile_horizontal::equilibrium(pile)?,
     })
 }
 
-/// Another number, another claim, another site, inside or not, or the same proof twice as large.
+/// Changes a number, the claim or the site (which may lie outside the pile), or doubles the proof.
 fn change(
     u: &mut Unstructured<'_>,
     drawn: &Drawn,
@@ -159,7 +159,7 @@ fn change(
             field.entry(sphere(u, pile)?).or_default()[direction.index()] += more;
         }
         4 => {
-            // Beside the pile there are none, nor on the floor.
+            // The pile has no such contacts outside it or on the floor.
             let axis = *u.choose(&[Axis::AlphaBeta, Axis::AlphaGamma, Axis::GammaBeta])?;
             let site = sphere(u, pile)?;
             *horizontal
@@ -213,7 +213,7 @@ fn change(
     Ok(())
 }
 
-/// A site of the pile, or up to a step beside it.
+/// A site of the pile, or one up to a step outside it.
 fn sphere(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
     let sites: Vec<_> = pile.shape().sites().collect();
     let mut site = *u.choose(&sites)?;
@@ -225,7 +225,7 @@ fn sphere(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
     Ok(site)
 }
 
-/// Whether a claim holds, by the exact programs over all states that only push.
+/// Tells whether a claim holds, by the exact programs over all compressive states.
 fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
     let Drawn { states, corner, .. } = drawn;
     match &certificate.claim {
@@ -241,7 +241,7 @@ fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
             let x: Vec<_> = x.collect();
             let of_contacts = x.iter().filter(|force| !force.is_zero()).count();
             let given = certificate.horizontal.values();
-            // A force where no spheres touch is none of the pile's.
+            // A force is not the pile's if no spheres touch there.
             let has_others = given.filter(|force| !force.is_zero()).count() > of_contacts;
             !has_others && has_least_energy(drawn, stiffness_ratio, &x)
         }
@@ -249,8 +249,8 @@ fn is_true(drawn: &Drawn, certificate: &Certificate) -> bool {
     }
 }
 
-/// Whether no state that only pushes has less energy. It is convex: none has, just if it falls towards none of them, and that
-/// is linear.
+/// Tells whether no compressive state has less energy. The energy is convex, so this holds exactly if the energy does not
+/// decrease towards any of them. That test is linear.
 fn has_least_energy(drawn: &Drawn, stiffness_ratio: &BigRational, x: &[BigRational]) -> bool {
     let Drawn { states, corner, .. } = drawn;
     let Some(corner) = corner.clone().filter(|_| states.push(x)) else {
@@ -260,7 +260,7 @@ fn has_least_energy(drawn: &Drawn, stiffness_ratio: &BigRational, x: &[BigRation
     at(&slope, &corner.lowest(&slope).x()) == at(&slope, x)
 }
 
-/// Whether no state passes a bound, and whether one attains it if that is claimed.
+/// Tells whether every state respects the bound. If the bound is claimed as attained, some state must attain it.
 fn is_bound(drawn: &Drawn, extreme: &Extreme, above: bool) -> bool {
     let Some(normal) = drawn.states.normals.get(&place(extreme.site)) else {
         return false;
@@ -287,9 +287,9 @@ mod planted {
     use super::super::horizontal::horizontal;
     use super::*;
 
-    /// Bounds of the pile that the bytes make, some that are too good by a trace, and one of a site that is no bottom sphere.
+    /// Bounds of a random pile, some bounds that are slightly too tight, and one for a site above the bottom layer.
     #[test]
-    fn bounds_that_are_too_good_are_caught() {
+    fn bounds_that_are_too_tight_are_caught() {
         let trace = ratio(1, 1_000_000);
         let mut caught = 0;
         for seed in 0..40_u8 {
@@ -335,7 +335,7 @@ mod planted {
     }
 
     #[test]
-    fn the_other_verdict_is_caught() {
+    fn the_opposite_verdict_is_caught() {
         let bytes = [0; 64];
         let drawn = drawn(&mut Unstructured::new(&bytes)).unwrap();
         let mut certificate = cannonpile_horizontal::equilibrium(&drawn.pile).unwrap();
@@ -347,9 +347,9 @@ mod planted {
         assert!(!is_true(&drawn, &certificate));
     }
 
-    /// The elastic states of some piles, and what is next to them.
+    /// The elastic states of some piles, and states next to them.
     #[test]
-    fn forces_of_more_energy_are_caught() {
+    fn forces_of_higher_energy_are_caught() {
         let mut caught = 0;
         for seed in 0..40_u8 {
             let bytes: Vec<u8> = (0..64)

@@ -1,4 +1,5 @@
-//! The mean over random stackings is that of all stackings, looked at one by one; and what is too large is refused.
+//! The mean over random stackings equals the average over all stackings, enumerated one by one. Queries that are too large
+//! are rejected.
 
 use arbitrary::Unstructured;
 use cannonpile::lattice::{Region, Site};
@@ -12,7 +13,7 @@ use crate::disorder::{Piles, agrees_at};
 use crate::generators::{disorder, number, rarely, region, text};
 use crate::oracles::one_by_one::faults;
 
-/// Small piles: all that is said of them.
+/// Small piles: compares all answers.
 pub fn small(u: &mut Unstructured<'_>) -> Checked {
     let described = disorder::piles(u)?;
     let q = number::fraction(u)?;
@@ -26,7 +27,7 @@ pub fn small(u: &mut Unstructured<'_>) -> Checked {
     Ok(())
 }
 
-/// The mean of the sum of squares: each stacking with its probability.
+/// The mean of the sum of squares. Each stacking counts with its probability.
 fn mean_square(described: &Piles, q: &BigRational) -> BigRational {
     let choices = described.steps.saturating_sub(1);
     let two = described.first == FirstSign::Random && described.steps > 0;
@@ -43,8 +44,8 @@ fn mean_square(described: &Piles, q: &BigRational) -> BigRational {
     mean / number::ratio(if two { 2 } else { 1 }, 1)
 }
 
-/// Piles of any size: the floor bears all loads and spheres, with probabilities that are some, or a line says why there is no
-/// answer.
+/// Piles of any size: the reactions at the base add up to all weights and loads, and the fault probabilities are valid.
+/// Otherwise the error is one line.
 pub fn any_size(u: &mut Unstructured<'_>) -> Checked {
     let stackings = disorder::stackings(u)?;
     let region = region::region(u)?;
@@ -66,7 +67,7 @@ pub fn any_size(u: &mut Unstructured<'_>) -> Checked {
         }
     }
     let q = number::fraction(u)?;
-    // A region of a million sites is answered, but not in a fuzz run.
+    // The library can answer for a region of a million sites, but a fuzz run has no time for it.
     let most = if stackings.layers() <= 8 { 40 } else { 6 };
     let is_small = [region.x(), region.y()]
         .iter()
@@ -83,7 +84,7 @@ pub fn any_size(u: &mut Unstructured<'_>) -> Checked {
                 }
                 (false, _) => None,
             };
-            bears_what_acts(&piles, &mean, spheres.map(|spheres| spheres + loads))
+            base_supports_everything(&piles, &mean, spheres.map(|spheres| spheres + loads))
         }
         Err(refusal) => {
             one_line(&refusal)?;
@@ -98,7 +99,7 @@ pub fn any_size(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// How many spheres there are under a top in the mean: those of the bottom layers of all piles that are not higher.
+/// The average number of spheres under a top layer. It is the sum of the bottom layers of all piles that are not higher.
 fn spheres_of(
     top: Region,
     stackings: RandomStackings,
@@ -117,8 +118,8 @@ fn spheres_of(
     Ok(spheres)
 }
 
-/// The normals add up to what acts, where that is known; no pile weighs less than its bottom layer.
-fn bears_what_acts(
+/// The base normal forces add up to the external force, if that is known. No pile weighs less than its bottom layer.
+fn base_supports_everything(
     piles: &RandomPiles,
     mean: &Mean<BigRational>,
     acting: Option<BigRational>,
@@ -136,7 +137,7 @@ fn bears_what_acts(
     })
 }
 
-/// What the words of an option are read as is printed as something that is read as the same.
+/// A parser reads a word. Its value is printed in a form that the parser reads as the same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
     comes_back::<FirstSign>(&text)?;
@@ -179,7 +180,7 @@ mod planted {
     }
 
     #[test]
-    fn another_square_is_caught() {
+    fn a_wrong_mean_square_is_caught() {
         let described = Piles::response(4, FirstSign::Random);
         let squares = described
             .piles()
@@ -191,13 +192,14 @@ mod planted {
     }
 
     #[test]
-    fn a_load_that_is_lost_is_caught() {
+    fn a_lost_load_is_caught() {
         let described = Piles::response(3, FirstSign::Plus);
         let holds = |of: &Piles, acting: i64| {
             let piles = of.piles().unwrap();
             let mean = piles.exact(&number::ratio(1, 3)).unwrap();
             let acting = number::ratio(acting, 1);
-            let judge = |mean: &_| bears_what_acts(&piles, mean, Some(acting.clone())).is_ok();
+            let judge =
+                |mean: &_| base_supports_everything(&piles, mean, Some(acting.clone())).is_ok();
             assert!(!judge(&mean.given_sphere()));
             judge(&mean)
         };
@@ -209,12 +211,12 @@ mod planted {
     }
 
     #[test]
-    fn a_sphere_that_is_lost_is_caught() {
+    fn a_lost_sphere_is_caught() {
         let described = Piles::heavy(Anchor::Top(Region::SITE), 3, FirstSign::Plus);
         let (piles, q) = (described.piles().unwrap(), number::ratio(1, 3));
         let mean = piles.exact(&q).unwrap();
         let spheres = spheres_of(Region::SITE, piles.stackings(), &q).unwrap();
-        let judge = |acting: BigRational| bears_what_acts(&piles, &mean, Some(acting));
+        let judge = |acting: BigRational| base_supports_everything(&piles, &mean, Some(acting));
         assert!(judge(spheres.clone()).is_ok());
         assert!(judge(spheres - number::power(2, -60)).is_err());
     }

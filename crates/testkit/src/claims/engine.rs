@@ -1,8 +1,8 @@
-//! Whoever is asked for the forces of a mixed pile, the answer is the one of the equations of equilibrium.
+//! Every way to compute the forces of a mixed pile solves the equations of equilibrium.
 //!
-//! Sphere by sphere the library follows lines up a tree; layer after layer it sweeps, in limbs for exact numbers and in
-//! the scalar itself for floats; rows of another pile that is the same go row by row. All must agree with
-//! [`Solved`], exactly; and the forces on the floor with the weights that they come from.
+//! A single sphere uses a tree that follows contact lines. A whole layer uses a sweep: in limbs for exact values, in the
+//! scalar itself for floats. An equal pile reuses rows. All ways must agree with [`Solved`] exactly. The forces on the floor
+//! must also agree with the weights and loads.
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
@@ -19,7 +19,7 @@ use crate::generators::region::{self, Described};
 
 type Exact<'p> = Forces<'p, BigRational>;
 
-/// Every sphere of a small pile of any stacking, with weights and loads.
+/// Checks every sphere of a small pile of any stacking, with weights and loads.
 pub fn every_way(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let steps = i128::try_from(described.signs.len()).unwrap_or_default();
@@ -27,8 +27,8 @@ pub fn every_way(u: &mut Unstructured<'_>) -> Checked {
     throughout(&described, k, u.int_in_range(0..=20)?)
 }
 
-/// All of the pile, the layer k alone, and what is left when some rows have been given.
-pub fn throughout(described: &Described, k: i128, given: usize) -> Checked {
+/// Checks the whole pile, layer k alone, and the layers from `from` on.
+pub fn throughout(described: &Described, k: i128, from: usize) -> Checked {
     let solved = Solved::of(described);
     let pile = described.pile()?;
     let spheres = solved.received.keys();
@@ -38,19 +38,19 @@ pub fn throughout(described: &Described, k: i128, given: usize) -> Checked {
     })?;
     let (contacts, floor) = (contacts_of(&solved), floor_of(&solved));
     let forces = pile.forces();
-    // A pile equal to another is the same pile: nothing depends on which of them is asked.
+    // Equal piles are interchangeable. The result depends only on the value.
     let twin = pile.clone();
     for forces in [pile.forces(), twin.forces()] {
         let swept: Result<Contacts, Error> = forces.contacts(Selection::All)?.collect();
         agree(&swept?, &contacts)?;
         let swept: Result<Floor, Error> = forces.base(Selection::Base)?.collect();
         let swept = swept?;
-        bears_what_acts(&swept, &solved)?;
+        base_supports_everything(&swept, &solved)?;
         same("the base", &swept, &floor)?;
     }
     of_one_layer(&forces, k, &contacts)?;
-    filled(&forces, i128::try_from(given).unwrap_or(0), &contacts)?;
-    // A tree for every sphere would be slow where there are many.
+    filled(&forces, i128::try_from(from).unwrap_or(0), &contacts)?;
+    // A tree for every sphere would be slow in a large pile.
     let stride = 1 + sites.len() / 24;
     for site in sites.iter().step_by(stride).chain(sites.last()) {
         one_sphere(&forces, *site, &solved)?;
@@ -58,12 +58,12 @@ pub fn throughout(described: &Described, k: i128, given: usize) -> Checked {
     same("the weight", &pile.weight(), &solved.acting.values().sum())
 }
 
-/// In floats the answer is off by roundings of the greatest force there may be.
+/// A float answer differs from the exact one by rounding errors of the greatest possible force.
 pub fn in_floats(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let solved = Solved::of(&described);
     let acting: BigRational = solved.acting.values().sum();
-    // Where it cannot underflow either.
+    // Only compare when no force can underflow.
     if !acting.is_zero() && !(ratio(1, 1 << 60)..ratio(1 << 60, 1)).contains(&acting) {
         return Ok(());
     }
@@ -76,7 +76,7 @@ pub fn in_floats(u: &mut Unstructured<'_>) -> Checked {
     floor_near(&swept?, &floor_of(&solved), &within)
 }
 
-/// Contact by contact, at the same sites.
+/// Compares contact by contact, at the same sites.
 fn contacts_near(got: &[ContactForce<f64>], want: &Contacts, within: &BigRational) -> Checked {
     same("the contacts", &got.len(), &want.len())?;
     for (got, want) in got.iter().zip(want) {
@@ -87,7 +87,7 @@ fn contacts_near(got: &[ContactForce<f64>], want: &Contacts, within: &BigRationa
     Ok(())
 }
 
-/// Bottom sphere by bottom sphere.
+/// Compares bottom sphere by bottom sphere.
 fn floor_near(got: &[FloorForce<f64>], want: &Floor, within: &BigRational) -> Checked {
     same("the bottom spheres", &got.len(), &want.len())?;
     for (got, want) in got.iter().zip(want) {
@@ -99,14 +99,14 @@ fn floor_near(got: &[FloorForce<f64>], want: &Floor, within: &BigRational) -> Ch
     Ok(())
 }
 
-/// What is no number is near none.
+/// Not-a-number is never near a value.
 fn near(got: f64, want: &BigRational, within: &BigRational) -> Checked {
     let exact = BigRational::from_float(got);
     let holds = exact.is_some_and(|exact| (exact - want).abs() <= *within);
     demand(holds, || format!("{got} is not {want}"))
 }
 
-/// Contact by contact; in lowest terms.
+/// Compares contact by contact. Every force is in lowest terms.
 fn agree(got: &Contacts, want: &Contacts) -> Checked {
     for (got, want) in got.iter().zip(want) {
         same("a contact", got, want)?;
@@ -121,7 +121,7 @@ fn of_one_layer(forces: &Exact<'_>, k: i128, contacts: &Contacts) -> Checked {
     agree(&swept?, &here.cloned().collect())
 }
 
-/// Layers filled into slices, from one in the middle of the pile on.
+/// Compares the layers from `from` on, written into slices.
 fn filled(forces: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
     let mut layers = forces.layers(Selection::All)?;
     while let Some(layer) = layers.next_layer()? {
@@ -141,7 +141,7 @@ fn filled(forces: &Exact<'_>, from: i128, contacts: &Contacts) -> Checked {
     Ok(())
 }
 
-/// What the library says of one sphere, by the lines above it.
+/// Compares the answers about one sphere, which the library finds from the lines above it.
 fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
     let sphere = (site.k, (site.j, site.i));
     same(
@@ -164,21 +164,21 @@ fn one_sphere(forces: &Exact<'_>, site: Site, solved: &Solved) -> Checked {
     let one: Result<Contacts, Error> = forces.contacts(Selection::One(site))?.collect();
     let one = one?.into_iter().map(|contact| contact.force);
     demand(one.eq(passed_on.iter().cloned()), || {
-        format!("the rows of {site} give others")
+        format!("the rows of {site} give other forces")
     })?;
     same(
-        "what is left over",
+        "the unbalanced force",
         &forces.unbalanced(site)?,
         &Vector::zero(),
     )
 }
 
-/// The floor bears what acts, where it acts, and is not pushed sideways on the whole.
-fn bears_what_acts(floor: &[FloorForce<BigRational>], solved: &Solved) -> Checked {
+/// The base supports all weights and loads with the right moments, and without a total horizontal force.
+fn base_supports_everything(floor: &[FloorForce<BigRational>], solved: &Solved) -> Checked {
     let normals = || solved.base().zip(floor.iter().map(|force| &force.normal));
     let borne: BigRational = normals().map(|(_, normal)| normal).sum();
     same(
-        "what the floor bears",
+        "the total force on the floor",
         &borne,
         &solved.acting.values().sum(),
     )?;
@@ -213,7 +213,7 @@ mod planted {
     use cannonpile::lattice::Region;
     use cannonpile::lattice::Sign::{Minus, Plus};
 
-    /// A pile with one change of each kind, a heavy sphere and a load.
+    /// A pile with one sign change of each kind, a heavy sphere and a load.
     fn described() -> Described {
         Described {
             region: Region::triangle(2).unwrap(),
@@ -226,7 +226,7 @@ mod planted {
     }
 
     #[test]
-    fn a_contact_off_by_a_trace_is_caught() {
+    fn a_tiny_error_of_a_contact_is_caught() {
         let right = contacts_of(&Solved::of(&described()));
         assert!(agree(&right, &right).is_ok());
         for spoil in [
@@ -242,7 +242,7 @@ mod planted {
     }
 
     #[test]
-    fn a_float_that_is_no_number_or_missing_is_caught() {
+    fn nan_or_a_missing_float_is_caught() {
         let solved = Solved::of(&described());
         let (want, trace) = (floor_of(&solved), power(2, -40));
         let pile = described().pile().unwrap();
@@ -262,9 +262,9 @@ mod planted {
         }
     }
 
-    /// The library's answers about a pile that differs in one thing.
+    /// The library's answers about a pile that differs in one way.
     #[test]
-    fn a_pile_that_differs_is_caught() {
+    fn a_different_pile_is_caught() {
         let solved = Solved::of(&described());
         let judge = |described: &Described| {
             let pile: Pile = described.pile().unwrap();
@@ -289,10 +289,10 @@ mod planted {
     }
 
     #[test]
-    fn a_floor_that_bears_it_elsewhere_is_caught() {
+    fn a_misplaced_base_force_is_caught() {
         let solved = Solved::of(&described());
         let right = floor_of(&solved);
-        assert!(bears_what_acts(&right, &solved).is_ok());
+        assert!(base_supports_everything(&right, &solved).is_ok());
         let spoils: [fn(&mut Floor); 4] = [
             |floor| floor[0].normal += power(10, -60),
             |floor| {
@@ -305,7 +305,7 @@ mod planted {
         for spoil in spoils {
             let mut wrong = right.clone();
             spoil(&mut wrong);
-            assert!(bears_what_acts(&wrong, &solved).is_err());
+            assert!(base_supports_everything(&wrong, &solved).is_err());
         }
     }
 }

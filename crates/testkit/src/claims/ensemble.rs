@@ -1,4 +1,4 @@
-//! Tallies of ensembles are what plain enumeration counts, and all parts of one make it, however it is cut up.
+//! A tally of an ensemble equals a plain enumeration. The tallies of all parts merge into the whole, for any partition.
 
 use arbitrary::Unstructured;
 use cannonpile::lattice::Sign;
@@ -10,7 +10,7 @@ use crate::generators::ensemble;
 use crate::oracles::samples;
 use crate::tally::{Scene, all_signs, counted};
 
-/// Every count, sum and extreme, of all stackings or of samples.
+/// Compares every count, sum and extreme, for all stackings or for samples.
 pub fn counts(u: &mut Unstructured<'_>) -> Checked {
     let (scene, steps) = ensemble::scene(u)?;
     let choice = ensemble::choice(u)?;
@@ -37,7 +37,7 @@ fn drawn(samples: &Samples, first: FirstSign, steps: u32) -> Vec<Vec<Sign>> {
     (0..samples.count()).map(signs).collect()
 }
 
-/// Cut into any number of parts, which are put together in any order.
+/// Splits an ensemble into any number of parts and merges them in any order.
 pub fn parts(u: &mut Unstructured<'_>) -> Checked {
     let (scene, steps) = ensemble::scene(u)?;
     let choice = ensemble::choice(u)?;
@@ -49,8 +49,8 @@ pub fn parts(u: &mut Unstructured<'_>) -> Checked {
         parts.swap(last, u.int_in_range(0..=last)?);
     }
     let whole = ensemble.run(&choice, Shard::WHOLE)?;
-    make_the_whole(&parts, &whole)?;
-    // One is missing, and one is there twice.
+    merge_into(&parts, &whole)?;
+    // First one part is missing, then one part occurs twice.
     let without = parts.pop();
     let refused = Tally::merge(&parts);
     demand(refused.is_err(), || format!("merged without {without:?}"))?;
@@ -60,15 +60,15 @@ pub fn parts(u: &mut Unstructured<'_>) -> Checked {
     })
 }
 
-fn make_the_whole(parts: &[Tally], whole: &Tally) -> Checked {
+fn merge_into(parts: &[Tally], whole: &Tally) -> Checked {
     match Tally::merge(parts) {
-        Ok(merged) => same("what was merged", &merged, whole),
+        Ok(merged) => same("the merged tally", &merged, whole),
         Err(refused) => Err(Failure::Refuted(format!("{refused:?}: {parts:?}"))),
     }
 }
 
-/// A file is read back as it was written; with some letters exchanged it is a tally that a run could have written, or is
-/// refused, alone and together with the other part.
+/// A file is read back as it was written. With some replaced letters it is either a tally that a run could have written, or
+/// rejected. This holds for the file alone and together with the other part.
 pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     use cannonpile_disorder::TallyRecord;
 
@@ -87,7 +87,7 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     };
     let mut text = written(&one)?;
     let read = TallyRecord::read(&*text).map_err(|error| said(&error.to_string()))?;
-    same("what was read back", &read, &one)?;
+    same("the value read back", &read, &one)?;
     for _ in 0..u.int_in_range(1..=3)? {
         let place = u.choose_index(text.len())?;
         if let Some(letter) = text.get_mut(place) {
@@ -97,7 +97,7 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     if let Ok(read) = TallyRecord::read(&*text) {
         let again = written(&read)?;
         let again = TallyRecord::read(&*again).map_err(|error| said(&error.to_string()))?;
-        same("what was read back of a damaged file", &again, &read)?;
+        same("the value read back from a damaged file", &again, &read)?;
         let _ = TallyRecord::merge(&[other.clone(), read.clone()]);
         if let Ok(merged) = TallyRecord::merge(&[read, other]) {
             written(&merged)?;
@@ -117,7 +117,7 @@ mod planted {
     }
 
     #[test]
-    fn another_tally_is_caught() {
+    fn a_different_tally_is_caught() {
         let scene = Scene::of("hexagon:2", FirstSign::Plus);
         let holds = |of: &Scene| is_as_enumerated(&scene, 4, &Choice::All, &whole(of)).is_ok();
         assert!(holds(&scene));
@@ -137,7 +137,7 @@ mod planted {
     }
 
     #[test]
-    fn other_samples_are_caught() {
+    fn different_samples_are_caught() {
         let scene = Scene::of("hexagon:1", FirstSign::Random);
         let drawn =
             |count, seed, q| Choice::Drawn(Samples::new(count, seed, number::ratio(q, 7)).unwrap());
@@ -153,17 +153,17 @@ mod planted {
     }
 
     #[test]
-    fn a_part_of_another_whole_is_caught() {
+    fn a_part_of_another_ensemble_is_caught() {
         let scene = Scene::of("hexagon:1", FirstSign::Random);
         let (ensemble, whole) = (scene.ensemble(4).unwrap(), whole(&scene));
         let run = |index| {
             let shard = Shard::new(index, 2).unwrap();
             ensemble.run(&Choice::All, shard).unwrap()
         };
-        assert!(make_the_whole(&[run(2), run(1)], &whole).is_ok());
-        assert!(make_the_whole(&[run(1)], &whole).is_err());
+        assert!(merge_into(&[run(2), run(1)], &whole).is_ok());
+        assert!(merge_into(&[run(1)], &whole).is_err());
         let mut other = whole.clone();
         other.faults[1].standing.sum += number::power(2, -60);
-        assert!(make_the_whole(&[run(2), run(1)], &other).is_err());
+        assert!(merge_into(&[run(2), run(1)], &other).is_err());
     }
 }

@@ -1,7 +1,7 @@
-//! Every sphere is in exact equilibrium, action is reaction, and the floor bears the weight.
+//! Every sphere is in exact equilibrium, every action has its reaction, and the base supports the weight.
 //!
-//! The paper's equations of equilibrium with the terms that it leaves out (`paper`, "Errata"), summed from what the
-//! library tells each sphere, not from the formula that it uses.
+//! These are the paper's equations of equilibrium with the missing terms restored (`paper`, "Errata"). The sums use the
+//! library's answers for each sphere and never its formula.
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
@@ -17,14 +17,14 @@ use crate::generators::pile;
 
 type Exact<'p> = Forces<'p, BigRational>;
 
-/// One sphere of any pile, and all its contacts.
+/// Checks one sphere of any pile and all its contacts.
 pub fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
     sphere(&pile.forces(), site)
 }
 
-/// Every sphere of a small pile, and the totals over the base.
+/// Checks every sphere of a small pile, and the totals over the base.
 pub fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::small_pile(u)?;
     let forces = pile.forces();
@@ -32,13 +32,13 @@ pub fn small_pile(u: &mut Unstructured<'_>) -> Checked {
         sphere(&forces, site)?;
     }
     let base: Result<Vec<_>, _> = forces.base(Selection::Base)?.collect();
-    bears_the_weight(
+    base_supports_the_weight(
         &base?,
         &BigRational::from_integer(pile.sphere_count().into()),
     )
 }
 
-/// The force of one bottom sphere on the floor, by the paper's formulas.
+/// Checks the force of one bottom sphere on the floor against the paper's formulas.
 pub fn on_floor(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::bottom_site(u, &pile)?;
@@ -52,7 +52,7 @@ pub fn on_floor(u: &mut Unstructured<'_>) -> Checked {
     Ok(())
 }
 
-/// Balance at `site`, and both views of each contact below it.
+/// Checks the balance at `site`, and both views of each contact below it.
 fn sphere(forces: &Exact<'_>, site: Site) -> Checked {
     let acting = forces_on(forces, site)?;
     for component in acting.iter().flat_map(|f| [&f.x, &f.y, &f.z]) {
@@ -73,7 +73,7 @@ fn sphere(forces: &Exact<'_>, site: Site) -> Checked {
     Ok(())
 }
 
-/// The forces add up to nothing.
+/// The forces sum to zero.
 fn balance(forces: &[Vector<BigRational>]) -> Checked {
     let sum = forces.iter().fold(Vector::zero(), |sum, f| sum + f);
     demand(sum == Vector::zero(), || {
@@ -81,11 +81,11 @@ fn balance(forces: &[Vector<BigRational>]) -> Checked {
     })
 }
 
-/// All forces on a sphere, in f₀: its weight, the pushes of its supports or of the floor, and the reactions
-/// to what the spheres above say that they push with.
+/// All forces on a sphere, in f₀: its weight, the forces of its supports or of the floor, and the reactions to the forces
+/// that the spheres above transmit.
 fn forces_on(forces: &Exact<'_>, site: Site) -> Result<Vec<Vector<BigRational>>, Error> {
     let pile = forces.pile();
-    // W: a weight mg is W in mg/W. Discs have s = 0.
+    // W: the weight mg in units of mg/W. Discs have s = 0.
     let weight = (BigRational::one() + pile.sin_phi()) * ratio(2, 1);
     let mut acting = vec![Vector {
         z: weight.clone(),
@@ -116,7 +116,7 @@ fn forces_on(forces: &Exact<'_>, site: Site) -> Result<Vec<Vector<BigRational>>,
     Ok(acting)
 }
 
-/// The force of a contact on the lower sphere, as that one tells it, along the line of centres.
+/// The contact force on the lower sphere, from the answer about the lower sphere, along the line of centres.
 fn on_lower(
     forces: &Exact<'_>,
     upper: Site,
@@ -127,8 +127,8 @@ fn on_lower(
     Ok(centres.scaled(&forces.from_above(lower)?[direction.index()]))
 }
 
-/// The floor bears the weight, in mg, and is not pushed sideways.
-fn bears_the_weight(base: &[FloorForce<BigRational>], weight: &BigRational) -> Checked {
+/// The base supports the weight, in mg. The shear forces sum to zero.
+fn base_supports_the_weight(base: &[FloorForce<BigRational>], weight: &BigRational) -> Checked {
     let total = |part: fn(&FloorForce<BigRational>) -> &BigRational| {
         base.iter()
             .fold(BigRational::zero(), |sum, force| sum + part(force))
@@ -139,8 +139,8 @@ fn bears_the_weight(base: &[FloorForce<BigRational>], weight: &BigRational) -> C
     same("the shears' sum along y", &total(|f| &f.shear_y), &zero)
 }
 
-/// The normal force on the base in mg: (L+2)/3 on an equilateral base (paper, (13)), (L+1)/2 for
-/// discs, 1 + ((L−1−j) + 2sj)/(2(1+s)) in general.
+/// The base normal force in mg: (L+2)/3 on an equilateral base (paper, (13)), (L+1)/2 for discs, and 1 + ((L−1−j) +
+/// 2sj)/(2(1+s)) in general.
 fn normal(pile: &Pile, site: Site) -> BigRational {
     let integer = |n: i128| BigRational::from_integer(n.into());
     let (layers, j, s) = (pile.layers(), integer(site.j), pile.sin_phi());
@@ -154,8 +154,7 @@ fn normal(pile: &Pile, site: Site) -> BigRational {
     }
 }
 
-/// The shear on an equilateral base, in mg·tanθ and √3·mg·tanθ: −(L−1−3j)/6, −(L−1−2i−j)/6 (paper, eq.
-/// (14)).
+/// The base shear force on an equilateral base, in mg·tanθ and √3·mg·tanθ: −(L−1−3j)/6 and −(L−1−2i−j)/6 (paper, eq. (14)).
 fn equilateral_shear(pile: &Pile, site: Site) -> [BigRational; 2] {
     let steps = pile.layers() - 1;
     [steps - 3 * site.j, steps - 2 * site.i - site.j]
@@ -179,7 +178,7 @@ mod planted {
     }
 
     #[test]
-    fn a_force_off_by_a_trace_is_caught() {
+    fn a_tiny_error_of_a_force_is_caught() {
         let pile = tall();
         let forces = forces_on(&pile.forces(), SITE).unwrap();
         assert_eq!(forces.len(), 7, "weight, three supports, three above");
@@ -199,7 +198,7 @@ mod planted {
     }
 
     #[test]
-    fn a_contact_mistaken_for_its_neighbour_is_caught() {
+    fn a_swapped_contact_is_caught() {
         let pile = tall();
         let forces = pile.forces();
         let below = pile.shape().below(SITE, Direction::Beta).unwrap();
@@ -222,16 +221,16 @@ mod planted {
     }
 
     #[test]
-    fn a_base_that_bears_too_little_is_caught() {
+    fn a_wrong_total_of_the_base_is_caught() {
         let pile = Pile::triangular(4).unwrap();
         let base: Result<Vec<_>, _> = pile.forces().base(Selection::Base).unwrap().collect();
         let (base, weight) = (base.unwrap(), ratio(20, 1));
-        assert!(bears_the_weight(&base, &weight).is_ok());
-        assert!(bears_the_weight(&base[1..], &weight).is_err());
+        assert!(base_supports_the_weight(&base, &weight).is_ok());
+        assert!(base_supports_the_weight(&base[1..], &weight).is_err());
         for shear in [shear_x, shear_y] {
             let mut wrong = base.clone();
             *shear(&mut wrong[3]) += power(10, -60);
-            assert!(bears_the_weight(&wrong, &weight).is_err());
+            assert!(base_supports_the_weight(&wrong, &weight).is_err());
         }
     }
 

@@ -1,4 +1,4 @@
-//! Fixed-width rationals are right, or say that they overflow: never a wrong number.
+//! Fixed-width rationals are correct or report an overflow. They never return a wrong value.
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Vector;
@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use super::{Checked, demand};
 use crate::generators::pile;
 
-/// Every width, for one sphere of any pile.
+/// Checks every width for one sphere of any pile.
 pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
@@ -21,7 +21,7 @@ pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     every_answer::<i128>(&pile, site)
 }
 
-/// 128 bits never overflow in a small pile whose sin φ has a short denominator.
+/// 128 bits never overflow in a small pile if sin φ has a short denominator.
 pub fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     let (layers, d) = (u.int_in_range(1..=1_000_000)?, u.int_in_range(2..=1000)?);
     let s = BigRational::new(u.int_in_range(1..=d - 1)?.into(), d.into());
@@ -37,7 +37,7 @@ pub fn small_pile(u: &mut Unstructured<'_>) -> Checked {
     every_answer::<i128>(&pile, site)
 }
 
-/// Results are within ±MAX: any can be negated, and none has a denominator that cannot.
+/// Results lie within ±MAX, so every result has a negative.
 pub fn results_can_be_negated(u: &mut Unstructured<'_>) -> Checked {
     let (x, y) = (narrow(u)?, narrow(u)?);
     for result in [
@@ -55,21 +55,21 @@ pub fn results_can_be_negated(u: &mut Unstructured<'_>) -> Checked {
     Ok(())
 }
 
-/// Of parts whose sums and products often reach the ends.
+/// A rational whose sums and products often reach the limits of the type.
 fn narrow(u: &mut Unstructured<'_>) -> arbitrary::Result<FixedRational<i8>> {
     const PARTS: [i8; 9] = [1, 2, 64, 126, 127, -1, -2, -64, -127];
     let (numer, denom) = (*u.choose(&PARTS)?, *u.choose(&PARTS)?);
     Ok(FixedRational::new(numer, denom))
 }
 
-/// Neither part is the one number that has no negative.
+/// Neither part is the minimum of the type, which has no negative.
 fn is_symmetric((numer, denom): (i8, i8)) -> Checked {
     demand(numer > i8::MIN && denom > 0, || {
         format!("{numer}/{denom} is not within ±127")
     })
 }
 
-/// All that can be asked about one sphere.
+/// Checks all answers about one sphere.
 fn every_answer<I: FixedInteger>(pile: &Pile, site: Site) -> Checked {
     let (narrow, exact) = (
         pile.forces::<FixedRational<I>>(),
@@ -112,7 +112,7 @@ fn parts<T>(force: FloorForce<T>) -> [T; 3] {
     [force.shear_x, force.shear_y, force.normal]
 }
 
-/// The numbers wanted, or [`Error::Overflow`].
+/// The expected values, or [`Error::Overflow`].
 fn right_or_overflow<I: FixedInteger, const N: usize>(
     got: Result<[FixedRational<I>; N], Error>,
     want: &[BigRational; N],
@@ -135,10 +135,10 @@ mod planted {
     use crate::generators::number::ratio;
 
     #[test]
-    fn a_wrong_number_and_a_hidden_fault_are_caught() {
+    fn wrong_values_and_other_errors_are_caught() {
         let judge = |got| right_or_overflow(got, &[ratio(300, 1)]);
         assert!(judge(Ok([FixedRational::new(300_i64, 1)])).is_ok());
-        // What 300 wraps to in 8 bits.
+        // 300 wraps to this value in 8 bits.
         assert!(right_or_overflow(Ok([FixedRational::new(44_i8, 1)]), &[ratio(300, 1)]).is_err());
         assert!(judge(Ok([FixedRational::FAULT])).is_err());
         let overflow = Error::overflow("a force", "FixedRational<i64>");
@@ -147,7 +147,7 @@ mod planted {
     }
 
     #[test]
-    fn a_number_without_negative_is_caught() {
+    fn a_value_without_a_negative_is_caught() {
         assert!(is_symmetric((i8::MAX, 1)).is_ok());
         assert!(is_symmetric((i8::MIN, 1)).is_err());
         assert!(is_symmetric((1, i8::MIN)).is_err());

@@ -1,8 +1,8 @@
-//! `f32` and `f64` are a few roundings off the exact answer, for every real sin φ.
+//! The errors of `f32` and `f64` stay within a few roundings of the exact answer, for every real sin φ.
 //!
 //! # The bound
-//! u = 2^−p is the unit roundoff, p = 24 or 53. Every answer is a sum Σ ±t of products, and what is rounded
-//! on the way to it can be counted, each rounding an error of at most u relative to what it rounds:
+//! u = 2^−p is the unit roundoff, p = 24 or 53. Every answer is a sum Σ ±t of products. The table counts the roundings on
+//! the way to it. Each rounding has an error of at most u, relative to the rounded value:
 //!
 //! | rounded | roundings |
 //! |---|---|
@@ -16,12 +16,12 @@
 //! | the same in mg, divided by W | 8 + 2 + 1 = 11 |
 //! | all forces on a sphere: such a sum of (N + 1)w, 8, and the last but one, 8 | 9 |
 //!
-//! So the error is below 12 u Σ|t|, with one u to spare for the products of errors: 6 to 12 units in the last
-//! place of the sum of the magnitudes. Where all terms are positive, in contact and normal forces, that sum
-//! is the answer; a shear may cancel to less than its terms.
+//! So the error is below 12 u Σ|t|. This leaves one u to spare for the products of errors. It is 6 to 12 units in the last
+//! place of Σ|t|. For contact and normal forces all terms are positive, so that sum is the answer. A shear force may cancel
+//! to less than its terms.
 //!
-//! Where s is too small for the float, it errs by half of the least subnormal η instead, and so does each
-//! product: at most L times each, 4Lη in all.
+//! If s is too small for the float, its error is half of the least subnormal η instead. Each product has that error too: at
+//! most L times each, 4Lη in all.
 
 use core::fmt::Debug;
 
@@ -37,7 +37,7 @@ use num_traits::Signed;
 use super::{Checked, demand};
 use crate::generators::{number, pile};
 
-/// Errors are below this many u Σ|t|.
+/// The errors are below this multiple of u Σ|t|.
 const ROUNDINGS: i64 = 12;
 
 /// A rounded scalar.
@@ -45,7 +45,7 @@ pub trait Float: Algebra + RealEmbeddable + NearestFloat {}
 
 impl<F: Algebra + RealEmbeddable + NearestFloat> Float for F {}
 
-/// Both formats, for a pile whose sin φ is a float.
+/// Checks both formats for a pile whose sin φ is a float.
 pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::real_pile(u)?;
     let site = pile::site(u, &pile)?;
@@ -53,7 +53,7 @@ pub fn real_pile(u: &mut Unstructured<'_>) -> Checked {
     every_answer::<f32>(&pile, site)
 }
 
-/// Both formats, for a pile whose sin φ is a rational.
+/// Checks both formats for a pile whose sin φ is a rational.
 pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
@@ -61,7 +61,7 @@ pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     every_answer::<f32>(&pile, site)
 }
 
-/// All that can be asked about one sphere.
+/// Checks all answers about one sphere.
 fn every_answer<F: Float>(pile: &Pile, site: Site) -> Checked {
     let (rounded, exact) = (pile.forces::<F>(), pile.forces::<BigRational>());
     let bound = Bound::of::<F>(pile);
@@ -103,7 +103,7 @@ fn every_answer<F: Float>(pile: &Pile, site: Site) -> Checked {
     let mut terms = magnitudes(&exact, &above)? + &magnitudes(&exact, &below)?;
     terms.z += exact.increment_sum()?;
     bound.holds_along(
-        "what is left over",
+        "the unbalanced force",
         rounded.unbalanced(site)?,
         Vector::zero(),
         terms,
@@ -160,7 +160,7 @@ impl Bound {
         }
     }
 
-    /// Whether `got` is within the bound of `want`, whose terms have this sum of magnitudes.
+    /// Tells whether `got` is within the bound of `want`. The magnitudes of its terms sum to `magnitude`.
     fn holds<F: RealEmbeddable + Debug>(
         &self,
         what: &str,
@@ -196,7 +196,7 @@ mod planted {
     use super::*;
 
     #[test]
-    fn thirteen_ulps_are_caught() {
+    fn an_error_of_thirteen_ulps_is_caught() {
         let pile = Pile::isosceles(10_i128.pow(30), number::ratio(2, 5)).unwrap();
         let site = Site {
             i: 0,
@@ -215,9 +215,9 @@ mod planted {
         assert!(bound.holds("force", &f64::NAN, &want, &want).is_err());
     }
 
-    /// An answer of f32 passed off as one of f64.
+    /// An answer of `f32` presented as one of `f64`.
     #[test]
-    fn single_precision_in_disguise_is_caught() {
+    fn single_precision_is_caught() {
         let pile = Pile::isosceles(1 << 40, number::ratio(1, 3)).unwrap();
         let site = Site {
             i: 12_345,

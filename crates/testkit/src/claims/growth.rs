@@ -1,4 +1,4 @@
-//! Regions of any size grow and shrink as their sites do, site by site.
+//! A region of any size dilates and erodes as its set of sites does, site by site.
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
@@ -8,7 +8,7 @@ use super::numbered::first_of;
 use super::{Checked, demand, one_line, same};
 use crate::generators::region;
 
-/// One step down and up again, and many steps down, by single sites.
+/// One step down and up again, and many steps down. Each claim looks at single sites.
 pub fn grown(u: &mut Unstructured<'_>) -> Checked {
     let region = region::region(u)?;
     let sign = *u.choose(&[Sign::Plus, Sign::Minus])?;
@@ -18,33 +18,33 @@ pub fn grown(u: &mut Unstructured<'_>) -> Checked {
     if let Ok(below) = &below {
         let again = below.eroded(sign);
         same("erosion of the dilation", &again, &Some(region))?;
-        stands_where_it_should(&region, below, sign, site)?;
+        dilation_has_the_supports(&region, below, sign, site)?;
     }
     if let Some(above) = region.eroded(sign) {
-        stands_where_it_should(&above, &above.dilated(sign)?, sign, site)?;
-        erosion_keeps_what_stands(&region, Some(&above), sign, site)?;
+        dilation_has_the_supports(&above, &above.dilated(sign)?, sign, site)?;
+        erosion_has_the_supported(&region, Some(&above), sign, site)?;
     } else {
-        erosion_keeps_what_stands(&region, None, sign, site)?;
+        erosion_has_the_supported(&region, None, sign, site)?;
     }
     match region.dilated_by(sign, steps) {
         Ok(last) => lines_end_at_the_surface(&region, &last, sign, steps, site),
         Err(refusal) => {
             one_line(&refusal)?;
-            // Some bound is further than so many steps from the limit: it should not have been refused.
+            // Dilation may fail only near the limit. Here some bound is further than `steps` from it.
             let furthest = [region.x(), region.y(), region.s()].map(|side| match sign {
                 Sign::Plus => *side.end(),
                 Sign::Minus => -*side.start(),
             });
             let most = furthest.into_iter().max().unwrap_or_default();
             demand(most + steps > MAX_LAYERS, || {
-                format!("{region} is refused {steps} steps of {sign:?}: {refusal}")
+                format!("{region} rejects {steps} steps of {sign:?}: {refusal}")
             })
         }
     }
 }
 
-/// A site is in the layer below just if it is a support of one in `above`.
-fn stands_where_it_should(
+/// A site is in the layer below exactly if it supports a site in `above`.
+fn dilation_has_the_supports(
     above: &Region,
     below: &Region,
     sign: Sign,
@@ -59,8 +59,8 @@ fn stands_where_it_should(
     })
 }
 
-/// A site is in the layer above just if its three supports are in `below`.
-fn erosion_keeps_what_stands(
+/// A site is in the layer above exactly if all its three supports are in `below`.
+fn erosion_has_the_supported(
     below: &Region,
     above: Option<&Region>,
     sign: Sign,
@@ -76,7 +76,8 @@ fn erosion_keeps_what_stands(
     })
 }
 
-/// So many spheres up a line there still is one, and not one more; the site is moved into the last layer first.
+/// The last sphere on a line lies n steps up, and the next step leaves the pile. The site is moved into the last layer
+/// first.
 fn lines_end_at_the_surface(
     top: &Region,
     last: &Region,
@@ -111,21 +112,21 @@ mod planted {
     use super::*;
 
     #[test]
-    fn a_layer_grown_the_wrong_way_is_caught() {
+    fn a_wrong_dilation_is_caught() {
         let region = Region::triangle(4).unwrap();
         let [plus, minus] = [Sign::Plus, Sign::Minus].map(|sign| region.dilated(sign).unwrap());
         let corner = [4, 0];
-        assert!(stands_where_it_should(&region, &plus, Sign::Plus, corner).is_ok());
-        assert!(stands_where_it_should(&region, &minus, Sign::Plus, corner).is_err());
+        assert!(dilation_has_the_supports(&region, &plus, Sign::Plus, corner).is_ok());
+        assert!(dilation_has_the_supports(&region, &minus, Sign::Plus, corner).is_err());
         let [plus, minus] = [Sign::Plus, Sign::Minus].map(|sign| region.eroded(sign));
         let corner = [2, 0];
-        assert!(erosion_keeps_what_stands(&region, plus.as_ref(), Sign::Plus, corner).is_ok());
-        assert!(erosion_keeps_what_stands(&region, minus.as_ref(), Sign::Plus, corner).is_err());
-        assert!(erosion_keeps_what_stands(&region, None, Sign::Plus, corner).is_err());
+        assert!(erosion_has_the_supported(&region, plus.as_ref(), Sign::Plus, corner).is_ok());
+        assert!(erosion_has_the_supported(&region, minus.as_ref(), Sign::Plus, corner).is_err());
+        assert!(erosion_has_the_supported(&region, None, Sign::Plus, corner).is_err());
     }
 
     #[test]
-    fn a_line_of_another_layer_is_caught() {
+    fn a_wrong_line_is_caught() {
         let top = Region::triangle(2).unwrap();
         let last = top.dilated_by(Sign::Plus, 5).unwrap();
         assert!(lines_end_at_the_surface(&top, &last, Sign::Plus, 5, [1, 1]).is_ok());

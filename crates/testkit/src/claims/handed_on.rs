@@ -1,4 +1,4 @@
-//! The forces of a pile as they are described: the oracle's, under the names of the library.
+//! The oracle's forces of a pile from the generators, under the library's names.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use crate::generators::region::Described;
 use crate::oracles::balance::{Balance, Forces, Place, place, site};
 use crate::oracles::sets::within;
 
-/// Beyond the sites of every pile that is described.
+/// A bound that lies outside every pile from the generators.
 const REACH: i128 = 16;
 
-/// A sphere as k and its place in row order.
+/// A sphere as k and its position in row order.
 pub type Sphere = (i128, (i128, i128));
 
 /// Contacts as the library lists them.
@@ -24,20 +24,20 @@ pub type Contacts = Vec<ContactForce<BigRational>>;
 /// Forces on the floor as the library lists them.
 pub type Floor = Vec<FloorForce<BigRational>>;
 
-/// A pile and its forces.
+/// A pile and its forces, solved by the oracle.
 pub struct Solved {
     pile: Balance,
     forces: Forces,
-    /// From above on each sphere along α, β, γ, in f₀.
+    /// The forces from above on each sphere along α, β, γ, in f₀.
     pub received: BTreeMap<Sphere, [BigRational; 3]>,
-    /// To each support of a sphere off the floor, in f₀.
+    /// The forces on each support of a sphere above the bottom layer, in f₀.
     pub passed_on: BTreeMap<Sphere, [BigRational; 3]>,
     /// Weights and loads, in mg.
     pub acting: BTreeMap<Sphere, BigRational>,
 }
 
 impl Solved {
-    /// Computes them for what was described.
+    /// Solves the described pile.
     pub fn of(described: &Described) -> Self {
         let pile = balance_of(described);
         let forces = pile.forces();
@@ -65,14 +65,14 @@ impl Solved {
         self.forces.floor.keys().map(|(k, j, i)| (*k, (*j, *i)))
     }
 
-    /// Where a sphere is across from the top's (0, 0), along i and j.
+    /// The horizontal position of a sphere relative to (0, 0) of the top layer, along i and j.
     pub fn place(&self, (k, (j, i)): Sphere) -> [BigRational; 2] {
         let thirds = self.pile.position((k, j, i));
         thirds.map(|third| BigRational::from(third) / ratio(3, 1))
     }
 }
 
-/// The pile of the oracle.
+/// The described pile in the oracle's form.
 pub fn balance_of(described: &Described) -> Balance {
     let [x, y, s] = [
         described.region.x(),
@@ -102,7 +102,7 @@ pub fn balance_of(described: &Described) -> Balance {
     pile
 }
 
-/// As the library names it.
+/// The site of a sphere, in the library's type.
 pub fn site_of((k, (j, i)): Sphere) -> Site {
     site((k, j, i))
 }

@@ -1,8 +1,8 @@
-//! What a pile with horizontal contacts can bear: by exact programs over all forces that only push, and with proofs.
+//! The range of base forces in a pile with horizontal contacts, by exact programs over all compressive states, with proofs.
 //!
-//! Whether it stands, the bounds of a bottom sphere and the elastic state are asked of the library; each answer has a
-//! certificate that is checked, and is compared with [`States`], which know the balance of a sphere and the simplex method
-//! only. Random forces that only push lie between the bounds, and have no less energy than the elastic state.
+//! The library returns the verdict on stability, the bounds of a bottom sphere, and the elastic state. The claim checks the
+//! certificate of each answer and compares the answer with [`States`]. That oracle contains only the balance of a sphere and
+//! the simplex method. Random compressive states lie between the bounds and have no less energy than the elastic state.
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
@@ -21,31 +21,31 @@ use crate::generators::region::{light, tiny};
 use crate::oracles::admissible::{Affine, Corner, Pair, States, at, of_discs};
 use crate::oracles::balance::{Balance, Forces, place, site};
 
-/// A tiny pile, by the library and by the oracle.
+/// A tiny pile for the library and for the oracle.
 pub struct Drawn {
     /// The pile.
     pub pile: Pile,
     balance: Balance,
-    /// What solves it.
+    /// The function that solves it.
     solve: fn(&Balance) -> Forces,
-    /// All forces that balance it, by the oracle.
+    /// All states that balance the pile, by the oracle.
     pub states: States,
-    /// One of them that only pushes, if there is any.
+    /// A compressive state, if one exists.
     pub corner: Option<Corner>,
-    /// One of its bottom spheres.
+    /// One bottom sphere of the pile.
     pub bottom: Site,
     /// The ratio of the stiffnesses of elastic contacts.
     pub stiffness_ratio: BigRational,
 }
 
-/// Some pile of spheres or discs, one of its bottom spheres, and some forces.
+/// A random pile of spheres or discs, one of its bottom spheres, and some forces.
 pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     let drawn = drawn(u)?;
-    bears_what_it_may(&drawn, u)
+    agrees_with_the_programs(&drawn, u)
 }
 
-/// All that is claimed of a pile, one of its bottom spheres, and a random state.
-fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
+/// Checks all claims about a pile, one of its bottom spheres, and a random state.
+fn agrees_with_the_programs(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
     let Drawn {
         pile,
         states,
@@ -62,7 +62,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
     let verdict = verdict.map_err(|error| refused("a verdict", error))?;
     is_proved(&verdict)?;
     let stands = verdict.claim == Claim::Stands;
-    same("that it stands", &stands, &corner.is_some())?;
+    same("the verdict", &stands, &corner.is_some())?;
     let (bounds, elastic) = (
         cannonpile_horizontal::bounds(pile, *bottom),
         cannonpile_horizontal::elastic(pile, stiffness_ratio),
@@ -91,7 +91,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
         is_proved(certificate)?;
     }
     let relaxed = horizontal(elastic.pile(), states);
-    // A state somewhere between the corners, further from each by a push.
+    // A random state between the corners. More compression then moves it away from them.
     let aim: Affine = (0..=states.contacts.len())
         .map(|_| Ok(ratio(u.int_in_range(-2..=2)?, 1)))
         .collect::<Result<_, arbitrary::Error>>()?;
@@ -103,7 +103,7 @@ fn bears_what_it_may(drawn: &Drawn, u: &mut Unstructured<'_>) -> Checked {
     has_least_energy(states, stiffness_ratio, &relaxed, &x)
 }
 
-/// Draws a small pile, a bottom sphere of it and a ratio of stiffnesses.
+/// Draws a small pile, a bottom sphere of it and a stiffness ratio.
 pub fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
     let stiffness_ratio = ratio(u.int_in_range(1..=9)?, u.int_in_range(1..=9)?);
     let (pile, balance, solve): (_, _, fn(&Balance) -> _) = if rarely(u, 8)? {
@@ -128,7 +128,7 @@ pub fn drawn(u: &mut Unstructured<'_>) -> Result<Drawn, super::Failure> {
 }
 
 impl Drawn {
-    /// The same with one load more.
+    /// The same pile with one more load.
     pub fn loaded(&self, site: Site, load: BigRational) -> Result<Self, Error> {
         let mut balance = self.balance.clone();
         let weight = balance.weight(place(site)) + &load;
@@ -173,7 +173,7 @@ pub fn negative(affine: &Affine) -> Affine {
     affine.iter().map(|entry| -entry).collect()
 }
 
-/// As the library names it.
+/// The contact in the library's type.
 pub fn contact((place, step): Pair) -> HorizontalContact {
     let axis = match step {
         [1, 0] => Axis::AlphaBeta,
@@ -184,7 +184,7 @@ pub fn contact((place, step): Pair) -> HorizontalContact {
     HorizontalContact { site, axis }
 }
 
-/// The horizontal forces that a pile was given, in the order of the oracle.
+/// The horizontal forces of a pile, in the order of the oracle.
 pub fn horizontal(pile: &Pile, states: &States) -> Vec<BigRational> {
     let pairs = states.contacts.iter();
     pairs
@@ -192,7 +192,7 @@ pub fn horizontal(pile: &Pile, states: &States) -> Vec<BigRational> {
         .collect()
 }
 
-/// A mean of some states with random weights: the set of all is convex.
+/// A mean of some states with random weights. The set of all states is convex.
 fn mixed(
     u: &mut Unstructured<'_>,
     states: &[&Vec<BigRational>],
@@ -210,7 +210,7 @@ fn mixed(
     Ok(x.into_iter().map(|x| x / ratio(whole, 1)).collect())
 }
 
-/// Presses a contact more, as much of a random force as nothing pulls for.
+/// Adds compression to one contact: the largest tried part of a random force that leaves all contacts compressive.
 fn push_somewhere(
     u: &mut Unstructured<'_>,
     states: &States,
@@ -239,7 +239,7 @@ fn is_proved(certificate: &Certificate) -> Checked {
     })
 }
 
-/// The bound is the exact one where it is called attained, and lies outside otherwise; its proof is of this bound.
+/// An attained bound equals the exact one. Any other bound lies outside. The certificate proves this bound.
 fn is_bound(bound: &NormalBound, exact: &BigRational, above: bool) -> Checked {
     let certificate = bound.certificate.as_ref();
     demand(certificate.is_some(), || format!("no proof of {bound:?}"))?;
@@ -262,7 +262,8 @@ fn is_bound(bound: &NormalBound, exact: &BigRational, above: bool) -> Checked {
     demand(holds, || format!("{bound:?} where {exact} is exact"))
 }
 
-/// The library's forces of a state that only pushes are the oracle's, and the bottom sphere bears what it may.
+/// The library and the oracle agree on the forces of a compressive state. The normal force of the bottom sphere lies between
+/// its bounds.
 fn is_between(
     drawn: &Drawn,
     x: &[BigRational],
@@ -275,12 +276,12 @@ fn is_between(
         bottom,
         ..
     } = drawn;
-    demand(states.push(x), || format!("{x:?} pull in {pile:?}"))?;
+    demand(states.push(x), || format!("{x:?} is tensile in {pile:?}"))?;
     let mut state = pile.clone();
     for (pair, force) in states.contacts.iter().zip(x) {
         state = state.with_horizontal_force(contact(*pair), force.clone())?;
     }
-    same("what pulls", &state.first_failure(), &Ok(None))?;
+    same("the tensile contact", &state.first_failure(), &Ok(None))?;
     let forces = state.forces::<BigRational>();
     for row in forces.base(Selection::Base)? {
         let row = row?;
@@ -289,11 +290,11 @@ fn is_between(
     }
     let normal = forces.on_floor(*bottom)?.normal;
     demand((least..=greatest).contains(&&normal), || {
-        format!("{bottom} bears {normal} in {state:?}, not {least} to {greatest}")
+        format!("{bottom} has a normal force of {normal} in {state:?}, not {least} to {greatest}")
     })
 }
 
-/// No state has less energy than the elastic one, and no other as little.
+/// No state has less energy than the elastic one, and no other state has as little.
 fn has_least_energy(
     states: &States,
     stiffness_ratio: &BigRational,
@@ -311,7 +312,7 @@ mod planted {
     use super::*;
     use cannonpile::lattice::Region;
 
-    /// Four layers with a load beside the apex, which presses spheres of the layer below outwards.
+    /// Four layers with a load next to the apex. The load presses spheres of the layer below outwards.
     fn loaded() -> Drawn {
         let (load, site) = (ratio(4, 1), Site { i: 0, j: 0, k: 1 });
         let mut balance = Balance::under(&[(0, 0)].into(), "+++");
@@ -339,9 +340,9 @@ mod planted {
         rows.iter().map(|row| affine(row)).collect()
     }
 
-    /// HCP of six layers stands only with horizontal contacts.
+    /// An HCP pile of six layers is stable only with horizontal contacts.
     #[test]
-    fn what_needs_pushes_passes() {
+    fn a_pile_that_needs_compression_passes() {
         let balance = Balance::under(&[(0, 0)].into(), "+-+-+");
         let states = States::of(&balance, Balance::forces);
         let pile = Pile::under(Region::SITE, "+-+-+".parse().unwrap()).unwrap();
@@ -356,7 +357,7 @@ mod planted {
             stiffness_ratio: ratio(2, 3),
         };
         let bytes = [7, 1, 200, 3, 90, 14, 5, 77];
-        bears_what_it_may(&drawn, &mut Unstructured::new(&bytes)).unwrap();
+        agrees_with_the_programs(&drawn, &mut Unstructured::new(&bytes)).unwrap();
     }
 
     #[test]
@@ -373,7 +374,7 @@ mod planted {
         let mut none = rows();
         none.push(affine(&[1, -1, -1]));
         assert!(Corner::first(2, &none).is_none());
-        // x + y = 2: nothing inside.
+        // x + y = 2: the interior is empty.
         let mut thin = rows();
         thin.push(affine(&[2, -1, -1]));
         let corner = Corner::first(2, &thin).unwrap();
@@ -381,7 +382,7 @@ mod planted {
     }
 
     #[test]
-    fn a_bound_that_is_off_is_caught() {
+    fn a_wrong_bound_is_caught() {
         let Drawn {
             pile,
             states,
@@ -395,7 +396,7 @@ mod planted {
             .unwrap()
             .greatest;
         assert!(bound.attained && is_bound(&bound, &greatest, true).is_ok());
-        // The bound itself, in one direction and the other; what is exact; its proof; which of the two it is.
+        // Changes, in this order: the bound in both directions, the exact value, the proof, and the choice of the bound.
         for shift in [ratio(1, 7), ratio(-1, 7)] {
             let mut wrong = bound.clone();
             wrong.normal += &shift;
@@ -414,7 +415,7 @@ mod planted {
     }
 
     #[test]
-    fn a_normal_force_beyond_is_caught() {
+    fn a_normal_force_outside_the_bounds_is_caught() {
         let drawn = loaded();
         let x = drawn.corner.as_ref().unwrap().x();
         let normal = at(&drawn.states.normals[&place(drawn.bottom)], &x);
@@ -422,13 +423,13 @@ mod planted {
         let off = ratio(1, 7);
         assert!(is_between(&drawn, &x, &(&normal + &off), &(&normal + &off)).is_err());
         assert!(is_between(&drawn, &x, &(&normal - &off), &(&normal - &off)).is_err());
-        // Pressed together too much, some contacts pull.
+        // Under too much compression some contacts become tensile.
         let pressed = vec![ratio(99, 1); x.len()];
         assert!(is_between(&drawn, &pressed, &ratio(0, 1), &ratio(99, 1)).is_err());
     }
 
     #[test]
-    fn a_state_of_more_energy_is_caught() {
+    fn a_state_of_higher_energy_is_caught() {
         let Drawn {
             pile,
             states,
@@ -445,7 +446,7 @@ mod planted {
         };
         assert!(judge(&relaxed, &other) && judge(&relaxed, &relaxed));
         assert!(!judge(&other, &relaxed));
-        // Springs of another stiffness, and no horizontal ones.
+        // Springs of another stiffness, and a state without horizontal forces.
         assert!(relaxed.iter().any(Signed::is_positive));
         let stiff = cannonpile_horizontal::elastic(&pile, &ratio(8, 7)).unwrap();
         let stiff = horizontal(stiff.pile(), &states);

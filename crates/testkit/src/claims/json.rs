@@ -1,4 +1,4 @@
-//! What is written as JSON is read back the same, and any JSON is read as something valid or refused.
+//! A value survives a round trip through JSON. Any other JSON is read as a valid value or rejected.
 
 use core::fmt::Debug;
 
@@ -12,15 +12,15 @@ use serde::de::DeserializeOwned;
 use super::{Checked, Failure, same};
 use crate::generators::{number, region, stacking};
 
-/// A value comes back.
+/// A value survives a round trip.
 pub fn reads_back<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> Checked {
     let refuted = |error: serde_json::Error| Failure::Refuted(format!("{error}: {value:?}"));
     let text = serde_json::to_string(value).map_err(refuted)?;
     let read: T = serde_json::from_str(&text).map_err(refuted)?;
-    same("what was read back", &read, value)
+    same("the value read back", &read, value)
 }
 
-/// Piles, regions, stackings and roots of every kind.
+/// Round trips of piles, regions, stackings and roots of every kind.
 pub fn any_value(u: &mut Unstructured<'_>) -> Checked {
     reads_back(&region::region(u)?)?;
     let (coefficient, radicand) = number::root(u)?;
@@ -31,7 +31,7 @@ pub fn any_value(u: &mut Unstructured<'_>) -> Checked {
     reads_back(&region::described(u)?.pile()?)
 }
 
-/// A valid value with some letters exchanged is a valid value or none: every force of a pile can be asked for.
+/// A valid value with some replaced letters is still valid, or is rejected. A valid pile has all its forces.
 pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     if u.arbitrary()? {
         let whole = region::region(u)?;
@@ -45,14 +45,14 @@ pub fn damaged(u: &mut Unstructured<'_>) -> Checked {
     let Some(pile) = reads_damaged(u, &pile)? else {
         return Ok(());
     };
-    // Shapes are tight: every layer has a site.
+    // Regions are tight, so every layer has a site.
     for k in [0, pile.layers() - 1] {
         pile.shape().layer(k)?;
     }
     Ok(())
 }
 
-/// What is read of a value when some letters are exchanged; it comes back too.
+/// Reads a value after some letters were replaced. The result survives a round trip too.
 pub fn reads_damaged<T: Serialize + DeserializeOwned + PartialEq + Debug>(
     u: &mut Unstructured<'_>,
     whole: &T,
@@ -79,7 +79,7 @@ pub fn reads_damaged<T: Serialize + DeserializeOwned + PartialEq + Debug>(
 mod planted {
     use super::*;
 
-    /// Comes back with its sign lost.
+    /// A number that loses its sign in a round trip.
     #[derive(Debug, PartialEq, serde::Deserialize)]
     struct Careless(i32);
 

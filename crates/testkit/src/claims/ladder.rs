@@ -1,4 +1,5 @@
-//! A planted order of accuracy is found, whatever the constant and the steps; any ladder comes back from its record.
+//! A refinement study recovers a given order of accuracy, for any constant and any steps. Every study survives a round trip
+//! through its record.
 
 use arbitrary::Unstructured;
 use cannonpile_dem::table::FileFormat;
@@ -22,7 +23,7 @@ fn refinement(u: &mut Unstructured<'_>) -> arbitrary::Result<Refinement> {
     Ok(*u.choose(&[Refinement::Stiffness, Refinement::TimeStep])?)
 }
 
-/// Errors C hᵖ at irregular steps, with a rest or without one.
+/// Errors C hᵖ at irregular steps.
 pub fn planted(u: &mut Unstructured<'_>) -> Checked {
     let refinement = refinement(u)?;
     let order = 0.6 + 3.4 * part(u)?;
@@ -31,14 +32,14 @@ pub fn planted(u: &mut Unstructured<'_>) -> Checked {
     let mut rungs = Vec::new();
     for _ in 0..u.int_in_range(3..=9)? {
         let error = constant * h.powf(order);
-        // h = 1/k of a stiffness k, and the other way round.
+        // A stiffness k corresponds to h = 1/k, so k = 1/h.
         let parameter = refinement.h(h);
         rungs.push(Rung::of_errors(parameter, 30, error, 0.25 * error));
         h /= 1.5 + 8.5 * part(u)?;
     }
     let ladder = Ladder::new(refinement, rungs.iter().copied())?;
     let other_way = Ladder::new(refinement, rungs.iter().rev().copied())?;
-    same("the ladder the other way round", &other_way, &ladder)?;
+    same("the study in reverse", &other_way, &ladder)?;
     found(&ladder, order)?;
     for norm in Norm::ALL {
         let limit = ladder.limit(norm, order);
@@ -52,7 +53,7 @@ pub fn planted(u: &mut Unstructured<'_>) -> Checked {
     Ok(())
 }
 
-/// All rungs are on a line of this order.
+/// All levels lie on a line of this order.
 fn found(ladder: &Ladder, order: f64) -> Checked {
     for norm in Norm::ALL {
         let fit = ladder
@@ -73,7 +74,8 @@ fn found(ladder: &Ladder, order: f64) -> Checked {
     Ok(())
 }
 
-/// Any numbers are a ladder or refused in one line; what a ladder says is finite, and its record is read back.
+/// Random values form a refinement study or are rejected in one line. Every result of a study is finite, and its record is
+/// read back.
 pub fn any_rungs(u: &mut Unstructured<'_>) -> Checked {
     let refinement = refinement(u)?;
     let count = u.int_in_range(0..=8)?;
@@ -86,7 +88,7 @@ pub fn any_rungs(u: &mut Unstructured<'_>) -> Checked {
         ];
         [rung.largest_error, rung.rms_error] = sizes;
         if u.arbitrary()? {
-            // Most bits are no ladder.
+            // Most bit patterns do not form a study.
             rung.parameter = 2_f64.powi(u.int_in_range(-40..=40)?);
             rung.largest_error = part(u)?;
             rung.rms_error = rung.largest_error / 2.0;
@@ -128,7 +130,7 @@ fn comes_back(ladder: &Ladder) -> Checked {
     }
     let json = written(ladder, FileFormat::Json)?;
     let read = Ladder::read(&*json).map_err(|error| Failure::Refuted(error.to_string()))?;
-    same("what was read back", &read, ladder)
+    same("the value read back", &read, ladder)
 }
 
 fn written(ladder: &Ladder, format: FileFormat) -> Result<Vec<u8>, Failure> {
@@ -143,7 +145,7 @@ fn one_line(message: &str) -> Checked {
     demand(printable, || format!("not one line: {message:?}"))
 }
 
-/// A damaged record, or any text, is a ladder that comes back or refused; so is a list of files.
+/// A damaged record, or any text, is a study that survives a round trip, or is rejected. So is a list of files.
 pub fn any_record(u: &mut Unstructured<'_>) -> Checked {
     let rungs = [1e3, 1e4, 1e5].map(|k| Rung::of_errors(k, 30, 5.0 / k, 2.0 / k));
     let whole = written(
@@ -178,7 +180,7 @@ mod planted_faults {
     use super::*;
 
     #[test]
-    fn another_order_is_caught() {
+    fn a_wrong_order_is_caught() {
         let ladder = |refinement, errors: [f64; 4]| {
             let rungs = [1.0, 2.0, 4.0, 8.0].into_iter().zip(errors);
             let rungs = rungs.map(|(of, error)| Rung::of_errors(of, 30, error, error));
@@ -189,7 +191,7 @@ mod planted_faults {
         assert!(found(&ladder(Refinement::TimeStep, squares), 2.001).is_err());
         // A stiffness in place of a time step.
         assert!(found(&ladder(Refinement::Stiffness, squares), 2.0).is_err());
-        // With a floor, or off the line.
+        // An error that stops decreasing, and one off the line.
         assert!(found(&ladder(Refinement::TimeStep, [4.0, 4.0, 16.0, 64.0]), 2.0).is_err());
         assert!(found(&ladder(Refinement::TimeStep, [1.0, 4.001, 16.0, 64.0]), 2.0).is_err());
     }

@@ -1,6 +1,6 @@
-//! Every scalar passes the law suite, whatever the operands.
+//! Every scalar passes the law suite for any operands.
 //!
-//! That the suite refuses flawed scalars is shown where it is tested with fixed operands.
+//! The tests with fixed operands show that the suite rejects flawed scalars.
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{
@@ -13,7 +13,7 @@ use super::{Checked, in_lowest_terms, same};
 use crate::generators::number;
 use crate::pair::Pair;
 
-/// One of the scalars of the crate.
+/// Checks one scalar of the crate.
 pub fn one_scalar(u: &mut Unstructured<'_>) -> Checked {
     let suite = u.choose(&SUITES)?;
     suite(&Operands::any(u)?)
@@ -33,7 +33,7 @@ const SUITES: [fn(&Operands) -> Checked; 11] = [
     suite::<FixedRational<i128>>,
 ];
 
-/// A ratio of integers is the rational in lowest terms, and none over zero.
+/// A ratio of integers is the rational in lowest terms. A zero denominator gives `None`.
 pub fn ratios_of_integers(u: &mut Unstructured<'_>) -> Checked {
     let (n, d) = (number::integer(u)?, number::integer(u)?);
     let want = (!d.is_zero()).then(|| BigRational::new(n.clone(), d.clone()));

@@ -1,7 +1,6 @@
-//! Measured forces are read as they were written, exact ones are accepted, and a planted fault is found.
+//! Measured forces are read as they were written. Exact forces are accepted, and an injected fault is found.
 //!
-//! The oracle is the list that was written, the fault that was planted, and rationals, in which the error is computed
-//! anew.
+//! The oracle consists of the written list, the injected fault, and rationals that compute the error again.
 
 use std::fmt::Write;
 
@@ -27,7 +26,7 @@ impl From<Refusal> for Failure {
     }
 }
 
-/// Any bytes are read or refused in one line; what is read can be written and read again.
+/// Any bytes are read or rejected in one line. The result of a successful read can be written and read again.
 pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
     let file = match u.int_in_range(0..=3)? {
         0 => u.arbitrary::<Vec<u8>>()?,
@@ -48,7 +47,7 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
             let entries = reading.entries();
             let lines = file.split(|byte| *byte == b'\n').count();
             let last = entries.len().checked_sub(1).map(|last| reading.line(last));
-            // The rows of a picture are no lines.
+            // The rows of a VTK file are not text lines.
             let is_picture = file.first() == Some(&b'<');
             let within = is_picture
                 || last.is_none_or(|line| {
@@ -62,7 +61,7 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
                 demand(numbers, || format!("{one:?} was read"))?;
             }
             same(
-                "what was read",
+                "the entries",
                 &verify::read(csv(entries).as_bytes())?.entries(),
                 &entries,
             )
@@ -75,14 +74,15 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// Any bytes are compared, as any code's table, or refused in one line; what a code writes of the exact forces is accepted.
+/// Any bytes, read as the table of any code, are compared or rejected in one line. A code's table of the exact forces is
+/// accepted.
 pub fn any_table(u: &mut Unstructured<'_>) -> Checked {
     let pile = Pile::triangular(3)?;
     let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
     let mut table = table(u, &packing)?;
     for _ in 0..u.int_in_range(0..=4)? {
         table.is_exact = false;
-        hurt(u, &mut table.file)?;
+        damage(u, &mut table.file)?;
     }
     let Table {
         reader,
@@ -103,21 +103,21 @@ pub fn any_table(u: &mut Unstructured<'_>) -> Checked {
             let message = refusal.to_string();
             let printable = !message.is_empty() && !message.contains(char::is_control);
             demand(printable && message.len() < 1000 && !is_exact, || {
-                format!("not one line, or of an exact table: {message:?}")
+                format!("not one line, or the table is exact: {message:?}")
             })
         }
     }
 }
 
-/// A table, and what reads it.
+/// A table and its reader.
 struct Table {
     reader: Reader,
     file: Vec<u8>,
-    /// Whether the forces are the exact ones.
+    /// Tells whether the table contains the exact forces.
     is_exact: bool,
 }
 
-/// What a code writes; now and then what it does not write, or anything at all.
+/// A table as a code writes it. Sometimes it is one that no code writes, or arbitrary bytes.
 fn table(u: &mut Unstructured<'_>, packing: &Packing<'_>) -> Result<Table, Failure> {
     let preset = *u.choose(&Preset::ALL)?;
     let (mut reader, file, mut is_exact) = match (preset, u.int_in_range(0..=7)?) {
@@ -128,14 +128,14 @@ fn table(u: &mut Unstructured<'_>, packing: &Packing<'_>) -> Result<Table, Failu
         }
         (Preset::ExaDemVtp | Preset::Lethe, _) => {
             let picture = *u.choose(&PICTURES)?;
-            // A grid has the forces that Lethe writes, and no others.
+            // A grid contains the forces only in the form that Lethe writes.
             let is_read = preset == Preset::Lethe || LINES.contains(&picture);
             (Reader::of(preset), picture.to_vec(), is_read)
         }
         (_, dialect) => {
             let text = written_by(preset, packing, dialect == 1)?;
             let reader = match preset {
-                // The stiffness is for the user to name.
+                // The user must give the stiffness.
                 Preset::Mddem => {
                     let spring = "force=1024*overlap".parse()?;
                     Reader::new()
@@ -158,7 +158,7 @@ fn table(u: &mut Unstructured<'_>, packing: &Packing<'_>) -> Result<Table, Failu
     })
 }
 
-/// The exact forces as a code writes them, or for LAMMPS as a dump.
+/// The exact forces in a code's format, or for LAMMPS as a dump.
 fn written_by(preset: Preset, packing: &Packing<'_>, as_dump: bool) -> Result<String, Failure> {
     let centres = codes::centres(packing)?;
     let measured = perfect(packing).unwrap_or_default();
@@ -172,8 +172,8 @@ fn written_by(preset: Preset, packing: &Packing<'_>, as_dump: bool) -> Result<St
     })
 }
 
-/// One byte is another, or is not there; or it is the end.
-fn hurt(u: &mut Unstructured<'_>, file: &mut Vec<u8>) -> arbitrary::Result<()> {
+/// Replaces a byte, removes it, or cuts the file off there.
+fn damage(u: &mut Unstructured<'_>, file: &mut Vec<u8>) -> arbitrary::Result<()> {
     let Some(last) = file.len().checked_sub(1) else {
         return Ok(());
     };
@@ -195,9 +195,9 @@ fn hurt(u: &mut Unstructured<'_>, file: &mut Vec<u8>) -> arbitrary::Result<()> {
     Ok(())
 }
 
-/// The exact forces of a small pile are accepted by place, in any order and in any frame, whatever the sizes.
+/// A reader that matches by position accepts the exact forces of a small pile, for any order, frame and size.
 pub fn by_place(u: &mut Unstructured<'_>) -> Checked {
-    let pile = seen(u)?;
+    let pile = any_pile(u)?;
     let spacing = pile::roomy_spacing(u, &pile)?;
     let mut size = || Ok::<_, Failure>(number::power(10, u.int_in_range(-12..=12)?));
     let packing = Packing::new(&pile, &spacing)?
@@ -227,19 +227,19 @@ pub fn by_place(u: &mut Unstructured<'_>) -> Checked {
         Err(Refusal::OutOfRange) => return Ok(()),
         read => read?,
     };
-    // Forces alone: a turn may be told by a symmetry of the pile.
+    // The comparison must accept the forces. The frame may differ by a symmetry of the pile.
     demand(read.comparison.accepted(1e-9), || {
         format!("{frame:?} as {:?}: {}", read.frame, read.comparison)
     })
 }
 
-/// Any stacking with weights and loads that are alike, as some that differ by many powers of ten leave nothing to tell a turn by;
-/// discs, and spheres on isosceles bases.
-fn seen(u: &mut Unstructured<'_>) -> Result<Pile, Failure> {
+/// A pile of any stacking, of discs, or of spheres on an isosceles base. Its weights and loads have similar magnitudes.
+/// Magnitudes that differ by many powers of ten would hide a rotation.
+fn any_pile(u: &mut Unstructured<'_>) -> Result<Pile, Failure> {
     let layers = u.int_in_range(1..=6)?;
     Ok(match u.int_in_range(0..=3)? {
         0 => Pile::discs(layers)?,
-        // There is room for any number of layers.
+        // These bases allow any number of layers.
         1 => Pile::isosceles(layers, ratio(u.int_in_range(1..=10)?, 12))?,
         _ => region::lightly(u)?.pile()?,
     })
@@ -254,7 +254,7 @@ fn own() -> Frame {
     }
 }
 
-/// A table of both centres and the force of each contact, seen from a frame.
+/// A table of both centres and the force of each contact, in a given frame.
 fn placed(packing: &Packing<'_>, frame: &Frame) -> Result<String, Failure> {
     let mut table = String::from("x1,y1,z1,x2,y2,z2,force\n");
     let shape = packing.pile().shape();
@@ -276,7 +276,7 @@ fn placed(packing: &Packing<'_>, frame: &Frame) -> Result<String, Failure> {
     Ok(table)
 }
 
-/// Lines with data in every coding of VTK, of three layers.
+/// Line data in every encoding of VTK, for three layers.
 const LINES: [&[u8]; 6] = [
     include_bytes!("../../../dem/tests/all/verify/vtk/ascii.vtp"),
     include_bytes!("../../../dem/tests/all/verify/vtk/based.vtp"),
@@ -286,7 +286,7 @@ const LINES: [&[u8]; 6] = [
     include_bytes!("../../../dem/tests/all/verify/vtk/appended.vtp"),
 ];
 
-/// The same, and two grids.
+/// The same files and two grids.
 const PICTURES: [&[u8]; 8] = [
     LINES[0],
     LINES[1],
@@ -298,18 +298,18 @@ const PICTURES: [&[u8]; 8] = [
     include_bytes!("../../../dem/tests/all/verify/vtk/lines_ascii.vtu"),
 ];
 
-/// What was written is read.
+/// A written file is read back.
 pub fn a_file(u: &mut Unstructured<'_>) -> Checked {
     let entries = entries(u)?;
     let file = written(u, &entries)?;
     same(
-        "what was read",
+        "the entries",
         &verify::read(file.as_bytes())?.entries(),
         &&*entries,
     )
 }
 
-/// The exact forces of a small pile, in any order, are accepted; one fault among them is found.
+/// The exact forces of a small pile are accepted in any order. One fault among them is found.
 pub fn planted(u: &mut Unstructured<'_>) -> Checked {
     let pile = region::described(u)?.pile()?;
     let packing = Packing::new(&pile, &Spacing::new(ratio(6, 5))?)?;
@@ -361,14 +361,14 @@ pub fn planted(u: &mut Unstructured<'_>) -> Checked {
     found(&comparison, &one, &wrong)
 }
 
-/// All are there, and all bits agree.
+/// All contacts are present, and every bit agrees.
 fn accepted(comparison: &Comparison, contacts: usize) -> Checked {
     let all = u64::try_from(contacts).unwrap_or(u64::MAX);
     let holds = comparison.accepted(0.0) && comparison.matched() == all;
     demand(holds, || format!("not accepted: {comparison}"))
 }
 
-/// A contact that was left out is missing, just if it carries something.
+/// A removed contact counts as missing exactly if its force is not zero.
 fn missed(comparison: &Comparison, gone: &Measured) -> Checked {
     let ids = comparison
         .missing_contacts()
@@ -379,7 +379,7 @@ fn missed(comparison: &Comparison, gone: &Measured) -> Checked {
     same("the verdict", &comparison.accepted(0.5), &want.is_none())
 }
 
-/// The one contact that was measured wrong is the worst, with the error that rationals give.
+/// The one wrong contact is the worst. Its error agrees with that in rationals.
 fn found(comparison: &Comparison, exact: &Measured, wrong: &Measured) -> Checked {
     let differs = exact != wrong;
     if wrong.force == 0.0
@@ -413,7 +413,7 @@ fn found(comparison: &Comparison, exact: &Measured, wrong: &Measured) -> Checked
     let got = comparison.largest_error();
     let near = match error.to_f64() {
         Some(error) if error.is_normal() && got.is_finite() => (got - error).abs() <= 1e-15 * error,
-        // Beyond the floats, or among the least of them.
+        // The value overflows or is subnormal.
         _ => got > 0.0,
     };
     demand(near, || format!("an error of {got:e}, not {error}"))
@@ -423,7 +423,7 @@ fn sorted([a, b]: [u64; 2]) -> [u64; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Each contact told of the upper sphere, as the nearest floats; none if one is beyond them.
+/// Each contact with its upper sphere, as correctly rounded floats. `None` if a force overflows.
 fn perfect(packing: &Packing<'_>) -> Option<Vec<Measured>> {
     let pile: &Pile = packing.pile();
     let id = |site| {
@@ -445,7 +445,7 @@ fn perfect(packing: &Packing<'_>) -> Option<Vec<Measured>> {
     measured.collect()
 }
 
-/// Up to six entries with any finite forces, all with vectors or none.
+/// Up to six entries with arbitrary finite forces. Either all have vectors or none has.
 fn entries(u: &mut Unstructured<'_>) -> arbitrary::Result<Vec<Measured>> {
     let with_vectors = u.arbitrary()?;
     let count = u.int_in_range(0..=6)?;
@@ -463,7 +463,7 @@ fn entries(u: &mut Unstructured<'_>) -> arbitrary::Result<Vec<Measured>> {
     Ok(entries)
 }
 
-/// A file of either kind, with the liberties that each allows.
+/// A file of either kind, with the variations that each kind allows.
 fn written(u: &mut Unstructured<'_>, entries: &[Measured]) -> arbitrary::Result<String> {
     let end = ["\n", "\r\n"][u.choose_index(2)?];
     if u.arbitrary()? {
@@ -473,7 +473,7 @@ fn written(u: &mut Unstructured<'_>, entries: &[Measured]) -> arbitrary::Result<
         } else {
             return Ok(text.replace('\n', end));
         };
-        // The last quote opens nothing.
+        // The text must not end with an opening quote.
         let text = format!("\"{}", text.trim_end_matches('"'));
         return Ok(text.replace('\n', end));
     }
@@ -490,7 +490,7 @@ fn written(u: &mut Unstructured<'_>, entries: &[Measured]) -> arbitrary::Result<
     Ok(whole.replace('\n', end))
 }
 
-/// A snapshot of a dump of LAMMPS.
+/// A snapshot of a LAMMPS dump.
 fn dump(snapshot: u8, entries: usize, table: &str) -> String {
     let table = table.replace(',', " ").replace('\n', " \n");
     format!(
@@ -499,7 +499,7 @@ fn dump(snapshot: u8, entries: usize, table: &str) -> String {
     )
 }
 
-/// As this program writes tables.
+/// The table in this program's own format.
 fn csv(entries: &[Measured]) -> String {
     let with_vectors = entries.iter().any(|one| one.vector.is_some());
     let mut csv = "id1,id2,force".to_owned();
@@ -526,7 +526,7 @@ mod planted {
     }
 
     #[test]
-    fn a_comparison_that_overlooks_something_is_caught() {
+    fn an_incomplete_comparison_is_caught() {
         let force = 0.462_250_163_521_024_27;
         let right = [2, 3, 4].map(|id| Measured::new([1, id], force));
         let mut wrong = right;
@@ -536,7 +536,7 @@ mod planted {
         assert!(accepted(&seeing, 3).is_err());
         assert!(accepted(&compare(&right[1..]), 3).is_err());
         assert!(found(&seeing, &right[1], &wrong[1]).is_ok());
-        // Blind, of the wrong contact, or with an error that is off in its last digits.
+        // These comparisons miss the fault, blame the wrong contact, or err in the last digits.
         assert!(found(&blind, &right[1], &wrong[1]).is_err());
         assert!(found(&seeing, &right[2], &wrong[1]).is_err());
         let mut other = wrong[1];

@@ -1,45 +1,46 @@
-//! What is true for every input, as functions from bytes.
+//! Properties that hold for every input, as functions from bytes.
 //!
-//! A claim draws its input from an [`Unstructured`] by way of [`generators`](crate::generators), asks the
-//! library, and judges the answer by a theorem. The property tests and the fuzz targets run the same ones.
+//! A claim draws its input from an [`Unstructured`] through [`generators`](crate::generators). It calls the library and
+//! checks the answer by a theorem. The property tests and the fuzz targets run the same claims.
 //!
-//! The judging is done by small functions of their own, whose planted faults stand at the foot of each file:
-//! answers that are wrong by as little as can be, and must be caught.
+//! Small functions of their own do the checks. The tests at the foot of each file inject faults into their input: answers
+//! that are wrong by the smallest possible amount. The checks must catch them.
 //!
 //! | file | the claim |
 //! |---|---|
-//! | `sites` | a pile has its sites and no others |
-//! | `bases` | discs and isosceles bases, with weights and loads, bear what elimination says |
-//! | `scalars` | intervals and narrow rationals hold the forces of mixed piles |
-//! | `slices` | slices are filled with the forces of mixed piles, within the bounds that are told, or refused |
-//! | `standing` | least forces, extremes and sums of mixed piles are those of all forces |
-//! | `equilibrium` | forces on every sphere balance, both ends of a contact agree, the floor bears the weight |
-//! | `floats` | `f32` and `f64` are a few roundings off the exact answer |
-//! | `fixed` | fixed-width rationals are right or say that they overflow |
-//! | `nearest` | a root is rounded to the nearest float |
+//! | `sites` | a pile has exactly its sites |
+//! | `bases` | elimination confirms the forces of discs and isosceles bases, with weights and loads |
+//! | `scalars` | intervals and narrow rationals enclose the forces of mixed piles |
+//! | `slices` | slices receive the forces of mixed piles within the stated bounds, or the call fails |
+//! | `standing` | least forces, extremes and sums of mixed piles agree with all forces |
+//! | `equilibrium` | forces on every sphere balance, both ends of a contact agree, the base supports the weight |
+//! | `floats` | errors of `f32` and `f64` stay within a few roundings |
+//! | `fixed` | fixed-width rationals are correct or report an overflow |
+//! | `nearest` | a root is rounded correctly |
 //! | `order` | roots compare and multiply as their squares do |
-//! | `packing` | answers in SI are the roots that the geometry makes them |
-//! | `overlap` | a spacing is allowed just if no two spheres come too close |
-//! | `parsers` | a parser never panics, and reads what is printed |
-//! | `options` | so do the parsers of scenes and tables (feature `dem`) |
-//! | `scene` | a scene makes the pile that it describes, or is refused (feature `dem`) |
-//! | `scene_file` | a scene that is written down is read back; a file is read exactly or refused (feature `dem`) |
-//! | `json` | what is written as JSON is read back, and any JSON is valid or refused (feature `serde`) |
+//! | `packing` | answers in SI units are the roots that follow from the geometry |
+//! | `overlap` | a spacing is allowed exactly if no two spheres overlap |
+//! | `parsers` | a parser never panics, and it reads printed values |
+//! | `options` | the same for the parsers of scenes and tables (feature `dem`) |
+//! | `scene` | a scene yields the described pile, or is rejected (feature `dem`) |
+//! | `scene_file` | a written scene is read back; a file is read exactly or rejected (feature `dem`) |
+//! | `json` | values survive a round trip through JSON; any JSON is valid or rejected (feature `serde`) |
 //! | `laws` | every scalar passes the law suite |
 //! | `stackings` | a text is read as a stacking by the rules of its notation, and printed again |
-//! | `recorded` | formulas as they are written for Coq, read and evaluated again, are the formulas (feature `proof`) |
+//! | `recorded` | formulas in Coq's syntax, read and evaluated, equal the library's formulas (feature `proof`) |
 //! | `regions` | bounds are tightened completely, and small regions have their sites |
 //! | `growth` | dilation and erosion of a region of any size, and the lines through its layers |
-//! | `numbered` | the spheres of any pile are numbered without a gap |
-//! | `measured` | measured forces are read as written, and a planted fault is found (feature `dem`) |
-//! | `ladder` | a planted order of accuracy is found, and any ladder comes back from its record (feature `dem`) |
-//! | `engine` | every way to ask for the forces of a mixed pile gives what the equations of equilibrium give |
-//! | `disorder` | the mean over random stackings is that of all stackings, one by one (feature `disorder`) |
-//! | `ensemble` | tallies are what plain enumeration counts, and parts make the whole (feature `disorder`) |
-//! | `certificates` | what a checker accepts is true, and the checker in Python says the same (feature `horizontal`) |
-//! | `horizontal` | what a pile with horizontal contacts can bear is what an exact program says, with proofs (feature `horizontal`) |
+//! | `numbered` | the sphere numbers of any pile have no gap |
+//! | `measured` | measured forces are read as written, and an injected fault is found (feature `dem`) |
+//! | `ladder` | a refinement study finds a given order of accuracy and survives a round trip (feature `dem`) |
+//! | `engine` | every way to compute the forces of a mixed pile solves the equations of equilibrium |
+//! | `disorder` | the mean over random stackings equals a plain average over all stackings (feature `disorder`) |
+//! | `ensemble` | tallies equal a plain enumeration, and parts merge into the whole (feature `disorder`) |
+//! | `certificates` | an accepted certificate is true, and the Python checker agrees (feature `horizontal`) |
+//! | `horizontal` | answers about piles with horizontal contacts agree with exact programs and have proofs (feature
+//! `horizontal`) |
 //!
-//! `handed_on` has the oracle's forces of what a generator describes.
+//! `handed_on` contains the oracle's forces of a described pile.
 
 pub mod bases;
 #[cfg(feature = "horizontal")]
@@ -92,18 +93,18 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 
-/// A claim about the input that the bytes make.
+/// A claim about the input that the bytes determine.
 pub type Claim = fn(&mut Unstructured<'_>) -> Checked;
 
-/// Nothing, if the claim holds.
+/// `Ok` if the claim holds.
 pub type Checked = Result<(), Failure>;
 
-/// Why a claim was not confirmed.
+/// The reason why a claim was not confirmed.
 #[derive(Debug)]
 pub enum Failure {
-    /// The bytes make no input. No generator gives this today.
+    /// The bytes do not determine an input. No generator returns this today.
     NoInput(arbitrary::Error),
-    /// It does not hold: the witness.
+    /// The claim is false. Contains the witness.
     Refuted(String),
 }
 
@@ -123,7 +124,7 @@ impl From<arbitrary::Error> for Failure {
 }
 
 impl Failure {
-    /// A question that has an answer was refused.
+    /// The library rejected a valid query.
     pub fn refused(error: &impl Display) -> Self {
         Self::Refuted(format!("refused: {error}"))
     }
@@ -155,7 +156,7 @@ impl From<BrokenLaw> for Failure {
     }
 }
 
-/// Holds, or refuted with the witness.
+/// Returns `Ok` if the claim holds, and otherwise the witness.
 pub fn demand(holds: bool, witness: impl FnOnce() -> String) -> Checked {
     if holds {
         Ok(())
@@ -164,12 +165,12 @@ pub fn demand(holds: bool, witness: impl FnOnce() -> String) -> Checked {
     }
 }
 
-/// `got` is `want`.
+/// `got` equals `want`.
 pub fn same<T: PartialEq + Debug>(what: &str, got: &T, want: &T) -> Checked {
     demand(got == want, || format!("{what} is {got:?}, not {want:?}"))
 }
 
-/// A rational is kept as it is printed: no common factor, a positive denominator.
+/// A rational is stored as it is printed: without a common factor, and with a positive denominator.
 ///
 /// Comparing two rationals does not show this.
 pub fn in_lowest_terms(r: &BigRational) -> Checked {
@@ -177,7 +178,7 @@ pub fn in_lowest_terms(r: &BigRational) -> Checked {
     demand(holds, || format!("{r} is not in lowest terms"))
 }
 
-/// A refusal is one line that says something, whatever was quoted in it.
+/// An error message is a single, nonempty line, whatever text it quotes.
 pub fn one_line(refusal: &impl Display) -> Checked {
     let message = refusal.to_string();
     let printable = !message.is_empty() && !message.contains(char::is_control);

@@ -1,4 +1,4 @@
-//! A root is rounded to the nearest float, ties to even. The judge is [`crate::judge`].
+//! Roots are rounded correctly, to nearest with ties to even. The reference is [`crate::judge`].
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{NearestFloat, Surd};
@@ -9,14 +9,14 @@ use super::{Checked, Failure, same};
 use crate::generators::number::{self, ratio};
 use crate::judge::{self, Float, Value};
 
-/// c·√r is rounded to the nearest float of either format.
+/// c·√r is rounded correctly to both formats.
 pub fn of_a_root(u: &mut Unstructured<'_>) -> Checked {
     let (c, r) = number::root(u)?;
     let surd = Surd::new(c.clone(), r.clone())?;
     nearest(&surd, &Value::root(&c, &r))
 }
 
-/// A rational is rounded to the nearest float of either format, and a float to itself.
+/// A rational is rounded correctly to both formats. A float is rounded to itself.
 pub fn of_a_rational(u: &mut Unstructured<'_>) -> Checked {
     let r = number::rational(u)?;
     let value = Value::root(&r, &ratio(1, 1));
@@ -27,7 +27,7 @@ pub fn of_a_rational(u: &mut Unstructured<'_>) -> Checked {
     same("a float, rounded,", &back, &Some(x))
 }
 
-/// `surd` is the value, and is rounded to the nearest float of either format.
+/// `surd` has this value and is rounded correctly to both formats.
 pub fn nearest(surd: &Surd, value: &Value) -> Checked {
     let square = value.square();
     same("the square", &surd.square(), &square)?;
@@ -41,7 +41,7 @@ pub fn nearest(surd: &Surd, value: &Value) -> Checked {
     is_nearest(surd.nearest::<f32>(), value)
 }
 
-/// Whether `got` is the float nearest to the value, `None` standing for an infinite one.
+/// Tells whether `got` is the correctly rounded value. `None` stands for infinity.
 fn is_nearest<F: Float>(got: Option<F>, value: &Value) -> Checked {
     judge::is_nearest(got, value).map_err(Failure::Refuted)
 }
@@ -80,7 +80,7 @@ mod planted {
     }
 
     #[test]
-    fn a_float_at_the_wrong_side_of_infinity_is_caught() {
+    fn a_wrong_overflow_is_caught() {
         let largest = Value::root(&exactly(f64::MAX), &ratio(1, 1));
         let beyond = Value::root(&power(2, 1024), &ratio(1, 1));
         let [finite, infinite] = [Some(f64::MAX), None];

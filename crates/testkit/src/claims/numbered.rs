@@ -1,4 +1,4 @@
-//! The spheres of a pile of any size are numbered without a gap, across rows, layers and changes of sign.
+//! The sphere numbers of a pile of any size have no gap across rows, layers and sign changes.
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
@@ -10,7 +10,7 @@ use num_bigint::{BigInt, BigUint};
 use super::{Checked, same};
 use crate::generators::{region, stacking};
 
-/// A row of any pile: its spheres, the next one, and the first of its layer.
+/// Checks a row of any pile: its spheres, the next sphere, and the first sphere of its layer.
 pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     let Some(shape) = tall_shape(u)? else {
         return Ok(());
@@ -25,11 +25,11 @@ pub fn any_pile(u: &mut Unstructured<'_>) -> Checked {
     let [low, high] = [*layer.y().start(), *layer.y().end()];
     let j = u.int_in_range(low..=high)?;
     let first = first_of(&layer, k, j)?;
-    without_a_gap(&first, &shape, |site| shape.before(site))
+    has_consecutive_numbers(&first, &shape, |site| shape.before(site))
 }
 
-/// The next sphere after the last one of a row has the next number.
-fn without_a_gap(
+/// The number after the last sphere of a row belongs to the next sphere.
+fn has_consecutive_numbers(
     row: &Row,
     shape: &Shape,
     before: impl Fn(Site) -> Result<BigUint, Error>,
@@ -82,8 +82,8 @@ fn without_a_gap(
     )
 }
 
-/// Grown down from any region, or up again from a base that is wider, by a few sites or many on each side, so that
-/// sides vanish on the way; none if the runs are no stacking or lead beyond the limit.
+/// Grown down from any region, or up from a wider base. The base extends by a few sites or many on each side, so sides
+/// vanish on the way. `None` if the runs are invalid or lead beyond the limit.
 fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
     let top = region::region(u)?;
     let made =
@@ -95,7 +95,7 @@ fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
         return Ok(Some(shape));
     }
     let base = shape.base();
-    // Comparable with the height, or far from it.
+    // The extra width is small, similar to the height, or much larger.
     let most = [9, shape.layers(), MAX_LAYERS / 2][u.choose_index(3)?];
     let mut sides = [base.x(), base.y(), base.s()];
     for side in &mut sides {
@@ -107,7 +107,7 @@ fn tall_shape(u: &mut Unstructured<'_>) -> arbitrary::Result<Option<Shape>> {
     Ok(Shape::on(base, shape.stacking().clone()).ok())
 }
 
-/// The row j of a layer, found by its ends.
+/// The row j of a layer, from its ends.
 pub fn first_of(layer: &Region, k: i128, j: i128) -> Result<Row, Error> {
     let only = Region::new(layer.x(), j..=j, layer.s())?;
     let (start, end) = only.x().into_inner();
@@ -126,8 +126,8 @@ mod planted {
     fn numbers_with_a_gap_are_caught() {
         let shape = Shape::under(Region::SITE, "+-".parse().unwrap()).unwrap();
         let row = first_of(&shape.layer(1).unwrap(), 1, 1).unwrap();
-        assert!(without_a_gap(&row, &shape, |site| shape.before(site)).is_ok());
+        assert!(has_consecutive_numbers(&row, &shape, |site| shape.before(site)).is_ok());
         let off = |site: Site| Ok(shape.before(site)? + u32::from(site.k == 2));
-        assert!(without_a_gap(&row, &shape, off).is_err());
+        assert!(has_consecutive_numbers(&row, &shape, off).is_err());
     }
 }

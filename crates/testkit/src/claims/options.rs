@@ -1,4 +1,4 @@
-//! What scenes and tables read from the words of an option: a parser never panics, and reads what is printed.
+//! Parsers of the words in options for scenes and tables never panic, and they read printed values.
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
@@ -12,7 +12,7 @@ use super::parsers::{comes_back, reads_back};
 use super::{Checked, one_line};
 use crate::generators::{pile, text};
 
-/// Every parser on any text.
+/// Runs every parser on any text.
 pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
     let text = text::any(u)?;
     match parse::layers(&text) {
@@ -30,7 +30,7 @@ fn site(text: &str, dimension: Dimension) -> Checked {
     let parse = |text: &str| parse::at(text, dimension);
     match parse(text) {
         Ok(value) => {
-            // Any site may be asked for, of any pile: that it has it is checked later.
+            // Any site may be parsed for any pile. A later check finds out whether the pile has it.
             let _ = value.site(i128::MIN);
             let shown = written(&value, dimension);
             reads_back(parse, &shown.replace(',', " , "), &value)?;
@@ -40,13 +40,13 @@ fn site(text: &str, dimension: Dimension) -> Checked {
     }
 }
 
-/// Layers that are printed are read as the same number.
+/// Printed layers are read as the same number.
 pub fn layers(u: &mut Unstructured<'_>) -> Checked {
     let layers = pile::layers(u)?;
     reads_back(parse::layers, &layers, &layers)
 }
 
-/// Every parser of an option on any word: what it reads is printed as something that is read as the same.
+/// Runs every parser of an option on any word. A parsed value is printed in a form that is read as the same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
     comes_back::<State>(&text)?;
@@ -67,7 +67,7 @@ fn load(text: &str, dimension: Dimension) -> Checked {
     }
 }
 
-/// `K,I,J` or `I,J`, and without J in two dimensions.
+/// `K,I,J` or `I,J`; in two dimensions without J.
 fn written(at: &At, dimension: Dimension) -> String {
     let last = (dimension == Dimension::Three).then_some(at.j);
     let parts = [at.layer, Some(at.i), last];

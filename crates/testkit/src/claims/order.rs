@@ -1,4 +1,4 @@
-//! Roots compare, multiply and print as their squares and signs say.
+//! Roots compare, multiply and print as their squares and signs require.
 
 use core::cmp::Ordering;
 
@@ -10,10 +10,10 @@ use num_traits::{Signed, Zero};
 use super::{Checked, demand, same};
 use crate::generators::number::{self, ratio};
 
-/// c·√r by c²r with the sign of c: the root function keeps its order.
+/// Represents c·√r by c²r with the sign of c. The square root preserves the order.
 type SignedSquare = BigRational;
 
-/// Two roots, their product and inverse, and a float.
+/// Checks two roots, their product and inverse, and a float.
 pub fn of_two_roots(u: &mut Unstructured<'_>) -> Checked {
     let (c, r) = number::root(u)?;
     // Often the same value in another form: √(4r) = 2√r.
@@ -34,7 +34,7 @@ pub fn of_two_roots(u: &mut Unstructured<'_>) -> Checked {
     same("the product", &square_of(&product), &(&v * &w))?;
     match x.checked_recip() {
         Some(inverse) => same("the inverse", &square_of(&inverse), &v.recip())?,
-        None => same("a number without inverse", &v, &BigRational::zero())?,
+        None => same("a value without inverse", &v, &BigRational::zero())?,
     }
     same("the negative", &square_of(&-x.clone()), &-&v)?;
     same("the scaled root", &x.scaled(&d), &Surd::new(c * &d, r)?)?;
@@ -48,11 +48,11 @@ pub fn of_two_roots(u: &mut Unstructured<'_>) -> Checked {
         &signed_square(&exact, &ratio(1, 1)),
     )?;
     demand(x.partial_cmp(&f64::NAN).is_none(), || {
-        "a root is ordered against not-a-number".into()
+        "a root compares with not-a-number".into()
     })
 }
 
-/// A rational root is found to be rational, and its form is in lowest terms.
+/// A rational root is recognised as rational, and its form is in lowest terms.
 pub fn of_a_square(u: &mut Unstructured<'_>) -> Checked {
     let r = number::rational(u)?;
     let root = Surd::sqrt(&r * &r)?;
@@ -70,7 +70,7 @@ fn square_of(x: &Surd) -> SignedSquare {
     signed_square(x.coefficient(), &radicand)
 }
 
-/// The order of two numbers is that of their signed squares.
+/// The order of two values is that of their signed squares.
 fn is_ordered(got: Ordering, v: &SignedSquare, w: &SignedSquare) -> Checked {
     demand(got == v.cmp(w), || {
         format!("{got:?} is not the order of the squares {v} and {w}")
@@ -83,7 +83,7 @@ mod planted {
     use crate::generators::number::power;
 
     #[test]
-    fn an_order_that_forgets_the_sign_is_caught() {
+    fn an_order_without_signs_is_caught() {
         let (v, w) = (ratio(-2, 1), ratio(1, 1));
         assert!(is_ordered(Ordering::Less, &v, &w).is_ok());
         assert!(is_ordered(v.abs().cmp(&w.abs()), &v, &w).is_err());

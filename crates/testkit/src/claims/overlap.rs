@@ -1,8 +1,8 @@
-//! A spacing is allowed just if no two spheres of the pile come too close.
+//! A spacing is allowed exactly if no two spheres of the pile overlap.
 //!
-//! The library looks at a few pairs only, and proves that they suffice. Here every short difference is looked
-//! at, in integers over one denominator and by the coordinates of the centres; long ones at random, by the
-//! library's quadratic form.
+//! The library examines a few pairs only and proves that they suffice. This claim examines every short difference, in
+//! integers over one denominator, by the coordinates of the centres. It examines random long differences by the library's
+//! quadratic form.
 
 use core::cmp::Ordering;
 
@@ -18,9 +18,9 @@ use super::{Checked, demand, one_line, packing, same};
 use crate::generators::number::ratio;
 use crate::generators::pile::{self, occurs};
 
-/// The verdict on a spacing against every short difference, and a few long ones.
+/// Compares the verdict on a spacing with every short difference and a few long ones.
 pub fn of_a_spacing(u: &mut Unstructured<'_>) -> Checked {
-    // The first few layers each bring pairs that were not there before.
+    // Each of the first few layers adds new pairs.
     let few = u.arbitrary()?;
     let pile = if few {
         pile::small_pile(u)?
@@ -44,7 +44,7 @@ pub fn of_a_spacing(u: &mut Unstructured<'_>) -> Checked {
     Ok(())
 }
 
-/// Two spheres of a packing are as far apart as the quadratic form of their difference says.
+/// The distance of two spheres of a packing follows the quadratic form of their difference.
 pub fn of_two_spheres(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::roomy_pile(u)?;
     let spacing = pile::roomy_spacing(u, &pile)?;
@@ -59,14 +59,14 @@ pub fn of_two_spheres(u: &mut Unstructured<'_>) -> Checked {
     same("the squared distance", &got, &Some(want))
 }
 
-/// A verdict agrees with all short differences: refused if a pair overlaps, and then because of such a pair,
-/// and otherwise with the pairs that touch named.
+/// A verdict agrees with all short differences. A rejection names a pair that overlaps. An accepted spacing lists exactly
+/// the pairs that touch.
 fn agrees(verdict: &Result<Vec<LayerGap>, Error>, pile: &Pile, spacing: &Spacing) -> Checked {
     let distances = Distances::new(pile, spacing);
     let mut overlapping = Vec::new();
     let mut touching = Vec::new();
     for n in short_differences(pile) {
-        // A sphere rests on those one contact below it.
+        // A difference of one contact joins a sphere to a support.
         let layers = n.iter().sum::<i128>().unsigned_abs();
         let is_contact = layers == 1 && n.iter().filter(|c| **c != 0).count() == 1;
         let apart = LayerGap {
@@ -95,13 +95,13 @@ fn agrees(verdict: &Result<Vec<LayerGap>, Error>, pile: &Pile, spacing: &Spacing
     })
 }
 
-/// Squared distances by coordinates, x² + y² + z², each square in integers over one denominator.
+/// Squared distances from coordinates, x² + y² + z², each square in integers over one denominator.
 ///
-/// Of the paper, (1), with s = p/r: x = ((n_a+n_b) s − n_c) sinθ, y = (n_a−n_b) cosφ sinθ, z = (n_a+n_b+n_c) cosθ.
+/// From (1) of the paper, with s = p/r: x = ((n_a+n_b) s − n_c) sinθ, y = (n_a−n_b) cosφ sinθ, z = (n_a+n_b+n_c) cosθ.
 struct Distances {
     p: BigInt,
     r: BigInt,
-    /// What (r x)², (n_a−n_b)² and (n_a+n_b+n_c)² are multiplied by, over the denominator.
+    /// The factors of (r x)², (n_a−n_b)² and (n_a+n_b+n_c)², over the denominator.
     x2: BigInt,
     y2: BigInt,
     z2: BigInt,
@@ -124,7 +124,7 @@ impl Distances {
         }
     }
 
-    /// How the distance of spheres n apart compares with 2R.
+    /// Compares the distance of two spheres, n apart, with 2R.
     fn to_diameter(&self, [a, b, c]: [i128; 3]) -> Ordering {
         let square = |x: BigInt| &x * &x;
         let x = &self.p * (a + b) - &self.r * c;
@@ -135,7 +135,7 @@ impl Distances {
     }
 }
 
-/// The differences of up to three steps along each line that the pile has.
+/// The differences of up to three steps along each line that occur in the pile.
 fn short_differences(pile: &Pile) -> impl Iterator<Item = [i128; 3]> {
     let layers = pile.layers();
     let gamma = match pile.dimension() {
@@ -146,7 +146,7 @@ fn short_differences(pile: &Pile) -> impl Iterator<Item = [i128; 3]> {
         let gamma = gamma.clone();
         (-3..=3).flat_map(move |b| gamma.clone().map(move |c| [a, b, c]))
     });
-    // One of n and −n, and not the same sphere twice.
+    // Only one of n and −n, and never zero.
     all.filter(move |n| *n > [0; 3] && occurs(*n, layers))
 }
 
@@ -156,7 +156,7 @@ fn form(n: [i128; 3], pile: &Pile, spacing: &Spacing) -> BigRational {
     squared_distance(&n, pile.sin_phi(), &sin2(pile, spacing))
 }
 
-/// sin²θ, which is 1 or more where a sphere falls between those below.
+/// sin²θ. It is 1 or more if a sphere falls between its supports.
 fn sin2(pile: &Pile, spacing: &Spacing) -> BigRational {
     let per_square = match pile.dimension() {
         Dimension::Two => ratio(4, 1),
@@ -170,7 +170,7 @@ mod planted {
     use super::*;
     use crate::generators::number::power;
 
-    /// The verdict on one spacing passed off as that on another.
+    /// Checks the verdict on one spacing as if it belonged to another.
     fn judged(verdict_at: &BigRational, spacing_at: &BigRational) -> bool {
         let pile = Pile::triangular(1 << 60).unwrap();
         let [asked, judged] =
@@ -179,7 +179,7 @@ mod planted {
     }
 
     #[test]
-    fn a_verdict_off_by_a_trace_is_caught() {
+    fn a_verdict_on_another_spacing_is_caught() {
         let trace = power(10, -50);
         for bound in [ratio(1, 1), ratio(8, 3)] {
             let (below, above) = (&bound - &trace, &bound + &trace);
@@ -196,7 +196,7 @@ mod planted {
     }
 
     #[test]
-    fn a_forgotten_touch_is_caught() {
+    fn a_missing_contact_is_caught() {
         let pile = Pile::triangular(4).unwrap();
         let spacing = Spacing::from_square(ratio(8, 3)).unwrap();
         let three_layers = LayerGap { layers: 3 };
@@ -206,7 +206,7 @@ mod planted {
     }
 
     #[test]
-    fn a_refusal_for_the_wrong_reason_is_caught() {
+    fn a_wrong_reason_is_caught() {
         let pile = Pile::triangular(4).unwrap();
         let spacing = Spacing::new(ratio(1, 2)).unwrap();
         let refusal = pile.clearance().check(&spacing);

@@ -1,8 +1,8 @@
-//! Answers in SI are the roots that the geometry makes them, and are rounded to the nearest float.
+//! Answers in SI units are the roots that follow from the geometry, and they are rounded correctly.
 //!
-//! The oracle knows only the angles by their squares, sin²θ = q/3 or q/4 and sin²φ = s², (1) of the paper
-//! as signed squares, and counts. It takes no root: an answer is compared by sign and square, and its float
-//! with the squares of the points halfway to its neighbours.
+//! The oracle uses the squares of the angles, sin²θ = q/3 or q/4 and sin²φ = s², equation (1) of the paper as signed
+//! squares, and counts. It takes no root: it compares an answer by sign and square. It compares a float with the squares of
+//! the midpoints to its neighbours.
 
 use arbitrary::Unstructured;
 use cannonpile::geometry::Spacing;
@@ -18,7 +18,7 @@ use crate::generators::number::ratio;
 use crate::generators::pile;
 use crate::judge::Value;
 
-/// One sphere of any packing: where it is and what it pushes.
+/// Checks the position and the forces of one sphere of any packing.
 pub fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::roomy_pile(u)?;
     let spacing = pile::roomy_spacing(u, &pile)?;
@@ -40,7 +40,7 @@ pub fn one_sphere(u: &mut Unstructured<'_>) -> Checked {
     touches(&packing, site, direction)
 }
 
-/// Whole rows of places and of points of contact are the nearest floats; rows that are not in the pile are refused.
+/// Whole rows of positions and contact points are rounded correctly. Rows outside the pile are rejected.
 pub fn one_row(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::roomy_pile(u)?;
     let spacing = pile::roomy_spacing(u, &pile)?;
@@ -66,10 +66,12 @@ pub fn one_row(u: &mut Unstructured<'_>) -> Checked {
     })?;
     let others = fill(length + 1, |slices| places.fill_row(&row, slices));
     let is_refused = matches!(others, Err(Error::Length { .. }));
-    demand(is_refused, || format!("{row:?} in longer slices"))
+    demand(is_refused, || {
+        format!("{row:?} in slices that are too long")
+    })
 }
 
-/// What is written into slices of so many floats.
+/// The contents of three slices of `length` floats after `fill`.
 fn fill(
     length: i128,
     fill: impl FnOnce([&mut [f64]; 3]) -> Result<(), Error>,
@@ -79,7 +81,7 @@ fn fill(
     Ok(slices)
 }
 
-/// A row that is there has the nearest floats, or one is beyond them; another is refused.
+/// An existing row has correctly rounded floats, or one of them overflows. Any other row is rejected.
 fn are_nearest(
     row: &Row,
     filled: Result<[Vec<f64>; 3], Error>,
@@ -98,14 +100,14 @@ fn are_nearest(
     if wanted.iter().flatten().any(Option::is_none) {
         let refused = matches!(filled, Err(Error::Overflow { .. }));
         return demand(refused, || {
-            format!("{row:?}: {filled:?} of what no float holds")
+            format!("{row:?}: {filled:?}, but a value overflows")
         });
     }
     let filled = filled?.map(|slice| slice.into_iter().map(Some).collect());
     same("a row of places", &filled, &wanted)
 }
 
-/// The contact point is one radius away from the centre of the sphere, and of the one below it.
+/// The contact point is one radius away from the centres of both spheres.
 fn touches(packing: &Packing<'_>, site: Site, direction: Direction) -> Checked {
     let point = packing.contact_point(site, direction)?;
     let below = packing.pile().shape().below(site, direction);
@@ -118,7 +120,7 @@ fn touches(packing: &Packing<'_>, site: Site, direction: Direction) -> Checked {
     Ok(())
 }
 
-/// |a − b|², which is rational: along each axis both are multiples of one root. `None` if they are not.
+/// |a − b|². It is rational because along each axis both are multiples of one root. `None` if they are not.
 pub fn squared_distance(a: &[Surd; 3], b: &[Surd; 3]) -> Option<BigRational> {
     let mut sum = BigRational::zero();
     for (a, b) in a.iter().zip(b) {
@@ -138,12 +140,12 @@ fn squared_length(v: &[Surd; 3]) -> BigRational {
         .fold(BigRational::zero(), |sum, c| sum + c.square())
 }
 
-/// The formulas, in squares. z points up here, so the ê of (1) have z = +cosθ.
+/// The formulas in squares. Here z points up, so the ê of (1) have z = +cosθ.
 struct Oracle<'a> {
     pile: &'a Pile,
     /// ê_a, ê_b, ê_c in the basis (sinθ, cosφ sinθ, cosθ): (s, 1, 1), (s, −1, 1), (−1, 0, 1).
     directions: [[BigRational; 3]; 3],
-    /// What a sphere adds to each line, in mg/(W cosθ): 1, 1, 2s.
+    /// The increments of a sphere, in mg/(W cosθ): 1, 1, 2s.
     increments: [BigRational; 3],
     /// The squares of the basis.
     lengths: [BigRational; 3],
@@ -162,7 +164,7 @@ impl<'a> Oracle<'a> {
         let s = pile.sin_phi();
         let (directions, sin2) = match pile.dimension() {
             Dimension::Two => (
-                // In the plane x–z.
+                // Discs lie in the plane x–z.
                 [[1, 0, 1], [-1, 0, 1], [0, 0, 0]].map(|e| e.map(|c| ratio(c, 1))),
                 spacing.square() / ratio(4, 1),
             ),
@@ -189,19 +191,19 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// The spheres above on the three lines (paper, (9)).
+    /// The numbers of spheres above on the three lines (paper, (9)).
     fn counts(site: Site) -> [BigRational; 3] {
         [site.k - site.i - site.j, site.i, site.j].map(integer)
     }
 
-    /// 2R·(−Σ N ê) along x and y, the layers below along z.
+    /// 2R·(−Σ N ê) along x and y, and the number of layers below along z.
     fn position(&self, site: Site) -> [Value; 3] {
         let [x, y, _] = self.combination(&Self::counts(site));
         let height = integer(self.pile.layers() - 1 - site.k);
         roots(&[-x, -y, height], &self.diameter, &self.lengths)
     }
 
-    /// (N + 1) w · mg/W, the magnitude times cosθ.
+    /// (N + 1) w · mg/W, which is the magnitude times cosθ.
     fn vertical(&self, site: Site, direction: Direction) -> BigRational {
         let m = direction.index();
         let multiple = (&Self::counts(site)[m] + integer(1)) * &self.increments[m];
@@ -218,7 +220,7 @@ impl<'a> Oracle<'a> {
         roots(e, &self.vertical(site, direction), &self.forces)
     }
 
-    /// −Σ N w ê along x and y, the weight of all that rests on the sphere, and its own, along z.
+    /// −Σ N w ê along x and y. Along z, the weight of the sphere and its load.
     fn on_floor(&self, site: Site) -> [Value; 3] {
         let mut above = Self::counts(site);
         for (force, increment) in above.iter_mut().zip(&self.increments) {
@@ -253,7 +255,7 @@ fn roots(
     core::array::from_fn(|axis| Value::root(&(&coefficients[axis] * unit), &squares[axis]))
 }
 
-/// Every component is the value, and rounded to the nearest.
+/// Every component has the expected value and is rounded correctly.
 fn agree(got: &[Surd; 3], want: &[Value; 3]) -> Checked {
     got.iter().zip(want).try_for_each(|(x, v)| nearest(x, v))
 }
@@ -267,9 +269,9 @@ mod planted {
     use super::*;
     use crate::generators::number::power;
 
-    /// An oracle with an angle, a size, a weight or an increment that is off by a trace.
+    /// An oracle with a tiny error of an angle, a size, a weight or an increment.
     #[test]
-    fn a_geometry_off_by_a_trace_is_caught() {
+    fn a_tiny_error_of_the_geometry_is_caught() {
         let pile = Pile::isosceles(10_i128.pow(30), ratio(2, 5)).unwrap();
         let spacing = Spacing::new(ratio(6, 5)).unwrap();
         let packing = Packing::new(&pile, &spacing).unwrap();
@@ -317,7 +319,7 @@ mod planted {
     }
 
     #[test]
-    fn a_contact_beside_the_sphere_is_caught() {
+    fn a_misplaced_contact_point_is_caught() {
         let [a, b] = [ratio(1, 1), ratio(1, 1) + power(10, -40)].map(Surd::from);
         let at = |x: &Surd| [x.clone(), Surd::zero(), Surd::zero()];
         let origin = at(&Surd::zero());

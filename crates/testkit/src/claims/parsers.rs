@@ -1,7 +1,7 @@
-//! A parser never panics, reads what is printed, and reads a number as what it means.
+//! A parser never panics, reads printed values, and reads a number as its exact value.
 //!
-//! Three oracles: the value that the generator had in mind when it wrote a number down; the standard
-//! library, whose float parser rounds correctly; and printing what was read and reading it again.
+//! Three oracles: the value that the generator wrote; the standard library's float parser, which rounds
+//! correctly; and a second round of printing and reading.
 
 use core::fmt::{Debug, Display};
 use core::str::FromStr;
@@ -16,7 +16,7 @@ use num_rational::BigRational;
 use super::{Checked, Failure, demand, one_line, same};
 use crate::generators::{number, text};
 
-/// Every parser on any text.
+/// Runs every parser on any text.
 pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
     let text = text::any(u)?;
     match parse::rational(&text) {
@@ -40,14 +40,14 @@ pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// A number is read as the value it was written for.
+/// The parser returns the value for which the number was written.
 pub fn a_number(u: &mut Unstructured<'_>) -> Checked {
     let written = text::number(u)?;
     reads_back(parse::rational, &written.text, &written.value)?;
     as_the_standard_library(&written.text, &written.value)
 }
 
-/// What the library and the standard library print is read as the value printed.
+/// Values printed by the library and by the standard library are read back.
 pub fn a_value(u: &mut Unstructured<'_>) -> Checked {
     let r = number::rational(u)?;
     reads_back(parse::rational, &r, &r)?;
@@ -64,7 +64,7 @@ pub fn a_value(u: &mut Unstructured<'_>) -> Checked {
     reads_back(str::parse::<Direction>, &direction, &direction)
 }
 
-/// Every parser of an option on any word: what it reads is printed as something that is read as the same.
+/// Runs every parser of an option on any word. A parsed value is printed in a form that is read as the same value.
 pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     let text = text::word(u)?;
     comes_back::<Region>(&text)?;
@@ -75,7 +75,7 @@ pub fn any_word(u: &mut Unstructured<'_>) -> Checked {
     comes_back::<Axis>(&text)
 }
 
-/// What is read of `text`, if anything is, is printed as something that is read as the same.
+/// If `text` is valid, its value is printed in a form that is read as the same value.
 pub fn comes_back<T>(text: &str) -> Checked
 where
     T: FromStr<Err: Display> + PartialEq + Debug + Display,
@@ -86,7 +86,7 @@ where
     }
 }
 
-/// What `shown` prints is read as `value`.
+/// The printed form of `shown` is read as `value`.
 pub fn reads_back<T: PartialEq + Debug, E: Display>(
     parse: impl Fn(&str) -> Result<T, E>,
     shown: &impl Display,
@@ -99,7 +99,7 @@ pub fn reads_back<T: PartialEq + Debug, E: Display>(
     })
 }
 
-/// If the standard library takes the text for a float, it is the one nearest to `value`.
+/// If the standard library accepts the text as a float, its result is the correctly rounded `value`.
 fn as_the_standard_library(text: &str, value: &BigRational) -> Checked {
     let finite = |x: &f64| x.is_finite();
     if let Ok(x) = text.parse::<f64>() {
@@ -118,7 +118,7 @@ mod planted {
     use super::*;
     use crate::generators::number::ratio;
 
-    /// A parser that goes by way of a float.
+    /// A parser that converts through a float.
     fn rounded(text: &str) -> Result<BigRational, exact_surd::Error> {
         let value = parse::rational(text)?;
         let x = f64::nearest_to_rational(&value).unwrap_or_default();
@@ -153,7 +153,7 @@ mod planted {
     }
 
     #[test]
-    fn a_value_that_prints_as_another_is_caught() {
+    fn a_wrong_printed_value_is_caught() {
         assert!(comes_back::<Careless>("5").is_ok());
         assert!(comes_back::<Careless>("-5").is_err());
         assert!(comes_back::<Careless>("five").is_ok());
@@ -161,7 +161,7 @@ mod planted {
 
     #[test]
     fn a_lost_digit_is_caught() {
-        // The tie 2^53 + 1 goes to even, a digit behind it decides otherwise.
+        // The tie 2^53 + 1 rounds to even. One more digit decides otherwise.
         let text = "9007199254740993.00000000000000000001";
         let value = parse::rational(text).unwrap();
         assert!(as_the_standard_library(text, &value).is_ok());
@@ -170,7 +170,7 @@ mod planted {
     }
 
     #[test]
-    fn a_refusal_of_what_was_printed_is_caught() {
+    fn a_rejected_printed_value_is_caught() {
         let refuse = |text: &str| parse::integer(text.trim_start_matches('-'));
         let refuse_negative = |text: &str| match text.strip_prefix('-') {
             Some(_) => parse::integer("minus"),

@@ -1,6 +1,6 @@
-//! What is written for Coq, read and evaluated again, is what the formulas give in rationals.
+//! The formulas in the Coq files, read back and evaluated, equal the library's formulas in rationals.
 //!
-//! The reader is small and apart from the writer: signs, brackets and fractions as Coq reads them.
+//! The reader is small and independent of the writer. It reads signs, brackets and fractions as Coq does.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -19,8 +19,8 @@ use num_traits::Zero;
 use super::{Checked, demand};
 use crate::generators::number;
 
-/// A definition of one case that is about numbers, by the values of its parameters, against the library: one of them, as no
-/// input has numbers for all.
+/// Evaluates one definition with numeric parameters and compares it with the library. It picks one definition because no
+/// input has values for all of them.
 pub fn any_values(u: &mut Unstructured<'_>) -> Checked {
     let (name, of) = u.choose(ORACLES)?;
     let definition = Definition::find(&FORMULAS, name);
@@ -31,18 +31,18 @@ pub fn any_values(u: &mut Unstructured<'_>) -> Checked {
     let got = definition.evaluate(&values);
     let want = of(&values);
     demand(got == want, || {
-        format!("{name} of {values:?} is {got:?} as written, not {want:?}")
+        format!("{name} of {values:?} is {got:?} in Coq, not {want:?}")
     })
 }
 
-/// All that is written for Coq of formulas; it is always the same.
+/// The Coq text of all formulas. It is always the same.
 static FORMULAS: LazyLock<String> = LazyLock::new(|| {
     let files = cannonpile_proof::files().expect("the library's own formulas");
     let text = files.iter().find(|file| file.name() == "Formulas.v");
     text.expect("the formulas").text().to_owned()
 });
 
-/// A formula of numbers in the order of the parameters, threes and vectors taken apart.
+/// A formula as a function of its parameters in order. Triples and vectors are split into components.
 type Oracle = fn(&[Q]) -> Vec<Q>;
 
 const ORACLES: &[(&str, Oracle)] = &[
@@ -151,7 +151,7 @@ fn flat(v: [Vector<Q>; 3]) -> Vec<Q> {
     v.into_iter().flat_map(parts).collect()
 }
 
-/// A definition of Coq: its numbers, `g.(alpha)` for a part of g, and its body.
+/// A Coq definition: its numeric parameters, with `g.(alpha)` for a component of g, and its body.
 struct Definition<'t> {
     parameters: Vec<String>,
     body: Vec<&'t str>,
@@ -165,7 +165,7 @@ impl<'t> Definition<'t> {
         let (body, _) = after.split_once(".\n").expect("its end");
         let mut parameters = Vec::new();
         for parameter in head.split('(').skip(1) {
-            // In brackets too: the type of what is defined.
+            // The result type is in brackets too.
             let Some((name, kind)) = parameter.split_once(" : ") else {
                 continue;
             };
@@ -177,7 +177,7 @@ impl<'t> Definition<'t> {
                 "Q" => parameters.push(name.into()),
                 "three Q" => parameters.extend(directions),
                 "three vector" => parameters.extend(directions.iter().flat_map(components)),
-                kind => panic!("no numbers: {kind}"),
+                kind => panic!("not numeric: {kind}"),
             }
         }
         let body = tokens(body);
@@ -197,7 +197,7 @@ impl<'t> Definition<'t> {
     }
 }
 
-/// Names with their parts, numbers, and signs.
+/// Splits a text into names with their components, numbers, and signs.
 fn tokens(text: &str) -> Vec<&str> {
     let mut found = Vec::new();
     let mut left = text.trim_start();
@@ -236,7 +236,7 @@ impl<'a> Reader<'a> {
         found
     }
 
-    /// Several numbers: what a constructor is given, what stands between commas, or one.
+    /// Returns several values: the arguments of a constructor, a list with commas, or a single value.
     fn value(&mut self) -> Vec<Q> {
         if self.is("Three") || self.is("Vector") {
             return (0..3).flat_map(|_| self.argument()).collect();
@@ -313,7 +313,7 @@ mod planted {
     use crate::generators::number::ratio;
 
     #[test]
-    fn a_sign_or_a_bracket_is_seen() {
+    fn signs_and_brackets_matter() {
         let value = |body: &str| {
             let text = format!("Definition f (x : Q) (g : three Q) : Q :=\n  {body}.\n");
             Definition::find(&text, "f").evaluate(&[1, 2, 3, 4].map(|n| ratio(n, 2)))

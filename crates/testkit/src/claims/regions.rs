@@ -1,7 +1,7 @@
-//! Regions of any size are tight and never empty, small ones just the sites that they should have.
+//! Regions of any size are tight and nonempty. Small ones have exactly the expected sites.
 //!
-//! Whether a value of i is attained is whether some j is left beside it, which is whether three intervals meet: the
-//! oracle eliminates one coordinate after the other, in integers of any size.
+//! A value of i occurs if the three intervals for j intersect. The oracle eliminates one coordinate after the other, in
+//! integers of any size.
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
@@ -12,17 +12,17 @@ use super::{Checked, demand, one_line, same};
 use crate::generators::region;
 use crate::oracles::sets::{Sites, dilated, eroded, within};
 
-/// Beyond the small regions and all that they are grown to.
+/// A bound that lies outside the small regions and everything grown from them.
 const REACH: i128 = 9;
 
-/// Any six bounds: tightened, or refused.
+/// Any six bounds are tightened or rejected.
 pub fn any_bounds(u: &mut Unstructured<'_>) -> Checked {
     let bounds = region::bounds(u)?;
     let [x0, x1, y0, y1, s0, s1] = bounds;
     tightened(bounds, &Region::new(x0..=x1, y0..=y1, s0..=s1))
 }
 
-/// A small region and its neighbours, site by site.
+/// Checks a small region and its neighbours, site by site.
 pub fn small(u: &mut Unstructured<'_>) -> Checked {
     let region = region::small_region(u)?;
     let [x, y, s] = [region.x(), region.y(), region.s()];
@@ -41,13 +41,13 @@ pub fn small(u: &mut Unstructured<'_>) -> Checked {
         let left = eroded(&sites, sign);
         match region.eroded(sign) {
             Some(above) => walks(&above, &left)?,
-            None => same("what is left", &left, &Sites::new())?,
+            None => same("the erosion", &left, &Sites::new())?,
         }
     }
     Ok(())
 }
 
-/// From bounds to the values of one coordinate that are attained: those of i are of x₀ … x₁, and of s − j.
+/// The range of attained values of each coordinate. For i it is the intersection of [x₀, x₁] with the range of s − j.
 fn attained([x0, x1, y0, y1, s0, s1]: [i128; 6]) -> [[BigInt; 2]; 3] {
     let [x0, x1, y0, y1, s0, s1] = [x0, x1, y0, y1, s0, s1].map(BigInt::from);
     let meet = |[a, b]: [&BigInt; 2], [c, d]: [BigInt; 2]| [a.max(&c).clone(), b.min(&d).clone()];
@@ -63,7 +63,7 @@ fn tightened(bounds: [i128; 6], made: &Result<Region, Error>) -> Checked {
         .iter()
         .all(|b| (-MAX_LAYERS..=MAX_LAYERS).contains(b));
     let sides = attained(bounds);
-    // Intervals that are not empty have a common value if each two have.
+    // Nonempty intervals have a common value if each two of them have one.
     let crossed = bounds.chunks(2).any(|pair| pair[0] > pair[1]);
     let empty = crossed || sides.iter().any(|[low, high]| low > high);
     match made {
@@ -88,16 +88,16 @@ fn tightened(bounds: [i128; 6], made: &Result<Region, Error>) -> Checked {
                 Error::EmptyRegion { .. } => within_limit && empty,
                 _ => false,
             };
-            demand(right, || format!("{bounds:?} are refused: {refusal}"))
+            demand(right, || format!("{bounds:?} are rejected: {refusal}"))
         }
     }
 }
 
-/// The region has just these sites, in their order.
+/// The region iterates over exactly these sites, in order.
 fn walks(region: &Region, sites: &Sites) -> Checked {
     let walked = region.rows(0).flatten().map(|site| (site.j, site.i));
     demand(walked.eq(sites.iter().copied()), || {
-        format!("{region} has not {sites:?}")
+        format!("{region} does not have the sites {sites:?}")
     })?;
     same("the count", &region.site_count(), &sites.len().into())
 }
@@ -109,7 +109,7 @@ mod planted {
     const TRIANGLE: [i128; 6] = [0, 3, 0, 3, 0, 3];
 
     #[test]
-    fn bounds_that_are_not_tight_are_caught() {
+    fn loose_bounds_are_caught() {
         let made = |[x0, x1, y0, y1, s0, s1]: [i128; 6]| Region::new(x0..=x1, y0..=y1, s0..=s1);
         let loose = [0, 5, 0, 7, 0, 3];
         assert!(tightened(loose, &made(TRIANGLE)).is_ok());

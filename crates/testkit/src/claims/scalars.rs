@@ -1,5 +1,5 @@
-//! In every scalar the forces of a mixed pile are as near to those of the equations as the scalar says, or it says that they are
-//! beyond it.
+//! In every scalar the forces of a mixed pile agree with the equations to the accuracy that the scalar states, or it reports
+//! an overflow.
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{Algebra, FixedRational, Interval, RealEmbeddable};
@@ -11,7 +11,7 @@ use super::handed_on::{Contacts, Floor, Solved, contacts_of, floor_of};
 use super::{Checked, demand, same};
 use crate::generators::region;
 
-/// Intervals and narrow rationals; floats are asked for their bounds in `slices`.
+/// Checks intervals and narrow rationals. The claim `slices` checks the bounds of floats.
 pub fn mixed(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let solved = Solved::of(&described);
@@ -23,7 +23,7 @@ pub fn mixed(u: &mut Unstructured<'_>) -> Checked {
     encloses(&pile.forces::<FixedRational<i128>>(), &contacts, &floor)
 }
 
-/// Every answer holds the exact one.
+/// Every answer contains the exact value.
 fn encloses<T: Algebra + RealEmbeddable>(
     forces: &Forces<'_, T>,
     contacts: &Contacts,
@@ -52,7 +52,7 @@ fn encloses<T: Algebra + RealEmbeddable>(
     Ok(())
 }
 
-/// Nothing of a scalar that is too narrow.
+/// Returns `None` if the scalar is too narrow.
 fn or_overflow<A>(answer: Result<A, Error>) -> Result<Option<A>, Error> {
     match answer {
         Err(Error::Overflow { .. }) => Ok(None),
@@ -66,11 +66,11 @@ fn hold<'w, T: RealEmbeddable + core::fmt::Debug>(
 ) -> Checked {
     let mut compared = 0;
     for (got, want) in got.iter().zip(wanted) {
-        // What has no bounds holds everything.
+        // A value without bounds may be any number.
         let holds = got
             .enclosure()
             .is_none_or(|bounds| (bounds.lower..=bounds.upper).contains(want));
-        demand(holds, || format!("{got:?} does not hold {want}"))?;
+        demand(holds, || format!("{got:?} does not contain {want}"))?;
         compared += 1;
     }
     same("all answers", &compared, &got.len())
@@ -82,7 +82,7 @@ mod planted {
     use crate::generators::number::ratio;
 
     #[test]
-    fn bounds_beside_the_number_are_caught() {
+    fn bounds_that_miss_the_value_are_caught() {
         let third = [Interval::from_rational(&ratio(1, 3))];
         let holds = |want: BigRational| hold(&third, [want].iter()).is_ok();
         assert!(holds(ratio(1, 3)));

@@ -1,4 +1,4 @@
-//! A scene of any numbers at all makes the pile that they describe, or is refused in one line.
+//! A scene with any values yields the pile that it describes, or is rejected in one line.
 
 use arbitrary::Unstructured;
 use cannonpile::Pile;
@@ -12,7 +12,7 @@ use num_traits::{One, Signed, Zero};
 use super::{Checked, demand, one_line, same};
 use crate::generators::{self, number, pile, rarely};
 
-/// The pile, the packing and the state of a scene whose every number may be wrong.
+/// Checks the pile, the packing and the state of a scene. Every value of the scene may be wrong.
 pub fn any_scene(u: &mut Unstructured<'_>) -> Checked {
     let scene = if u.arbitrary()? {
         generators::scene::scene(u)?
@@ -35,7 +35,7 @@ fn is_as_described(scene: &Scene, pile: &Pile) -> Checked {
     })?;
     let spelled = scene.stacking.as_ref().and_then(Pattern::layers);
     let told = scene.layers.or(spelled);
-    // A base without a number of layers carries as many as it can.
+    // A base without a number of layers supports as many layers as possible.
     if told.is_some() || !matches!(scene.anchor, Some(Anchor::Base(_))) {
         same("layers", &layers, &told.unwrap_or(Scene::LAYERS))?;
     }
@@ -70,14 +70,14 @@ fn in_units(scene: &Scene, pile: &Pile) -> Checked {
             same("weight", &packing.sphere_weight(), &weight)
         }
         Err(refusal) => {
-            // A spacing that was given has been checked with the pile; the default may not fit.
+            // A given spacing was checked with the pile. The default may not fit.
             demand(!positive || scene.spacing.is_none(), || refusal.to_string())?;
             one_line(&refusal)
         }
     }
 }
 
-/// The state that is meant is one of the pile, and what it adds pushes.
+/// The chosen state belongs to the pile, and its horizontal forces are compressive.
 fn in_state(scene: &Scene, pile: &Pile) -> Checked {
     let is_small = pile.sphere_count() <= 24_u32.into();
     if scene.state == State::Elastic && !is_small {
@@ -95,7 +95,7 @@ fn in_state(scene: &Scene, pile: &Pile) -> Checked {
     }
 }
 
-/// Mostly valid, so that one wrong number is met alone.
+/// Mostly valid, so that a single wrong value occurs alone.
 fn scene(u: &mut Unstructured<'_>) -> arbitrary::Result<Scene> {
     let mut size = || -> arbitrary::Result<BigRational> {
         if rarely(u, 16)? {

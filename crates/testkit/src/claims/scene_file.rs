@@ -1,4 +1,4 @@
-//! A scene that is written down, as TOML or JSON, is read back; and a file is read exactly or refused in one line.
+//! A scene survives a round trip through TOML and JSON. A file is read exactly or rejected in one line.
 
 use arbitrary::Unstructured;
 use cannonpile_dem::Error;
@@ -7,7 +7,7 @@ use cannonpile_dem::scene::Scene;
 use super::{Checked, demand, json, one_line, same};
 use crate::generators::{scene, text};
 
-/// Written and read back, a scene is the same; and so is what was read of any file.
+/// A scene survives a round trip, and so does a scene from any file.
 pub fn written(u: &mut Unstructured<'_>) -> Checked {
     reads_back(&scene::scene(u)?)
 }
@@ -20,7 +20,7 @@ fn reads_back(scene: &Scene) -> Checked {
     same("the file written again", &read.to_toml(), &text)
 }
 
-/// Any lines at all.
+/// Reads arbitrary lines.
 pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
     let file = scene::file(u)?;
     match Scene::from_toml(&file) {
@@ -41,7 +41,7 @@ pub fn any_file(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// A number means what it says, bare where TOML has such numbers, and as a string always.
+/// A number is read exactly: without quotes if TOML allows it, and always as a string.
 pub fn a_number(u: &mut Unstructured<'_>) -> Checked {
     let written = text::number(u)?;
     let spacing = |file: &str| Scene::from_toml(file).map(|scene| scene.spacing);
@@ -59,12 +59,12 @@ pub fn a_number(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// A scene comes back from JSON, whatever it says.
+/// Every scene survives a round trip through JSON.
 pub fn json(u: &mut Unstructured<'_>) -> Checked {
     json::reads_back(&scene::scene(u)?)
 }
 
-/// The JSON of a scene with some letters exchanged is a scene or none, and its pile is one or is refused.
+/// The JSON of a scene with some replaced letters is a scene or is rejected. Its pile is valid or is rejected.
 pub fn damaged_json(u: &mut Unstructured<'_>) -> Checked {
     let whole = scene::scene(u)?;
     let Some(scene) = json::reads_damaged(u, &whole)? else {

@@ -1,5 +1,4 @@
-//! A pile has the sites whose three counts are not negative, numbers them without gaps, and answers about no
-//! others.
+//! A pile has exactly the sites with three nonnegative counts, numbers them without gaps, and rejects all others.
 
 use arbitrary::Unstructured;
 use cannonpile::lattice::{Dimension, Site, count};
@@ -12,7 +11,7 @@ use num_traits::{One, Signed, Zero};
 use super::{Checked, demand, same};
 use crate::generators::{number, pile};
 
-/// Any three integers: the pile has the site, or every question about it is refused.
+/// For any three integers, either the pile has the site or it rejects every query about it.
 pub fn anywhere(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = if u.arbitrary()? {
@@ -38,7 +37,7 @@ pub fn anywhere(u: &mut Unstructured<'_>) -> Checked {
     has_or_refuses(&pile, site, &refusals)
 }
 
-/// The next sphere in row order has the next number, and the last one's is the number of spheres.
+/// The next sphere in row order has the next number. The number after the last one is the sphere count.
 pub fn numbered(u: &mut Unstructured<'_>) -> Checked {
     let pile = pile::pile(u)?;
     let site = pile::site(u, &pile)?;
@@ -51,18 +50,18 @@ pub fn numbered(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// The pile has the site just if nothing was refused.
+/// The pile has the site exactly if it rejected no query.
 fn has_or_refuses(pile: &Pile, site: Site, refusals: &[bool]) -> Checked {
     let [i, j, k, layers] = [site.i, site.j, site.k, pile.layers()].map(BigInt::from);
     let counts = [&k - &i - &j, i, j.clone()];
     let in_plane = pile.dimension() == Dimension::Three || j.is_zero();
     let has = counts.iter().all(|count| !count.is_negative()) && k < layers && in_plane;
     demand(refusals.iter().all(|refused| *refused != has), || {
-        format!("{site} in {pile:?}: refused {refusals:?}, has it {has}")
+        format!("{site} in {pile:?}: rejected {refusals:?}, has it {has}")
     })
 }
 
-/// A site of the pile, or up to two steps off it.
+/// A site of the pile, or one up to two steps outside.
 fn beside(u: &mut Unstructured<'_>, pile: &Pile) -> arbitrary::Result<Site> {
     let Site { i, j, k } = pile::site(u, pile)?;
     Ok(Site {
@@ -77,7 +76,7 @@ fn before(pile: &Pile, site: Site) -> BigInt {
     let Site { i, j, k } = site;
     let layers = BigRational::from_integer(k.into());
     let above = count::spheres(&layers, pile.dimension().number()).to_integer();
-    // Rows 0 … j−1 hold k+1, k, … spheres.
+    // Rows 0 … j−1 have k+1, k, … spheres.
     let [i, j, k] = [i, j, k].map(BigInt::from);
     above + (k * 2 + 3 - &j) * j / 2 + i
 }
@@ -101,7 +100,7 @@ mod planted {
     use super::*;
 
     #[test]
-    fn an_answer_from_beside_the_pile_is_caught() {
+    fn an_answer_outside_the_pile_is_caught() {
         let pile = Pile::triangular(5).unwrap();
         let inside = Site { i: 1, j: 2, k: 3 };
         let beside = Site { i: 2, ..inside };

@@ -1,6 +1,7 @@
-//! What is written into slices is what the equations of equilibrium say, and slices of another length are refused.
+//! Slices receive the solution of the equations of equilibrium. Slices of a wrong length are rejected.
 //!
-//! Slices are filled with exact numbers, numerators, nearest floats and floats, of all layers from some one on, and of the base.
+//! The slices hold exact values, numerators, correctly rounded floats, and floats. They cover all layers from some layer on,
+//! and the base.
 
 use arbitrary::Unstructured;
 use cannonpile::scalar::{Algebra, DoubleDouble, NearestFloat, RealEmbeddable};
@@ -14,10 +15,10 @@ use super::handed_on::{Contacts, Solved, contacts_of, floor_of};
 use super::{Checked, demand, same};
 use crate::generators::region;
 
-/// Three numbers of each sphere: along α, β and γ, or on the floor.
+/// Three values for each sphere: along α, β and γ, or on the floor.
 type Slices<T> = [Vec<T>; 3];
 
-/// All contacts below some layer, and all of the base, in every kind of numbers.
+/// Checks all contacts below some layer, and the base, in every scalar.
 pub fn filled(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let solved = Solved::of(&described);
@@ -39,7 +40,7 @@ pub fn filled(u: &mut Unstructured<'_>) -> Checked {
     nearest_base::<f64>(&forces, &floor)
 }
 
-/// What shall be written: the forces below all layers that are left.
+/// The expected contents: the forces below all remaining layers.
 struct Wanted {
     forces: Slices<BigRational>,
     spheres: usize,
@@ -70,7 +71,7 @@ fn base_of(solved: &Solved) -> Slices<BigRational> {
     base
 }
 
-/// All layers, some of which have been passed.
+/// The layers without the first `passed` ones.
 fn after<'p>(
     forces: &Forces<'p, BigRational>,
     passed: i128,
@@ -82,7 +83,7 @@ fn after<'p>(
     Ok(layers)
 }
 
-/// Slices of so many numbers are filled, and others, of one more or one less, refused.
+/// Slices of `spheres` values are filled. Slices with one more or one less are rejected.
 fn fill<T: Clone + Zero, R>(
     spheres: usize,
     fill: impl Fn([&mut [T]; 3]) -> Result<R, Error>,
@@ -111,7 +112,7 @@ fn exact(layers: Anew<'_, '_>, wanted: &Wanted) -> Checked {
     same("exact slices", &got, &wanted.forces)
 }
 
-/// Over their denominator, or beyond the integers.
+/// Integers over the common denominator, unless they overflow.
 fn numerators<V>(layers: Anew<'_, '_>, wanted: &Wanted) -> Checked
 where
     V: TryFrom<BigInt> + Into<BigInt> + Clone + Send + Sync + Zero,
@@ -128,7 +129,7 @@ where
     same("numerators", &got, &wanted.forces)
 }
 
-/// The nearest floats, or one is beyond all.
+/// Correctly rounded floats, unless one overflows.
 fn nearest<F>(layers: Anew<'_, '_>, wanted: &Wanted) -> Checked
 where
     F: NearestFloat + Zero + PartialEq + core::fmt::Debug,
@@ -148,13 +149,13 @@ fn are_nearest<F: NearestFloat + PartialEq + core::fmt::Debug>(
     });
     let [Some(a), Some(b), Some(c)] = floats else {
         let refused = matches!(done, Err(Error::Overflow { .. }));
-        return demand(refused, || format!("{done:?} of what no float holds"));
+        return demand(refused, || format!("{done:?}, but a value overflows"));
     };
     done?;
     same("nearest floats", got, &[a, b, c])
 }
 
-/// No number is further off than its layer says; what overflows is not claimed to be anything.
+/// No value exceeds the error bound of its layer. The claim ignores values that overflow.
 fn within_bounds<T>(forces: &Forces<'_, T>, contacts: &Contacts) -> Checked
 where
     T: Algebra + RealEmbeddable + Clone + Zero,
@@ -211,7 +212,7 @@ mod planted {
     use crate::generators::number::ratio;
 
     #[test]
-    fn slices_of_any_length_are_caught() {
+    fn slices_of_a_wrong_length_are_caught() {
         let careless = |slices: [&mut [f64]; 3]| {
             for slice in slices {
                 slice.fill(1.0);
@@ -227,7 +228,7 @@ mod planted {
     }
 
     #[test]
-    fn a_neighbour_of_the_nearest_float_is_caught() {
+    fn a_neighbouring_float_is_caught() {
         let wanted = [0, 1, 2].map(|n| vec![ratio(n, 3)]);
         let mut got = [0.0, 1.0 / 3.0, 2.0 / 3.0].map(|x| vec![x]);
         assert!(are_nearest::<f64>(&got, Ok(()), &wanted).is_ok());

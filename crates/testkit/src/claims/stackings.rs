@@ -1,7 +1,7 @@
-//! What is read as a stacking is one, by the rules of its notation, and is printed and read again in all four.
+//! Every parsed stacking follows the rules of its notation. It is printed and read again in all four notations.
 //!
-//! The oracle reads each notation by its own rule into runs of booleans and integers of any size. It has no limit but
-//! the one on layers.
+//! The oracle reads each notation by its own rule into runs of booleans and big integers. Its only limit is the number of
+//! layers.
 
 use arbitrary::Unstructured;
 use cannonpile::Error;
@@ -13,10 +13,10 @@ use num_traits::{One, Zero};
 use super::{Checked, Failure, demand, one_line, same};
 use crate::generators::stacking;
 
-/// Beyond it only runs are printed.
+/// Beyond this number of layers, only runs are printed.
 const SPELLED_OUT: i128 = 5_000;
 
-/// Any text is read or refused as the rules say.
+/// Any text is read or rejected as the rules require.
 pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
     let text = stacking::text(u)?;
     as_the_rules_say(&text, &text.parse())?;
@@ -26,7 +26,7 @@ pub fn any_text(u: &mut Unstructured<'_>) -> Checked {
     }
 }
 
-/// A stacking is made of any runs that are not negative nor too many layers together.
+/// A list of runs makes a stacking if no run is negative and the total is within the limit.
 pub fn of_runs(u: &mut Unstructured<'_>) -> Checked {
     let runs = stacking::runs(u)?;
     let made = Stacking::from_runs(runs.iter().copied());
@@ -48,10 +48,10 @@ pub fn of_runs(u: &mut Unstructured<'_>) -> Checked {
     printed_again(&stacking, str::parse)
 }
 
-/// Runs as the oracle keeps them: + is `true`, neighbours are of opposite signs, none is empty.
+/// The oracle's form of runs: + is `true`, neighbours have opposite signs, and no run is empty.
 type Runs = Vec<(bool, BigUint)>;
 
-/// Adds steps of one sign at the end.
+/// Appends steps of one sign.
 fn push(runs: &mut Runs, plus: bool, steps: BigUint) {
     if steps.is_zero() {
         return;
@@ -67,7 +67,7 @@ fn fits(runs: &Runs) -> bool {
     BigInt::from(steps) < BigInt::from(MAX_LAYERS)
 }
 
-/// The runs of a text by the rule of its notation; none if it breaks the rule.
+/// The runs of a text by the rule of its notation. `None` if it breaks the rule.
 fn read(text: &str) -> Option<Runs> {
     let made_of = |letters: &str| !text.is_empty() && text.chars().all(|c| letters.contains(c));
     let mut runs = Runs::new();
@@ -102,7 +102,7 @@ fn read(text: &str) -> Option<Runs> {
     Some(runs)
 }
 
-/// The runs of a stacking as the oracle keeps them.
+/// The runs of a stacking in the oracle's form.
 fn runs_of(stacking: &Stacking) -> Option<Runs> {
     let run = |run: Run| Some((run.sign == Sign::Plus, run.steps.to_biguint()?));
     stacking.runs().map(run).collect()
@@ -119,7 +119,7 @@ fn as_the_rules_say(text: &str, parsed: &Result<Stacking, Error>) -> Checked {
 fn joined_as_listed(listed: &[Run], made: &Result<Stacking, Error>) -> Checked {
     let mut want = Runs::new();
     for run in listed {
-        // Up to there the runs may already be too long together: either refusal will do.
+        // The runs up to here may already be too long in total, so either error is correct.
         let Some(steps) = run.steps.to_biguint() else {
             return demand(made.is_err(), || format!("{listed:?} are read as {made:?}"));
         };
@@ -141,7 +141,7 @@ fn joined_as_listed(listed: &[Run], made: &Result<Stacking, Error>) -> Checked {
     }
 }
 
-/// In each notation it is read as it was printed, the first sign aside where the notation does not tell.
+/// Each notation reads its printed form, except for the first sign if the notation omits it.
 fn printed_again(stacking: &Stacking, parse: impl Fn(&str) -> Result<Stacking, Error>) -> Checked {
     let minus_first = stacking
         .runs()
@@ -168,7 +168,7 @@ fn printed_again(stacking: &Stacking, parse: impl Fn(&str) -> Result<Stacking, E
         return Ok(());
     }
     reads_back(stacking.in_notation(Notation::Abc).to_string(), stacking)?;
-    // An empty text is no stacking.
+    // An empty text is invalid.
     if layers > 1 {
         reads_back(stacking.in_notation(Notation::Hagg).to_string(), stacking)?;
     }
@@ -211,7 +211,7 @@ mod planted {
     }
 
     #[test]
-    fn a_run_that_is_lost_is_caught() {
+    fn a_lost_run_is_caught() {
         let run = |sign, steps| Run { sign, steps };
         let listed = [run(Sign::Minus, 2), run(Sign::Plus, 0), run(Sign::Minus, 1)];
         assert!(joined_as_listed(&listed, &"---".parse()).is_ok());
@@ -228,7 +228,7 @@ mod planted {
     }
 
     #[test]
-    fn a_reader_of_one_notation_that_is_off_is_caught() {
+    fn a_wrong_reader_of_one_notation_is_caught() {
         let stacking = parsed("--+--");
         assert!(printed_again(&stacking, str::parse).is_ok());
         for notation in ["+", "A", "c", "("] {

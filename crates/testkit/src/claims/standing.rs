@@ -1,5 +1,5 @@
-//! What is said of a whole pile, its least force, where it fails, the extremes and sums of its base, is what all forces of the
-//! oracle come to.
+//! The answers about a whole pile agree with all forces of the oracle: the least force, the first failure, and the extremes
+//! and sums of the base.
 
 use arbitrary::Unstructured;
 use cannonpile::shape::Selection;
@@ -12,7 +12,7 @@ use super::{Checked, same};
 use crate::generators::number::ratio;
 use crate::generators::region;
 
-/// A small pile of any stacking, with weights and loads.
+/// Checks a small pile of any stacking, with weights and loads.
 pub fn of_all_forces(u: &mut Unstructured<'_>) -> Checked {
     let described = region::described(u)?;
     let solved = Solved::of(&described);
@@ -50,7 +50,7 @@ pub fn of_all_forces(u: &mut Unstructured<'_>) -> Checked {
     to_below(&forces, &solved, *u.choose(&spheres)?)
 }
 
-/// What one sphere passes on; a bottom sphere has no forces to below, but one on the floor.
+/// The forces below one sphere. A bottom sphere transmits a force to the floor instead.
 fn to_below(
     forces: &Forces<'_, BigRational>,
     solved: &Solved,
@@ -60,7 +60,7 @@ fn to_below(
     let one = Selection::One(site);
     let Some(passed_on) = solved.passed_on.get(&sphere) else {
         let is_refused = matches!(forces.to_below(site), Err(Error::OnFloor { .. }));
-        same("that the floor is no sphere", &is_refused, &true)?;
+        same("the error below the floor", &is_refused, &true)?;
         let floor = floor_of(solved)
             .into_iter()
             .find(|force| force.site == site);
@@ -75,7 +75,7 @@ fn to_below(
     )
 }
 
-/// The first of the least forces, and the first layer where one pulls.
+/// The least force is the first of the minima. The first failure is the first layer with a tensile contact.
 fn stands(standing: &Standing, contacts: &Contacts) -> Checked {
     let least = contacts.iter().reduce(|least, contact| {
         if contact.force < least.force {
@@ -86,7 +86,7 @@ fn stands(standing: &Standing, contacts: &Contacts) -> Checked {
     });
     same("the least force", &standing.least.as_ref(), &least)?;
     same(
-        "where it fails",
+        "the first failure",
         &standing.first_failure,
         &first_failure(contacts),
     )
@@ -97,7 +97,7 @@ fn first_failure(contacts: &Contacts) -> Option<i128> {
     pulls.map(|contact| contact.site.k)
 }
 
-/// Shears along y are in units of 2cosφ = √3 of those along x.
+/// Shear forces along y are in units of 2cosφ = √3 of those along x.
 fn are_extremes(extremes: &BaseExtremes, floor: &Floor) -> Checked {
     let normals = || floor.iter().map(|force| force.normal.clone());
     same(

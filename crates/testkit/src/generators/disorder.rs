@@ -1,4 +1,4 @@
-//! Piles of random stackings, small enough to look at all stackings; and questions of any size.
+//! Piles of random stackings that are small enough for enumeration, and queries of any size.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::{MAX_LAYERS, Region};
@@ -13,7 +13,7 @@ fn first(u: &mut Unstructured<'_>) -> Result<FirstSign> {
     Ok(*u.choose(&all)?)
 }
 
-/// Nothing, little, or so much that it fills many words.
+/// Zero, small, or so large that it fills many words.
 pub fn load(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(match u.int_in_range(0..=2)? {
         0 => number::ratio(u.int_in_range(0..=9)?, 1),
@@ -22,7 +22,7 @@ pub fn load(u: &mut Unstructured<'_>) -> Result<BigRational> {
     })
 }
 
-/// Up to five steps on the plane, under a top or on a base, with loads where there can be some.
+/// Up to five steps on the plane, under a top layer or on a base. The piles have loads if loads are possible.
 pub fn piles(u: &mut Unstructured<'_>) -> Result<Piles> {
     let anchor = match u.int_in_range(0..=3)? {
         0 => Anchor::Plane,
@@ -65,10 +65,10 @@ pub fn piles(u: &mut Unstructured<'_>) -> Result<Piles> {
     Ok(piles)
 }
 
-/// Of more the means take seconds.
+/// The means of more layers take seconds.
 const MOST_LAYERS: i128 = 24;
 
-/// Layers of any number: few, some dozens, so many that it may be too many, or the greatest there are.
+/// Any number of layers: few, dozens, possibly too many, or the maximum.
 pub fn stackings(u: &mut Unstructured<'_>) -> Result<RandomStackings> {
     let layers = match u.int_in_range(0..=4)? {
         0 | 1 => u.int_in_range(1..=8)?,

@@ -1,4 +1,4 @@
-//! Ensembles of stackings under one top layer, small enough to look at every contact of each; and which are looked at.
+//! Ensembles of stackings under one top layer, small enough to examine every contact, and the choice of stackings.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::Region;
@@ -9,7 +9,7 @@ use num_traits::{One, Zero};
 use super::{number, rarely, region};
 use crate::tally::Scene;
 
-/// A top layer with loads, of weight or without, and how many steps there are below it.
+/// A top layer with or without loads and weight, and the number of steps below it.
 pub fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
     let (top, most) = if u.arbitrary()? {
         (Region::SITE, 5)
@@ -28,7 +28,7 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
         };
         loads.push(([i, row.j], load));
     }
-    // So wide that bins are some dozens, at most thousands.
+    // The width gives dozens of bins, at most thousands.
     let greatest = loads.iter().map(|(_, load)| load.clone());
     let greatest = greatest.fold(BigRational::one(), BigRational::max);
     let part = number::ratio(u.int_in_range(1..=40)?, u.int_in_range(1..=40)?);
@@ -43,7 +43,7 @@ pub fn scene(u: &mut Unstructured<'_>) -> Result<(Scene, u32)> {
     Ok((scene, u.int_in_range(0..=most)?))
 }
 
-/// All of them, or some samples.
+/// All stackings, or some samples.
 pub fn choice(u: &mut Unstructured<'_>) -> Result<Choice> {
     if u.arbitrary()? {
         return Ok(Choice::All);

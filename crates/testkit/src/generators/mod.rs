@@ -1,14 +1,13 @@
-//! Random inputs from plain bytes, biased to trouble.
+//! Random inputs from plain bytes, biased towards difficult cases.
 //!
-//! Every generator reads an `Unstructured`. The property tests feed it the bytes that proptest makes,
-//! the fuzz targets those that libFuzzer makes: one description of the inputs serves both, and a byte
-//! string that one of them finds can be given to the other. A generator never fails for want of bytes: an
-//! empty input is read as zeros, which is the first of the choices throughout. So the first choice is the ordinary
-//! case, and a rare one is drawn by [`rarely`]: `ratio` is true where no bytes are left.
+//! Every generator reads an `Unstructured`. The property tests feed it bytes from proptest, the fuzz targets bytes from
+//! libFuzzer. So one description of the inputs serves both, and each can replay a byte string of the other. A generator
+//! never fails for lack of bytes: it reads missing bytes as zeros, which select the first choice everywhere. So the first
+//! choice is the ordinary case. [`rarely`] draws a rare case, because `ratio` returns true if no bytes are left.
 //!
-//! Users need some of them too: those are in `cannonpile::arbitrary`, and the modules here re-export them.
+//! Users need some generators too. Those are in `cannonpile::arbitrary`, and these modules re-export them.
 //!
-//! | file | what it makes |
+//! | file | contents |
 //! |---|---|
 //! | `disorder` | piles of random stackings (feature `disorder`) |
 //! | `ensemble` | stackings under a top layer, all or samples (feature `disorder`) |

@@ -1,4 +1,4 @@
-//! Numbers: where formulas degenerate, where rounding ties, where a width ends.
+//! Numbers at the limits: degenerate formulas, ties of rounding, the ends of an integer width.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::arbitrary::number::nudge;
@@ -19,7 +19,7 @@ pub fn power(base: u32, exponent: i32) -> BigRational {
     BigRational::from_integer(base.into()).pow(exponent)
 }
 
-/// A radius, mass or gravity: 1, as measured, any float's magnitude, or beyond what floats hold.
+/// A radius, mass or gravity: 1, a measured value, the magnitude of any float, or a value outside the range of floats.
 pub fn quantity(u: &mut Unstructured<'_>) -> Result<BigRational> {
     let x = match u.int_in_range(0..=3)? {
         0 => BigRational::one(),
@@ -30,10 +30,10 @@ pub fn quantity(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(if x.is_zero() { BigRational::one() } else { x })
 }
 
-/// A number for rounding, c·√r, as c and r ≥ 0.
+/// A value to round, c·√r, as c and r ≥ 0.
 ///
-/// Besides any two rationals: the point halfway between two floats, where rounding ties; its next
-/// neighbourhood, where a lost bit decides; and the edge to infinity.
+/// It is any two rationals, the midpoint of two floats (a tie), the close neighbourhood of a midpoint (where a lost bit
+/// matters), or the limit to infinity.
 pub fn root(u: &mut Unstructured<'_>) -> Result<(BigRational, BigRational)> {
     if u.arbitrary()? {
         return Ok((rational(u)?, rational(u)?.abs()));
@@ -54,7 +54,7 @@ pub fn root(u: &mut Unstructured<'_>) -> Result<(BigRational, BigRational)> {
     })
 }
 
-/// A fraction of a way: 0, 1, next to either, or between.
+/// A fraction of an interval: 0, 1, next to either, or between.
 pub fn fraction(u: &mut Unstructured<'_>) -> Result<BigRational> {
     Ok(match u.int_in_range(0..=3)? {
         0 => ratio(u.int_in_range(0..=1)?, 1),
@@ -64,7 +64,7 @@ pub fn fraction(u: &mut Unstructured<'_>) -> Result<BigRational> {
     })
 }
 
-/// Halfway from |x| to the next float up; beyond the largest, to where that float would be.
+/// The midpoint of |x| and the next float above. Above the largest float it uses the value that would follow.
 fn tie_of_f64(x: f64) -> BigRational {
     let x = x.abs();
     let below = x.next_down().max(0.0);
@@ -76,11 +76,11 @@ fn tie_of_f64(x: f64) -> BigRational {
     exactly(x) + step / BigInt::from(2)
 }
 
-/// The middle between two neighbours among the `f32`.
+/// The midpoint of two neighbouring `f32`.
 fn tie_of_f32(u: &mut Unstructured<'_>) -> Result<BigRational> {
     let x = f32::from_bits(u.int_in_range(0..=f32::MAX.to_bits())?);
     let above = f64::from(x.next_up());
-    // 2^128, where the float above the largest would be.
+    // 2^128, the value that would follow the largest float.
     let above = if above.is_finite() {
         above
     } else {

@@ -1,4 +1,4 @@
-//! Piles and places in them: one layer, the layers where widths end, corners, bounds of the spacing.
+//! Piles and sites in them: one layer, layers at the ends of integer widths, corners, bounds of the spacing.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::arbitrary::regular_pile;
@@ -11,8 +11,8 @@ use num_traits::Zero;
 
 use super::number;
 
-/// A number of layers, up to the greatest: few, about the powers of two at which floats begin to round and
-/// machine integers end, powers of ten, or any.
+/// A number of layers up to the maximum: few, near the powers of two where floats round or machine integers end, a power of
+/// ten, or any.
 pub fn layers(u: &mut Unstructured<'_>) -> Result<i128> {
     let layers = match u.int_in_range(0..=4)? {
         0 => u.int_in_range(1..=12)?,
@@ -24,13 +24,13 @@ pub fn layers(u: &mut Unstructured<'_>) -> Result<i128> {
     Ok(layers.clamp(1, MAX_LAYERS))
 }
 
-/// Any pile: equilateral, isosceles or of discs.
+/// Any straight pile: equilateral, isosceles or of discs.
 pub fn pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let layers = layers(u)?;
     regular_pile(u, layers)
 }
 
-/// A pile small enough to look at every sphere.
+/// A pile that is small enough to examine every sphere.
 pub fn small_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let layers = u.int_in_range(1..=5)?;
     regular_pile(u, layers)
@@ -45,7 +45,7 @@ pub fn real_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
 /// A site of the bottom layer.
 pub fn bottom_site(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Site> {
     let site = site(u, pile)?;
-    // A site of a higher layer has its i and j in every layer below.
+    // Every layer below has the i and j of a site above it.
     Ok(Site {
         k: pile.layers() - 1,
         ..site
@@ -57,9 +57,9 @@ pub fn direction(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Direction> {
     u.choose(pile.dimension().directions()).copied()
 }
 
-/// The difference n of two sites that the pile has, each of a few steps or as long as the pile.
+/// The difference n of two sites of the pile. Each component is a few steps or as long as the pile.
 ///
-/// Zero if the bytes say so: the same sphere twice.
+/// Zero for suitable bytes: the same sphere twice.
 pub fn difference(u: &mut Unstructured<'_>, pile: &Pile) -> Result<[i128; 3]> {
     let counts = |site: Site| [site.k - site.i - site.j, site.i, site.j];
     if u.arbitrary()? {
@@ -71,23 +71,23 @@ pub fn difference(u: &mut Unstructured<'_>, pile: &Pile) -> Result<[i128; 3]> {
     for component in n.iter_mut().take(lines) {
         *component = u.int_in_range(-4..=4)?;
     }
-    // Shrunk towards the contacts until the pile has it.
+    // Shrinks the difference until the pile contains it.
     while !occurs(n, pile.layers()) {
         n = n.map(|component| component / 2);
     }
     Ok(n)
 }
 
-/// Whether a pile of so many layers has two spheres that are n apart.
+/// Tells whether a pile with `layers` layers has two spheres whose difference is n.
 ///
-/// The lower one is as many steps down from a common ancestor as n has positive steps, the upper one as
-/// many as it has negative ones.
+/// From a common ancestor, the lower sphere is as many steps down as n has positive steps. The upper sphere is as many steps
+/// down as n has negative ones.
 pub fn occurs(n: [i128; 3], layers: i128) -> bool {
     let steps = |sign: i128| n.iter().map(|c| (c * sign).max(0)).sum::<i128>();
     steps(1) < layers && steps(-1) < layers
 }
 
-/// A spacing: at a bound or just beside it, far off, or within.
+/// A spacing: at a bound, right next to it, far outside, or inside.
 pub fn spacing(u: &mut Unstructured<'_>, clearance: &Clearance) -> Result<Spacing> {
     let bounds = [clearance.least(), clearance.most()];
     let square = match (u.int_in_range(0..=2)?, &bounds[u.choose_index(2)?]) {
@@ -106,8 +106,8 @@ pub fn spacing(u: &mut Unstructured<'_>, clearance: &Clearance) -> Result<Spacin
     Ok(Spacing::from_square(square).expect("positive"))
 }
 
-/// A pile whose spheres have room at some spacing: s ≤ 5/6 from three layers on (`paper`, "Overlap"); in two layers
-/// s² < 3/4, which leaves θ below 90°.
+/// A pile that allows some spacing: s ≤ 5/6 from three layers on (`paper`, "Overlap"). For two layers s² < 3/4, which keeps
+/// θ below 90°.
 pub fn roomy_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
     let pile = pile(u)?;
     let s = pile.sin_phi();
@@ -116,7 +116,7 @@ pub fn roomy_pile(u: &mut Unstructured<'_>) -> Result<Pile> {
         2 => s * s < number::ratio(3, 4),
         _ => s <= &number::ratio(5, 6),
     };
-    let equilateral = Pile::triangular(pile.layers()).expect("as many layers");
+    let equilateral = Pile::triangular(pile.layers()).expect("the same number of layers");
     Ok(if has_room { pile } else { equilateral })
 }
 
@@ -133,7 +133,7 @@ pub fn roomy_spacing(u: &mut Unstructured<'_>, pile: &Pile) -> Result<Spacing> {
         .map_or_else(Zero::zero, |b| b.square().clone());
     let high = most.as_ref().map_or(flat, |b| b.square().clone());
     let q = &low + (&high - &low) * number::fraction(u)?;
-    // An end that no spheres set, 0 or θ = 90°, is no spacing itself.
+    // The ends 0 and θ = 90°, which no pair of spheres sets, are excluded.
     let excluded = (least.is_none() && q == low) || (most.is_none() && q == high);
     let middle = (low + high) / number::ratio(2, 1);
     Ok(Spacing::from_square(if excluded { middle } else { q }).expect("positive"))
@@ -159,7 +159,7 @@ pub fn sizes(u: &mut Unstructured<'_>) -> Result<Sizes> {
 }
 
 impl Sizes {
-    /// The pile packed with these.
+    /// The pile packed with these sizes.
     pub fn packing<'p>(
         self,
         pile: &'p Pile,

@@ -1,4 +1,4 @@
-//! Regions, their bounds, and small piles on them: the generators of the core, by the names of the claims.
+//! Regions, their bounds, and small piles on them. These are the core's generators under the names that the claims use.
 
 pub use cannonpile::arbitrary::{
     Description as Described, bounds, description as described, light_description as lightly,

@@ -1,4 +1,4 @@
-//! Scenes that can be written down, whether they are piles or not; files of them, valid and damaged.
+//! Scenes that can be written down, valid or not, and scene files, valid and damaged.
 
 use arbitrary::{Result, Unstructured};
 use cannonpile::lattice::{Dimension, MAX_LAYERS};
@@ -10,7 +10,7 @@ use num_rational::BigRational;
 use super::{number, region, stacking};
 use super::{rarely, text};
 
-/// A scene of any numbers that parsers read: the options may exclude each other, and sizes be negative.
+/// A scene with any values that the parsers accept. Its options may exclude each other, and its sizes may be negative.
 pub fn scene(u: &mut Unstructured<'_>) -> Result<Scene> {
     let dimension = *u.choose(&[Dimension::Three, Dimension::Two])?;
     let layers = match u.int_in_range(0..=3)? {
@@ -84,7 +84,7 @@ fn at(u: &mut Unstructured<'_>, dimension: Dimension) -> Result<At> {
     })
 }
 
-/// Some lines that may be a scene file: keys and values of the right kinds, of wrong ones, and damaged.
+/// Lines that may form a scene file: keys, and values of correct kinds, of wrong kinds, and damaged.
 pub fn file(u: &mut Unstructured<'_>) -> Result<String> {
     if rarely(u, 4)? {
         return Ok(u.arbitrary::<&str>()?.to_owned());

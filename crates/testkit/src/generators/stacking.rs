@@ -1,12 +1,13 @@
-//! Stackings: straight, periodic, changed once or anyhow; runs of any length; their notations, and damaged ones.
+//! Stackings: straight, periodic, with one sign change or arbitrary. Also runs of any length, their notations, and damaged
+//! texts.
 
 use arbitrary::{Result, Unstructured};
 pub use cannonpile::arbitrary::{signs, signs_of};
 use cannonpile::lattice::MAX_LAYERS;
 use cannonpile::stacking::{Notation, Run, Stacking};
 
-/// Runs as somebody may list them: empty ones and neighbours of one sign among them, lengths about the greatest, and
-/// now and then a negative one.
+/// Runs as a user may list them. Some are empty, neighbours may have the same sign, lengths may be near the maximum, and a
+/// rare one is negative.
 pub fn runs(u: &mut Unstructured<'_>) -> Result<Vec<Run>> {
     let count = u.int_in_range(0..=6)?;
     let run = |_| {
@@ -29,7 +30,7 @@ fn length(u: &mut Unstructured<'_>) -> Result<i128> {
     })
 }
 
-/// A text that may be a stacking: in one of the notations, damaged, too tall, or anything at all.
+/// A text that may be a stacking: in one of the notations, damaged, too tall, or arbitrary.
 pub fn text(u: &mut Unstructured<'_>) -> Result<String> {
     match u.int_in_range(0..=4)? {
         0 => Ok(u.arbitrary::<&str>()?.to_owned()),
@@ -45,7 +46,7 @@ pub fn text(u: &mut Unstructured<'_>) -> Result<String> {
     }
 }
 
-/// What the library prints of a short stacking, in any notation, with any letter first.
+/// The library's text for a short stacking, in any notation, with any letter first.
 fn written(u: &mut Unstructured<'_>) -> Result<String> {
     let stacking = Stacking::from_signs(signs(u, 24)?).expect("few steps");
     Ok(match u.int_in_range(0..=4)? {
@@ -61,9 +62,9 @@ fn written(u: &mut Unstructured<'_>) -> Result<String> {
     })
 }
 
-/// `text` with up to three characters replaced, added or taken away.
+/// Replaces, adds or removes up to three characters of `text`.
 fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
-    // What the four notations are made of, and what looks like it.
+    // The characters of the four notations, and similar ones.
     const INTRUDERS: [char; 20] = [
         '+', '-', 'A', 'B', 'C', 'c', 'h', '(', ')', ',', '0', '1', '9', 'D', 'H', ' ', '\n', '−',
         '٣', '\0',

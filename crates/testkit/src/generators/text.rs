@@ -1,4 +1,4 @@
-//! Text for the parsers: valid, with the value it means, and damaged.
+//! Texts for the parsers: valid ones with their values, and damaged ones.
 
 use arbitrary::{Result, Unstructured};
 use num_bigint::BigInt;
@@ -6,15 +6,15 @@ use num_rational::BigRational;
 
 use super::{number, region, stacking};
 
-/// A number as somebody may write it, and its value.
+/// A number as a user may write it, and its value.
 pub struct Written {
-    /// The characters.
+    /// The text.
     pub text: String,
-    /// What they mean.
+    /// The value.
     pub value: BigRational,
 }
 
-/// A fraction or a decimal, valid, with the sign, zeros and exponent that people add.
+/// A valid fraction or decimal, with a sign, extra zeros and an exponent.
 pub fn number(u: &mut Unstructured<'_>) -> Result<Written> {
     let (sign, factor) = [("", 1), ("-", -1), ("+", 1)][u.choose_index(3)?];
     let unsigned = if u.arbitrary()? {
@@ -37,7 +37,7 @@ fn fraction(u: &mut Unstructured<'_>) -> Result<Written> {
     })
 }
 
-/// `whole.fraction` with an exponent, any of which may be missing.
+/// `whole.fraction` with an exponent. Any part may be missing.
 fn decimal(u: &mut Unstructured<'_>) -> Result<Written> {
     let (whole, fraction) = (digits(u, 40)?, digits(u, 40)?);
     let (mantissa, places) = match u.int_in_range(0..=3)? {
@@ -60,7 +60,7 @@ fn decimal(u: &mut Unstructured<'_>) -> Result<Written> {
     })
 }
 
-/// 1 … `most` decimal digits.
+/// From 1 to `most` decimal digits.
 fn digits(u: &mut Unstructured<'_>, most: usize) -> Result<String> {
     let length = u.int_in_range(1..=most)?;
     (0..length)
@@ -68,14 +68,14 @@ fn digits(u: &mut Unstructured<'_>, most: usize) -> Result<String> {
         .collect()
 }
 
-/// The integer that these digits are, the slow way.
+/// The integer with these digits, computed digit by digit.
 fn integer(digits: &str) -> BigInt {
     digits
         .bytes()
         .fold(BigInt::ZERO, |n, digit| n * 10 + (digit - b'0'))
 }
 
-/// A text for any parser: a valid one, a damaged one, or anything at all.
+/// A text for any parser: valid, damaged, or arbitrary.
 pub fn any(u: &mut Unstructured<'_>) -> Result<String> {
     match u.int_in_range(0..=4)? {
         0 => Ok(u.arbitrary::<&str>()?.to_owned()),
@@ -92,7 +92,7 @@ pub fn any(u: &mut Unstructured<'_>) -> Result<String> {
     }
 }
 
-/// What some parser accepts: a number, a site, a word; also exponents at the limit.
+/// A text that some parser accepts: a number, a site, a word, or an exponent at the limit.
 fn valid(u: &mut Unstructured<'_>) -> Result<String> {
     Ok(match u.int_in_range(0..=4)? {
         0 => number(u)?.text,
@@ -107,7 +107,8 @@ fn valid(u: &mut Unstructured<'_>) -> Result<String> {
     })
 }
 
-/// What the parsers of an option read: a region, a root, a stacking, columns, a load, a part, a word; damaged now and then.
+/// A text for the parsers of options: a region, a root, a stacking, columns, a load, a part or a word. Sometimes it is
+/// damaged.
 pub fn word(u: &mut Unstructured<'_>) -> Result<String> {
     let valid = match u.int_in_range(0..=7)? {
         0 => {
@@ -145,7 +146,7 @@ pub fn word(u: &mut Unstructured<'_>) -> Result<String> {
     }
 }
 
-/// What options are, whole.
+/// Complete values of options.
 const WORDS: [&str; 20] = [
     "fcc",
     "hcp",
@@ -169,13 +170,13 @@ const WORDS: [&str; 20] = [
     "hexagon:3",
 ];
 
-/// What options are made of, beside numbers.
+/// The characters of options apart from digits.
 const MARKS: [char; 20] = [
     '*', '=', '#', ':', '|', ',', '+', '-', '.', '(', ')', 's', 'q', 'h', 'x', '0', '1', '9', ' ',
     'A',
 ];
 
-/// Columns of some table.
+/// The columns of some table.
 fn columns(u: &mut Unstructured<'_>) -> Result<String> {
     const QUANTITIES: [&str; 8] = ["id1", "id2", "force", "fx", "fz", "x", "x1", "kind"];
     const TERMS: [&str; 12] = [
@@ -197,9 +198,9 @@ fn columns(u: &mut Unstructured<'_>) -> Result<String> {
     Ok((0..count).map(name).collect::<Result<Vec<_>>>()?.join(","))
 }
 
-/// `text` with up to three characters replaced, added or taken away.
+/// Replaces, adds or removes up to three characters of `text`.
 pub fn damaged(u: &mut Unstructured<'_>, text: &str) -> Result<String> {
-    // What numbers are made of, and what looks like it: other digits, spaces, signs, no text at all.
+    // The characters of numbers, and similar ones: other digits, spaces, signs, the empty text.
     const INTRUDERS: [char; 16] = [
         '+', '-', '.', '/', ',', 'e', 'E', '_', '0', '9', ' ', '\t', '\0', '٣', '−', '𝟙',
     ];

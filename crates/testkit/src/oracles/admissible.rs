@@ -1,8 +1,8 @@
-//! All forces of a pile whose horizontal contacts push, and linear programs over them: exact, dense, slow.
+//! All compressive states of a pile with horizontal contacts, and linear programs over them: exact, dense, slow.
 //!
-//! The forces are affine in those of the horizontal contacts: [`Balance`] is solved without any, and with a push of 1 in
-//! each. What only pushes is a polytope, and the simplex method finds its corners. No duality comes
-//! in, no certificate, no float.
+//! The forces are affine in the horizontal ones. [`Balance`] is solved once without horizontal forces, and once for a unit
+//! force in each contact. The compressive states form a polytope, and the simplex method finds its corners. The method uses
+//! no duality, no certificate and no float.
 
 use core::iter::once;
 use std::collections::BTreeMap;
@@ -14,25 +14,25 @@ use num_traits::{One, Signed, Zero};
 
 use super::balance::{Balance, Forces, Place, ratio};
 
-/// b + Σ a x, as b and then every a.
+/// b + Σ a x, stored as b followed by the coefficients a.
 pub type Affine = Vec<BigRational>;
 
-/// A horizontal contact: a sphere, and where its neighbour is, (Δi, Δj).
+/// A horizontal contact: a sphere, and the offset (Δi, Δj) of its neighbour.
 pub type Pair = (Place, [i128; 2]);
 
 /// The forces of a pile, in f₀, as affine functions of the horizontal ones.
 #[derive(Clone, Debug)]
 pub struct States {
-    /// The horizontal contacts off the floor.
+    /// The horizontal contacts above the bottom layer.
     pub contacts: Vec<Pair>,
-    /// Of the sloping contacts.
+    /// The forces of the sloping contacts.
     pub sloping: Vec<Affine>,
-    /// Of the bottom spheres, in mg.
+    /// The normal forces of the bottom spheres, in mg.
     pub normals: BTreeMap<Place, Affine>,
 }
 
 impl States {
-    /// `forces` solves a pile: [`Balance::forces`], or [`of_discs`].
+    /// Collects the states of a pile. The function `forces` solves it: [`Balance::forces`] or [`of_discs`].
     pub fn of(pile: &Balance, forces: fn(&Balance) -> Forces) -> Self {
         let free = pile.places().filter(|place| pile.sign(place.0).is_some());
         let pairs = free.flat_map(|place| [[1, 0], [0, 1], [1, -1]].map(|step| (place, step)));
@@ -63,18 +63,18 @@ impl States {
         }
     }
 
-    /// Where no contact pulls; `None` if there is no such state.
+    /// A state without tension. `None` if all states have a tensile contact.
     pub fn pushing(&self) -> Option<Corner> {
         Corner::first(self.contacts.len(), &self.sloping)
     }
 
-    /// Whether no contact pulls.
+    /// Tells whether no contact is tensile.
     pub fn push(&self, x: &[BigRational]) -> bool {
         let pulls = self.sloping.iter().any(|force| at(force, x).is_negative());
         !pulls && !x.iter().any(Signed::is_negative)
     }
 
-    /// Σ f² + Σ X²/ratio: twice the energy of springs.
+    /// Σ f² + Σ X²/ratio, which is twice the energy of the springs.
     pub fn energy(&self, x: &[BigRational], stiffness_ratio: &BigRational) -> BigRational {
         let sloping = self.sloping.iter().map(|force| at(force, x));
         let sloping: BigRational = sloping.map(|force| &force * &force).sum();
@@ -82,7 +82,7 @@ impl States {
         sloping + horizontal / stiffness_ratio
     }
 
-    /// How [`energy`](Self::energy) rises with y at x, but for a constant and a factor 2: Σ f(x) a y + Σ X y/ratio.
+    /// The derivative of [`energy`](Self::energy) at x along y, without a constant and a factor 2: Σ f(x) a y + Σ X y/ratio.
     pub fn slope(&self, x: &[BigRational], stiffness_ratio: &BigRational) -> Affine {
         let mut slope: Affine = once(BigRational::zero())
             .chain(x.iter().map(|force| force / stiffness_ratio))
@@ -103,8 +103,8 @@ pub fn at(affine: &Affine, x: &[BigRational]) -> BigRational {
     &affine[0] + terms.map(|(a, x)| a * x).sum::<BigRational>()
 }
 
-/// The forces of a straight pile of discs, (0, i) with supports i and i+1: Σ f = 2V and ½(f_β − f_α) = H, in units whose
-/// vertical part is mg/2.
+/// The forces of a straight pile of discs, where (0, i) has the supports i and i+1: Σ f = 2V and ½(f_β − f_α) = H. The
+/// vertical part of the unit is mg/2.
 pub fn of_discs(pile: &Balance) -> Forces {
     let (mut forces, two) = (Forces::default(), ratio(2, 1));
     for place in pile.places() {
@@ -127,10 +127,10 @@ pub fn of_discs(pile: &Balance) -> Forces {
     forces
 }
 
-/// A corner of the x ≥ 0 where every row b + Σ a x is ≥ 0: `basic` unknowns as affine functions of the others, which are
-/// zero there. Unknown 0 is an auxiliary one, 1 … n are x, the rest are the rows times a positive number.
+/// A corner of the set of x ≥ 0 with b + Σ a x ≥ 0 for every row. The `basic` unknowns are affine functions of the others,
+/// which are zero there. Unknown 0 is auxiliary, unknowns 1 … n are x, and the rest are the rows times a positive factor.
 ///
-/// Integers over one denominator: no fraction is ever reduced (Edmonds 1967, Bareiss 1968).
+/// All entries are integers over one denominator, so no fraction is ever reduced (Edmonds 1967, Bareiss 1968).
 #[derive(Clone, Debug)]
 pub struct Corner {
     unknowns: usize,
@@ -142,7 +142,7 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// Any corner: all rows are lifted by unknown 0, and that is made zero. `None` if it cannot be.
+    /// Finds any corner. Unknown 0 lifts all rows and is then minimised. `None` if its minimum is not zero.
     pub fn first(unknowns: usize, rows: &[Affine]) -> Option<Self> {
         let mut corner = Self {
             unknowns,
@@ -191,7 +191,7 @@ impl Corner {
         x
     }
 
-    /// The corner where b + Σ a x is least.
+    /// The corner that minimises b + Σ a x.
     #[must_use]
     pub fn lowest(mut self, affine: &Affine) -> Self {
         let costs = integers(affine);
@@ -199,8 +199,8 @@ impl Corner {
         self
     }
 
-    /// To where Σ cost x is least: along the steepest edge, and while that leads nowhere by Bland's rule, of all unknowns that
-    /// may come in or go out the first, which does not go round in circles.
+    /// Moves to the minimum of Σ cost x along the steepest edge. After a step of length zero it follows Bland's rule: the
+    /// first of the unknowns that may enter or leave. This avoids cycles.
     fn descend(&mut self, cost: impl Fn(usize) -> BigInt) {
         let free = self
             .free
@@ -242,12 +242,12 @@ impl Corner {
         self.rows.pop();
     }
 
-    /// Lets a basic unknown and a free one change places.
+    /// Exchanges a basic unknown and a free one.
     fn pivot(&mut self, row: usize, column: usize) {
         core::mem::swap(&mut self.basic[row], &mut self.free[column]);
         let mut solved = core::mem::take(&mut self.rows[row]);
         let pivot = core::mem::replace(&mut solved[1 + column], -&self.denominator);
-        // The new denominator is positive.
+        // Keeps the new denominator positive.
         let flip = |entry: &mut BigInt, is_flipped| {
             if is_flipped {
                 *entry = -core::mem::take(entry);
@@ -260,7 +260,7 @@ impl Corner {
                 if !factor.is_zero() {
                     *entry -= &factor * what;
                 }
-                // Without a remainder: entries are minors of the first rows.
+                // The division is exact because entries are minors of the first rows.
                 *entry /= &self.denominator;
                 flip(entry, pivot.is_negative());
             }
@@ -273,7 +273,7 @@ impl Corner {
     }
 }
 
-/// The numbers times their least common denominator.
+/// The values times their least common denominator.
 fn integers(affine: &Affine) -> Vec<BigInt> {
     let denominator = affine
         .iter()

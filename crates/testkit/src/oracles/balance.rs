@@ -1,11 +1,12 @@
-//! The forces of any stacking on any region: piles as sets of sites, the equilibrium of one sphere after the other.
+//! The forces of any stacking on any region. A pile is a set of sites, solved by the equilibrium of one sphere after the
+//! other.
 //!
-//! A sphere receives a push from each sphere that stands on it, along the line of their centres, and its weight and
-//! load. It hands all that on to its three supports. In lattice coordinates, the support m lies σ·o_m across, with
-//! o_α = (−1/3, −1/3), o_β = (2/3, −1/3), o_γ = (−1/3, 2/3) and σ = ±1 the sign of the step, and the same way down; so
-//! three forces f_m with Σ f_m = 3V and Σ σ f_m o_m = H balance a vertical force V and a horizontal one H. They are
-//! f_β = V + σH_i, f_γ = V + σH_j, and the rest of 3V for f_α. No half-turn, no line, no run comes in, and of the library
-//! no more than the names of sites, signs and directions.
+//! A sphere receives a force from each sphere that it supports, along the line of centres, and its weight and load. It
+//! transmits the sum to its three supports. In lattice coordinates, support m has the horizontal offset σ·o_m, with o_α =
+//! (−1/3, −1/3), o_β = (2/3, −1/3), o_γ = (−1/3, 2/3), and σ = ±1 is the sign of the step. All supports are equally far
+//! down. So three forces f_m with Σ f_m = 3V and Σ σ f_m o_m = H balance a vertical force V and a horizontal one H: f_β = V
+//! + σH_i, f_γ = V + σH_j, and f_α is the rest of 3V. The oracle uses no half-turn, no line and no run. It takes only the
+//! names of sites, signs and directions from the library.
 //!
 //! Units: forces in f₀, whose vertical part is mg/3; weights and V in mg.
 
@@ -19,7 +20,7 @@ use num_traits::{One, Signed, Zero};
 pub use super::sets::Sites;
 use super::sets::{dilated, eroded, supports};
 
-/// (k, j, i): ordered as tables print sites, by layer, row, place in the row.
+/// (k, j, i): layer, row, position in the row. This is the order of sites in tables.
 pub type Place = (i128, i128, i128);
 
 /// n/d.
@@ -27,48 +28,48 @@ pub fn ratio(n: i64, d: i64) -> BigRational {
     BigRational::new(n.into(), d.into())
 }
 
-/// A pile of which nothing is known but its sites, its steps and its weights.
+/// A pile as plain data: its sites, steps and weights.
 #[derive(Clone, Debug)]
 pub struct Balance {
     /// `+` or `-` for each step, from the top.
     pub signs: String,
-    /// From the top.
+    /// The layers from the top.
     pub layers: Vec<Sites>,
-    /// Of a sphere that is not in `weights`, in mg.
+    /// The weight of a sphere that is not in `weights`, in mg.
     pub ordinary: BigRational,
-    /// Weight and load together of the others, in mg.
+    /// Weight plus load of the other spheres, in mg.
     pub weights: BTreeMap<Place, BigRational>,
-    /// What neighbours of its layer push a sphere with, along i and j, in f₀.
+    /// The horizontal force on a sphere from neighbours in its layer, along i and j, in f₀.
     pub pushes: BTreeMap<Place, [BigRational; 2]>,
 }
 
 /// The forces of a pile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {
-    /// To the three spheres below, α, β, γ, in f₀; none of the last layer.
+    /// The forces on the three spheres below, along α, β, γ, in f₀. The last layer has none.
     pub below: BTreeMap<Place, [BigRational; 3]>,
-    /// From the three spheres above; zero where there is none.
+    /// The forces from the three spheres above. Zero for a missing sphere.
     pub above: BTreeMap<Place, [BigRational; 3]>,
-    /// Normal force in mg, shear along x in mg·tanθ, along y in √3·mg·tanθ, of the last layer.
+    /// For the last layer: normal force in mg, shear along x in mg·tanθ, along y in √3·mg·tanθ.
     pub floor: BTreeMap<Place, [BigRational; 3]>,
 }
 
-/// The place in the order of tables.
+/// The position of a site in the order of tables.
 pub fn place(site: Site) -> Place {
     (site.k, site.j, site.i)
 }
 
-/// The library's name of a place.
+/// The site in the library's type.
 pub fn site((k, j, i): Place) -> Site {
     Site { i, j, k }
 }
 
-/// The library's name of a direction.
+/// The direction in the library's type.
 pub fn direction(m: usize) -> Direction {
     [Direction::Alpha, Direction::Beta, Direction::Gamma][m]
 }
 
-/// The library's name of a sign.
+/// The sign in the library's type.
 fn named(sign: char) -> Sign {
     match sign {
         '+' => Sign::Plus,
@@ -85,7 +86,7 @@ fn signed(sign: Sign, force: BigRational) -> BigRational {
 }
 
 impl Balance {
-    /// Every layer all supports of the one above.
+    /// Grows a pile down. Each layer contains all supports of the layer above.
     pub fn under(top: &Sites, signs: &str) -> Self {
         let mut layers = vec![top.clone()];
         for (k, sign) in signs.chars().enumerate() {
@@ -94,8 +95,8 @@ impl Balance {
         Self::of(layers, signs)
     }
 
-    /// Every layer all sites whose three supports are there; the signs are read from the top. `None` if a layer has no
-    /// site.
+    /// Grows a pile up. Each layer contains all sites with three supports. The signs are read from the top. `None` if a
+    /// layer is empty.
     pub fn on(base: &Sites, signs: &str) -> Option<Self> {
         let mut layers = vec![base.clone()];
         for (n, sign) in signs.chars().rev().enumerate() {
@@ -116,13 +117,13 @@ impl Balance {
         }
     }
 
-    /// Every place, in the order of tables.
+    /// All positions in the order of tables.
     pub fn places(&self) -> impl Iterator<Item = Place> + '_ {
         let layers = (0..).zip(&self.layers);
         layers.flat_map(|(k, layer)| layer.iter().map(move |&(j, i)| (k, j, i)))
     }
 
-    /// Lets two neighbours push each other: a sphere at `place`, and another (Δi, Δj) further.
+    /// Adds a horizontal force between a sphere at `place` and its neighbour at the offset (Δi, Δj).
     pub fn push(&mut self, place: Place, [di, dj]: [i128; 2], force: &BigRational) {
         let (k, j, i) = place;
         for (place, side) in [(place, -1), ((k, j + dj, i + di), 1)] {
@@ -132,7 +133,7 @@ impl Balance {
         }
     }
 
-    /// Whether there is a sphere.
+    /// Tells whether the pile has this sphere.
     pub fn has(&self, (k, j, i): Place) -> bool {
         let layer = usize::try_from(k).ok().and_then(|k| self.layers.get(k));
         layer.is_some_and(|layer| layer.contains(&(j, i)))
@@ -144,19 +145,19 @@ impl Balance {
         self.signs.chars().nth(k)
     }
 
-    /// The place a sphere presses on, whether or not there is one.
+    /// The support of a sphere in direction m. It need not exist.
     pub fn below(&self, (k, j, i): Place, m: usize) -> Option<Place> {
         let (j, i) = supports((j, i), named(self.sign(k)?))[m];
         Some((k + 1, j, i))
     }
 
-    /// The sphere that presses on a place in a direction.
+    /// The sphere above a position in direction m, if it exists.
     pub fn above(&self, (k, j, i): Place, m: usize) -> Option<Place> {
         let (dj, di) = supports((0, 0), named(self.sign(k - 1)?))[m];
         Some((k - 1, j - dj, i - di)).filter(|above| self.has(*above))
     }
 
-    /// Weight and load of a sphere, in mg.
+    /// Weight plus load of a sphere, in mg.
     pub fn weight(&self, place: Place) -> &BigRational {
         self.weights.get(&place).unwrap_or(&self.ordinary)
     }
@@ -166,10 +167,10 @@ impl Balance {
         self.places().map(|place| self.weight(place)).sum()
     }
 
-    /// Horizontal position in thirds of lattice vectors, from the place (0, 0) of the top layer.
+    /// The horizontal position in thirds of lattice vectors, relative to (0, 0) of the top layer.
     ///
-    /// A + step leads to a layer whose (0, 0) lies a third of both vectors back: a sphere is over the middle of (0, 0),
-    /// (1, 0) and (0, 1).
+    /// A + step moves the origin of the next layer back by a third of both vectors. There, a sphere lies above the centre of
+    /// (0, 0), (1, 0) and (0, 1).
     pub fn position(&self, (k, j, i): Place) -> [BigInt; 2] {
         let steps = self
             .signs
@@ -179,7 +180,7 @@ impl Balance {
         [3 * i - back, 3 * j - back].map(BigInt::from)
     }
 
-    /// Solves the pile, from the top down.
+    /// Solves the pile from the top down.
     pub fn forces(&self) -> Forces {
         let mut forces = Forces::default();
         for place in self.places() {
@@ -213,7 +214,7 @@ impl Balance {
 }
 
 impl Forces {
-    /// The least contact force and the first place and direction that have it.
+    /// The least contact force, with the first position and direction that have it.
     pub fn least(&self) -> Option<(BigRational, Place, usize)> {
         let mut least: Option<(BigRational, Place, usize)> = None;
         for (place, forces) in &self.below {
@@ -226,7 +227,7 @@ impl Forces {
         least
     }
 
-    /// The first layer with a force that pulls.
+    /// The first layer with a tensile force.
     pub fn first_failure(&self) -> Option<i128> {
         let mut pulled = self.below.iter();
         let (place, _) = pulled.find(|(_, forces)| forces.iter().any(Signed::is_negative))?;
@@ -236,9 +237,9 @@ impl Forces {
 
 /// Normal force and shears from V and H.
 ///
-/// The lattice vectors are two spheres' distance 2a = 2√3·R sinθ long. By the paper, (1), β − α lies along ê_a − ê_b,
-/// along +y, and γ − α along ê_a − ê_c, at 30° to +x: e₁ = (0, 1)·√3ℓ and e₂ = (3/2, √3/2)·ℓ, with ℓ = 2R sinθ. A force
-/// f₀ goes 2R down its line, ℓ of them across: 1 along e₁ is √3 sinθ f₀ along y, and f₀ sinθ = mg·tanθ/3.
+/// The lattice vectors have length 2a = 2√3·R sinθ. By the paper, (1), β − α lies along ê_a − ê_b, which is +y. γ − α lies
+/// along ê_a − ê_c, at 30° to +x. So e₁ = (0, 1)·√3ℓ and e₂ = (3/2, √3/2)·ℓ with ℓ = 2R sinθ. A force f₀ spans 2R along its
+/// line and ℓ horizontally. So 1 along e₁ is √3 sinθ f₀ along y, and f₀ sinθ = mg·tanθ/3.
 fn on_floor(down: BigRational, [along_i, along_j]: &[BigRational; 2]) -> [BigRational; 3] {
     let half = along_j * ratio(1, 2);
     let along_y = (along_i + &half) * ratio(1, 3);

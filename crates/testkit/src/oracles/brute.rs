@@ -1,7 +1,7 @@
-//! Brute force by integers, layer by layer: quicker than the oracle, and compared with it.
+//! Brute force in integers, layer by layer. It is faster than the oracle `balance`, and tests compare the two.
 //!
-//! After d changes of sign forces are integers over 3^d, times the common denominator D of weights and loads: what an
-//! ordinary sphere weighs is D. Sphere by sphere, site by site; of the library it uses nothing.
+//! After d sign changes, forces are integers over 3^d times the common denominator D of weights and loads. An ordinary
+//! sphere then weighs D. The computation goes site by site and uses nothing of the library.
 
 use std::collections::BTreeMap;
 use std::ops::{Add, Mul, Sub};
@@ -13,7 +13,7 @@ use num_traits::{One, Signed, pow};
 
 use crate::oracles::balance::{Balance, Place, Sites};
 
-/// Integers that are wide enough, in the judgement of the caller; `i128` panics where it is not.
+/// Integers of sufficient width. The caller chooses it, and `i128` panics on overflow.
 pub trait Wide: Clone + Ord + From<i32> + Signed
 where
     for<'a> Self: Add<&'a Self, Output = Self>,
@@ -25,26 +25,26 @@ where
 impl Wide for i128 {}
 impl Wide for BigInt {}
 
-/// What the spheres of a layer receive, and pass on, by site (j, i).
+/// The incoming or the transmitted forces of the spheres of a layer, by site (j, i).
 type Triples<I> = BTreeMap<(i128, i128), [I; 3]>;
 
-/// A layer on the way down.
+/// One layer during the computation.
 #[derive(Clone, Debug)]
 pub struct Front<I> {
     /// The layer.
     pub k: i128,
     sign: Option<char>,
-    /// The changes of sign above it.
+    /// The number of sign changes above the layer.
     pub changes: usize,
-    /// What its spheres receive from above.
+    /// The forces from above on its spheres.
     pub received: Triples<I>,
 }
 
-/// What a layer passes on, and the greatest number met on the way to it.
+/// The forces that a layer transmits, and the greatest intermediate value.
 pub struct Passed<I> {
-    /// Over 3^changes of the layer below.
+    /// Numerators over 3^changes of the layer below.
     pub forces: Triples<I>,
-    /// The greatest number met.
+    /// The greatest intermediate value.
     pub greatest: I,
     /// The layer below.
     pub below: Front<I>,
@@ -54,7 +54,7 @@ impl<I: Wide> Front<I>
 where
     for<'a> I: Add<&'a I, Output = I> + Sub<&'a I, Output = I> + Mul<&'a I, Output = I>,
 {
-    /// The top layer, which receives nothing.
+    /// The top layer, without forces from above.
     pub fn top(top: &Sites) -> Self {
         let nothing = || [0, 0, 0].map(I::from);
         Self {
@@ -65,7 +65,7 @@ where
         }
     }
 
-    /// One step down; `weight` is what a sphere weighs, times D.
+    /// Goes one layer down. `weight` returns the weight of a sphere times D.
     pub fn step(&self, sign: char, weight: impl Fn(Place) -> I) -> Passed<I> {
         let turns = self.sign.is_some_and(|above| above != sign);
         let changes = self.changes + usize::from(turns);
@@ -85,7 +85,7 @@ where
             let twice_sum = (a.clone() + b + c) * &I::from(2);
             let passed = [0, 1, 2].map(|m| {
                 let turned = if turns {
-                    // All that 2Σg − 3g is computed through.
+                    // The intermediate values of 2Σg − 3g.
                     greatest = greatest.clone().max(twice_sum.abs());
                     twice_sum.clone() - &(above[m].clone() * &three)
                 } else {
@@ -121,7 +121,7 @@ impl<I: Wide> Passed<I>
 where
     for<'a> I: Add<&'a I, Output = I> + Sub<&'a I, Output = I> + Mul<&'a I, Output = I>,
 {
-    /// Whether a contact would have to pull.
+    /// Tells whether some contact is tensile.
     pub fn pulls(&self) -> bool {
         self.forces.values().flatten().any(Signed::is_negative)
     }
@@ -133,7 +133,7 @@ pub fn denominator(balance: &Balance) -> BigInt {
     denominators.fold(BigInt::one(), |d, denom| d.lcm(denom))
 }
 
-/// What a sphere weighs, times D.
+/// The weight of a sphere times D.
 pub fn numerator<'n>(balance: &'n Balance, d: &'n BigInt) -> impl Fn(Place) -> BigInt + 'n {
     move |at| {
         let weight = balance.weight(at);
@@ -141,7 +141,7 @@ pub fn numerator<'n>(balance: &'n Balance, d: &'n BigInt) -> impl Fn(Place) -> B
     }
 }
 
-/// A pile that was grown from its top, whole: what every layer passes on.
+/// All layers of a pile that was grown from its top.
 pub fn all(balance: &Balance) -> Vec<Passed<BigInt>> {
     let d = denominator(balance);
     let weight = numerator(balance, &d);
@@ -162,10 +162,10 @@ mod tests {
     use crate::cases::{Bounds, Case, Random, all_signs};
 
     #[test]
-    fn it_is_the_oracle_up_to_8_layers() {
+    fn agrees_with_balance_up_to_8_layers() {
         for signs in (1..8).flat_map(all_signs) {
             let balance = Balance::under(&Bounds::SITE.sites(), &signs);
-            is_the_oracle(&balance);
+            agrees_with_balance(&balance);
             let forces = balance.forces();
             let mut front: Front<i128> = Front::top(&balance.layers[0]);
             let failures = (0..).zip(signs.chars()).filter_map(|(k, sign)| {
@@ -178,16 +178,16 @@ mod tests {
     }
 
     #[test]
-    fn it_is_the_oracle_under_random_tops_with_loads() {
+    fn agrees_with_balance_under_random_tops_with_loads() {
         let mut random = Random(61);
         for _ in 0..40 {
             let signs = random.signs(7);
             let case = Case::under(&random.bounds(3), &signs).loaded(4, &mut random);
-            is_the_oracle(&case.balance);
+            agrees_with_balance(&case.balance);
         }
     }
 
-    fn is_the_oracle(balance: &Balance) {
+    fn agrees_with_balance(balance: &Balance) {
         let (forces, d) = (balance.forces(), denominator(balance));
         for (k, passed) in (0..).zip(all(balance)) {
             let over = &d * pow(BigInt::from(3), passed.below.changes);

@@ -1,8 +1,7 @@
-//! A naive oracle: the equilibrium of one sphere after the other, from the top down, each solved as
-//! the linear system it is.
+//! A naive oracle: the equilibrium of one sphere after the other, from the top down. Each sphere is a linear system.
 //!
-//! It knows none of the library's formulas. It has the unit vectors of the paper's (1), the
-//! weight, and who stands on whom (`paper`, "Notation"); elimination does the rest.
+//! It uses none of the library's formulas. It starts from the unit vectors of the paper's (1), the weight, and the contacts
+//! (`paper`, "Notation"). Gaussian elimination finds the forces.
 
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::Site;
@@ -11,14 +10,14 @@ use num_traits::{One, Zero};
 
 use crate::answers::{Answers, Contact, Shape, Sphere, below, ratio};
 
-/// Solves a pile: every position, contact force and force on the floor.
+/// Solves a pile for every position, contact force and force on the floor.
 ///
 /// The unit f₀ of force is chosen so that a sphere weighs 2(1+s) f₀ cosθ, or 2 f₀ cosθ for discs.
 pub fn solve(shape: &Shape, layers: i128) -> Answers {
     solve_loaded(shape, layers, |_| BigRational::one())
 }
 
-/// The same where on each sphere acts what is told, in mg, its weight included.
+/// Solves a pile with a given external force on each sphere, in mg, which includes the weight.
 pub fn solve_loaded(shape: &Shape, layers: i128, acting: impl Fn(Site) -> BigRational) -> Answers {
     let weight = match shape {
         Shape::Discs => ratio(2, 1),
@@ -47,8 +46,8 @@ pub fn solve_loaded(shape: &Shape, layers: i128, acting: impl Fn(Site) -> BigRat
     answers
 }
 
-/// ê_a, ê_b, ê_c of the paper's (1) over (sinθ, 2cosφ·sinθ, cosθ), z down; the two of a disc
-/// lie in the x–z plane.
+/// ê_a, ê_b, ê_c of the paper's (1) over (sinθ, 2cosφ·sinθ, cosθ), with z down. The two vectors of a disc lie in the x–z
+/// plane.
 fn unit_vectors(shape: &Shape) -> Vec<Vector<BigRational>> {
     let vector = |x: BigRational, y| Vector {
         x,
@@ -66,15 +65,14 @@ fn unit_vectors(shape: &Shape) -> Vec<Vector<BigRational>> {
     }
 }
 
-/// What a sphere receives from the spheres above it, and where it is: 2R away from any of them,
-/// against ê.
+/// The forces on a sphere from above, and its position: 2R from each sphere above, against ê.
 fn receive(answers: &Answers, e: &[Vector<BigRational>], site: Site) -> Sphere {
     let mut sphere = Sphere {
         position: Vector::zero(),
         from_above: [0, 1, 2].map(|_| BigRational::zero()),
         resultant_above: Vector::zero(),
     };
-    // Who of the spheres already met stands on this one?
+    // Finds the spheres of the layer above that this one supports.
     for (m, (direction, e)) in answers.shape.directions().iter().zip(e).enumerate() {
         for (upper, there) in answers.spheres.range(layer(site.k - 1)..layer(site.k)) {
             if below(*upper, *direction) == site {
@@ -93,7 +91,7 @@ fn layer(k: i128) -> Site {
     Site { i: 0, j: 0, k }
 }
 
-/// The forces f of Σ f_m ê_m = −load, by Gauss's elimination.
+/// The forces f with Σ f_m ê_m = −load, by Gaussian elimination.
 fn supports(e: &[Vector<BigRational>], load: &Vector<BigRational>) -> Vec<BigRational> {
     let components: fn(&Vector<BigRational>) -> Vec<BigRational> = match e.len() {
         2 => |v| vec![v.x.clone(), v.z.clone()],
@@ -108,12 +106,12 @@ fn supports(e: &[Vector<BigRational>], load: &Vector<BigRational>) -> Vec<BigRat
     eliminate(rows.collect())
 }
 
-/// The solution of n linear equations, each given by its n coefficients and its right side.
+/// The solution of n linear equations, each with n coefficients and its right side.
 fn eliminate(mut rows: Vec<Vec<BigRational>>) -> Vec<BigRational> {
     let n = rows.len();
     for column in 0..n {
         let pivot = (column..n).find(|row| !rows[*row][column].is_zero());
-        rows.swap(column, pivot.expect("a regular system"));
+        rows.swap(column, pivot.expect("a nonsingular system"));
         let scale = rows[column][column].clone();
         let pivot: Vec<_> = rows[column].iter().map(|c| c / &scale).collect();
         for row in &mut rows {

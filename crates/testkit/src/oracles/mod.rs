@@ -1,14 +1,14 @@
-//! What the library is compared with: slower, and too simple to be wrong.
+//! Reference computations for the library: slower, and simple enough to check by eye.
 //!
-//! | file | what it has |
+//! | file | contents |
 //! |---|---|
-//! | `admissible` | all forces that only push, horizontal ones included, and exact linear programs over them |
+//! | `admissible` | all compressive states, with horizontal forces, and exact linear programs over them |
 //! | `balance` | the forces of any stacking on any region: the three equations of one sphere after the other |
 //! | `brute` | the forces of a pile grown from its top, in integers, layer by layer |
 //! | `elimination` | the forces of a straight pile for any φ: the linear system of one sphere after the other |
-//! | `one_by_one` | the forces in all stackings, one by one, at places of the plane |
+//! | `one_by_one` | the forces in all stackings, enumerated one by one, at positions in the plane |
 //! | `overlap` | the distance of every two spheres |
-//! | `samples` | the stackings that are drawn at random for a seed (feature `disorder`) |
+//! | `samples` | the random stackings of a seed (feature `disorder`) |
 //! | `sets` | regions and layers as plain sets of sites |
 
 pub mod admissible;

@@ -1,41 +1,41 @@
-//! All stackings one by one: each pile built sphere by sphere, with the forces on each sphere in balance.
+//! All stackings, enumerated one by one. Each pile is built sphere by sphere, with the forces on each sphere in balance.
 //!
-//! Nothing of the library is used. Spheres are at places of the plane, counted along the horizontal
-//! parts of the contacts β and γ of a + step; those of α lead by their negative sum, and a − step turns all of them round.
+//! The oracle uses nothing of the library. A position in the plane counts the horizontal parts of the contacts β and γ of a
+//! + step. A contact α moves by the negative of their sum. A − step reverses all three.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// A place, by its steps along β and γ.
+/// A position, by its steps along β and γ.
 pub type Place = [i64; 2];
 
-/// What the floor feels under a sphere: normal in mg, shear_x in mg·tanθ, shear_y in √3·mg·tanθ.
+/// The force on the floor below a sphere: normal in mg, shear_x in mg·tanθ, shear_y in √3·mg·tanθ.
 pub type Floor = [BigRational; 3];
 
-/// What a pile grows from.
+/// The origin of a pile.
 #[derive(Clone, Debug)]
 pub enum Grown {
-    /// Layers that fill the plane: only what bears something is kept.
+    /// Layers that fill the plane. Only spheres with a nonzero force are kept.
     Plane,
-    /// These spheres, downwards.
+    /// Downwards from these spheres.
     Top(BTreeSet<Place>),
-    /// These spheres, upwards.
+    /// Upwards from these spheres.
     Base(BTreeSet<Place>),
 }
 
-/// The place of a site of the layer by which sites are named.
+/// The position of a site of the layer that names the sites.
 pub fn of_site([i, j]: [i64; 2]) -> Place {
     [2 * i + j, i + 2 * j]
 }
 
-/// The contacts below a sphere after a step of a sign: α, β, γ.
+/// The contacts α, β, γ below a sphere, for a step of this sign.
 fn contacts([a, b]: Place, sign: i64) -> [Place; 3] {
     [[a - sign, b - sign], [a + sign, b], [a, b + sign]]
 }
 
-/// Every sequence of signs of so many steps with this first sign, or with either.
+/// All sequences of `steps` signs with this first sign, or with either.
 pub fn sequences(steps: usize, first: Option<i64>) -> Vec<Vec<i64>> {
     let all = (0..1_u32 << steps).map(|bits| {
         let sign = |step: usize| if bits >> step & 1 == 0 { 1 } else { -1 };
@@ -45,12 +45,12 @@ pub fn sequences(steps: usize, first: Option<i64>) -> Vec<Vec<i64>> {
         .collect()
 }
 
-/// How often the sign changes.
+/// The number of sign changes.
 pub fn faults(signs: &[i64]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// The layers of a pile, from the top; `None` of a base that does not carry them.
+/// The layers of a pile, from the top. `None` if the base does not support them.
 fn layers(from: &Grown, signs: &[i64]) -> Option<Vec<BTreeSet<Place>>> {
     match from {
         Grown::Plane => None,
@@ -66,7 +66,7 @@ fn layers(from: &Grown, signs: &[i64]) -> Option<Vec<BTreeSet<Place>>> {
             let mut layers = vec![base.clone()];
             for sign in signs.iter().rev() {
                 let below = layers.last().unwrap();
-                // A sphere above has one of its contacts, α, in the layer below.
+                // The contact α of a sphere above lies in the layer below.
                 let above = below.iter().map(|[a, b]| [a + sign, b + sign]);
                 let stands = |at: &Place| contacts(*at, *sign).iter().all(|c| below.contains(c));
                 let above: BTreeSet<_> = above.filter(stands).collect();
@@ -81,8 +81,8 @@ fn layers(from: &Grown, signs: &[i64]) -> Option<Vec<BTreeSet<Place>>> {
     }
 }
 
-/// Every sphere of the bottom layer, with what the floor feels; in the plane those places alone that some force comes to.
-/// `None` if there is no such pile.
+/// Every sphere of the bottom layer and its force on the floor. In the plane, only the positions that some force reaches.
+/// `None` if the pile does not exist.
 pub fn bottom(
     from: &Grown,
     weight: &BigRational,
@@ -94,7 +94,7 @@ pub fn bottom(
         Grown::Top(_) | Grown::Base(_) => Some(layers(from, signs)?),
     };
     let third = BigRational::new(1.into(), 3.into());
-    // What comes to a sphere: along each contact from above.
+    // The forces on a sphere from above, along each contact.
     let mut above: BTreeMap<Place, [BigRational; 3]> = BTreeMap::new();
     let mut sign_above = 1;
     for k in 0..=signs.len() {
@@ -121,7 +121,7 @@ pub fn bottom(
             }
             match signs.get(k) {
                 None => {
-                    // β points to (−½, ½) of the units of shear, γ to (1, 0).
+                    // In the units of shear, β points to (−½, ½) and γ to (1, 0).
                     let half = BigRational::new(1.into(), 2.into());
                     let shear_y = &along_b * &half;
                     floor.insert(*at, [vertical, along_c - &shear_y, shear_y]);

@@ -1,7 +1,7 @@
-//! Overlap by brute force: the distance of every two spheres of a pile.
+//! Overlap by brute force: the distances of all pairs of spheres in a pile.
 //!
-//! Centres from the apex are r = −2R[(k−i−j) ê_a + i ê_b + j ê_c] (`paper`, "Notation"). All is kept over a
-//! common denominator, in machine integers that debug builds check.
+//! Relative to the apex, centres are r = −2R[(k−i−j) ê_a + i ê_b + j ê_c] (`paper`, "Notation"). All values are machine
+//! integers over a common denominator. Debug builds check them for overflow.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +12,10 @@ use num_traits::ToPrimitive;
 
 use crate::answers::Shape;
 
-/// How far apart two spheres are, in steps of 2R along ê_a, ê_b, ê_c.
+/// The difference of two spheres, in steps of 2R along ê_a, ê_b, ê_c.
 pub type Difference = [i128; 3];
 
-/// The differences of the spheres of a pile, each pair taken from the higher sphere to the lower.
+/// The differences of all pairs of spheres in a pile, from the higher sphere to the lower one.
 pub fn differences(shape: &Shape, layers: i128) -> BTreeSet<Difference> {
     let steps = |shape: &Shape| {
         shape
@@ -64,7 +64,7 @@ pub fn squared_distance(shape: &Shape, n: Difference, q: &BigRational) -> (i128,
     (u * h + (one - u) * z * z * r, one * r)
 }
 
-/// The q at which spheres that differ by n touch, if there is a positive one.
+/// The positive q at which spheres with the difference n touch, if it exists.
 pub fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
     // q/flat·(h − z²) = 1 − z²
     let (h, r) = horizontal(shape, n);
@@ -74,8 +74,8 @@ pub fn touching_at(shape: &Shape, n: Difference) -> Option<BigRational> {
         .then(|| BigRational::new(rise.into(), slope.into()))
 }
 
-/// Whether the spheres have room at spacing √q, and how many layers apart those are that touch
-/// without being contacts; `None` if some overlap or a sphere would fall through.
+/// Tells whether spacing √q is allowed. If it is, returns the layer gaps of pairs that touch in addition to the contacts.
+/// `None` if some spheres overlap or a sphere would fall through.
 pub fn room(
     shape: &Shape,
     differences: &BTreeSet<Difference>,
@@ -99,7 +99,7 @@ pub fn room(
     Some(touching)
 }
 
-/// The library's answer says the same.
+/// Tells whether the library gives the same answer.
 pub fn agree(room: Option<&BTreeSet<i128>>, answer: &Result<Vec<LayerGap>, Error>) -> bool {
     match (room, answer) {
         (None, Err(_)) => true,

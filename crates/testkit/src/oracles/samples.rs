@@ -1,9 +1,9 @@
-//! The stackings that are drawn for a seed, by the definition: no library of random numbers.
+//! The random stackings of a seed, by the definition, without a library of random numbers.
 
 use cannonpile::lattice::Sign;
 use cannonpile_disorder::FirstSign;
 
-/// Words of 64 bits of ChaCha with eight rounds, as D. J. Bernstein has it: a counter and a nonce of 64 bits each.
+/// Words of 64 bits from ChaCha with eight rounds, in D. J. Bernstein's form: a counter and a nonce of 64 bits each.
 struct ChaCha {
     key: [u32; 8],
     nonce: u64,

@@ -1,6 +1,6 @@
-//! Layers as plain sets of sites, by the definitions alone: the oracle of regions and of the engines.
+//! Layers as plain sets of sites, by the definitions alone. This is the oracle of regions and of the engines.
 //!
-//! A site is kept as (j, i), so that a set is in row order.
+//! A site is stored as (j, i), so a set is in row order.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use cannonpile::lattice::Sign;
 /// The sites of one layer, each as (j, i).
 pub type Sites = BTreeSet<(i128, i128)>;
 
-/// Where a sphere (j, i) stands: on its supports α, β, γ (`paper`, "Stackings").
+/// The supports α, β, γ of a sphere (j, i) (`paper`, "Stackings").
 pub fn supports((j, i): (i128, i128), sign: Sign) -> [(i128, i128); 3] {
     match sign {
         Sign::Plus => [(j, i), (j, i + 1), (j + 1, i)],
@@ -28,7 +28,7 @@ pub fn within([x0, x1, y0, y1, s0, s1]: [i128; 6], reach: i128) -> Sites {
         .collect()
 }
 
-/// Every support of every site.
+/// All supports of all sites.
 pub fn dilated(layer: &Sites, sign: Sign) -> Sites {
     layer
         .iter()
@@ -36,14 +36,15 @@ pub fn dilated(layer: &Sites, sign: Sign) -> Sites {
         .collect()
 }
 
-/// Every site whose three supports are there.
+/// All sites with three supports in the layer.
 pub fn eroded(layer: &Sites, sign: Sign) -> Sites {
-    let stands = |site: &(i128, i128)| supports(*site, sign).iter().all(|s| layer.contains(s));
-    // Its own α support has the name of the sphere.
-    layer.iter().copied().filter(stands).collect()
+    let is_supported =
+        |site: &(i128, i128)| supports(*site, sign).iter().all(|s| layer.contains(s));
+    // A sphere has the same name as its α support.
+    layer.iter().copied().filter(is_supported).collect()
 }
 
-/// The layers of a pile grown down from its top, the top first.
+/// The layers of a pile that grows down from its top, the top first.
 pub fn under(top: Sites, signs: &[Sign]) -> Vec<Sites> {
     let mut layers = vec![top];
     for (k, sign) in signs.iter().enumerate() {
@@ -52,7 +53,7 @@ pub fn under(top: Sites, signs: &[Sign]) -> Vec<Sites> {
     layers
 }
 
-/// The layers of a pile grown up from its base, the top first; some may be empty.
+/// The layers of a pile that grows up from its base, the top first. Some may be empty.
 pub fn on(base: Sites, signs: &[Sign]) -> Vec<Sites> {
     let mut layers = vec![base];
     for (k, sign) in signs.iter().rev().enumerate() {

@@ -1,4 +1,4 @@
-//! The theorems of a crate, tried with wrong formulas.
+//! The theorems of a crate, applied to wrong formulas.
 
 use std::collections::BTreeSet;
 
@@ -6,15 +6,15 @@ use cannonpile::theorem::{Library, Listing, Proof, Step, Theorem};
 
 use super::Fault;
 
-/// Theorems with what becomes of their proofs, for each fault: for all tests once.
+/// Theorems with the results of their proofs, for each fault. All tests share them.
 pub struct Attempts<F: 'static> {
     theorems: Vec<&'static Theorem<F>>,
-    /// The proofs in the order of the theorems.
+    /// The proofs, in the order of the theorems.
     attempts: Vec<(Fault<F>, Vec<Proof>)>,
 }
 
 impl<F: Library> Attempts<F> {
-    /// Tries to prove each theorem for each fault.
+    /// Applies each theorem to each fault.
     pub fn new(
         theorems: impl IntoIterator<Item = &'static Theorem<F>>,
         faults: impl IntoIterator<Item = Fault<F>>,
@@ -36,7 +36,7 @@ impl<F: Library> Attempts<F> {
         tried.flat_map(move |proofs| theorems.clone().zip(proofs))
     }
 
-    /// Panics unless each fault is refused by those of the theorems that it is said to break, and by no others.
+    /// Panics unless each fault refutes exactly the theorems that it lists.
     pub fn are_refused_as_said(&self) {
         let mut otherwise = Vec::new();
         for (fault, proofs) in &self.attempts {
@@ -52,7 +52,7 @@ impl<F: Library> Attempts<F> {
         assert!(otherwise.is_empty(), "{}", otherwise.join("\n"));
     }
 
-    /// Panics unless each theorem refuses a fault, and the first in the list by a step that fails.
+    /// Panics unless some fault refutes each theorem. The first one in the list must fail in a step.
     pub fn every_theorem_refuses_one(&self) {
         for theorem in &self.theorems {
             let refuses = |fault: &&Fault<F>| fault.refused_by.contains(&theorem.name);
@@ -65,7 +65,7 @@ impl<F: Library> Attempts<F> {
         }
     }
 
-    /// Panics if a step is idle: each is broken by some fault.
+    /// Panics unless some fault refutes each step. A step that no fault refutes is redundant.
     pub fn every_step_refuses_one(&self) {
         let mut refused = BTreeSet::new();
         for (theorem, proof) in self.tried() {
@@ -84,7 +84,7 @@ impl<F: Library> Attempts<F> {
         assert!(idle.is_empty(), "{}", idle.join("\n"));
     }
 
-    /// Panics unless the printed proof says that it fails, where it does.
+    /// Panics unless a printed proof reports its failures.
     pub fn are_listed_as_refuted(&self) {
         for (theorem, proof) in self.tried() {
             for whole in [false, true] {
@@ -102,7 +102,7 @@ impl<F: Library> Attempts<F> {
         }
     }
 
-    /// Panics unless the faults are of these formulas, and of no others.
+    /// Panics unless exactly these formulas have faults.
     pub fn are_of(&self, fields: &[&'static str]) {
         let wrong: BTreeSet<_> = self.attempts.iter().map(|(fault, _)| fault.field).collect();
         assert_eq!(wrong, fields.iter().copied().collect());

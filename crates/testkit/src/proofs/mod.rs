@@ -1,10 +1,10 @@
-//! What must hold of the theorems of a crate: they are proved, they refuse wrong formulas, and no step of them is idle.
+//! Checks of the theorems of a crate: they hold, they reject wrong formulas, and no step is redundant.
 //!
 //! | file | contents |
 //! |---|---|
-//! | `faults` | wrong formulas of the core, each with the theorems of all crates that refuse it |
-//! | `attempts` | the theorems of a crate, tried with wrong formulas |
-//! | `numbers` | the two sides of a step, at numbers |
+//! | `faults` | wrong formulas of the core, each with the theorems of all crates that it refutes |
+//! | `attempts` | the theorems of a crate, applied to wrong formulas |
+//! | `numbers` | both sides of a step, evaluated |
 
 mod attempts;
 mod faults;
@@ -29,13 +29,13 @@ pub fn hold<F: Library>(theorems: &[&Theorem<F>]) {
     }
 }
 
-/// Panics unless each of these theorems has a name of its own.
+/// Panics unless all names of these theorems are different.
 pub fn have_names<F>(theorems: &[&Theorem<F>]) {
     let names: BTreeSet<_> = theorems.iter().map(|theorem| theorem.name).collect();
     assert_eq!(names.len(), theorems.len());
 }
 
-/// Panics unless each statement names its subject, which stands in `subjects` beside the theorem's name, and its method.
+/// Panics unless each statement names its method and its subject. `subjects` lists the subject of each theorem by name.
 pub fn name_subject_and_method<F>(theorems: &[&Theorem<F>], subjects: &[(&str, &str)]) {
     assert_eq!(theorems.len(), subjects.len());
     for theorem in theorems {
@@ -57,7 +57,7 @@ pub fn name_subject_and_method<F>(theorems: &[&Theorem<F>], subjects: &[(&str, &
     }
 }
 
-/// Panics unless the theorems have as many steps as stand beside their names: no case is passed over.
+/// Panics unless the theorems have the listed numbers of steps. This shows that no case is missing.
 pub fn have_steps<F: Library>(theorems: &[&Theorem<F>], expected: &[(&str, usize)]) {
     let steps: Vec<_> = theorems
         .iter()

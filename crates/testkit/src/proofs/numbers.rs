@@ -1,4 +1,4 @@
-//! The two sides of a step, at numbers.
+//! Evaluates both sides of a step.
 
 use cannonpile::scalar::{Ring, Symbol};
 use cannonpile::theorem::{Library, Proof, Relation, Step, Theorem};
@@ -6,7 +6,7 @@ use num_rational::BigRational as Q;
 
 use crate::answers::ratio;
 
-/// What both sides of the one step with this text in its claim come to.
+/// Returns the common value of both sides of the only step whose claim contains `claim`.
 pub fn value(proof: &Proof, claim: &str, values: &[(&'static str, Q)]) -> Q {
     let steps: Vec<_> = proof
         .steps
@@ -21,7 +21,7 @@ pub fn value(proof: &Proof, claim: &str, values: &[(&'static str, Q)]) -> Q {
     left
 }
 
-/// Both sides of a step at these values of the symbols.
+/// Returns both sides of a step for these values of the symbols.
 pub fn evaluated(step: &Step, values: &[(&'static str, Q)]) -> [Q; 2] {
     let values: Vec<_> = values
         .iter()
@@ -30,8 +30,8 @@ pub fn evaluated(step: &Step, values: &[(&'static str, Q)]) -> [Q; 2] {
     [&step.left, &step.right].map(|side| side.evaluate(&values).expect("a value for every symbol"))
 }
 
-/// Panics unless the two sides of each step are equal wherever they are evaluated, and different somewhere if that is the
-/// claim.
+/// Panics unless both sides of each step are equal at every point. If the step claims an inequality, they must differ
+/// somewhere.
 pub fn sides_agree_at_every_point<F: Library>(theorems: &[&Theorem<F>]) {
     for theorem in theorems {
         for step in theorem.prove().steps {

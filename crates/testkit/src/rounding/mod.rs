@@ -1,12 +1,12 @@
-//! Is every float that the library returns the nearest one? The cases, for the tests and for the bench of roundings.
+//! Inputs that test whether every returned float is correctly rounded. The tests and the bench of roundings share them.
 //!
-//! | file | what it has |
+//! | file | contents |
 //! |---|---|
-//! | `random` | random numbers, and places that are critical for rounding |
-//! | `numbers` | roots and rationals at these places |
-//! | `piles` | piles of every kind, with sizes and weights that put their quantities there |
+//! | `random` | random numbers, and values that are critical for rounding |
+//! | `numbers` | roots and rationals at these values |
+//! | `piles` | piles of every kind, with sizes and weights that move their quantities to these values |
 //! | `quantities` | the physical quantities of a pile |
-//! | `tally` | what is counted |
+//! | `tally` | the counts of correct and wrong roundings |
 
 pub mod numbers;
 pub mod piles;

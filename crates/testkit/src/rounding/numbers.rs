@@ -1,4 +1,4 @@
-//! Numbers c·√r, random and adversarial.
+//! Values c·√r, random and adversarial.
 
 use cannonpile::scalar::{NearestFloat, Surd};
 use num_bigint::BigInt;
@@ -8,7 +8,7 @@ use num_traits::One;
 use super::random::{Random, power};
 use super::tally::Tally;
 
-/// Rounds random roots: of numbers of any length, at any scale.
+/// Rounds random roots of any length and scale.
 pub fn random_roots(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
@@ -21,7 +21,7 @@ pub fn random_roots(random: &mut Random, cases: u64) -> Tally {
     tally
 }
 
-/// Rounds roots beside a critical place of either format.
+/// Rounds roots close to a critical value of either format.
 pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
@@ -36,7 +36,7 @@ pub fn critical_roots(random: &mut Random, cases: u64) -> Tally {
     tally
 }
 
-/// √(M² ± a hair), and integers next to the square of (2^p + 1): at several scales, which moves no tie but among the
+/// Uses √(M²(1 ± δ)) and integers next to the square of 2^p + 1, at several scales. A power of two changes ties only among
 /// subnormals.
 fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     let place = random.critical::<F>();
@@ -57,7 +57,7 @@ fn beside_by_radicand<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     }
 }
 
-/// c·√r for a plain r, with c such that the product lies beside a critical place, or on it if the root is rational.
+/// Uses c·√r for a simple r. The value lies close to a critical value, or on it if the root is rational.
 fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally) {
     let squares = random.of(&[1, 4, 9, 49]);
     let plain = [random.within(1..1000), squares, squares];
@@ -68,8 +68,8 @@ fn beside_by_coefficient<F: NearestFloat>(random: &mut Random, tally: &mut Tally
     }
 }
 
-/// Rounds rationals: random ones, critical places themselves and what lies beside them. Each is rounded twice, as a
-/// rational and as a surd.
+/// Rounds rationals: random ones, critical values, and values close to them. Each is rounded twice, as a rational and as a
+/// surd.
 pub fn rationals(random: &mut Random, cases: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.cases < cases {
@@ -83,13 +83,13 @@ pub fn rationals(random: &mut Random, cases: u64) -> Tally {
     tally
 }
 
-/// A positive factor that takes |`x`| ≠ 0 to `place` or to one side of it, by a part in 2^220 or in the square or
-/// fourth root of that. It is met exactly only where x is rational.
+/// A positive factor that moves |`x`| ≠ 0 to `place` or close to it. The relative distance is about 2^−220, or the square
+/// root or fourth root of that. The value is exact only if x is rational.
 pub fn towards(x: &Surd, place: &BigRational, random: &mut Random) -> BigRational {
     let bits = random.of(&[60, 60, 60, 110, 110, 220]);
     let square = x.square();
     let (n, d) = (square.numer(), square.denom());
-    // An even shift that leaves 2·`bits` bits.
+    // An even shift that keeps 2·`bits` bits.
     let excess = n.bits().cast_signed() - d.bits().cast_signed();
     let half = bits - excess.div_euclid(2);
     let scaled = if half > 0 {

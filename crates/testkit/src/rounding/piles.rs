@@ -1,4 +1,4 @@
-//! Piles of every kind, their spacings, sizes and weights.
+//! Piles of every kind, with their spacings, sizes and weights.
 
 #[cfg(feature = "horizontal")]
 use std::sync::OnceLock;
@@ -16,7 +16,7 @@ use super::numbers::towards;
 use super::random::{Random, power};
 use crate::judge::{exact, midpoint};
 
-/// A straight pile, on any base and of any height, of discs too, or one of any stacking with loads and weights.
+/// A straight pile of discs or on any base, of any height, or a pile of any stacking with loads and weights.
 pub fn any(random: &mut Random) -> Pile {
     let pile = match random.within(0..8) {
         0 => Pile::discs(layers(random)),
@@ -27,7 +27,7 @@ pub fn any(random: &mut Random) -> Pile {
     pile.expect("layers and sin phi within their limits")
 }
 
-/// A straight pile of spheres, small enough to be written down.
+/// A straight pile of spheres, small enough to write down.
 pub fn small(random: &mut Random) -> Pile {
     let layers = i128::from(random.within(2..40));
     let s = random.of(&[(1, 2), (1, 2), (2, 5), (5, 6)]);
@@ -40,18 +40,18 @@ fn layers(random: &mut Random) -> i128 {
     random.of(&[few, few, few, 1000, float, 10_i128.pow(18), 10_i128.pow(30)])
 }
 
-/// Up to 5/6, beyond which no spacing fits.
+/// Up to 5/6. No spacing fits beyond it.
 fn sin_phi(random: &mut Random) -> BigRational {
     let any = (random.within(1..83), 100);
     ratio(random.of(&[(1, 2), (2, 5), (5, 6), (1, 1_000_000), any, any]))
 }
 
-/// An elastic state of up to eight layers, in which neighbours push each other.
+/// An elastic state of up to eight layers with compressive horizontal contacts.
 #[cfg(feature = "horizontal")]
 pub fn elastic(random: &mut Random) -> Pile {
     static STATES: OnceLock<Vec<Pile>> = OnceLock::new();
     let states = STATES.get_or_init(|| {
-        // They stand, and some neighbours push in each.
+        // All of these are stable, and each has compressive horizontal contacts.
         let stackings = ["+-+-+", "+++-++", "+-+-++", "+--+--", "++-+---"];
         let ratios = [(1, 1), (2, 7), (100, 3)].map(ratio);
         let states = stackings.into_iter().flat_map(|stacking| {
@@ -83,7 +83,7 @@ pub fn loaded(random: &mut Random) -> Pile {
     ]);
     let signs = signs(random, 11);
     let grown = if region == hexagon(p + 3, q + 3) {
-        // As high as it goes, or a lower one.
+        // The full height of the base, or a lower pile.
         Pile::on(region, signs).or_else(|_| Pile::on(region, Stacking::hcp(3)?))
     } else {
         Pile::under(region, signs)
@@ -102,7 +102,7 @@ fn hexagon(p: i128, q: i128) -> Region {
     Region::hexagon(p, q).expect("sides of one sphere or more")
 }
 
-/// hcp, or up to so many random steps.
+/// HCP, or up to `most` random steps.
 fn signs(random: &mut Random, most: i64) -> Stacking {
     let steps = random.within(1..most + 1);
     if random.once_in(4) {
@@ -112,7 +112,7 @@ fn signs(random: &mut Random, most: i64) -> Stacking {
     Stacking::from_signs(signs).expect("a few layers")
 }
 
-/// A weight in mg: simple, of many digits, or 10^±30.
+/// A weight in mg: simple, with many digits, or 10^±30.
 fn burden(random: &mut Random) -> BigRational {
     match random.within(0..4) {
         0 => random.ratio(128),
@@ -121,7 +121,7 @@ fn burden(random: &mut Random) -> BigRational {
     }
 }
 
-/// A site of layer k: a corner, or any.
+/// A site of layer k: a corner, or any other.
 pub fn site_of(pile: &Pile, k: i128, random: &mut Random) -> Site {
     let layer = pile.shape().layer(k).expect("a layer of the pile");
     if random.once_in(4) {
@@ -134,7 +134,7 @@ pub fn site_of(pile: &Pile, k: i128, random: &mut Random) -> Site {
         *x.start().max(&(s.start() - j)),
         *x.end().min(&(s.end() - j)),
     );
-    // Bounds are tight: every row has a sphere.
+    // Bounds are tight, so every row has a sphere.
     let i = low + random.below(high - low + 1);
     Site { i, j, k }
 }
@@ -144,7 +144,8 @@ pub fn direction(pile: &Pile, random: &mut Random) -> Direction {
     random.of(pile.dimension().directions())
 }
 
-/// A spacing: at a bound, a float beside it, between, or such that cosθ lies beside the middle of two floats.
+/// A spacing: at a bound, at a neighbouring float, between the bounds, or such that cosθ is close to a midpoint of two
+/// floats.
 pub fn spacing(pile: &Pile, random: &mut Random) -> Spacing {
     let clearance = pile.clearance();
     let flat = match pile.dimension() {
@@ -183,7 +184,7 @@ pub fn spacing(pile: &Pile, random: &mut Random) -> Spacing {
         .expect("between the bounds there is room")
 }
 
-/// What a quantity is proportional to.
+/// The base unit of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
     /// The radius.
@@ -192,8 +193,8 @@ pub enum Measure {
     Force,
 }
 
-/// The packing with other sizes and weights; with such as take `target`, a quantity at R = m = g = 1, to a critical
-/// place.
+/// The packing with other sizes and weights. If `target` is given, they move this quantity (at R = m = g = 1) to a critical
+/// value.
 pub fn resized<'p>(
     packing: Packing<'p>,
     measure: Measure,
@@ -208,7 +209,7 @@ pub fn resized<'p>(
         };
         towards(target, &place, random)
     });
-    // Zero is no size.
+    // A size cannot be zero.
     let target = target.filter(|factor| !factor.is_zero());
     let (radius, mass, gravity) = match (measure, target) {
         (Measure::Length, Some(factor)) => (factor, BigRational::one(), BigRational::one()),
@@ -221,7 +222,7 @@ pub fn resized<'p>(
         .with_gravity(gravity)
 }
 
-/// A radius, mass or gravity: a short decimal, 10^±300, a float, the least, or a fraction of many digits.
+/// A radius, mass or gravity: a short decimal, 10^±300, a float, the least float, or a fraction with many digits.
 fn size(random: &mut Random) -> BigRational {
     match random.within(0..32) {
         0 => decimal(300 * random.of(&[-1, 1])),

@@ -14,34 +14,34 @@ use super::random::Random;
 use super::tally::Tally;
 use crate::judge::Float;
 
-/// What is asked of a packing.
+/// A physical quantity of a packing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
     /// The magnitude of a contact force.
     Contact,
-    /// Its components.
+    /// The components of a contact force.
     ContactVector,
-    /// Where two spheres touch.
+    /// The contact point of two spheres.
     ContactPoint,
     /// The centre of a sphere.
     Position,
-    /// Normal and shears.
+    /// Normal and shear forces on the floor.
     OnFloor,
-    /// f₀, the central constant, and those of the angle.
+    /// f₀, the constant of the central force, and the functions of the angle.
     UnitForce,
-    /// Masses, weights and sizes, which are rationals.
+    /// Masses, weights and sizes, which are rational.
     Weight,
-    /// Contact forces of straight piles filled into slices.
+    /// Contact forces of straight piles, written into slices.
     Filled,
-    /// Those of any stacking, with weights and loads.
+    /// Contact forces of any stacking with weights and loads, written into slices.
     FilledStacking,
-    /// What neighbours and spheres below each other bear in elastic states, and where.
+    /// The horizontal and the sloping contact forces of elastic states, and their contact points.
     #[cfg(feature = "horizontal")]
     Elastic,
 }
 
 impl Quantity {
-    /// All of them.
+    /// All quantities.
     pub const ALL: &'static [Self] = &[
         Self::Contact,
         Self::ContactVector,
@@ -56,7 +56,7 @@ impl Quantity {
         Self::Elastic,
     ];
 
-    /// What a table calls it.
+    /// The name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Contact => "contact force",
@@ -66,8 +66,8 @@ impl Quantity {
             Self::OnFloor => "force on the floor",
             Self::UnitForce => "unit force, angles",
             Self::Weight => "mass, weight, sizes",
-            Self::Filled => "contact forces filled in",
-            Self::FilledStacking => "stackings filled in",
+            Self::Filled => "contact forces in slices",
+            Self::FilledStacking => "stackings in slices",
             #[cfg(feature = "horizontal")]
             Self::Elastic => "elastic states",
         }
@@ -80,7 +80,7 @@ impl Quantity {
         }
     }
 
-    /// Rounds this quantity at sites of random piles, each in many sizes.
+    /// Rounds this quantity at sites of random piles. Each pile has many sizes.
     pub fn tally(self, random: &mut Random, cases: u64) -> Tally {
         let mut tally = Tally::default();
         while tally.cases < cases {
@@ -191,7 +191,7 @@ fn weights(packing: &Packing<'_>, site: Site, tally: &mut Tally) -> Result<(), E
     Ok(())
 }
 
-/// A contact between layers, if there is one, and those between neighbours that push.
+/// The sloping contact, except in the bottom layer, and the compressive horizontal contacts of a site.
 #[cfg(feature = "horizontal")]
 fn elastic(
     packing: &Packing<'_>,
@@ -212,7 +212,8 @@ fn elastic(
     Ok(surds)
 }
 
-/// Which contacts of a layer are judged: along α of its first row, along γ of the first and β of the last sphere of each.
+/// The contacts of a layer to check: along α in its first row, along γ at the first sphere of each row, and along β at the
+/// last.
 fn judged(packing: &Packing<'_>, k: i128) -> Result<Vec<(usize, Site, Direction)>, Error> {
     let mut judged = Vec::new();
     let mut place = 0;
@@ -230,7 +231,7 @@ fn judged(packing: &Packing<'_>, k: i128) -> Result<Vec<(usize, Site, Direction)
     Ok(judged)
 }
 
-/// Contacts below a layer.
+/// Checks the contacts below a layer.
 fn filled(packing: &Packing<'_>, k: i128, tally: &mut Tally) -> Result<(), Error> {
     let judged = judged(packing, k)?;
     let exact = judged
@@ -248,7 +249,7 @@ fn filled_as<F: Float>(
     tally: &mut Tally,
 ) -> Result<(), Error> {
     match forces_of_layer::<F>(packing, k) {
-        // One force is beyond the floats then, and so is the greatest.
+        // If one force overflows, so does the greatest.
         Err(Error::Overflow { .. }) => {
             let all = packing.contact_forces(Selection::Layer(k))?;
             let all = all.map(|contact| Ok(contact?.force));
@@ -266,10 +267,10 @@ fn filled_as<F: Float>(
     Ok(())
 }
 
-/// All forces of a layer on the next, filled in by direction.
+/// All forces between a layer and the next, by direction.
 fn forces_of_layer<F: Float>(packing: &Packing<'_>, k: i128) -> Result<[Vec<F>; 3], Error> {
     let mut layers = packing.layers::<F>(Selection::Layer(k))?;
-    let layer = layers.next_layer()?.expect("the layer asked for");
+    let layer = layers.next_layer()?.expect("the requested layer");
     let mut forces = [(); 3].map(|()| vec![F::zero(); layer.sphere_count()]);
     layer.fill(forces.each_mut().map(Vec::as_mut_slice))?;
     Ok(forces)

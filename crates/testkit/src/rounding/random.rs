@@ -1,4 +1,4 @@
-//! Random numbers, the same in every run.
+//! Random numbers that are the same in every run.
 
 use core::ops::Range;
 
@@ -7,22 +7,22 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 
-/// A generator (xorshift).
+/// A pseudorandom generator (xorshift).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// Begins a sequence, one for each nonzero seed.
+    /// Starts a sequence, a different one for each nonzero seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        // Small seeds differ in few bits.
+        // Small seeds differ in few bits, so this mixes them.
         for _ in 0..8 {
             random.bits();
         }
         random
     }
 
-    /// 64 bits.
+    /// The next 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -30,30 +30,30 @@ impl Random {
         self.0
     }
 
-    /// A number of a range that is not empty.
+    /// A number from a nonempty range.
     pub fn within(&mut self, range: Range<i64>) -> i64 {
         let width = (range.end - range.start).unsigned_abs();
         range.start + i64::try_from((self.bits() >> 20) % width).unwrap_or(0)
     }
 
-    /// 0 ≤ n < end.
+    /// A number with 0 ≤ n < end.
     pub fn below(&mut self, end: i128) -> i128 {
         let bits = u128::from(self.bits()) << 64 | u128::from(self.bits());
         (bits >> 1).cast_signed() % end
     }
 
-    /// One of these.
+    /// One of the choices.
     pub fn of<T: Copy>(&mut self, choices: &[T]) -> T {
         let index = (self.bits() >> 24) % choices.len() as u64;
         choices[usize::try_from(index).unwrap_or(0)]
     }
 
-    /// True once in n times.
+    /// True with probability 1/n.
     pub fn once_in(&mut self, n: u64) -> bool {
         (self.bits() >> 24).is_multiple_of(n)
     }
 
-    /// A positive integer of up to so many bits.
+    /// A positive integer of at most `most_bits` bits.
     pub fn integer(&mut self, most_bits: i64) -> BigInt {
         let bits = self.within(1..most_bits + 1);
         let words = (bits + 63) / 64;
@@ -61,13 +61,13 @@ impl Random {
         (all >> (64 * words - bits)) | BigInt::one()
     }
 
-    /// A positive rational of up to so many bits above and below.
+    /// A positive rational. Numerator and denominator have at most `most_bits` bits.
     pub fn ratio(&mut self, most_bits: i64) -> BigRational {
         BigRational::new(self.integer(most_bits), self.integer(most_bits))
     }
 
-    /// A place that is critical for a format: halfway between two of its floats or, once in four times, a float;
-    /// subnormal, about the greatest or moderate.
+    /// A critical value of a format: the midpoint of two floats or, with probability 1/4, a float. It is subnormal, near the
+    /// greatest float, or of moderate size.
     pub fn critical<F: NearestFloat>(&mut self) -> BigRational {
         let precision = i64::from(F::PRECISION);
         let (least, greatest) = (F::MIN_EXPONENT, 3 - F::MIN_EXPONENT - 2 * precision);
@@ -92,20 +92,22 @@ impl Random {
         BigRational::from_integer((2 * u128::from(m) + half).into()) * power(e - 1)
     }
 
-    /// Whether to go to an end of the format: rarely to those of `f64`, where numbers of a thousand bits take their time.
+    /// Tells whether to use an end of the format. This is rare for `f64`, whose extreme values have a thousand bits and are
+    /// slow.
     fn is_extreme<F: NearestFloat>(&mut self) -> bool {
         self.once_in(if F::PRECISION > 24 { 16 } else { 2 })
     }
 
-    /// A power of two, moderate or, rarely, from far below the least subnormal of `f64` to above its greatest.
+    /// A power of two of moderate size. Rarely, its range is from far below the least subnormal of `f64` to above its
+    /// greatest float.
     pub fn scale(&mut self) -> BigRational {
         let moderate = self.within(-160..160);
         let any = self.within(-1130..1050);
         power(if self.once_in(12) { any } else { moderate })
     }
 
-    /// 2 to the power at which a number passes for a tie until one looks closer, or 0: in `f64`, in double-double, in
-    /// all that is shorter than the exact value.
+    /// A power of two that hides a difference to a tie in low precision: in `f64`, in double-double, or in every format
+    /// shorter than the exact value.
     pub fn hair(&mut self) -> BigRational {
         let bits = self.of(&[(52, 70), (52, 70), (100, 130), (100, 130), (190, 210)]);
         power(-self.within(bits.0..bits.1))

@@ -1,31 +1,30 @@
-//! How many roundings were judged, and how many were wrong.
+//! Counts of checked roundings and of wrong ones.
 
 use cannonpile::scalar::{NearestFloat, Surd};
 use num_rational::BigRational;
 
 use crate::judge::{Float, Value, Verdict, is_nearest};
 
-/// The verdicts about one quantity. A case is an exact value, rounded to `f64` and to `f32`; of what is filled into
-/// slices, each float is one.
+/// The results for one quantity. A case is an exact value, rounded to `f64` and to `f32`. In slices, each float is a case.
 #[derive(Debug, Default)]
 pub struct Tally {
-    /// How many values were rounded.
+    /// The number of rounded values.
     pub cases: u64,
-    /// How many of them to a float that is not the nearest, in one format or both.
+    /// The number of values with a wrong float, in one format or both.
     pub wrong: u64,
-    /// The first of those.
+    /// The first wrong one.
     pub witness: Option<String>,
 }
 
 impl Tally {
-    /// Rounds a value and judges it.
+    /// Rounds a value and checks it.
     pub fn meet(&mut self, exact: &Surd) {
         let value = Value::of(exact);
         let (double, single) = (exact.nearest::<f64>(), exact.nearest::<f32>());
         self.count(is_nearest(double, &value).and_then(|()| is_nearest(single, &value)));
     }
 
-    /// Rounds a rational by itself and as a surd, and judges both.
+    /// Rounds a rational directly and as a surd, and checks both.
     pub fn meet_rational(&mut self, exact: &BigRational) {
         let value = Value::of(&exact.clone().into());
         self.count(
@@ -35,7 +34,7 @@ impl Tally {
         self.meet(&exact.clone().into());
     }
 
-    /// Judges a float that was rounded before; `None` stands for an infinite one.
+    /// Checks an already rounded float. `None` stands for infinity.
     pub fn meet_float<F: Float>(&mut self, got: Option<F>, exact: &Surd) {
         self.count(is_nearest(got, &Value::of(exact)));
     }

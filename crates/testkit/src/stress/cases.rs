@@ -1,5 +1,5 @@
-//! The piles: tall ones, spacings at every bound, extreme sizes, many changes of sign, loads of 10⁻³⁰ beside 10³⁰, sin φ
-//! near its ends.
+//! The piles: tall ones, spacings at every bound, extreme sizes, many sign changes, loads of 10⁻³⁰ next to 10³⁰, and sin φ
+//! near its limits.
 
 use cannonpile::geometry::Spacing;
 use cannonpile::lattice::{Region, Site};
@@ -10,20 +10,20 @@ use num_traits::{One, Pow};
 
 use crate::judge::exact;
 
-/// A pile, and what it is packed with.
+/// A pile and the sizes of its packing.
 #[derive(Debug)]
 pub struct Case {
-    /// What is extreme about it.
+    /// The name, which states the extreme property.
     pub name: String,
     /// The pile.
     pub pile: Pile,
-    /// `None` where no spheres fit: then there is no answer in SI.
+    /// `None` if no spacing fits. Then the pile has no answers in SI units.
     pub spacing: Option<Spacing>,
     /// The radius of the spheres.
     pub radius: BigRational,
-    /// Their mass.
+    /// The mass of a sphere.
     pub mass: BigRational,
-    /// Gravity.
+    /// The gravity.
     pub gravity: BigRational,
 }
 
@@ -48,7 +48,7 @@ impl Case {
         }
     }
 
-    /// The pile in its sizes and weights, if it has room.
+    /// The packed pile, if a spacing fits.
     pub fn packing(&self) -> Result<Option<Packing<'_>>, Error> {
         let Some(spacing) = &self.spacing else {
             return Ok(None);
@@ -59,7 +59,7 @@ impl Case {
         packing.with_gravity(self.gravity.clone()).map(Some)
     }
 
-    /// That no spheres fit at this spacing.
+    /// Tells whether the pile rejects this spacing.
     pub fn is_refused(&self) -> bool {
         let clearance = self.pile.clearance();
         let refused = |spacing| clearance.check(spacing).is_err();
@@ -67,7 +67,7 @@ impl Case {
     }
 }
 
-/// All but the tallest of many changes.
+/// All cases without the deep piles of many sign changes.
 pub fn all() -> Vec<Case> {
     let mut cases = tall();
     cases.extend(at_bounds());
@@ -79,7 +79,7 @@ pub fn all() -> Vec<Case> {
     cases
 }
 
-/// Piles with layers at the limits of floats and beyond.
+/// Piles with numbers of layers at the limits of floats and beyond.
 pub fn tall() -> Vec<Case> {
     let float = 1_i128 << 53;
     [
@@ -92,7 +92,7 @@ pub fn tall() -> Vec<Case> {
     .into()
 }
 
-/// A float on either side of every bound of a/R, one of which has no room.
+/// The floats on both sides of every bound of a/R. The pile rejects one of them.
 fn at_bounds() -> Vec<Case> {
     let root = |n: i64, d: i64| {
         let root = Spacing::from_square(ratio(n, d)).expect("positive").ratio();
@@ -148,7 +148,7 @@ fn sizes() -> Vec<Case> {
     ]
 }
 
-/// A change of sign at every layer, under a hexagon.
+/// A pile with a sign change at every layer, under a hexagon.
 pub fn alternating(side: i128, layers: i128) -> Case {
     let top = Region::hexagon(side, side).expect("a hexagon");
     let pile = Stacking::hcp(layers).and_then(|stacking| Pile::under(top, stacking));
@@ -156,7 +156,7 @@ pub fn alternating(side: i128, layers: i128) -> Case {
     Case::new(&name, pile, Some(ratio(6, 5)))
 }
 
-/// Much beside little, on spheres of the top layer; above a straight stacking and above a mixed one.
+/// Large loads next to small ones, on spheres of the top layer, for a straight stacking and a mixed one.
 fn loads() -> Vec<Case> {
     let ten = |exponent: i32| ratio(10, 1).pow(exponent);
     let stackings = [("straight", "+++++++"), ("mixed", "+--+-++")];

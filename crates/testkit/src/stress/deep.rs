@@ -1,5 +1,5 @@
-//! A change of sign at every one of 1,000 layers, under a hexagon of 40 spheres a side: 300 million spheres. And of 250, 9 million,
-//! for scalars that take their time.
+//! Sign changes at every one of 1,000 layers, under a hexagon with 40 spheres a side: 300 million spheres. For slow scalars,
+//! 250 layers with 9 million spheres.
 
 use core::fmt;
 
@@ -12,7 +12,7 @@ use num_traits::Signed;
 use super::cases::{self, Case};
 use super::errors::{Worst, distance, unit};
 
-/// The worst errors of sweeps down to the lowest contacts, in units of the greatest force there.
+/// The worst errors of sweeps at the lowest contacts, in units of the greatest force there.
 pub struct Deep {
     case: Case,
     sample: Sample,
@@ -20,14 +20,14 @@ pub struct Deep {
     lines: Vec<String>,
 }
 
-/// Places in a layer, and the exact forces to the spheres below.
+/// Positions in a layer, and the exact forces on the spheres below.
 type Sample = Vec<(usize, [BigRational; 3])>;
 
 impl Deep {
-    /// How many layers are measured in floats by the tests, and how many in every scalar.
+    /// The numbers of layers that the tests measure: in floats only, and in every scalar.
     pub const LAYERS: [i128; 2] = [1000, 250];
 
-    /// The exact forces; nothing measured yet.
+    /// The exact forces, without measurements.
     pub fn new(layers: i128) -> Self {
         let case = cases::alternating(40, layers);
         let k = case.pile.layers() - 2;
@@ -54,7 +54,7 @@ impl Deep {
         }
     }
 
-    /// In every scalar.
+    /// Measures in every scalar.
     pub fn measured(layers: i128) -> Self {
         let mut deep = Self::new(layers);
         deep.measure_floats();
@@ -66,7 +66,7 @@ impl Deep {
         deep
     }
 
-    /// In floats, which is quick.
+    /// Measures in floats, which is fast.
     pub fn measure_floats(&mut self) {
         let double = self.swept::<f64>(&unit::<f64>(&self.greatest));
         let single = self.swept::<f32>(&unit::<f32>(&self.greatest));
@@ -74,7 +74,7 @@ impl Deep {
         self.lines.push(format!("| `f32` | {single} |"));
     }
 
-    /// The worst error of a sweep; of intervals, which must hold the exact forces, how far their ends are off.
+    /// The worst error of a sweep. Intervals must contain the exact forces, and their error is that of the ends.
     fn swept<T: Algebra + RealEmbeddable>(&self, ulp: &BigRational) -> Worst {
         let forces = lowest_contacts::<T>(&self.case.pile);
         let mut worst = Worst::none();
@@ -93,7 +93,7 @@ impl Deep {
     }
 }
 
-/// The forces of the layer above the floor, by direction.
+/// The forces of the layer above the bottom layer, by direction.
 fn lowest_contacts<T: Algebra>(pile: &Pile) -> [Vec<T>; 3] {
     let k = pile.layers() - 2;
     let layers = pile

@@ -1,4 +1,4 @@
-//! Errors in units in the last place, as rationals: a table of them is the same on every machine.
+//! Errors in units in the last place. They are rationals, so a table of them is the same on every machine.
 
 use core::fmt;
 
@@ -11,7 +11,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::judge::{Float, exact, significand};
 use crate::rounding::random::power;
 
-/// The distance of the floats of a format about a number: those of its binade, and at most a subnormal's.
+/// The spacing of the floats of a format near a number: that of its binade, and at least that of subnormals.
 pub fn unit<F: Float>(about: &BigRational) -> BigRational {
     let (n, d) = (about.numer().magnitude(), about.denom().magnitude());
     let precision = i64::from(F::PRECISION);
@@ -25,7 +25,7 @@ pub fn unit<F: Float>(about: &BigRational) -> BigRational {
     power((e + 1 - precision).max(least))
 }
 
-/// The greatest distance from `exact` of anything that the answer may stand for; `None` if that is unbounded.
+/// The greatest distance from `exact` to any number that the answer may represent. `None` if it is unbounded.
 pub fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRational> {
     let bounds = got.enclosure()?;
     Some(
@@ -35,8 +35,8 @@ pub fn distance<T: RealEmbeddable>(got: &T, exact: &BigRational) -> Option<BigRa
     )
 }
 
-/// By how much a float is off the number it was rounded from, in units in its last place. Only for printing: what is
-/// nearest the judge decides.
+/// The difference of a float and its exact value, in units in the last place. It is only for printing: `judge` decides
+/// whether the float is correct.
 pub fn rounding<F: Float>(got: F, surd: &Surd) -> BigRational {
     let value = surd.to_rational().unwrap_or_else(|| approximately(surd));
     let off = (exact(got) - &value).abs();
@@ -49,29 +49,29 @@ fn approximately(surd: &Surd) -> BigRational {
     surd.coefficient() * BigRational::new(BigInt::from(root.sqrt()), BigInt::one() << 200)
 }
 
-/// The worst of some errors.
+/// The worst of several errors.
 #[derive(Clone, Debug)]
 pub struct Worst(Option<BigRational>);
 
 impl Worst {
-    /// Takes one more into account; `None` stands for one without bounds.
+    /// Adds an error. `None` stands for an unbounded one.
     pub fn meet(&mut self, error: Option<BigRational>) {
-        // Once without bounds, always.
+        // An unbounded error remains unbounded.
         let worst = self.0.take().zip(error);
         self.0 = worst.map(|(worst, error)| worst.max(error));
     }
 
-    /// None met yet.
+    /// An empty set of errors.
     pub fn none() -> Self {
         Self(Some(BigRational::zero()))
     }
 
-    /// Whether no error is beyond a limit.
+    /// Tells whether no error exceeds a limit.
     pub fn is_at_most(&self, limit: &BigRational) -> bool {
         self.0.as_ref().is_some_and(|worst| worst <= limit)
     }
 
-    /// The exponent of the least power of two that is not below it; `None` for 0.
+    /// The exponent of the least power of two that is not smaller. `None` for 0.
     fn exponent(worst: &BigRational) -> Option<i64> {
         let e = worst.numer().bits().cast_signed() - worst.denom().bits().cast_signed();
         let exponents = (e - 1..=e + 1).find(|e| *worst <= power(*e));
@@ -88,7 +88,7 @@ impl Worst {
 }
 
 impl fmt::Display for Worst {
-    /// With two decimals; a great one as a power of two, which it is at most.
+    /// Prints two decimals, or a power of two as an upper bound for a large error.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Some(worst) if *worst < BigRational::from_integer(10_000.into()) => {

@@ -1,32 +1,32 @@
-//! What is asked of each pile, in any scalar: contact forces and forces on the floor, in pile units.
+//! The tested quantities of each pile, in any scalar: contact forces and forces on the floor, in pile units.
 
 use cannonpile::lattice::{Direction, Region, Site};
 use cannonpile::scalar::Algebra;
 use cannonpile::shape::Selection;
 use cannonpile::{Error, Pile};
 
-/// Three numbers about a sphere.
+/// Three values for a sphere.
 #[derive(Clone, Debug)]
 pub struct OfSphere<T> {
     /// The sphere.
     pub site: Site,
-    /// The numbers.
+    /// The values.
     pub values: [T; 3],
 }
 
-/// The answers of one scalar, sphere by sphere, the same spheres for each.
+/// The answers in one scalar, sphere by sphere. The spheres are the same for each scalar.
 #[derive(Clone, Debug)]
 pub struct Forces<T> {
-    /// Along α, β and γ below a sphere, in f₀.
+    /// The contact forces below a sphere along α, β and γ, in f₀.
     pub contacts: Vec<OfSphere<T>>,
-    /// Normal, and the shears along x and y.
+    /// The normal force, and the shear along x and y.
     pub floor: Vec<OfSphere<T>>,
-    /// Of the spheres above the floor that are looked at, in 2R and the symbolic basis.
+    /// The positions of the selected spheres above the bottom layer, in 2R and the symbolic basis.
     pub positions: Vec<OfSphere<T>>,
 }
 
 impl<T: Clone> Forces<T> {
-    /// Every number, changed in one way.
+    /// Applies a function to every value.
     pub fn map<U>(self, image: impl Fn(T) -> U) -> Forces<U> {
         let of = |spheres: Vec<OfSphere<T>>| {
             let mapped = spheres
@@ -45,12 +45,13 @@ impl<T: Clone> Forces<T> {
     }
 }
 
-/// How many spheres of a swept layer are looked at, at most.
+/// The maximal number of spheres selected in a swept layer.
 const SAMPLE: usize = 120;
 
 impl<T: Algebra> Forces<T> {
-    /// Of a straight pile in closed form, in corners, middles and fixed places of the top, the middle and the bottom;
-    /// of any other by a sweep, all along the middle row of the last two layers and perhaps some way into the next.
+    /// Computes the forces. For a straight pile it uses the closed form at corners, midpoints and fixed sites of the top,
+    /// middle and bottom layers. For any other pile it uses a sweep along the middle row of the last two layers, perhaps
+    /// some way into the next row.
     pub fn of(pile: &Pile) -> Result<Self, Error> {
         if pile.shape().stacking().is_straight() {
             Self::one_by_one(pile)
@@ -138,7 +139,7 @@ impl<T: Algebra> Forces<T> {
     }
 }
 
-/// How many spheres of a layer lie before its middle row, and how far apart to look in that row.
+/// The number of spheres in a layer before its middle row, and the stride in that row.
 fn middle_row(pile: &Pile, layer: Selection) -> Result<(usize, usize), Error> {
     let lengths: Vec<usize> = pile
         .rows(layer)?
@@ -149,7 +150,7 @@ fn middle_row(pile: &Pile, layer: Selection) -> Result<(usize, usize), Error> {
     Ok((lengths[..middle].iter().sum(), length / SAMPLE + 1))
 }
 
-/// Corners, the middles between them, and some places between.
+/// The corners, the midpoints of all pairs, and some points between.
 fn places(region: &Region) -> Vec<[i128; 2]> {
     let corners = region.corners();
     let mut places = Vec::from(corners);

@@ -1,13 +1,13 @@
-//! Piles at the limits of floats, and how far off each way to compute is there.
+//! Piles at the limits of floats, and the errors of each scalar there.
 //!
-//! | file | what it has |
+//! | file | contents |
 //! |---|---|
 //! | `cases` | the piles |
-//! | `forces` | what is asked of each, in any scalar |
-//! | `errors` | errors in units in the last place, exactly |
-//! | `deep`, `deep.md` | 250 and a thousand changes of sign, apart because they take long; as they were measured last |
-//! | `table` | the table and what every row must keep |
-//! | `table.md` | the table as it was measured last |
+//! | `forces` | the tested quantities, in any scalar |
+//! | `errors` | exact errors in units in the last place |
+//! | `deep`, `deep.md` | 250 and 1,000 sign changes, separate because they take long; the last measurements |
+//! | `table` | the table, and the bounds of every row |
+//! | `table.md` | the table of the last measurements |
 
 pub mod cases;
 pub mod deep;

@@ -1,4 +1,4 @@
-//! The table: a row for each pile and quantity, a column for each way to compute; and what every row must keep.
+//! The table: a row for each pile and quantity, a column for each scalar, and the bounds of every row.
 
 use core::fmt::{self, Write as _};
 
@@ -13,13 +13,13 @@ use super::errors::{Worst, distance, rounding, unit};
 use super::forces::{Forces, OfSphere};
 use crate::judge::{Float, Value, is_nearest};
 
-/// What stands above the rows.
+/// The text above the rows.
 pub const HEAD: &str = "\
 Worst errors at the limits, in units in the last place of the format; of double-double and of the width of intervals, in
 those of `f64`.
 
 The column `nearest` is of exact values rounded to `f64` and `f32`, in pile units and in SI, in units of the value itself:
-½ is the least there can be. The others are of scalars in pile units. Their units are those of the value, for contacts and
+Correct rounding has an error of at most ½. The others are of scalars in pile units. Their units are those of the value, for contacts and
 normal forces of straight piles; of the normal force, for their shears, which are differences; of the greatest component,
 for positions; and where signs change, of the greatest force of the layer. Each interval holds the exact value.
 
@@ -36,11 +36,11 @@ pub struct Row {
     f64: Outcome,
     f32: Outcome,
     double: Outcome,
-    /// The width, where all of them hold the exact value.
+    /// The width of the intervals, if all of them contain the exact value.
     interval: Outcome,
 }
 
-/// The worst error, or that the scalar cannot hold an answer.
+/// The worst error, or an overflow of the scalar.
 #[derive(Clone, Debug)]
 enum Outcome {
     Errs(Worst),
@@ -72,13 +72,13 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// An exact value and the number whose last place is the unit of its error.
+/// An exact value, and the number whose last place is the unit of its error.
 struct Wanted {
     value: BigRational,
     about: BigRational,
 }
 
-/// What every scalar says of a pile.
+/// The answers of every scalar about a pile.
 #[derive(Clone, Debug)]
 pub struct Answers {
     /// In `f64`.
@@ -92,7 +92,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// Computes them for a pile.
+    /// Computes the answers about a pile.
     pub fn of(pile: &Pile) -> Self {
         Self {
             f64: Forces::of(pile),
@@ -103,7 +103,8 @@ impl Answers {
     }
 }
 
-/// The rows of a pile, checked: roundings are right, intervals hold the exact values, errors keep their bounds.
+/// Returns the rows of a pile. Checks that roundings are correct, intervals contain the exact values, and errors respect
+/// their bounds.
 pub fn rows(case: &Case, answers: &Answers) -> Result<String, String> {
     let mut text = String::new();
     if case.is_refused() {
@@ -152,7 +153,7 @@ impl Quantity {
         }
     }
 
-    /// The values of this quantity, in one order for all scalars.
+    /// The values of this quantity, in the same order for all scalars.
     fn of<T: Clone>(self, forces: &Forces<T>) -> Vec<T> {
         let of = |spheres: &[OfSphere<T>], range: core::ops::Range<usize>| {
             let values = spheres
@@ -197,7 +198,7 @@ impl Quantity {
             .collect()
     }
 
-    /// Rounds the exact values, in pile units and in SI, and has each float judged.
+    /// Rounds the exact values, in pile units and in SI units, and checks each float.
     fn roundings(
         self,
         exact: &Forces<BigRational>,
@@ -219,7 +220,7 @@ impl Quantity {
         Ok(worst)
     }
 
-    /// The answers in SI; among the positions are the points of contact too.
+    /// The answers in SI units. The positions include the contact points.
     fn in_si(
         self,
         exact: &Forces<BigRational>,
@@ -280,7 +281,7 @@ fn compare<T: Algebra + RealEmbeddable, F: Float>(
     Outcome::Errs(worst)
 }
 
-/// The greatest width, once every interval was found to hold its value.
+/// The greatest width. Checks that every interval contains its value.
 fn widths(
     forces: &Result<Forces<Interval>, Error>,
     quantity: Quantity,
@@ -292,7 +293,7 @@ fn widths(
     let mut worst = Worst::none();
     for (got, wanted) in quantity.of(forces).iter().zip(wanted) {
         if !got.contains(&wanted.value) {
-            return Err(format!("{got:?} does not hold {}", wanted.value));
+            return Err(format!("{got:?} does not contain {}", wanted.value));
         }
         let bounds = got.enclosure();
         let width = bounds.map(|bounds| bounds.upper - bounds.lower);
@@ -302,15 +303,15 @@ fn widths(
 }
 
 impl Row {
-    /// The bounds that the library states: 12 units where no sign changes, 16 for each layer and load where one does; an
-    /// interval grows up to threefold at each change, since 2Σg/3 − g names each force twice.
+    /// Checks the bounds that the library states: 12 units for a straight stacking, otherwise 16 for each layer and load. An
+    /// interval grows up to threefold at each sign change, because 2Σg/3 − g uses each force twice.
     fn keeps_bounds(&self, case: &Case) -> Result<(), String> {
         let stacking = case.pile.shape().stacking();
         let straight = stacking.is_straight() || self.quantity == "position";
         let most = if straight {
             ratio(12, 1)
         } else {
-            // Layers, the two loads, and the floor.
+            // The layers, the two loads, and the floor.
             BigRational::from_integer((16 * (case.pile.layers() + 3)).into())
         };
         let spread = if straight { 0 } else { stacking.changes() };
@@ -325,7 +326,7 @@ impl Row {
             Outcome::Errs(worst) => worst.is_at_most(limit),
             Outcome::Overflows => false,
         });
-        // What is printed is rounded, and a root approximated; the judge has decided already.
+        // The printed value is rounded, and the root approximate. The exact check was made before.
         let half = self.nearest.is_at_most(&(ratio(1, 2) + ratio(1, 1 << 60)));
         if kept && half {
             Ok(())

@@ -1,4 +1,4 @@
-//! The balance of every single sphere.
+//! The equilibrium of every single sphere.
 
 use cannonpile::geometry::Vector;
 use num_rational::BigRational;
@@ -7,8 +7,8 @@ use num_traits::{Signed, Zero};
 use super::{Verdict, same};
 use crate::answers::{Answers, below};
 
-/// On every sphere the forces of the spheres below, of the spheres above (the opposite of what those
-/// feel) and the weight cancel; on the bottom layer the floor receives what is left.
+/// The forces from the spheres below, the reactions to the forces on the spheres above, and the weight sum to zero on every
+/// sphere. In the bottom layer the floor takes the difference.
 pub fn every_sphere_is_balanced(pile: &Answers) -> Verdict {
     for site in pile.spheres.keys() {
         let mut left = pile.weight_vector();
@@ -21,7 +21,7 @@ pub fn every_sphere_is_balanced(pile: &Answers) -> Verdict {
             }
         }
         if let Some(force) = pile.floor.get(site) {
-            // From mg into f₀ cosθ.
+            // Converts mg to f₀ cosθ.
             left = left - &force.clone().map(|c| c * &pile.weight);
         }
         same(site, &left, &Vector::zero())?;
@@ -29,8 +29,7 @@ pub fn every_sphere_is_balanced(pile: &Answers) -> Verdict {
     Ok(())
 }
 
-/// What a sphere says it receives from above is what the spheres above say they give; at the surface
-/// nothing.
+/// The forces from above on a sphere equal the forces that the spheres above transmit. At the surface they are zero.
 pub fn neighbours_agree(pile: &Answers) -> Verdict {
     for (site, sphere) in &pile.spheres {
         let mut sum = Vector::zero();
@@ -47,7 +46,7 @@ pub fn neighbours_agree(pile: &Answers) -> Verdict {
     Ok(())
 }
 
-/// Every force pushes, along the line from the centre of the lower sphere to that of the upper one.
+/// Every force is compressive and acts along the line of centres.
 pub fn forces_lie_along_contacts(pile: &Answers) -> Verdict {
     for ((site, direction), contact) in &pile.contacts {
         let lower = &pile.spheres[&below(*site, *direction)].position;
@@ -59,8 +58,8 @@ pub fn forces_lie_along_contacts(pile: &Answers) -> Verdict {
     Ok(())
 }
 
-/// The resultant of the forces from above points away from the apex and grows with the distance:
-/// mg/(6R cosθ)·r, which is r/(2R) in f₀ (`paper`, "Closed form"). Of an equilateral base and of discs.
+/// The resultant of the forces from above points away from the apex and is proportional to the distance: mg/(6R cosθ)·r,
+/// which is r/(2R) in f₀ (`paper`, "Closed form"). This holds for an equilateral base and for discs.
 pub fn resultants_are_central(pile: &Answers) -> Verdict {
     for (site, sphere) in &pile.spheres {
         same(site, &sphere.resultant_above, &sphere.position)?;

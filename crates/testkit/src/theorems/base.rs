@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use super::{Verdict, same};
 use crate::answers::{Answers, Shape, ratio};
 
-/// The base carries the weight of the pile and no horizontal force.
+/// The base supports the weight of the pile and no horizontal force.
 pub fn base_carries_the_weight(pile: &Answers) -> Verdict {
     let sum = pile.floor.values().fold(Vector::zero(), |sum, f| sum + f);
     let weight = whole(pile.spheres.len());
@@ -19,10 +19,10 @@ pub fn base_carries_the_weight(pile: &Answers) -> Verdict {
     same("total force on the floor", &sum, &total)
 }
 
-/// The forces on the floor have the moment of the weights, about every axis through the apex.
+/// The forces on the floor have the moment of the weights about every axis through the apex.
 ///
-/// Both are sums of r × F, with r from the apex; the common factors 2R·mg·sinθ, and the 2cosφ or
-/// 2cosφ·tanθ of two of the components, are left out. About the vertical axis the weights have none.
+/// Both are sums of r × F, with r from the apex. The common factor 2R·mg·sinθ is left out, and so are 2cosφ or 2cosφ·tanθ of
+/// two components. The weights have no moment about the vertical axis.
 pub fn base_has_the_moment_of_the_weights(pile: &Answers) -> Verdict {
     let weight = Vector {
         x: BigRational::zero(),
@@ -51,8 +51,8 @@ fn moment(r: &Vector<BigRational>, f: &Vector<BigRational>) -> Vector<BigRationa
     }
 }
 
-/// The forces on the floor as printed: the paper's (13) and (14) for the
-/// equilateral base; for discs and for the normal force on an isosceles base see `paper`, "Closed form".
+/// The published forces on the floor: the paper's (13) and (14) for the equilateral base. For discs and for the normal force
+/// on an isosceles base see `paper`, "Closed form".
 pub fn base_is_as_published(pile: &Answers) -> Verdict {
     let integer = |n: i128| BigRational::from_integer(n.into());
     let last = pile.layers - 1;

@@ -1,5 +1,5 @@
-//! What must hold of the answers about any pile: each theorem a function of plain data, so that it
-//! can be shown to refuse corrupted ones.
+//! Theorems about the answers for any pile. Each is a function of plain data, so tests can show that it rejects corrupted
+//! answers.
 
 pub mod balance;
 pub mod base;
@@ -9,10 +9,10 @@ use core::fmt::Debug;
 
 use crate::answers::Answers;
 
-/// Nothing, or what contradicts the theorem.
+/// `Ok`, or the contradiction to the theorem.
 pub type Verdict = Result<(), String>;
 
-/// `got` is `want`; `what` names it where it is not.
+/// `got` equals `want`. The error names the item `what`.
 pub fn same<T: PartialEq + Debug>(what: impl Debug, got: &T, want: &T) -> Verdict {
     if got == want {
         Ok(())
@@ -21,7 +21,7 @@ pub fn same<T: PartialEq + Debug>(what: impl Debug, got: &T, want: &T) -> Verdic
     }
 }
 
-/// Two sources say the same of a pile, item by item.
+/// The library and the oracle agree on a pile, item by item.
 pub fn agree(library: &Answers, oracle: &Answers) -> Verdict {
     same("weight", &library.weight, &oracle.weight)?;
     for (site, sphere) in &oracle.spheres {
@@ -33,6 +33,6 @@ pub fn agree(library: &Answers, oracle: &Answers) -> Verdict {
     for (site, force) in &oracle.floor {
         same(site, &library.floor.get(site), &Some(force))?;
     }
-    // And the library names nothing that is not there.
+    // The library lists no additional items.
     same("all", library, oracle)
 }

@@ -1,4 +1,4 @@
-//! Which mappings of a pile onto itself carry its forces along.
+//! Mappings of a pile onto itself that preserve its forces.
 
 use cannonpile::geometry::Vector;
 use cannonpile::lattice::{Direction, Site};
@@ -7,12 +7,10 @@ use num_rational::BigRational;
 use super::{Verdict, same};
 use crate::answers::{Answers, ratio};
 
-/// A symmetry of the pile: the site whose count along α is the old count along the first direction
-/// given, and so on.
+/// A symmetry of the pile. The count of the image along α is the old count along the first listed direction, and so on.
 ///
-/// Every permutation maps the sites of a triangular pile onto themselves. On an equilateral base all
-/// six are symmetries of the forces; on an isosceles one, and for discs, only the identity and the
-/// mirror α ↔ β.
+/// Every permutation maps the sites of a triangular pile onto themselves. On an equilateral base all six are symmetries of
+/// the forces. On an isosceles base, and for discs, only the identity and the mirror α ↔ β are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Symmetry([Direction; 3]);
 
@@ -36,34 +34,34 @@ impl Symmetry {
         ]
     };
 
-    /// Returns the image of a site; `None` if it leaves `i128`, which no site of a pile does.
+    /// Returns the image of a site, or `None` if it leaves `i128`. Images of sites of a pile never do.
     pub fn apply(self, site: Site) -> Option<Site> {
         let Site { i, j, k } = site;
         let [_, i, j] = self.permute(&[k.checked_sub(i)?.checked_sub(j)?, i, j]);
         Some(Site { i, j, k })
     }
 
-    /// Returns the counts of spheres above the image of a site, from those above the site, in any scalar.
+    /// Returns the counts of spheres above the image of a site, from the counts above the site, in any scalar.
     pub fn permute<T: Clone>(self, above: &[T; 3]) -> [T; 3] {
         self.0.map(|direction| above[direction.index()].clone())
     }
 
-    /// Returns the direction whose line is carried to the line of `direction`: the count along `direction` at an image
-    /// is the count along this one at the site it comes from.
+    /// Returns the direction whose line maps to the line of `direction`. The count along `direction` at an image is the
+    /// count along the returned direction at the original site.
     pub fn source(self, direction: Direction) -> Direction {
         self.0[direction.index()]
     }
 }
 
-/// A linear map of the horizontal plane, by rows, in halves: ((xx, xy), (yx, yy)) acts on components
-/// (x, y) of the symbolic basis.
+/// A linear map of the horizontal plane in halves, by rows: ((xx, xy), (yx, yy)) acts on components (x, y) of the symbolic
+/// basis.
 pub type Turn = [[i64; 2]; 2];
 
-/// The map of the plane that belongs to each of `Symmetry::ALL`, on an equilateral base.
+/// The map of the plane for each of `Symmetry::ALL`, on an equilateral base.
 ///
-/// By hand from the directions, which lie at 60°, −60° and 180° from the x axis: a mapping that puts α
-/// in the place of γ turns by +120°. In the true components (x, √3·y) these are two rotations and the
-/// reflections in the x axis and in the lines of α and β.
+/// Derived by hand from the directions, which lie at 60°, −60° and 180° from the x axis. A mapping of γ to α rotates by
+/// +120°. In the true components (x, √3·y) these are the identity, two rotations, and the reflections in the x axis and in
+/// the lines of α and β.
 pub const TURNS: [Turn; 6] = [
     [[2, 0], [0, 2]],
     [[-1, -3], [1, -1]],
@@ -79,8 +77,7 @@ pub const MIRRORED: Turn = TURNS[3];
 /// The mirror α ↔ β of discs, which lie along x.
 pub const MIRRORED_DISCS: Turn = [[-2, 0], [0, 2]];
 
-/// Every sphere, contact and force on the floor is carried by `symmetry` to one that is equal to it but
-/// for the turn.
+/// `symmetry` maps every sphere, contact and force on the floor to an equal one, up to the rotation.
 pub fn invariant(pile: &Answers, symmetry: Symmetry, turn: &Turn) -> Verdict {
     for (site, sphere) in &pile.spheres {
         let leaves = || format!("{site} leaves the pile");

@@ -1,4 +1,4 @@
-//! Spheres counted wrongly, steps taken wrongly.
+//! Faults that count spheres wrongly or take wrong steps.
 
 use cannonpile::lattice::{Direction, Sign};
 use cannonpile::scalar::Ring;
@@ -49,7 +49,7 @@ pub(super) fn faults() -> Vec<Fault> {
         "+ steps taken as − steps": descent = |_, direction| Sign::Minus.descent(direction)
             => ["counts", "action-reaction", "region-counts", "elastic-straight", "elastic-monotone"];
 
-        "no spheres on the floor": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
+        "the bottom layer not counted": spheres = |l, d| (RIGHT.spheres)(&one_less(l), d)
             => ["spheres", "contacts", "weight", "discs", "dimensions"];
         "square pyramids in four dimensions": spheres = |l, d| {
             let right = (RIGHT.spheres)(l, d);
@@ -62,7 +62,7 @@ pub(super) fn faults() -> Vec<Fault> {
             3 => k.clone() * k,
             _ => (RIGHT.spheres_in_layer)(k, d),
         } => ["spheres", "dimensions"];
-        "six dimensions are five": spheres_in_layer = |k, d| (RIGHT.spheres_in_layer)(k, d.min(5))
+        "five dimensions for six": spheres_in_layer = |k, d| (RIGHT.spheres_in_layer)(k, d.min(5))
             => ["dimensions"];
 
         "contacts with the floor counted": contacts = |l, d| (RIGHT.spheres)(l, d) * &P::from_i128(d.into())
@@ -81,22 +81,22 @@ pub(super) fn faults() -> Vec<Fault> {
             over(rest.clone() * &rest, 2)
         } => ["strengths"];
 
-        "lines of α and β for each other": bounds_above = |i, j, lower, upper, m, sign| {
+        "lines of α and β swapped": bounds_above = |i, j, lower, upper, m, sign| {
             let [alpha, beta, gamma] = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             [beta, alpha, gamma]
         } => ["region-counts", "edge", "elastic-monotone"];
-        "a surface one site too far out": bounds_above = |i, j, lower, upper, m, sign| {
+        "an upper bound one site too large": bounds_above = |i, j, lower, upper, m, sign| {
             let wider = upper.each_ref().map(|bound| bound.clone() + &P::one());
             (RIGHT.bounds_above)(i, j, lower, &wider, m, sign)
         } => ["region-counts", "edge"];
-        "a surface one site too far in": bounds_above = |i, j, lower, upper, m, sign| {
+        "a lower bound one site too large": bounds_above = |i, j, lower, upper, m, sign| {
             let narrower = lower.each_ref().map(|bound| bound.clone() + &P::one());
             (RIGHT.bounds_above)(i, j, &narrower, upper, m, sign)
         } => ["region-counts", "edge"];
         "every sphere twice": bounds_above = |i, j, lower, upper, m, sign| {
             (RIGHT.bounds_above)(i, j, lower, upper, m, sign).map(|of_line| of_line.each_ref().map(twice))
         } => ["region-counts", "elastic-monotone"];
-        "runs without end": bounds_above = |i, j, lower, upper, m, sign| {
+        "infinite runs": bounds_above = |i, j, lower, upper, m, sign| {
             let mut bounds = (RIGHT.bounds_above)(i, j, lower, upper, m, sign);
             for of_line in &mut bounds {
                 of_line[0] = of_line[1].clone();

@@ -1,4 +1,4 @@
-//! Forces between spheres that are wrong.
+//! Faults in the forces between spheres.
 
 use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
@@ -30,16 +30,16 @@ pub(super) fn faults() -> Vec<Fault> {
             increments.first().map_or_else(P::zero, Clone::clone)
         } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
                 "shear-ratio", "discs", "dimensions", "change-of-sign", "horizontal-balance", "squares"];
-        "the last one left out": weight = |increments| {
+        "the last increment left out": weight = |increments| {
             let [all @ .., _] = increments else { return P::zero() };
             (RIGHT.weight)(all)
         } => ["paper-system", "equilibrium", "base-normal", "weight", "total-moment", "second-moment",
                 "shear-ratio", "dimensions", "change-of-sign", "horizontal-balance", "squares"];
 
-        "an increment too much": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface", "central-force",
+        "one increment too many": force = |n, w| (RIGHT.force)(n + &P::one(), w) => ["surface", "central-force",
                 "base-normal", "weight", "total-moment", "second-moment", "shear-ratio", "discs", "dimensions",
                 "run", "edge", "horizontal-balance", "elastic-straight", "elastic-energy", "squares"];
-        "squares": force = |n, w| (RIGHT.force)(n.clone() * &n, w) => ["action-reaction", "central-force",
+        "the square of the count": force = |n, w| (RIGHT.force)(n.clone() * &n, w) => ["action-reaction", "central-force",
                 "base-normal", "uniform-base", "weight", "shear", "total-moment", "second-moment",
                 "shear-on-axis", "shear-ratio", "discs", "dimensions", "run", "edge", "horizontal-balance",
                 "elastic-straight", "elastic-energy", "squares"];
@@ -49,14 +49,14 @@ pub(super) fn faults() -> Vec<Fault> {
 
         "weightless spheres": passed_on = |received, _| received => ["equilibrium", "action-reaction", "discs",
                 "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy", "squares"];
-        "what comes from above is lost": passed_on = |_, own| own.clone() => ["equilibrium", "action-reaction",
+        "the forces from above left out": passed_on = |_, own| own.clone() => ["equilibrium", "action-reaction",
                 "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy",
                 "squares"];
-        "twice its own": passed_on = |received, own| received + own + own => ["equilibrium", "action-reaction",
+        "its own increment twice": passed_on = |received, own| received + own + own => ["equilibrium", "action-reaction",
                 "discs", "dimensions", "run", "change-of-sign", "edge", "elastic-straight", "elastic-energy",
                 "squares"];
 
-        "what a sphere receives": resultant = |from_above, directions| {
+        "the resultant reversed": resultant = |from_above, directions| {
             -(RIGHT.resultant)(from_above, directions)
         } => ["central-force"];
         "nothing along γ": resultant = |[a, b, _], directions| {
@@ -94,7 +94,7 @@ pub(super) fn faults() -> Vec<Fault> {
                 "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance",
                 "run-horizontal", "resultant-form", "squares", "third-moment", "fourth-moment", "mean-modes",
                 "mean-spectrum", "wave", "faults", "one-fault"];
-        "a square too much": half_turn = |g| {
+        "the square of the first force added": half_turn = |g| {
             (RIGHT.half_turn)(g).map(|x| x + &(g[0].clone() * &g[0]))
         } => ["half-turn", "tripled-half-turn", "change-of-sign", "edge", "point-load", "horizontal-balance",
                 "virtual-work", "run-horizontal", "resultant-form", "squares", "third-moment", "fourth-moment",

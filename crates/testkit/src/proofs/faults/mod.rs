@@ -1,4 +1,4 @@
-//! Wrong formulas, each with the theorems that do not hold of it: those and no others.
+//! Wrong formulas, each with the exact list of theorems that it refutes.
 
 mod counts;
 mod floor;
@@ -13,24 +13,24 @@ use cannonpile::theorem::Formulas;
 
 type P = Polynomial;
 
-/// The formulas of a crate but for one.
+/// The formulas of a crate with one wrong formula.
 #[derive(Clone, Copy)]
 pub struct Fault<F: 'static = Formulas> {
-    /// What is wrong.
+    /// The description of the fault.
     pub what: &'static str,
-    /// Which formula.
+    /// The name of the wrong formula.
     pub field: &'static str,
-    /// All of them, the wrong one included.
+    /// All formulas, the wrong one included.
     pub formulas: F,
-    /// The theorems of all crates that fail, in the order of all theorems.
+    /// The theorems of all crates that fail, in the order of the list of theorems.
     pub refused_by: &'static [&'static str],
 }
 
 const RIGHT: Formulas = Formulas::LIBRARY;
 
-/// Rows `"what is wrong": field = formula => ["theorem that fails", …];`.
+/// Builds a list from rows `"description": field = formula => ["theorem that fails", …];`.
 ///
-/// The caller has a type `Formulas`, and `RIGHT`, a constant of it.
+/// The caller must define a type `Formulas` and a constant `RIGHT` of it.
 #[macro_export]
 macro_rules! faults {
     ($($what:literal: $field:ident = $wrong:expr => [$($theorem:literal),+];)*) => {
@@ -44,9 +44,9 @@ macro_rules! faults {
 }
 use faults;
 
-/// The faults of the core's formulas, by the formula that is wrong.
+/// The faults of the core's formulas, ordered by the wrong formula.
 ///
-/// Of those of `pushed` and `beside` the core has no theorem: the crate of horizontal contacts has.
+/// The core has no theorem about `pushed` and `beside`. The crate of horizontal contacts has them.
 pub fn of_the_core() -> Vec<Fault> {
     [
         counts::faults(),
@@ -70,12 +70,12 @@ pub fn twice(p: &P) -> P {
     p.clone() + p
 }
 
-/// The first two in each other's place.
+/// Swaps the first two.
 pub fn swapped<T: Clone>([a, b, c]: &[T; 3]) -> [T; 3] {
     [b.clone(), a.clone(), c.clone()]
 }
 
-/// The sum of three.
+/// The sum of the three.
 pub fn sum([a, b, c]: &[P; 3]) -> P {
     a.clone() + b + c
 }

@@ -1,4 +1,4 @@
-//! Directions, positions and distances that are wrong.
+//! Faults in directions, positions and distances.
 
 use cannonpile::geometry::Vector;
 use cannonpile::theorem::Formulas;
@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use super::{Fault, P, RIGHT, faults, over, swapped, twice};
 
-/// The sphere's position, with a part of it changed.
+/// The sphere's position with one changed component.
 macro_rules! moved {
     (|$at:ident| $($coordinate:ident = $wrong:expr),+) => {
         |above, directions| {
@@ -18,7 +18,7 @@ macro_rules! moved {
 
 pub(super) fn faults() -> Vec<Fault> {
     faults! {
-        "ê_c turned round": directions = |s| {
+        "ê_c reversed": directions = |s| {
             let [a, b, c] = (RIGHT.directions)(s);
             [a, b, Vector { x: -c.x, ..c }]
         } => ["paper-system", "unit-directions", "equilibrium", "central-force", "shear", "total-shear",

@@ -1,4 +1,4 @@
-//! Pushes of horizontal contacts that are handed on wrongly.
+//! Faults in the transmission of horizontal forces.
 
 use cannonpile::theorem::Formulas;
 use num_traits::Zero;
@@ -7,12 +7,12 @@ use super::{Fault, P, RIGHT, faults, twice};
 
 pub(super) fn faults() -> Vec<Fault> {
     faults! {
-        "the sphere is pulled": pushed = |force, ends, leads_away| (RIGHT.pushed)(force, ends, !leads_away) => [
+        "tension instead of compression": pushed = |force, ends, leads_away| (RIGHT.pushed)(force, ends, !leads_away) => [
                 "horizontal-balance", "virtual-work", "corner-greatest", "arch", "run-horizontal"];
         "squares": pushed = |force, ends, leads_away| {
             (RIGHT.pushed)(force, ends, leads_away).map(|x| x.clone() * &x)
         } => ["horizontal-balance", "virtual-work", "corner-greatest", "arch", "run-horizontal"];
-        "more on all lines": pushed = |force, ends, leads_away| {
+        "the force added to all lines": pushed = |force, ends, leads_away| {
             (RIGHT.pushed)(force, ends, leads_away).map(|x| twice(&x) + force)
         } => ["horizontal-balance", "virtual-work", "corner-greatest", "arch", "run-horizontal"];
 
@@ -23,7 +23,7 @@ pub(super) fn faults() -> Vec<Fault> {
         "weightless spheres": beside = |received, _, pushed, sign| {
             (RIGHT.beside)(received, &P::zero(), pushed, sign)
         } => ["horizontal-balance", "virtual-work", "corner-greatest", "arch", "run-horizontal"];
-        "what comes from above is lost": beside = |_, own, pushed, sign| {
+        "the forces from above left out": beside = |_, own, pushed, sign| {
             (RIGHT.beside)(P::zero(), own, pushed, sign)
         } => ["horizontal-balance", "virtual-work", "corner-greatest", "arch", "run-horizontal"];
         "squares": beside = |received, own, pushed, sign| {
